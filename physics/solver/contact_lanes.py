@@ -146,27 +146,32 @@ def credit_overlap(overlap, motion, balance_inout):
         balance_inout.reserve += overlap * norm(m.acceleration_x, m.acceleration_y) / m.inverse_mass
 
 
+# Cosine of 30 degrees: normals so close to the first one are within 60 degrees of each other, see energy.FACING.
+ALIKE = math.sqrt(3.0) / 2.0
+
+
 @subkernel
 def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, edges_out):
     """List the contacts to solve as graph edges between MOTION rows. O(contacts).
 
-    Return (number of edges, number of overlaps with bodies of infinite mass, greatest overlap [px]). Sensors, pairs
-    without a body of finite mass, and contacts under a character's feet are left out.
+    Return (number of edges, whether islands may be squeezed, greatest overlap [px]). Sensors, pairs without a body of
+    finite mass, and contacts under a character's feet are left out. No island is squeezed unless the overlapped faces
+    of bodies of infinite mass point in different directions, or move.
     """
-    motion_of = lists_inout.motion_of
+    motion_of, is_finite = lists_inout.motion_of, lists_inout.has_finite_mass
     found = 0
-    faces = 0
+    may_squeeze = False
+    first_x, first_y = 0.0, 0.0  # normal of the first face
     deepest = 0.0
     for i in range(len(contacts)):
         c = contacts[i]
         row_a, row_b = motion_of[c.body_row_a], motion_of[c.body_row_b]
-        a, b = motions[row_a], motions[row_b]
-        if (
-            c.sensor
-            or a.inverse_mass + b.inverse_mass == 0.0
-            or (a.is_character and c.normal_y > abs(c.normal_x))
-            or (b.is_character and -c.normal_y > abs(c.normal_x))
-        ):
+        # Characters have infinite mass. MOTION rows, which are far apart, are read for bodies of infinite mass only.
+        if c.sensor or not (is_finite[row_a] or is_finite[row_b]):
+            continue
+        if not is_finite[row_a] and motions[row_a].is_character and c.normal_y > abs(c.normal_x):
+            continue
+        if not is_finite[row_b] and motions[row_b].is_character and -c.normal_y > abs(c.normal_x):
             continue
         write_pair(found, CONTACT_EDGE, i, row_a, row_b, edges_out)
         speed = c.speed_1 if c.speed_1 * dt > c.separation_1 else 0.0
@@ -180,23 +185,31 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, edges
         edges_out.faces[found, 0] = 0.0
         edges_out.faces[found, 1] = 0.0
         for side in range(2):
-            o = a if side == 0 else b
-            # A character yields to bodies that push it, unless it is wedged.
-            if overlap > 0.0 and o.inverse_mass == 0.0 and not o.is_character:
-                sign = 1.0 if side == 0 else -1.0
-                edges_out.faces[found, 0] = sign * c.normal_x
-                edges_out.faces[found, 1] = sign * c.normal_y
+            row = row_a if side == 0 else row_b
+            if is_finite[row] or not overlap > 0.0:
+                continue
+            o = motions[row]
+            if o.is_character:  # it yields to bodies that push it, unless it is wedged
+                continue
+            sign = 1.0 if side == 0 else -1.0
+            x, y = sign * c.normal_x, sign * c.normal_y
+            edges_out.faces[found, 0] = x
+            edges_out.faces[found, 1] = y
+            speed = 0.0
+            if o.moves:
                 body = bodies[c.body_row_a if side == 0 else c.body_row_b]
-                x, y = c.x_1 - body.center_x, c.y_1 - body.center_y
-                speed = norm(o.vx - o.angular_velocity * y, o.vy + o.angular_velocity * x)
-                edges_out.face_speeds[found] = speed if o.moves else 0.0
-                faces += 1
+                ax, ay = c.x_1 - body.center_x, c.y_1 - body.center_y
+                speed = norm(o.vx - o.angular_velocity * ay, o.vy + o.angular_velocity * ax)
+            edges_out.face_speeds[found] = speed
+            if first_x == 0.0 and first_y == 0.0:
+                first_x, first_y = x, y
+            may_squeeze = may_squeeze or speed > 0.0 or x * first_x + y * first_y < ALIKE
         if overlap > 0.0 and c.of_new_pair:
             # A body that was created inside another body may be lifted out.
-            credit_overlap(overlap, a, lists_inout.balance[row_a])
-            credit_overlap(overlap, b, lists_inout.balance[row_b])
+            credit_overlap(overlap, motions[row_a], lists_inout.balance[row_a])
+            credit_overlap(overlap, motions[row_b], lists_inout.balance[row_b])
         found += 1
-    return found, faces, deepest
+    return found, may_squeeze, deepest
 
 
 @subkernel
@@ -336,7 +349,9 @@ def list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, pla
     energy.find_squeezed, and clear MOTION.halves of bodies with contacts. lists_inout: see MotionLists.
     """
     nodes = len(motions_inout)
-    count, faces, deepest = list_contact_edges(contacts, bodies, motions_inout, dt, limits, lists_inout, plan_out.edges)
+    count, may_squeeze, deepest = list_contact_edges(
+        contacts, bodies, motions_inout, dt, limits, lists_inout, plan_out.edges
+    )
     taken = plan_out.taken[:nodes]
     degrees = plan_out.degrees[:nodes]
     color_edges(plan_out.edges, count, lists_inout.has_finite_mass, lists_inout.rank, taken, degrees, plan_out.colors)
@@ -345,7 +360,7 @@ def list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, pla
         for i in range(nodes):
             motions_inout[i].halves = motions_inout[i].halves and degrees[i] == 0
     plan_out.squeezed[0] = False
-    if faces > 1 and deepest > limits.deep:
+    if may_squeeze and deepest > limits.deep:
         parents, squeeze = plan_out.parents[:nodes], plan_out.squeeze
         plan_out.squeezed[0] = find_squeezed(
             plan_out.edges, edges, lists_inout, motions_inout, limits, parents, squeeze
