@@ -205,12 +205,15 @@ class Energy(Invariant):
         if why:
             self.account = None
             return NotAsked(why)
-        if self.account is None or step.edited:
+        account = self.account
+        if account is None or step.edited:
             apart = not world.effects.response or step.overlap <= APART * step.slop
-            self.account = Account(step.before, step.overlap) if apart else None
+            self.account = Account(step.now, step.overlap) if apart else None
             if self.account is None:
                 return NotAsked("bodies that were set into each other come apart")
-        gain, allowed = self.account.gain(world, step.now)
+            # The overlap before this step is unknown: push-out removed at most this much of it.
+            account = Account(step.before, step.overlap + world.tolerances.push_speed * world.dt)
+        gain, allowed = account.gain(world, step.now)
         if gain <= allowed:
             return None
         self.account = None
@@ -230,6 +233,10 @@ def driven(step: Step) -> str:
         return "a belt runs"
     if effects.restitution and ((world.shapes["restitution"] > 1.0).any() or (links["restitution"] > 1.0).any()):
         return "a surface gives more than it takes: restitution above 1"
+    if effects.joints:
+        drives = ("motor_max", "spring_hertz", "point_hertz", "angle_hertz")
+        if any((world.joints[name] > 0.0).any() for name in drives):
+            return "a motor or a spring of a joint acts"
     if step.moved_by_hand.any():
         a, b = step.sides
         if (step.moved_by_hand[a] | step.moved_by_hand[b]).any():

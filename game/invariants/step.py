@@ -55,11 +55,12 @@ class Step:
         )
 
     def spread(self, rows: np.ndarray, through: np.ndarray) -> np.ndarray:
-        """Return (n,) bool: the bodies flagged in `rows`, and all that they touch, directly or through others.
+        """Return (n,) bool: the bodies flagged in `rows`, and all that contacts and joints connect to them.
 
-        Only contacts between two bodies flagged in `through` count.
+        Only those between two bodies flagged in `through` count.
         """
-        a, b = self.sides
+        joined = (self.linked[0] >= 0) & (self.linked[1] >= 0)
+        a, b = (np.concatenate([one, other[joined]]) for one, other in zip(self.sides, self.linked, strict=True))
         open_ones = through[a] & through[b]
         a, b, reached = a[open_ones], b[open_ones], rows.copy()
         while (reached[a] != reached[b]).any():
@@ -91,12 +92,27 @@ class Step:
     def alone(self) -> np.ndarray:
         """Flags of the dynamic bodies on which nothing but gravity acted from outside, for the whole step.
 
-        They have no applied force and were not stopped within the step. They have no contact, directly or through
-        others, with a static, kinematic, sleeping, stopped or forced body.
+        They have no applied force and were not stopped within the step. No contact or joint, directly or through
+        others, connects them to the world or to a static, kinematic, sleeping, stopped or forced body.
         """
         rows = self.world.bodies
         still = (self.now.kind != DYNAMIC) | ~rows["awake"] | rows["quarantined"] | self.forced
         still |= rows["fraction"] < 1.0
-        if self.world.effects.response and len(self.contacts):
+        a, b = self.linked
+        still[b[a < 0]] = True
+        still[a[b < 0]] = True
+        if self.world.effects.response and (len(self.contacts) or len(a)):
             still = self.spread(still, np.ones(len(self.now), bool))
         return ~still
+
+    @cached_property
+    def linked(self) -> tuple[np.ndarray, np.ndarray]:
+        """Body rows of both sides of each joint, -1 for the world."""
+        joints = self.world.joints
+        sides = []
+        for name in ("body_a", "body_b"):
+            found = np.full(len(joints), -1)
+            of_body = joints[name] >= 0
+            found[of_body] = self.world.rows(joints[name][of_body])
+            sides.append(found)
+        return sides[0], sides[1]

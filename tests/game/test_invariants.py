@@ -10,7 +10,21 @@ from game.invariants.invariant import Broken, NotAsked
 from game.invariants.monitor import AFTERGLOW, GREEN, GREY, RED, InvariantMonitor
 from game.invariants.order import NOISE, furthest_apart
 from game.invariants.watch import Watch, WatchedWorld, all_invariants
-from physics import Chain, Circle, Effects, Material, PixelMask, Polygon, Segment, TileGrid, World
+from physics import (
+    JIT,
+    Chain,
+    Circle,
+    Drive,
+    Effects,
+    Material,
+    PixelMask,
+    Polygon,
+    Revolute,
+    Segment,
+    Spring,
+    TileGrid,
+    World,
+)
 from physics.tables.step_state import CAP_HITS
 
 BOX, GROUND = Polygon.box(16, 16), Polygon.box(400, 20)
@@ -360,3 +374,26 @@ def test_states_expire_and_keep_their_count():
     assert states.index(GREEN) == 5 + AFTERGLOW - 7 and set(states[states.index(GREEN) :]) == {GREEN}
     assert by_id["U3"].breaks == 2 and "frame 5" in by_id["U3"].sentence
     assert by_id["U9"].state == GREY and by_id["U1"].state == GREEN
+
+
+@pytest.mark.parametrize("held", [True, False], ids=["on the world", "in flight"])
+@pytest.mark.parametrize("links", [1, 2, 5])
+@pytest.mark.parametrize("solver", ["iterative", "direct"])
+def test_bodies_on_joints_break_nothing(held, links, solver):
+    """A joint passes on what holds its other side: a chain on the world keeps no momentum, one in flight keeps it."""
+    world = World(Effects.rigid_bodies().with_(joints=True))
+    world.gravity, world.joint_solver, before = (0.0, 300.0 if held else 0.0), solver, None
+    for k in range(links):
+        body = world.add_body(Circle(4), position=(20.0 * k + 10.0, 0.0), velocity=(0.0, 30.0 * k))
+        if held or before is not None:
+            world.add_joint(Revolute(before, body, at=(20.0 * k, 0.0)))
+        before = body
+    assert breaks(watched(world, 60 if JIT else 10)) == {}
+
+
+@pytest.mark.parametrize("drive", [{"motor": Drive(3.0, 1e6)}, {"spring": Spring(2.0, 0.5)}], ids=["motor", "spring"])
+def test_u5_is_not_asked_while_a_joint_drives(drive):
+    world = World(Effects.rigid_bodies().with_(joints=True))
+    body = world.add_body(Circle(4), position=(20.0, 0.0))
+    world.add_joint(Revolute(None, body, at=(0.0, 0.0), **drive))
+    assert watched(world, 3)["U5"] == NotAsked("a motor or a spring of a joint acts")

@@ -32,19 +32,9 @@ def pytest_generate_tests(metafunc):
     metafunc.fixturenames.append("world_settings")
     metafunc.parametrize(
         "world_settings",
-        [pytest.param(each, id=_name(both, *each), marks=_marks(metafunc.function.__name__, *each)) for each in cases],
+        [pytest.param(each, id=_name(both, *each), marks=[pytest.mark.nightly] if each[1] else ()) for each in cases],
         indirect=True,
     )
-
-
-def _marks(test, settings, number):
-    marks = [pytest.mark.nightly] if number else []
-    if settings == DEFAULTS:
-        row = ROWS[test.split("_")[1].upper()]
-        marks += [
-            pytest.mark.xfail(reason=why, strict=False) for name, why in row.default_faults.items() if name == test
-        ]
-    return marks
 
 
 def _name(both, settings, number):

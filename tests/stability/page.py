@@ -74,8 +74,6 @@ def lines_of(row, figures, defaults):
             f"{number(limit.value)} {limit.unit}".rstrip()
             + f" | {told} | {margin} | {also} | {its} | {row.peer if first else ''} | {row.source if first else ''} |"
         )
-    for test, why in row.default_faults.items():
-        lines.append(f"| | **open by default:** {cell(why)} ({test}) | | | | | | | |")
     if row.fault:
         lines.append(f"| | **open:** {cell(row.fault)} | | | | | | | |")
     return lines

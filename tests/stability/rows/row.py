@@ -1,8 +1,7 @@
 """One row of the stability suite: a hard case, what is measured of it, and how far that may go."""
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 SENSES = ("<=", ">=", "==")
 TWICE = 2.0  # greatest factor between a value and the one on record
@@ -75,9 +74,8 @@ class Row:
     """A hard case.
 
     limits: what is measured of it; none where `absent` tells why the case cannot be put to this engine. defaults: other
-    limits of figures under the default settings; default_faults: {test: why it fails there}. fault: what is known to be
-    outside its limit, and why; its test is expected to fail, as those are. peer: the best figure of another engine that
-    a source quotes.
+    limits of figures under the default settings. fault: what is known to be outside its limit, and why; its test is
+    expected to fail. peer: the best figure of another engine that a source quotes.
     """
 
     id: str
@@ -88,7 +86,6 @@ class Row:
     absent: str = ""
     fault: str = ""
     defaults: tuple[Limit, ...] = ()
-    default_faults: Mapping[str, str] = field(default_factory=dict)
 
     def limit(self, figure, by_default=False):
         """The limit of a figure by its name, with 4 substeps or under the default settings."""
