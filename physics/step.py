@@ -313,8 +313,8 @@ def begin(world: WorldState, dt: float) -> StepState:
 
 def finish(world: WorldState, state: StepState) -> None:
     """Store the results of a step in the world, place bodies at their targets, and advance the time."""
-    world.contact_rows = state.contact_rows
-    world.put(sensed=state.sensed, ghosts=state.ghosts, events=state.events)
+    world.contact_rows, world.sensed = state.contact_rows, state.sensed
+    world.ghosts, world.events = state.ghosts, state.events
     world.report_contacts(*state.reported)
     if len(world.awake.fresh):
         world.bodies["dirty"][world.awake.fresh] = False
@@ -327,8 +327,9 @@ def finish(world: WorldState, state: StepState) -> None:
         going_on = ~world.bodies["quarantined"]
         for name in FORCES:
             world.bodies[name][going_on] = state.kept_forces[name][going_on]
-    span = next_span(world.span, state.dt, world.dt)
-    world.put(steps=world.steps + 1, time=world.time + state.dt, span=span)
+    world.steps += 1
+    world.time += state.dt
+    world.span = next_span(world.span, state.dt, world.dt)
 
 
 # ---- staged step -----------------------------------------------------------------------------------------------------

@@ -153,7 +153,6 @@ class WorldState:
     _shapes: Table
     _runs: Table  # RUN rows, one for each BODY row
     _contact_rows: np.ndarray
-    _reported: tuple[np.ndarray, np.ndarray | None]
     _joints: Table
     _drop_joints_of: Callable[[np.ndarray], None]  # a method of World
     _joint_users: dict[int, Any]
@@ -208,11 +207,7 @@ class WorldState:
 
     def report_contacts(self, rows: np.ndarray, keep: np.ndarray | None = None) -> None:
         """Store the CONTACT rows for `contacts`. keep: bool for each row, whether it is listed; None: all."""
-        self.put(_reported=(rows, keep), _contacts=None)
-
-    def put(self, **values: Any) -> None:
-        """Set attributes that are not properties, without the checks of attributes that a user sets."""
-        vars(self).update(values)
+        self._reported, self._contacts = (rows, keep), None
 
     @property
     def candidates(self) -> np.ndarray:

@@ -207,12 +207,15 @@ class Energy(Invariant):
             return NotAsked(why)
         account = self.account
         if account is None or step.edited:
-            apart = not world.effects.response or step.overlap <= APART * step.slop
-            self.account = Account(step.now, step.overlap) if apart else None
-            if self.account is None:
+            if world.effects.response and step.overlap > APART * step.slop:
+                self.account = None
                 return NotAsked("bodies that were set into each other come apart")
-            # The overlap before this step is unknown: push-out removed at most this much of it.
-            account = Account(step.before, step.overlap + world.tolerances.push_speed * world.dt)
+            if account is None:
+                # The overlap before this step is unknown. Push-out removed at most this much of it, in this step alone.
+                account = Account(step.before, step.overlap + world.tolerances.push_speed * step.dt)
+                self.account = Account(step.now, step.overlap)
+            else:
+                self.account = account = Account(step.before, step.overlap)
         gain, allowed = account.gain(world, step.now)
         if gain <= allowed:
             return None
@@ -235,7 +238,8 @@ def driven(step: Step) -> str:
         return "a surface gives more than it takes: restitution above 1"
     if effects.joints:
         drives = ("motor_max", "spring_hertz", "point_hertz", "angle_hertz")
-        if any((world.joints[name] > 0.0).any() for name in drives):
+        joints = world.joints[world.joints["enabled"]]
+        if any((joints[name] > 0.0).any() for name in drives):
             return "a motor or a spring of a joint acts"
     if step.moved_by_hand.any():
         a, b = step.sides

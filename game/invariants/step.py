@@ -49,10 +49,20 @@ class Step:
     @cached_property
     def sides(self) -> tuple[np.ndarray, np.ndarray]:
         """Body rows of A and of B of each contact."""
-        return (
-            np.searchsorted(self.now.ids, self.contacts["body_a"]),
-            np.searchsorted(self.now.ids, self.contacts["body_b"]),
-        )
+        return self.rows_of(self.contacts["body_a"]), self.rows_of(self.contacts["body_b"])
+
+    @cached_property
+    def linked(self) -> tuple[np.ndarray, np.ndarray]:
+        """Body rows of A and of B of each joint that acted in the step, broken ones included; -1 for the world."""
+        world = self.world
+        joints, broken = world.joints[world.joints["enabled"]], world.events.broken
+        broken = broken[broken["reason"] != "removed"]
+        a, b = (np.concatenate([joints[name], broken[name]]) for name in ("body_a", "body_b"))
+        return np.where(a < 0, -1, self.rows_of(a)), np.where(b < 0, -1, self.rows_of(b))
+
+    def rows_of(self, ids: np.ndarray) -> np.ndarray:
+        """Return the rows of bodies by id."""
+        return np.searchsorted(self.now.ids, ids)
 
     def spread(self, rows: np.ndarray, through: np.ndarray) -> np.ndarray:
         """Return (n,) bool: the bodies flagged in `rows`, and all that contacts and joints connect to them.
@@ -104,15 +114,3 @@ class Step:
         if self.world.effects.response and (len(self.contacts) or len(a)):
             still = self.spread(still, np.ones(len(self.now), bool))
         return ~still
-
-    @cached_property
-    def linked(self) -> tuple[np.ndarray, np.ndarray]:
-        """Body rows of both sides of each joint, -1 for the world."""
-        joints = self.world.joints
-        sides = []
-        for name in ("body_a", "body_b"):
-            found = np.full(len(joints), -1)
-            of_body = joints[name] >= 0
-            found[of_body] = self.world.rows(joints[name][of_body])
-            sides.append(found)
-        return sides[0], sides[1]

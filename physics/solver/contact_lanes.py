@@ -28,7 +28,7 @@ from physics.jit import kernel, subkernel
 from physics.math2d import norm
 from physics.settings import AUTO_SUBSTEPS, COLORS, EASE_TIME, HERTZ_SHARE, LEAN, LOAD_SUBSTEPS, STILL_STIFFNESS
 from physics.solver import lanes as at
-from physics.solver.energy import find_squeezed
+from physics.solver.energy import FACING, find_squeezed
 from physics.solver.joint_direct import JointSet, Trees
 from physics.solver.joint_rows import begin_joints, estimate_joints, list_joints
 from physics.solver.lanes import (
@@ -146,8 +146,9 @@ def credit_overlap(overlap, motion, balance_inout):
         balance_inout.reserve += overlap * norm(m.acceleration_x, m.acceleration_y) / m.inverse_mass
 
 
-# Cosine of 30 degrees: normals so close to the first one are within 60 degrees of each other, see energy.FACING.
-ALIKE = math.sqrt(3.0) / 2.0
+# Cosine of the angle to the first normal within which no two normals can be as far apart as energy.FACING: half of that
+# angle, less a margin for rounding.
+ALIKE = math.sqrt(0.5 + 0.5 * FACING) + 1e-6
 
 
 @subkernel
@@ -158,7 +159,7 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, edges
     finite mass, and contacts under a character's feet are left out. No island is squeezed unless the overlapped faces
     of bodies of infinite mass point in different directions, or move.
     """
-    motion_of, is_finite = lists_inout.motion_of, lists_inout.has_finite_mass
+    motion_of = lists_inout.motion_of
     found = 0
     may_squeeze = False
     first_x, first_y = 0.0, 0.0  # normal of the first face
@@ -166,12 +167,13 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, edges
     for i in range(len(contacts)):
         c = contacts[i]
         row_a, row_b = motion_of[c.body_row_a], motion_of[c.body_row_b]
-        # Characters have infinite mass. MOTION rows, which are far apart, are read for bodies of infinite mass only.
-        if c.sensor or not (is_finite[row_a] or is_finite[row_b]):
-            continue
-        if not is_finite[row_a] and motions[row_a].is_character and c.normal_y > abs(c.normal_x):
-            continue
-        if not is_finite[row_b] and motions[row_b].is_character and -c.normal_y > abs(c.normal_x):
+        a, b = motions[row_a], motions[row_b]
+        if (
+            c.sensor
+            or a.inverse_mass + b.inverse_mass == 0.0
+            or (a.is_character and c.normal_y > abs(c.normal_x))
+            or (b.is_character and -c.normal_y > abs(c.normal_x))
+        ):
             continue
         write_pair(found, CONTACT_EDGE, i, row_a, row_b, edges_out)
         speed = c.speed_1 if c.speed_1 * dt > c.separation_1 else 0.0
@@ -185,29 +187,24 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, edges
         edges_out.faces[found, 0] = 0.0
         edges_out.faces[found, 1] = 0.0
         for side in range(2):
-            row = row_a if side == 0 else row_b
-            if is_finite[row] or not overlap > 0.0:
-                continue
-            o = motions[row]
-            if o.is_character:  # it yields to bodies that push it, unless it is wedged
-                continue
-            sign = 1.0 if side == 0 else -1.0
-            x, y = sign * c.normal_x, sign * c.normal_y
-            edges_out.faces[found, 0] = x
-            edges_out.faces[found, 1] = y
-            speed = 0.0
-            if o.moves:
+            o = a if side == 0 else b
+            # A character yields to bodies that push it, unless it is wedged.
+            if overlap > 0.0 and o.inverse_mass == 0.0 and not o.is_character:
+                sign = 1.0 if side == 0 else -1.0
+                face_x, face_y = sign * c.normal_x, sign * c.normal_y
+                edges_out.faces[found, 0] = face_x
+                edges_out.faces[found, 1] = face_y
                 body = bodies[c.body_row_a if side == 0 else c.body_row_b]
-                ax, ay = c.x_1 - body.center_x, c.y_1 - body.center_y
-                speed = norm(o.vx - o.angular_velocity * ay, o.vy + o.angular_velocity * ax)
-            edges_out.face_speeds[found] = speed
-            if first_x == 0.0 and first_y == 0.0:
-                first_x, first_y = x, y
-            may_squeeze = may_squeeze or speed > 0.0 or x * first_x + y * first_y < ALIKE
+                x, y = c.x_1 - body.center_x, c.y_1 - body.center_y
+                speed = norm(o.vx - o.angular_velocity * y, o.vy + o.angular_velocity * x) if o.moves else 0.0
+                edges_out.face_speeds[found] = speed
+                if first_x == 0.0 and first_y == 0.0:
+                    first_x, first_y = face_x, face_y
+                may_squeeze = may_squeeze or speed > 0.0 or face_x * first_x + face_y * first_y < ALIKE
         if overlap > 0.0 and c.of_new_pair:
             # A body that was created inside another body may be lifted out.
-            credit_overlap(overlap, motions[row_a], lists_inout.balance[row_a])
-            credit_overlap(overlap, motions[row_b], lists_inout.balance[row_b])
+            credit_overlap(overlap, a, lists_inout.balance[row_a])
+            credit_overlap(overlap, b, lists_inout.balance[row_b])
         found += 1
     return found, may_squeeze, deepest
 

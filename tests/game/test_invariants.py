@@ -384,11 +384,28 @@ def test_bodies_on_joints_break_nothing(held, links, solver):
     world = World(Effects.rigid_bodies().with_(joints=True))
     world.gravity, world.joint_solver, before = (0.0, 300.0 if held else 0.0), solver, None
     for k in range(links):
-        body = world.add_body(Circle(4), position=(20.0 * k + 10.0, 0.0), velocity=(0.0, 30.0 * k))
+        body = world.add_body(Circle(4), position=(20.0 * k + 10.0, 0.0), velocity=(0.0, 30.0 * (k + 1)))
         if held or before is not None:
             world.add_joint(Revolute(before, body, at=(20.0 * k, 0.0)))
         before = body
-    assert breaks(watched(world, 60 if JIT else 10)) == {}
+    answers = watched(world, 60 if JIT else 10)
+    assert breaks(answers) == {}
+    assert held == isinstance(answers["U3"], NotAsked) and held == isinstance(answers["U4"], NotAsked)
+    assert answers["U5"] is None
+
+
+@pytest.mark.parametrize("speed", [50.0, 200.0, 800.0])
+@pytest.mark.parametrize("solver", ["iterative", "direct"])
+def test_joints_that_break_in_a_step_have_pulled_in_it(speed, solver):
+    world = World(Effects.rigid_bodies().with_(joints=True))
+    world.gravity, world.joint_solver = (0.0, 0.0), solver
+    body = world.add_body(Circle(4), position=(20.0, 0.0), velocity=(0.0, speed))
+    joint = world.add_joint(Revolute(None, body, at=(0.0, 0.0), breaks=(0.5 * body.mass * speed * speed / 20.0, 1e9)))
+    watch, broken = Watch(), 0
+    for _ in range(20):
+        assert breaks(watched(world, watch=watch)) == {}
+        broken += len(world.events.broken)
+    assert broken == 1 and joint not in body.joints
 
 
 @pytest.mark.parametrize("drive", [{"motor": Drive(3.0, 1e6)}, {"spring": Spring(2.0, 0.5)}], ids=["motor", "spring"])
