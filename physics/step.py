@@ -313,9 +313,18 @@ def begin(world: WorldState, dt: float) -> StepState:
 
 def finish(world: WorldState, state: StepState) -> None:
     """Store the results of a step in the world, place bodies at their targets, and advance the time."""
-    world.contact_rows, world.sensed = state.contact_rows, state.sensed
-    world.ghosts, world.events = state.ghosts, state.events
-    world.report_contacts(*state.reported)
+    world.contact_rows = state.contact_rows
+    # One update instead of eight checks by __setattr__: 3 of 50 us of a step with ten boxes.
+    vars(world).update(
+        sensed=state.sensed,
+        ghosts=state.ghosts,
+        events=state.events,
+        _reported=state.reported,
+        _contacts=None,
+        steps=world.steps + 1,
+        time=world.time + state.dt,
+        span=next_span(world.span, state.dt, world.dt),
+    )
     if len(world.awake.fresh):
         world.bodies["dirty"][world.awake.fresh] = False
         world.awake.fresh = world.awake.fresh[:0]
@@ -327,9 +336,6 @@ def finish(world: WorldState, state: StepState) -> None:
         going_on = ~world.bodies["quarantined"]
         for name in FORCES:
             world.bodies[name][going_on] = state.kept_forces[name][going_on]
-    world.steps += 1
-    world.time += state.dt
-    world.span = next_span(world.span, state.dt, world.dt)
 
 
 # ---- staged step -----------------------------------------------------------------------------------------------------

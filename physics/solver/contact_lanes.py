@@ -24,7 +24,7 @@ from physics.islands.graph import (
     share_classes,
     write_pair,
 )
-from physics.jit import kernel, subkernel
+from physics.jit import inlined, kernel, subkernel
 from physics.math2d import norm
 from physics.settings import AUTO_SUBSTEPS, COLORS, EASE_TIME, HERTZ_SHARE, LEAN, LOAD_SUBSTEPS, STILL_STIFFNESS
 from physics.solver import lanes as at
@@ -65,7 +65,10 @@ class Plan(NamedTuple):
 
     edges: Edges  # one edge for each contact to solve, then one for each joint
     colors: np.ndarray  # (edges) int32 colour of each contact
+    traits: np.ndarray  # (edges) int8 ranks of the bodies of each contact, and which of them have finite mass
+    colored: np.ndarray  # (2) int64 numbers of contacts and of MOTION rows for which `colors` and `degrees` are valid
     places: np.ndarray  # (edges) int32 index of each contact in the order by group and colour
+    in_one_group: np.ndarray  # (1) bool all contacts are in one group
     taken: np.ndarray  # (motions) int64 bits of the colours of the contacts of each body
     degrees: np.ndarray  # (motions) int64 number of contacts of each body
     classes: np.ndarray  # (motions) int32 index in CHOICES of the number of substeps of each body
@@ -90,7 +93,10 @@ def new_plan(edges: int, motions: int, joints: int) -> Plan:
     return Plan(
         edges=new_edges(edges),
         colors=np.zeros(edges, np.int32),
+        traits=np.zeros(edges, np.int8),
+        colored=np.zeros(2, np.int64),
         places=np.zeros(edges, np.int32),
+        in_one_group=np.zeros(1, np.bool_),
         taken=np.zeros(motions, np.int64),
         degrees=np.zeros(motions, np.int64),
         classes=np.zeros(motions, np.int32),
@@ -151,16 +157,30 @@ def credit_overlap(overlap, motion, balance_inout):
 ALIKE = math.sqrt(0.5 + 0.5 * FACING) + 1e-6
 
 
+@inlined
+def traits_of(row_a, row_b, lists):
+    """Return the bits of what graph.color_edges reads of the bodies of a contact: both ranks, and both finite masses.
+
+    row_a, row_b: MOTION rows; lists: MotionLists.
+    """
+    a = lists.rank[row_a] << 1 | int(lists.has_finite_mass[row_a])
+    b = lists.rank[row_b] << 1 | int(lists.has_finite_mass[row_b])
+    return b << 3 | a
+
+
 @subkernel
-def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, edges_out):
+def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, plan_out):
     """List the contacts to solve as graph edges between MOTION rows. O(contacts).
 
-    Return (number of edges, whether islands may be squeezed, greatest overlap [px]). Sensors, pairs without a body of
-    finite mass, and contacts under a character's feet are left out. No island is squeezed unless the overlapped faces
-    of bodies of infinite mass point in different directions, or move.
+    Return (number of edges, whether islands may be squeezed, greatest overlap [px], whether the colours of the last
+    step are valid: same edges between bodies of the same rank). Sensors, pairs without a body of finite mass, and
+    contacts under a character's feet are left out. No island is squeezed unless the overlapped faces of bodies of
+    infinite mass point in different directions, or move.
     """
+    edges_out, traits_out = plan_out.edges, plan_out.traits
     motion_of = lists_inout.motion_of
     found = 0
+    unchanged = True
     may_squeeze = False
     first_x, first_y = 0.0, 0.0  # normal of the first face
     deepest = 0.0
@@ -175,6 +195,14 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, edges
             or (b.is_character and -c.normal_y > abs(c.normal_x))
         ):
             continue
+        traits = traits_of(row_a, row_b, lists_inout)
+        unchanged = (
+            unchanged
+            and edges_out.nodes[found, 0] == row_a
+            and edges_out.nodes[found, 1] == row_b
+            and traits_out[found] == traits
+        )
+        traits_out[found] = traits
         write_pair(found, CONTACT_EDGE, i, row_a, row_b, edges_out)
         speed = c.speed_1 if c.speed_1 * dt > c.separation_1 else 0.0
         if c.count == 2 and c.speed_2 * dt > c.separation_2:
@@ -206,7 +234,8 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, edges
             credit_overlap(overlap, a, lists_inout.balance[row_a])
             credit_overlap(overlap, b, lists_inout.balance[row_b])
         found += 1
-    return found, may_squeeze, deepest
+    unchanged = unchanged and plan_out.colored[0] == found and plan_out.colored[1] == len(motions)
+    return found, may_squeeze, deepest, unchanged
 
 
 @subkernel
@@ -342,16 +371,21 @@ def are_mixed(motions, degrees, classes):
 def list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, plan_out):
     """List the constraints to solve as graph edges, and colour the edges of contacts. O(constraints + motions).
 
-    Return the number of contacts. Also find islands that are squeezed between faces, see
-    energy.find_squeezed, and clear MOTION.halves of bodies with contacts. lists_inout: see MotionLists.
+    Return (number of contacts, whether their edges and colours are those of the last step). Also find islands that are
+    squeezed between faces, see energy.find_squeezed, and clear MOTION.halves of bodies with contacts.
+    lists_inout: see MotionLists.
     """
     nodes = len(motions_inout)
-    count, may_squeeze, deepest = list_contact_edges(
-        contacts, bodies, motions_inout, dt, limits, lists_inout, plan_out.edges
+    count, may_squeeze, deepest, unchanged = list_contact_edges(
+        contacts, bodies, motions_inout, dt, limits, lists_inout, plan_out
     )
     taken = plan_out.taken[:nodes]
     degrees = plan_out.degrees[:nodes]
-    color_edges(plan_out.edges, count, lists_inout.has_finite_mass, lists_inout.rank, taken, degrees, plan_out.colors)
+    if not unchanged:
+        finite, rank = lists_inout.has_finite_mass, lists_inout.rank
+        color_edges(plan_out.edges, count, finite, rank, taken, degrees, plan_out.colors)
+        plan_out.colored[0] = count
+        plan_out.colored[1] = nodes
     edges = list_joint_edges(plan_out.joints[: plan_out.joint_count[0]], count, plan_out.edges)
     if edges > count:
         for i in range(nodes):
@@ -362,7 +396,7 @@ def list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, pla
         plan_out.squeezed[0] = find_squeezed(
             plan_out.edges, edges, lists_inout, motions_inout, limits, parents, squeeze
         )
-    return count
+    return count, unchanged
 
 
 @subkernel
@@ -388,9 +422,11 @@ def order_in_one_group(contacts, bodies, dt, limits, motions_inout, lists_inout,
 
     Return (number of contacts to solve, number of these without a colour).
     """
-    count = list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, plan_out)
-    starts = plan_out.starts[: COLORS + 2]
-    order_edges(plan_out.edges, count, plan_out.colors, plan_out.classes[:0], starts, plan_out.cursors, plan_out.places)
+    count, unchanged = list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, plan_out)
+    plan, starts = plan_out, plan_out.starts[: COLORS + 2]
+    if not (unchanged and plan.in_one_group[0]):
+        order_edges(plan.edges, count, plan.colors, plan.classes[:0], starts, plan.cursors, plan.places)
+        plan.in_one_group[0] = True
     return count, starts[1] - starts[0]
 
 
@@ -403,7 +439,8 @@ def order_by_load(contacts, bodies, islands, dt, limits, motions_inout, lists_in
     plan, motions = plan_out, motions_inout
     nodes = len(motions)
     classes = plan.classes[:nodes]
-    count = list_and_color(contacts, bodies, dt, limits, motions, lists_inout, plan)
+    count, _ = list_and_color(contacts, bodies, dt, limits, motions, lists_inout, plan)
+    plan.in_one_group[0] = False
     choices, by_load = islands.choices, islands.by_load
     unknown = class_motions(motions, plan.degrees, islands, classes)
     expect_impacts(plan.edges, count, motions, islands.rate, choices[: by_load + 1], classes)

@@ -473,18 +473,6 @@ def push_along(c, lane, second, impulse, a_inout, b_inout):
     b_inout.angular_velocity += b_inout.inverse_inertia * impulse * c[(TANGENT_B_2 if second else TANGENT_B_1) + lane]
 
 
-@subkernel
-def speed_of_impact(speed, separation, acceleration):
-    """Return the approach speed [px/s] at the moment of impact.
-
-    speed [px/s]: approach speed; acceleration [px/s2] of the approach; separation [px]: all three before the step. The
-    result is `speed` if the sides already overlap or separate.
-    """
-    if speed <= 0.0 or separation <= 0.0:
-        return speed
-    return math.sqrt(max(speed * speed + 2.0 * acceleration * separation, 0.0))
-
-
 # ---- prepare ---------------------------------------------------------------------------------------------------------
 # Contacts are written into lanes before the substeps.
 #
@@ -504,23 +492,26 @@ def touches_slowly(separation, speed, limits):
 
 
 @subkernel
-def limit_impulses(a, b, squeeze_a, squeeze_b, h, lane, c_inout):
-    """Limit the normal impulses of a contact in an island squeezed between faces, for a substep of h [s].
+def limit_impulses(count, motions, squeeze, h, blocks_inout):
+    """Limit the normal impulses of the contacts in islands squeezed between faces, for a substep of h [s]. O(lanes).
 
-    The cached impulses in the lane are limited immediately. a, b: MOTION rows of the sides; squeeze_a, squeeze_b:
-    SQUEEZE rows of the sides.
+    The cached impulses in the lanes are limited immediately. count: number of blocks; squeeze: SQUEEZE rows, one for
+    each MOTION row.
     """
-    c = c_inout
-    speed = max(squeeze_a.speed, squeeze_b.speed)
-    if speed == 0.0:
-        return
-    if not (a.moves and b.moves):
-        speed += max(squeeze_a.static_speed, squeeze_b.static_speed)
-    force = max(squeeze_a.force, squeeze_b.force)
-    most = speed * max(c[MASS_1 + lane], c[MASS_2 + lane]) + h * force
-    c[MOST + lane] = most
-    c[NORMAL_1 + lane] = min(c[NORMAL_1 + lane], most)
-    c[NORMAL_2 + lane] = min(c[NORMAL_2 + lane], most)
+    for block in range(count):
+        c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
+        for lane in range(lanes_of(blocks_inout.contact, block)):
+            row_a, row_b = blocks_inout.motion_a[block, lane], blocks_inout.motion_b[block, lane]
+            a, b = squeeze[row_a], squeeze[row_b]
+            speed = max(a.speed, b.speed)
+            if speed == 0.0:
+                continue
+            if not (motions[row_a].moves and motions[row_b].moves):
+                speed += max(a.static_speed, b.static_speed)
+            most = speed * max(c[MASS_1 + lane], c[MASS_2 + lane]) + h * max(a.force, b.force)
+            c[MOST + lane] = most
+            c[NORMAL_1 + lane] = min(c[NORMAL_1 + lane], most)
+            c[NORMAL_2 + lane] = min(c[NORMAL_2 + lane], most)
 
 
 @inlined
@@ -719,6 +710,18 @@ def copy_first(lane, c_inout):
     c[TANGENT_TOTAL_2 + lane] = 0.0
 
 
+@subkernel
+def write_all_masses(count, blocks_inout):
+    """Write moment arms and effective masses of all lanes: whole blocks, because the compiler vectorises such loops."""
+    for block in range(count):
+        c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
+        for lane in range(lanes_of(blocks_inout.contact, block)):
+            write_arms(lane, 1.0, 0.0, 1.0, 0.0, c)
+            write_masses(lane, c)
+            turning = c[II_A + lane] + c[II_B + lane]
+            c[ROLLING_MASS + lane] = 1.0 / turning if turning > 0.0 else 0.0
+
+
 def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
     """Return the function that writes contacts into lanes, for a world with or without friction and conveyors."""
 
@@ -765,16 +768,10 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
             else:
                 copy_first(lane, c)
             c[MASS_2 + lane] = 1.0 if m.count == 2 else 0.0
-            write_arms(lane, 1.0, 0.0, 1.0, 0.0, c)
-            write_masses(lane, c)
             c[TURNS + lane] = how_it_turns(m, a, b, context.dt, lane, c)
             blocks_out.turns[block] = blocks_out.turns[block] or c[TURNS + lane] != FIXED
-            turning = a.inverse_inertia + b.inverse_inertia
             c[MOST + lane] = math.inf
-            if plan.squeezed[0]:
-                limit_impulses(a, b, plan.squeeze[row_a], plan.squeeze[row_b], context.h, lane, c)
             c[ROLLING_LIMIT + lane] = rolling_limit(m, p, q, context.limits) if friction else 0.0
-            c[ROLLING_MASS + lane] = 1.0 / turning if turning > 0.0 else 0.0
             c[ROLLING + lane] = context.h * m.rolling_force
             c[SURFACE + lane] = m.surface_speed if conveyor else 0.0
             if sticking and friction and m.surface_speed == 0.0:
@@ -786,6 +783,9 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
             work_inout[SOLVER_ROWS] += m.count
             if friction and m.friction > 0.0:
                 work_inout[TANGENT_ROWS] += m.count
+        write_all_masses(count, blocks_out)
+        if plan.squeezed[0]:
+            limit_impulses(count, motions, plan.squeeze, context.h, blocks_out)
         return count
 
     return prepare_lanes

@@ -15,9 +15,9 @@ from physics.solver.lanes import (
     push_pair,
     relative_speed,
     solve_two,
-    speed_of_impact,
     tangential_speed,
 )
+from physics.solver.step_context import speed_of_impact
 from physics.tables.step_state import CAP_HITS, RESTITUTION_ROWS
 
 # ---- impacts ---------------------------------------------------------------------------------------------------------

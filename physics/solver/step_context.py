@@ -4,7 +4,7 @@ import math
 from functools import lru_cache
 from typing import NamedTuple
 
-from physics.jit import inlined
+from physics.jit import inlined, subkernel
 from physics.settings import (
     AUTO_SUBSTEPS,
     BLOW,
@@ -138,6 +138,18 @@ def separation_speed(separation, inverse_h, slop, rate, push_speed):
 
 
 # ---- restitution -----------------------------------------------------------------------------------------------------
+
+
+@subkernel
+def speed_of_impact(speed, separation, acceleration):
+    """Return the approach speed [px/s] at the moment of impact.
+
+    speed [px/s]: approach speed; acceleration [px/s2] of the approach; separation [px]: all three before the step. The
+    result is `speed` if the sides already overlap or separate.
+    """
+    if speed <= 0.0 or separation <= 0.0:
+        return speed
+    return math.sqrt(max(speed * speed + 2.0 * acceleration * separation, 0.0))
 
 
 @inlined
