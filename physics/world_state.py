@@ -9,6 +9,7 @@ from physics import checks
 from physics.broadphase.proxies import PairList, Strategy, write_rectangles
 from physics.collision.areas import with_areas
 from physics.collision.manifold import contacts_of
+from physics.contacts.cache import drop_contacts
 from physics.effects import Effects
 from physics.events import Events, Pairs
 from physics.islands import sleep
@@ -453,7 +454,9 @@ class WorldState:
         """Drop the rows of bodies and of their shapes and contacts."""
         keep = np.ones(self._bodies.count, bool)
         keep[rows] = False
-        self._drop_shapes(keep[self.shapes["body_row"]])
+        kept_shapes = keep[self.shapes["body_row"]]
+        drop_contacts(self, keep, kept_shapes)
+        self._drop_shapes(kept_shapes)
         self._bodies.keep(keep)
         self._definitions.keep(keep)
         self._runs.keep(keep)
@@ -461,7 +464,6 @@ class WorldState:
         self.shapes["body_row"] = (np.cumsum(keep) - 1)[self.shapes["body_row"]]
         if self.characters.count:
             self.characters.keep(~np.isin(self.characters.rows["body"], ids))
-        sleep.forget(self)
         self._refresh_joint_rows()
         self._tidy_library()
 

@@ -21,7 +21,7 @@ from physics.shapes.shape import Filter
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.shape import PART, PIXELS, PROXY
 from physics.tables.step_state import CANDIDATES, COUNTERS, FILTERED, PAIRS_TESTED, StepState, WorldTables, stage
-from physics.tables.table import columns_of
+from physics.tables.table import columns_of, distinct
 
 # ---- proxies ---------------------------------------------------------------------------------------------------------
 # The boxes that every broad phase works on, and the overlap test of two of them.
@@ -701,7 +701,7 @@ class PairList:
         else:
             arena.changed = self.changed[:changed_count]
             if len(freed) or self.can_recycle:
-                arena.changed = np.unique(np.concatenate([arena.changed, freed, *self.can_recycle]))
+                arena.changed = distinct(np.concatenate([arena.changed, freed, *self.can_recycle]), len(self.proxies))
         self.can_recycle = []
         if len(arena.changed) or (self.resting and self.count):
             if len(arena.changed):

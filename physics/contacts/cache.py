@@ -5,13 +5,13 @@ import math
 import numpy as np
 
 from physics.collision.hulls import CIRCLE_CORNER, CORNERS, PART
-from physics.jit import inlined, kernel, subkernel
+from physics.jit import copy_row, inlined, kernel, subkernel
 from physics.math2d import norm, rotate, rotation_of, unit
 from physics.settings import RECYCLE_MOVE, RECYCLE_SHARE, RECYCLE_WANDER
 from physics.shapes.placement import PLACED, add_missing_rasters, is_hull, refresh_boxes
-from physics.tables.contact import CORES, UPRIGHT, WITH_A, WITH_B
+from physics.tables.contact import CONTACT, CORES, UPRIGHT, WITH_A, WITH_B
 from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, MASK, TILES
-from physics.tables.step_state import StepState, stage
+from physics.tables.step_state import StepState, WorldTables, stage
 
 # ---- cache -----------------------------------------------------------------------------------------------------------
 # The contact cache: the points of a manifold in the body spaces of both sides, and the frame that rotates its normal.
@@ -445,6 +445,44 @@ def update_contacts_at_final_poses(state: StepState) -> None:
     add_missing_rasters(state.library, rows, bodies, shapes, 0.0)
     distance = state.tolerances.recycle
     update_final_poses(rows, state.library.tables, distance, bodies, shapes, state.contact_rows)
+
+
+# ---- removed rows ----------------------------------------------------------------------------------------------------
+
+
+@kernel
+def copy_kept(contacts, new_bodies, new_shapes, kept_out):
+    """Copy the contacts of bodies and shapes that are kept, with their new row numbers. Return the number of copies.
+
+    O(contacts). contacts: CONTACT rows with the row numbers before a removal; new_bodies, new_shapes: int32 row number
+    after the removal of each row before it, negative for a removed row; kept_out: CONTACT rows.
+    """
+    found = 0
+    for i in range(len(contacts)):
+        c = contacts[i]
+        body_a, body_b = new_bodies[c.body_row_a], new_bodies[c.body_row_b]
+        row_a, row_b = new_shapes[c.row_a], new_shapes[c.row_b]
+        if min(body_a, body_b, row_a, row_b) >= 0:
+            k = kept_out[found]
+            copy_row(c, k)
+            k.body_row_a, k.body_row_b = body_a, body_b
+            k.row_a, k.row_b = row_a, row_b
+            found += 1
+    return found
+
+
+def drop_contacts(tables: WorldTables, kept_bodies: np.ndarray, kept_shapes: np.ndarray) -> None:
+    """Drop the contacts of removed bodies and shapes, and update the row numbers of the others.
+
+    kept_bodies, kept_shapes: bool for each row before the removal, False for a removed row.
+    """
+    found = tables.contact_rows
+    if len(found):
+        new_bodies, new_shapes = (
+            np.where(kept, np.cumsum(kept, dtype=np.int32) - 1, -1) for kept in (kept_bodies, kept_shapes)
+        )
+        kept = np.empty(len(found), CONTACT)
+        tables.contact_rows = kept[: copy_kept(found, new_bodies, new_shapes, kept)]
 
 
 def shift_center(contacts: np.ndarray, identity: int, dx: float, dy: float) -> None:

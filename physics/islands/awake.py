@@ -16,7 +16,7 @@ from physics.math2d import norm, rotation_of
 from physics.tables.body import DYNAMIC, KINEMATIC
 from physics.tables.joint import LENGTH, ON_AXIS, PINNED
 from physics.tables.step_state import StepState, WorldTables, stage
-from physics.tables.table import join_trees, root_of, rows_of
+from physics.tables.table import distinct, join_trees, root_of, rows_of
 
 NONE = np.zeros(0, np.int64)
 
@@ -167,7 +167,8 @@ class Awake:
         before: `bodies` at most one step ago.
         """
         dirty = rows_of(bodies, np.array(self.dirty, np.int64))
-        return np.unique(np.concatenate([before, self.bodies, self.dynamic, self.kinematic, dirty[dirty >= 0]]))
+        rows = np.concatenate([before, self.bodies, self.dynamic, self.kinematic, dirty[dirty >= 0]])
+        return distinct(rows, len(bodies))
 
     def shapes_of(self, rows: np.ndarray) -> np.ndarray:
         """Return the shape rows of distinct body rows, ascending."""
@@ -177,10 +178,10 @@ class Awake:
     def include(self, tables: WorldTables, rows: np.ndarray) -> None:
         """Add body rows to the lists. It may be called in a step; the pairs of these bodies are searched again."""
         self.take_in(tables)
-        self.bodies = np.union1d(self.bodies, rows)
+        self.bodies = distinct(np.concatenate([self.bodies, rows]), len(tables.bodies))
         new = rows[tables.bodies["kind"][rows] == DYNAMIC]
         if len(new):
-            self.dynamic = np.union1d(self.dynamic, new)
+            self.dynamic = distinct(np.concatenate([self.dynamic, new]), len(tables.bodies))
         self._set_active(tables, rows, True)
         self.shapes = self.shapes_of(self.bodies)
 
@@ -224,7 +225,8 @@ def list_awake(state: StepState) -> None:
         awake.dirty = []
     if len(state.characters):
         wanted.append(state.characters["body_row"])
-    rows = np.unique(np.concatenate(wanted)) if sum(map(len, wanted)) > len(awake.dynamic) else awake.dynamic
+    more = sum(map(len, wanted)) > len(awake.dynamic)
+    rows = distinct(np.concatenate(wanted), len(bodies)) if more else awake.dynamic
     if len(rows) == len(awake.bodies) and np.array_equal(rows, awake.bodies):
         return
     flags = bodies["active"]
