@@ -48,6 +48,9 @@ def columns_of(rows: Any) -> dict[str, Any]:
 # ---- table -----------------------------------------------------------------------------------------------------------
 
 
+FEW = 16  # up to this number of removed rows, moving the ranges between them is faster than gathering the others
+
+
 class Table:
     """A structured array that grows by doubling. `rows` is the part in use. The memory begins at a cache line."""
 
@@ -111,10 +114,15 @@ class Table:
 
     def keep(self, flags: np.ndarray) -> None:
         """Remove the rows whose flag is False. The others keep their order."""
-        kept = np.flatnonzero(flags)
-        first = len(kept) if len(kept) == len(flags) else int(np.argmin(flags))  # rows before it stay in place
-        self.whole[first : len(kept)] = self.whole[kept[first:]]
-        self.count = len(kept)
+        gone = np.flatnonzero(~flags)
+        if len(gone) > FEW:
+            kept, first = np.flatnonzero(flags), gone[0]  # rows before the first stay in place
+            self.whole[first : len(kept)] = self.whole[kept[first:]]
+        else:
+            for k, row in enumerate(gone.tolist()):
+                end = gone[k + 1] if k + 1 < len(gone) else len(flags)
+                self.whole[row - k : end - k - 1] = self.whole[row + 1 : end]
+        self.count = len(flags) - len(gone)
 
 
 # ---- rows ------------------------------------------------------------------------------------------------------------

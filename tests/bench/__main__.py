@@ -1,7 +1,7 @@
 """Measure, print tables. Ratios within one run; absolute times are this machine's today.
 
-python -m tests.bench masks                                one bench: masks, broadphase or solvers
-python -m tests.bench                                      all three, one after the other
+python -m tests.bench masks                                one bench: masks, broadphase, solvers or moving
+python -m tests.bench                                      all four, one after the other
 python -m tests.bench --json docs/bench/0.1.0.json         the ratios as JSON, in a file (- or nothing: printed)
 python -m tests.bench --compare docs/bench/0.1.0.json      each ratio beside the kept one, more than 5 % pointed at
 python -m tests.bench stability                            what stands, how deep it overlaps: see stability.py
@@ -16,7 +16,7 @@ import sys
 from tests.bench.record import compared, read_record, to_record, to_text
 from tests.bench.timing import table
 
-NAMES = ("masks", "broadphase", "solvers")
+NAMES = ("masks", "broadphase", "solvers", "moving")
 
 
 def read_arguments(arguments):

@@ -4,15 +4,8 @@ Bodies are boxes and discs of 16 to 24 px with friction 0.6, gravity is 10 m/s2,
 defaults: 10 iterations, one step per frame, slop 0.1 px. Ours runs with the substeps that the loads ask for ("auto",
 the default) and with 4. All runs of a scene advance in turns of 20 steps, so that other load on the machine meets all
 of them alike. A ratio is median over median in this run. Nothing sleeps before it has come to rest.
-
-python -m tests.bench moving
-python -m tests.bench moving --scenes "rain*" --json moving.json
 """
 
-import argparse
-import fnmatch
-import json
-import sys
 from collections.abc import Callable
 from functools import lru_cache
 from statistics import median
@@ -21,7 +14,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from game.measure.machine import machine
 from game.report.piles import FRICTION, GRAVITY
 from physics import Circle, Effects, Material, PixelMask, Polygon, World
 from tests.bench.timing import table
@@ -409,29 +401,9 @@ def show(name, found):
     return {f"{name}, {run} / {reference}": median(found[run][0]) / base for run in others}
 
 
-def run(quick=False, pattern="*"):
-    """Print the tables of the scenes whose names match. Return {name: our time over the peer's}."""
+def run(quick=False):
+    """Print the tables; return {name: our time over the peer's, or over the same scene without what it measures}."""
     ratios = {}
     for name in [*SCENES, *OWN]:
-        if fnmatch.fnmatch(name, pattern):
-            ratios |= show(name, measure(name, quick))
+        ratios |= show(name, measure(name, quick))
     return ratios
-
-
-def main(arguments=None):
-    """Measure the scenes, and print or keep the ratios. Return 2 if no scene matches, otherwise 0."""
-    parser = argparse.ArgumentParser(prog="python -m tests.bench moving", description="Measure scenes that move.")
-    parser.add_argument("--scenes", default="*", metavar="PATTERN", help="only those whose names match, e.g. 'rain*'")
-    parser.add_argument("--quick", action="store_true", help="20 steps of each")
-    parser.add_argument("--json", metavar="FILE", help="write the ratios and the machine to a file")
-    options = parser.parse_args(arguments)
-    ratios = run(options.quick, options.scenes)
-    if not ratios:
-        names = "\n  ".join([*SCENES, *OWN])
-        sys.stderr.write(f"no scene matches {options.scenes!r}; the scenes are:\n  {names}\n")
-        return 2
-    if options.json:
-        with open(options.json, "w", encoding="utf-8") as file:
-            json.dump({"machine": machine(), "quick": options.quick, "ratios": ratios}, file, indent=1)
-            file.write("\n")
-    return 0
