@@ -1,6 +1,41 @@
 """Costs of a lab's runs, which are timed beside the game: in seconds, and as text for the picture."""
 
+from typing import NamedTuple
+
 UNKNOWN = "-"  # never a zero for an unknown cost
+
+
+class Difference(NamedTuple):
+    """How much longer [s] a step of one run takes than a step of another, and the noise [s] of this figure."""
+
+    seconds: float
+    noise: float
+
+    @property
+    def counts(self):
+        """Whether the difference exceeds the noise."""
+        return abs(self.seconds) > self.noise
+
+    def exceeds(self, other):
+        """Return whether this difference is greater than another, beyond the noise of both."""
+        return self.seconds - self.noise > other.seconds + other.noise
+
+    def text(self):
+        """Return the difference as text in microseconds with its sign; "0" within the noise."""
+        return f"{1e6 * self.seconds:+,.0f}" if self.counts else "0"
+
+
+def difference_of(scene, name, other):
+    """Return the Difference between the runs `name` and `other`, or None before there are enough measurements.
+
+    The least times are subtracted, because other load only ever adds time. The noise is the sum of both distances of
+    the median from the least time.
+    """
+    both = [scene.figures.get(each) for each in (name, other)]
+    if any(figures is None or not figures.sure for figures in both):
+        return None
+    first, second = (figures.cost for figures in both)
+    return Difference(first.least - second.least, first.median - first.least + second.median - second.least)
 
 
 def cost_of(scene, name):

@@ -28,7 +28,7 @@ from game.scene import Goal, Scene, Slider
 from physics import Effects
 from scenes.lab.busy_picture import BusyPicture, draw_ghost
 from scenes.lab.busy_yard import DRAG, WIND, BusyYard, apart, rms
-from scenes.lab.costs import UNKNOWN, cost_of
+from scenes.lab.costs import UNKNOWN, difference_of
 from scenes.lab.piles import with_effects
 from scenes.lab.yard import HEAD, draw_head, plate
 
@@ -40,6 +40,7 @@ WINDOW = 120  # steps after which both yards are compared
 AGAIN = 180  # steps after which both start again, while the effect is on
 BOT_OFF, BOT_NEXT = 124, 150  # steps of its turn at which the bot switches an effect off, and continues
 BOX = (4, 6)  # [px] left side and size of a box to tick
+LISTED = 2  # greatest number of effects that the finding names for one figure
 
 
 class Outcome(NamedTuple):
@@ -88,6 +89,7 @@ class EffectsLab(Scene):
         self.real.furnish()
         self.clock = 0  # steps
         self.found = {}  # name: last Outcome
+        self.below = HEAD  # [px] lower side of the plate with the words, as drawn last
         self.looked = []  # effects whose ghost was started, and whose costs are measured
         self._part()
 
@@ -190,9 +192,8 @@ class EffectsLab(Scene):
         return [name for name in real if name not in other], [name for name in other if name not in real]
 
     def price(self, name):
-        """Return the time per step that an effect costs [us], negative if it saves time; None if not measured yet."""
-        real, other = (cost_of(self, self._run_name(name, on)) for on in (True, False))
-        return None if real is None or other is None else 1e6 * (real - other)
+        """Return the time per step that an effect costs, a Difference, below 0 if it saves time; None: not measured."""
+        return difference_of(self, *(self._run_name(name, on) for on in (True, False)))
 
     def finding(self):
         """Return a sentence with the results of the last two seconds with and without each effect, once all were
@@ -201,13 +202,20 @@ class EffectsLab(Scene):
         if len(self.found) < len(self.effects.names()):
             return f"not yet: {len(self.found)} of {len(self.effects.names())} effects were looked at"
         far = max(self.found, key=lambda name: self.found[name].apart)
-        prices = {name: price for name in self.found if (price := self.price(name)) is not None}
         words = f"{plain_name(far)} moves most, {self.found[far].apart:.0f} px"
-        if not prices:
-            return words
-        dear, saver = max(prices, key=prices.__getitem__), min(prices, key=prices.__getitem__)
-        words += f"; {plain_name(dear)} costs most, {prices[dear]:,.0f} us"
-        return words + (f"; {plain_name(saver)} saves {-prices[saver]:,.0f}" if prices[saver] < 0.0 else "")
+        prices = {name: price for name in self.found if (price := self.price(name)) is not None and price.counts}
+        order = sorted(prices, key=prices.__getitem__)
+        costs, saves = order[::-1], order
+        if costs and prices[costs[0]].seconds > 0.0:
+            # Effects whose costs cannot be told apart from the greatest cost share its place.
+            most = [name for name in costs if not prices[costs[0]].exceeds(prices[name])]
+            figures = [f"{1e6 * prices[name].seconds:,.0f}" for name in (most[-1], most[0])]
+            names = " or ".join(plain_name(name) for name in most[:LISTED])
+            names += f" or {len(most) - LISTED} more" if len(most) > LISTED else ""
+            words += f"; {names} costs most, {' to '.join(dict.fromkeys(figures))} us"
+        if saves and prices[saves[0]].seconds < 0.0:
+            words += f"; {plain_name(saves[0])} saves {-1e6 * prices[saves[0]].seconds:,.0f} us"
+        return words
 
     def draw(self, canvas, alpha):
         """Draw the visible yard, and the list."""
@@ -237,7 +245,7 @@ class EffectsLab(Scene):
         if outcome is not None:
             canvas.text(short(outcome, name), 136, y, PAPER, SMALL, align="right")
         if name in self.looked:
-            canvas.text(UNKNOWN if price is None else f"{price:+,.0f}", SIDE - 6, y, PAPER, SMALL, align="right")
+            canvas.text(UNKNOWN if price is None else price.text(), SIDE - 6, y, PAPER, SMALL, align="right")
 
     def _draw_words(self, canvas):
         """Draw the stage of the marked effect and the finding on a plate over the sky."""
@@ -252,6 +260,7 @@ class EffectsLab(Scene):
         lines += [(line, FOG) for line in wrap(self.finding(), rect.width - 8, SMALL)]
         rect.height = 7 * len(lines) + 5
         plate(canvas, rect)
+        self.below = rect.bottom
         for number, (line, color) in enumerate(lines):
             canvas.text(line, rect.x + 4, rect.y + 3 + 7 * number, color, SMALL)
 
@@ -259,7 +268,8 @@ class EffectsLab(Scene):
         """Draw the outlines of the bodies whose positions differ between the two yards."""
         numbers, gaps = apart(self.real, self.other)
         far = [number for number, gap in zip(numbers, gaps.tolist(), strict=True) if gap > VISIBLE]
-        frame.surface.set_clip(frame.from_canvas((SIDE + 1, HEAD, 480 - SIDE, 254)))
+        # The outlines stay off the plate with the words.
+        frame.surface.set_clip(frame.from_canvas((SIDE + 1, self.below, 480 - SIDE, 270 - self.below)))
         for yard, color in ((self.real, GOLD), (self.other, SKY)):
             draw_ghost(frame, self.camera, yard, far, color)
         frame.surface.set_clip(None)

@@ -145,6 +145,48 @@ def test_a_price_is_measured_beside_the_game_on_the_yard_with_and_without(lab):
             moving["x"], lab.real.world.bodies["x"][lab.real.world.bodies["kind"] == DYNAMIC]
         )
         lab.figures[name] = RunFigures(Cost.of([3e-4 if on else 1e-4] * RUNS, WINDOW))
-    assert lab.price("friction") == pytest.approx(200.0)
+    assert lab.price("friction").seconds == pytest.approx(2e-4)
     lab.change("broadphase", "sweep")
     assert lab.price("friction") is None, "other settings cost something else"
+
+
+def price_all(lab, prices, spread):
+    """Store run figures for all effects. prices: {effect: us}; spread [us]: median minus least, of each run."""
+    lab.looked = list(NAMES)
+    for name in NAMES:
+        lab.found[name] = Outcome(1.0 + NAMES.index(name), 0, 0, 0)
+        for on in (True, False):
+            least = 1e-3 + (1e-6 * prices.get(name, 0.0) if on else 0.0)
+            times = [least, *[least + 1e-6 * spread] * (RUNS - 1)]
+            lab.figures[lab._run_name(name, on)] = RunFigures(Cost.of(times, WINDOW))
+
+
+@pytest.mark.parametrize(
+    ("prices", "spread", "said"),
+    [
+        ({}, 0.0, None),
+        ({"friction": 40.0, "sleeping": -30.0}, 25.0, None),  # noise of 2 x 25 us
+        ({"friction": 40.0}, 10.0, "friction costs most, 40 us"),
+        ({"friction": 40.0, "drag": 30.0}, 1.0, "friction costs most, 40 us"),
+        ({"friction": 40.0, "drag": 30.0}, 5.0, "friction or drag costs most, 30 to 40 us"),
+        ({"friction": 40.0, "drag": 40.0, "wind": 39.0, "carving": 38.0}, 5.0, "or 2 more costs most, 38 to 40 us"),
+        ({"sleeping": -300.0}, 10.0, "sleeping saves 300 us"),
+        ({"friction": 40.0, "sleeping": -300.0}, 5.0, "friction costs most, 40 us; sleeping saves 300 us"),
+    ],
+)
+def test_the_finding_names_only_what_exceeds_the_noise(lab, prices, spread, said):
+    price_all(lab, prices, spread)
+    finding = lab.finding()
+    if said is None:
+        assert "us" not in finding.split() and "costs" not in finding and "saves" not in finding
+    else:
+        assert said in finding and finding.count("costs most") == (max(prices.values()) > 0.0)
+
+
+@pytest.mark.parametrize("spread", [0.0, 1.0, 10.0, 100.0])
+def test_a_figure_within_the_noise_is_written_as_zero(lab, spread):
+    prices = {name: 7.0 * (number - 8) for number, name in enumerate(NAMES)}
+    price_all(lab, prices, spread)
+    for name, price in prices.items():
+        within = abs(price) <= 2.0 * spread + 1e-6
+        assert lab.price(name).text() == ("0" if within else f"{price:+,.0f}")
