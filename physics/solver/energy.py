@@ -402,13 +402,72 @@ def limit_squeezed(most, before, motion_inout):
 
 
 @subkernel
-def remove_gains(blocks, count, group, links_islands, context, plan_inout, balance_inout, motions_inout):
+def join_pushed(blocks, count, group, links_islands, parents_out):
+    """Join the bodies of a group that exchanged contact impulses in this step into sets, as join_touching does."""
+    for k in range(len(group.members)):
+        parents_out[group.members[k]] = group.members[k]
+    for block in range(count):
+        c = blocks.lines[block * SIZE : (block + 1) * SIZE]
+        for lane in range(lanes_of(blocks.contact, block)):
+            row_a, row_b = blocks.motion_a[block, lane], blocks.motion_b[block, lane]
+            pushed = c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane] > 0.0
+            if pushed and links_islands[row_a] and links_islands[row_b]:
+                join_trees(row_a, row_b, parents_out)
+    for k in range(len(group.members)):
+        parents_out[group.members[k]] = root_of(group.members[k], parents_out)
+
+
+@subkernel
+def keep_losses(group, parents, motions, balance_inout):
+    """Add the energy that each set of touching bodies lost to its reserve, if no set gained energy.
+
+    Return whether no set gained. Otherwise no reserve is changed. parents (motions) int32: the root of each body. The
+    result is that of sum_balances and draw_on_reserve for worlds without joints and kinematic bodies that move: there
+    surfaces can only add to the energy of a set, so a set without a gain is not slowed down. In a pile that settles
+    this takes a third of the time.
+    """
+    for k in range(len(group.members)):
+        e = balance_inout[group.members[k]]
+        e.along, e.lift, e.mass = e.excess, e.reserve, 0.0
+    for k in range(len(group.members)):
+        i = group.members[k]
+        if motions[i].inverse_mass == 0.0:
+            continue
+        e, root = balance_inout[i], balance_inout[parents[i]]
+        root.mass += 1.0 / motions[i].inverse_mass
+        if parents[i] != i:
+            root.along += e.excess
+            root.lift += e.reserve
+    for k in range(len(group.members)):
+        i = group.members[k]
+        if parents[i] == i and balance_inout[i].along > 0.0:
+            return False
+    for k in range(len(group.members)):
+        i = group.members[k]
+        root = balance_inout[parents[i]]
+        if motions[i].inverse_mass > 0.0:
+            reserve = root.lift + max(-root.along, 0.0)
+            if parents[i] == i:
+                balance_inout[i].reserve = reserve * (1.0 / (motions[i].inverse_mass * root.mass))
+            else:
+                balance_inout[i].reserve = reserve / (motions[i].inverse_mass * root.mass)
+        elif parents[i] == i:
+            balance_inout[i].reserve = root.lift + max(-root.along, 0.0)
+    return True
+
+
+@subkernel
+def remove_gains(blocks, count, group, links_islands, moving, context, plan_inout, balance_inout, motions_inout):
     """Remove the energy that contacts have added. Return the number of sets of touching bodies with such a gain.
 
-    count: number of blocks; links_islands: see MotionLists.
+    count: number of blocks; links_islands: see MotionLists; moving: number of kinematic bodies that move.
     """
     plan, motions, parents_out = plan_inout, motions_inout, plan_inout.touching
     joints = plan.joints[: plan.joint_count[0]]
+    if moving == 0 and len(joints) == 0 and not plan.squeezed[0]:
+        join_pushed(blocks, count, group, links_islands, parents_out)
+        if keep_losses(group, parents_out, motions, balance_inout):
+            return 0
     join_touching(blocks, count, group, joints, links_islands, motions, parents_out, balance_inout)
     sum_balances(blocks, count, group, links_islands, parents_out, context, motions, balance_inout)
     found = 0
@@ -438,19 +497,20 @@ def remove_gains(blocks, count, group, links_islands, context, plan_inout, balan
 
 
 @kernel
-def limit_energy(blocks, count, group, links_islands, context, plan_inout, balance_inout, motions_inout):
+def limit_energy(blocks, count, group, links_islands, moving, context, plan_inout, balance_inout, motions_inout):
     """Remove the energy that the contacts of a group have added. O(members + lanes).
 
     Return the number of sets of touching bodies with such a gain. In islands squeezed between faces, the speed of a
     body is limited to the speed of the faces plus push-out, or to its speed before the step if that was greater. count:
-    number of blocks; links_islands: see MotionLists; balance_inout: BALANCE rows, one for each MOTION row.
+    number of blocks; links_islands: see MotionLists; moving: number of kinematic bodies that move; balance_inout:
+    BALANCE rows, one for each MOTION row.
     """
     plan = plan_inout
     floor = 0.5 * context.limits.calm_speed * context.limits.calm_speed
     keep = max(1.0 - FORGETTING * context.dt, 0.0)
     found = 0
     if balance_bodies(group, plan.degrees, floor, QUICK_LIFT * context.slop, keep, motions_inout, balance_inout):
-        found = remove_gains(blocks, count, group, links_islands, context, plan, balance_inout, motions_inout)
+        found = remove_gains(blocks, count, group, links_islands, moving, context, plan, balance_inout, motions_inout)
     else:
         for k in range(len(group.members)):
             e = balance_inout[group.members[k]]

@@ -417,10 +417,8 @@ def solve(state: StepState, contacts: ContactLanes, passes: int | None = None, w
         contacts.store(state, motions, count, context)
         if len(group.joints):
             store_joints(group.joints, context, state.joints)
-            lists = motions.lists
-            limit_energy(
-                blocks, count, group, lists.links_islands, context, contacts.selection.plan, lists.balance, motions.used
-            )
+            lists, plan, moving = motions.lists, contacts.selection.plan, len(motions.kinematic)
+            limit_energy(blocks, count, group, lists.links_islands, moving, context, plan, lists.balance, motions.used)
     return dt
 
 

@@ -607,8 +607,8 @@ def solve(state: StepState, contacts: ContactLanes, kernels: Mapping = SUBSTEPS)
         contacts.store(state, motions, count, context)
         if len(group.joints):
             store_joints(group.joints, context, state.joints)
-        lists, plan = motions.lists, contacts.selection.plan
-        limit_energy(blocks, count, group, lists.links_islands, context, plan, lists.balance, motions.used)
+        lists, plan, moving = motions.lists, contacts.selection.plan, len(motions.kinematic)
+        limit_energy(blocks, count, group, lists.links_islands, moving, context, plan, lists.balance, motions.used)
     return h
 
 
