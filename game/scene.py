@@ -203,8 +203,9 @@ class Scene:
     ) -> WatchedWorld:
         """Make a world with the scene's effects, broad phase, solver and seed, and append it to self.worlds.
 
-        settings: further arguments of World: gravity, drag, substeps, pixels_per_meter ... Settings of effects that the
-        world does not have are left out, so that a scene can be measured without one of its effects.
+        settings: further arguments of World: gravity, drag, substeps, pixels_per_meter ... The arguments gravity, drag
+        and wind are dropped if the world does not have the effect of that name, so that a scene can be measured without
+        one of its effects.
         """
         effects = (effects or self.effects).with_(narrowphase=self.narrowphase)
         for name, acts in (
@@ -313,7 +314,9 @@ class Scene:
         return (cls.level_suffix,) if cls.level_suffix else (".tmj", ".json")
 
     def set_solver(self, name: str) -> None:
-        """Switch the solver of every world during a game."""
+        """Switch the broad phase of every world during a game. If switches_broadphase is False, the worlds keep their
+        own broad phases.
+        """
         self.solver = name
         for world in self.worlds:
             world.solver = name

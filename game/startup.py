@@ -111,7 +111,8 @@ def take_interrupts(handler: "object") -> None:
 
 
 def say(line: str, whole: bool = False) -> None:
-    """Print one line on standard error, if the program has one, cut to errors.LONGEST characters.
+    """Print one line on standard error, cut to errors.LONGEST characters. A program without standard error prints
+    nothing.
 
     whole: do not cut the line. Use it for the program's own texts, and for bounded texts with a list of valid names.
     """

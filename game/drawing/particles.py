@@ -114,7 +114,10 @@ class Particles:
         del pixels  # unlocks the surface
 
     def _mapped(self, surface, alive, age, life):
-        """Return each particle's colour as the surface's pixel value."""
+        """Return the pixel value of the surface for the colour of each living particle.
+
+        `alive`: rows of the living particles; `age`, `life`: age and lifetime of every row [s].
+        """
         heat = age[alive] / life[alive]
         out = np.zeros(len(alive), dtype=np.uint32)
         for index, ramp in enumerate(self.colors):

@@ -48,13 +48,15 @@ class Atlas:
         self.masks = {}
 
     def __getitem__(self, name):
-        """Return the image of a frame. Raises ValueError naming the sheet for an unknown frame."""
+        """Return the image `name`. If the sheet has no image of that name, raises ValueError, which names the sheet."""
         if name not in self.images:
             raise ValueError(f"{self.path} has no frame {name!r}; it has {', '.join(self.images)}")
         return self.images[name]
 
     def animation(self, name: str) -> Animation:
-        """Return an animation. Raises ValueError naming the sheet for an unknown one."""
+        """Return the animation `name`. If the sheet has no animation of that name, raises ValueError, which names the
+        sheet.
+        """
         if name not in self.animations:
             raise ValueError(f"{self.path} has no animation {name!r}; it has {', '.join(self.animations)}")
         return self.animations[name]

@@ -40,7 +40,11 @@ def load_ghost(table: str) -> tuple[list[tuple] | None, float | None, str]:
 
 
 def keep_ghost(table: str, trail: Sequence[tuple], seconds: float) -> bool:
-    """Save the trail of a run if it was faster than the saved one. Return whether it was. Raises OSError."""
+    """Save the trail of a run that took `seconds`, if the run was faster than the saved one. Return whether it was
+    saved.
+
+    Raises OSError.
+    """
     best = load_ghost(table)[1]
     if not trail or (best is not None and best <= seconds):
         return False

@@ -101,8 +101,8 @@ def keep_beside(path: str | Path, why: str = "damaged") -> Path:
     """Copy an unusable file to the first free name of the form `name.damaged-N`, and return the path of the copy.
 
     why: the word in place of "damaged". The name is claimed with exclusive creation, so an earlier copy is never
-    overwritten. A copy with the same content is reused, or every start would add another. An unreadable file is renamed
-    instead, because the next save would overwrite it. Raises OSError if that fails, too.
+    overwritten. If a copy with the same content exists, its path is returned, so that repeated starts add no copies. An
+    unreadable file is renamed instead, because the next save would overwrite it. Raises OSError if that fails, too.
     """
     path = Path(path)
     names = (path.with_name(f"{path.name}.{why}-{number}") for number in count(1))

@@ -81,7 +81,9 @@ class Records:
 
 
 def order(entry: Entry, ranked_by: str | None) -> tuple[float, float]:
-    """Return the sort key of an entry: most points, then least time; or least time, then most points."""
+    """Return the sort key of an entry. ranked_by "seconds": least time first, then most points; otherwise most points
+    first, then least time.
+    """
     if ranked_by == "seconds":
         return entry.seconds, -entry.points
     return -entry.points, entry.seconds

@@ -54,7 +54,7 @@ class DeviceSource:
         self.lost_pad = False  # a pad was pulled out; the app pauses and resets this
 
     def bind(self, keys: Table, buttons: Table) -> None:
-        """Replace the bindings: {action: names} each."""
+        """Replace the bindings of the keys and of the buttons; each is a table {action: names}."""
         self.keys, self.buttons = key_codes(keys), button_actions(buttons)
         self.menu_keys = {**self.keys, **key_codes(DEFAULT_KEYS)}
         self.menu_buttons = {**self.buttons, **button_actions(DEFAULT_BUTTONS)}
@@ -124,7 +124,9 @@ class DeviceSource:
         return found[1]
 
     def _is_mapped(self, instance_id):
-        """Return whether SDL maps this pad. It then sends joystick events, too, which are ignored."""
+        """Return whether SDL has a mapping of this pad's buttons. For such a pad, SDL also sends joystick events, which
+        are ignored.
+        """
         return self.pads is not None and self.pads.is_controller(instance_id)
 
     def _feed_pad(self, event):

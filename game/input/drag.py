@@ -119,8 +119,8 @@ class Drag:
 
 
 def _goes_on(hold, views):
-    """Return whether the hold can continue. It ends if the scene was rebuilt, or if the body is gone or cannot be
-    held.
+    """Return whether the hold can continue: its world is in `views` (not so after the scene was rebuilt), and its body
+    exists and can still be held.
     """
     return any(world is hold.world for world, _ in views) and hold.is_there() and can_be_held(hold.body)
 

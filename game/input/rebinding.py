@@ -48,7 +48,8 @@ def rebind(table: dict[str, list[str]], device: str, action: str, control: str |
 
 
 def _make_room(table, device, other, control, given_up):
-    """Take `control` away from the action `other`, and give it another one if possible.
+    """Take `control` away from the action `other`, and give `other` a different control if possible: `given_up`, if it
+    is free.
 
     Return the line for the player; None if `other` would be left without a control.
     """
@@ -75,8 +76,8 @@ def _is_free(table, device, action, control):
 
 
 def clash(table: Table) -> tuple[str, str, str] | None:
-    """Return (action, other, control) of the first two actions with a common control that one game uses together; else
-    None.
+    """Return (action, other, control) of the first two actions that share a control although one game uses both; None
+    if there are none.
     """
     for action in table:
         for other in table:
@@ -93,7 +94,9 @@ def default_table(device: str) -> dict[str, list[str]]:
 
 
 def completed(table: Table, device: str) -> dict[str, list[str]]:
-    """Return the table with actions added that an older file lacks, without default controls that would clash."""
+    """Return a copy of the table with the actions that an older file lacks. They get those default controls that clash
+    with no other action.
+    """
     full = {}
     for action in DEFAULTS[device]:
         full[action] = list(table[action]) if action in table else []

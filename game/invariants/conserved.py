@@ -50,13 +50,20 @@ class OfTheAlone(Invariant):
         return self.broken(step, most(step, np.where(alone, change, 0.0)), drift, allowed, self.gained)
 
     def why_not(self, step: Step, alone: np.ndarray) -> str:
-        """Return the reason why the invariant cannot be checked in this step; "" if it can."""
+        """Return the reason why the invariant cannot be checked in this step; "" if it can.
+
+        alone: (n,) bool, the bodies on which nothing acted from outside.
+        """
         if not alone.any():
             return "all that is dynamic touches what stands, sleeps or is driven"
         return "drag acts" if step.world.effects.drag and step.world.drag > 0.0 else ""
 
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
-        """Return (gain of the quantity in this step [2], its allowance in LONG steps, change of each body)."""
+        """Return (gain, allowance, change): the gain of the quantity in this step (2,), the gain that is allowed in
+        LONG steps, and the change of each body (n,).
+
+        alone: (n,) bool, the bodies over which the gain is summed.
+        """
         raise TypeError(f"{type(self).__name__} must define gain")
 
 
@@ -67,7 +74,9 @@ class Momentum(OfTheAlone):
     gained = "momentum drifted though nothing pushes from outside"
 
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
-        """Return (gain of momentum in this step [2], its allowance in LONG steps, change of each body)."""
+        """Return (gain, allowance, change): the gain of momentum in this step (2,), the gain that is allowed in LONG
+        steps, and the change of each body (n,).
+        """
         now, before = step.now, step.before
         mass = now.mass * alone
         fall = mass * now.felt * step.dt
@@ -94,7 +103,10 @@ class Spin(OfTheAlone):
     gained = "angular momentum drifted though nothing turns from outside"
 
     def why_not(self, step: Step, alone: np.ndarray) -> str:
-        """Return the reason why the invariant cannot be checked in this step; "" if it can."""
+        """Return the reason why the invariant cannot be checked in this step; "" if it can.
+
+        alone: (n,) bool, the bodies on which nothing acted from outside.
+        """
         why = super().why_not(step, alone)
         if why:
             return why
@@ -110,7 +122,9 @@ class Spin(OfTheAlone):
         return ""
 
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
-        """Return ([gain of angular momentum in this step, 0], its allowance in LONG steps, change of each body)."""
+        """Return (gain, allowance, change): [gain of angular momentum in this step, 0], the gain that is allowed in
+        LONG steps, and the change of each body (n,).
+        """
         now, before = step.now, step.before
         mass, inertia = now.mass * alone, now.inertia * alone
         total = float(mass.sum())
@@ -150,7 +164,7 @@ def slip(step: Step, among: np.ndarray) -> float:
 
 
 def most(step: Step, change: np.ndarray) -> tuple[int, ...]:
-    """Return (id of the body with the greatest change,), or () if there are no bodies."""
+    """Return (id,) of the body with the greatest `change`, which has one value per body; () if there are no bodies."""
     return (int(step.now.ids[int(np.argmax(change))]),) if len(change) else ()
 
 
@@ -169,11 +183,11 @@ class Account:
             self.low, self.high = min(self.low, float(heights.min())), max(self.high, float(heights.max()))
 
     def gain(self, world: World, now: Bodies) -> tuple[float, float]:
-        """Return (energy above the start, its allowance).
+        """Return (energy above the start, the allowed value of it).
 
-        The allowance is the sum of four terms: 1 % of the energy in play; m g (slop + overlap at the start) of each
-        body; the rounding error of bodies that come to rest; and m g v dt of each body that was stopped at its time of
-        impact.
+        The allowed value is the sum of four terms: 1 % of the energy in play (kinetic energy, plus the potential energy
+        between the lowest and the highest position so far); m g (slop + overlap at the start) of each body; the
+        rounding error of bodies that come to rest; and m g v dt of each body that was stopped at its time of impact.
         """
         self._span(now)
         energy = now.energy

@@ -8,7 +8,9 @@ from game.invariants.step import Step
 
 @dataclass(frozen=True)
 class Broken:
-    """An invariant that does not hold. `bodies`: ids of the bodies concerned; `value`: measured, `allowed` at most."""
+    """An invariant that does not hold. `bodies`: ids of the bodies concerned; `value`: the measured value; `allowed`:
+    the largest allowed value.
+    """
 
     invariant: str  # U1 ... U11
     word: str

@@ -1,6 +1,6 @@
 """Invariant monitor of a scene: the state of each invariant over all worlds of the scene.
 
-No state is kept for good: AFTERGLOW frames after a break, it follows the checks again.
+A broken invariant stays red for AFTERGLOW frames. After that, its state follows the checks again.
 """
 
 from collections.abc import Iterable

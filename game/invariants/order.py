@@ -27,10 +27,10 @@ class Order(Invariant):
 
 
 def furthest_apart(one: World, other: World, ids: np.ndarray) -> float:
-    """Return the greatest difference between two worlds in a number of a body (COMPARED).
+    """Return the greatest relative difference between the bodies of two worlds, over the columns COMPARED.
 
-    A difference is divided by the greatest such number in `one`, or by 1 if that is less. ids[k]: id in `other` of the
-    k-th body of `one`.
+    Each difference is divided by the greatest absolute value of its column in `one`, or by 1 if that value is less.
+    ids[k]: id in `other` of the k-th body of `one`.
     """
     rows, twins = one.bodies, other.bodies[other.rows(ids)]
     worst = 0.0

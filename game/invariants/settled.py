@@ -68,9 +68,11 @@ class Settled(Invariant):
 
 
 def sag(step: Step, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Return the overlap [px] by which each contact, a spring, yields to its normal force of the step.
+    """Return the overlap [px] by which each contact, a spring, yields to its normal force of the step. a, b: body rows
+    of the contacts.
 
-    It is F / (m ω²), with m the effective mass of the contact; 0 if the number of substeps follows from the loads.
+    The overlap is F / (m ω²), with m the effective mass of the contact; 0 if the number of substeps follows from the
+    loads.
     """
     world, rows, now = step.world, step.contacts, step.now
     substeps = world.substeps

@@ -65,9 +65,9 @@ class Step:
         return np.searchsorted(self.now.ids, ids)
 
     def spread(self, rows: np.ndarray, through: np.ndarray) -> np.ndarray:
-        """Return (n,) bool: the bodies flagged in `rows`, and all that contacts and joints connect to them.
+        """Return (n,) bool: the bodies flagged in `rows`, and all bodies that contacts and joints connect to them.
 
-        Only those between two bodies flagged in `through` count.
+        A contact or joint counts only if both its bodies are flagged in `through`.
         """
         joined = (self.linked[0] >= 0) & (self.linked[1] >= 0)
         a, b = (np.concatenate([one, other[joined]]) for one, other in zip(self.sides, self.linked, strict=True))

@@ -4,11 +4,12 @@ There are three kinds of error, in pixels. `way`: distance of the bodies from th
 `overlap`: how deep rigid bodies overlap, which is 0 in an exact solution. `verdict`: by how much a false hit misses, or
 a missed hit overlaps.
 
-The reference run of `way` has 64 times the 4 plain substeps, with contacts as stiff as in any run with a fixed number
-of substeps. Erez, Tassa and Todorov (ICRA 2015) compare engines with themselves at smaller steps in this way. The
-reference is valid for the steps in which a run with 32 times the substeps agrees with it to a tenth of a pixel, so not
-for chaotic motion. Errors below a floor are not significant. The floor is the larger of ten times the difference of
-these two runs, and the difference of a third run with the stiffest contacts.
+The reference run of `way` has 64 times the 4 substeps of a plain run, and the contact stiffness of runs with a fixed
+number of substeps. Erez, Tassa and Todorov (ICRA 2015) compare engines with themselves at smaller steps in this way.
+The reference is valid for the steps in which a second run, with 32 times the substeps, differs from it by at most a
+tenth of a pixel; this excludes chaotic motion. Errors below a floor are not significant. The floor is the larger of two
+numbers: ten times the difference of these two runs, and the difference between the reference and a third run, which has
+the stiffest contacts.
 """
 
 from collections import Counter

@@ -79,7 +79,11 @@ def entry(scene_class: type[Scene], effect: str, frames: int, after: int = AFTER
 
 
 def _compared(one, other_class, found, frames, after):
-    """Run both copies frame by frame. Return `found`, an Entry, with the measured fields filled in."""
+    """Run both copies frame by frame. Return `found`, an Entry, with the measured fields filled in.
+
+    one: the first copy, already built; other_class: scene class of the second copy; after: frames to continue once they
+    differ.
+    """
     try:
         other = Side(other_class, one.scene.seed)
     except ValueError as error:

@@ -1,7 +1,7 @@
 """One moment of a world, stepped under other settings: the cost of a step and the resulting motion.
 
 The scene's rules do not run: bodies keep their velocities. So every setting does the same work, and only the physics is
-timed. Times and motions are never taken in the same run.
+timed. Times and motions are always taken in separate runs.
 """
 
 from collections import Counter

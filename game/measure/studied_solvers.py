@@ -28,8 +28,8 @@ def soft_step(iterations: int = 1, warm: bool = True, relaxed: bool = True) -> S
     """Return the solver's stage with `iterations` solve passes per substep.
 
     warm=False: each substep starts from zero impulses. relaxed=False: without the relax pass, so the velocity that
-    separates overlaps is kept, and friction is solved in the solve pass. Raises ValueError for several passes without
-    relaxing.
+    separates overlaps is kept, and friction is solved in the solve pass. Raises ValueError for relaxed=False with
+    several iterations.
     """
     if iterations > 1 and not relaxed:
         raise ValueError(f"impulses are counted once: without relaxing there is one iteration (got {iterations})")

@@ -1,4 +1,6 @@
-"""Survey: the measured costs and errors of a scene's settings, a dot of the plot each, collected run by run."""
+"""Survey: the measured costs and errors of a scene's settings, collected run by run. Each setting is one dot of the
+plot.
+"""
 
 from collections import Counter
 from dataclasses import dataclass, field

@@ -99,8 +99,8 @@ def measure_sprites(order: dict[str, Any], report: Callable[[str], object]) -> N
 def measure_stored_runs(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
     """Measure the runs of an order.
 
-    Each is a dict of the fields of MeasuredRun, with file names in place of snapshots, and lists in place of Recipe and
-    Act.
+    order["runs"]: a dict of the fields of MeasuredRun for each run, with file names in place of snapshots, and lists in
+    place of Recipe and Act.
     """
     loaded = cache(Snapshot.load)  # a snapshot that several runs share is read once
 

@@ -21,10 +21,11 @@ OWN = "your box would have died here"
 
 
 def false_hits(world: World) -> tuple[np.ndarray, np.ndarray]:
-    """Return two arrays of shape-row pairs, (n, 2) and (m, 2): all candidate pairs with a sprite whose boxes overlap,
-    and those of them without a contact.
+    """Return (hits, lies): the candidate pairs with a sprite whose bounding boxes overlap, and those of them without a
+    contact.
 
-    Candidates are the pairs that the broad phase found in the last step. Pairs with a sensor are left out.
+    Both are (n, 2) arrays of SHAPE rows. Candidates are the pairs that the broad phase found in the last step. Pairs
+    with a sensor are left out.
     """
     ids, pairs = np.ascontiguousarray(world.shapes["id"]), world.candidates.astype(np.int64)
     none = np.zeros((0, 2), np.int64)

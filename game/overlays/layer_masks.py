@@ -125,8 +125,8 @@ class Masks(Layer):
         return image
 
     def _tinted(self, solid, palette):
-        """Return the image of a mask, cached by the id of its array, which the cache keeps so that the id stays
-        valid.
+        """Return the image of a mask. Images are cached by the id of the array `solid`; the cache also holds the array
+        itself, so that no other array gets the same id.
         """
         kept, image = self.tinted.get((id(solid), palette), (None, None))
         if kept is not solid:

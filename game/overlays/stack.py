@@ -81,7 +81,9 @@ class Overlays:
         self.on = set() if self.on else {layer.name for layer in self.layers}
 
     def note(self, scene: Scene) -> None:
-        """Record a step; call it after every step. Invariants are monitored from one step after they are shown."""
+        """Record a step; call it after every step. Monitoring of the invariants begins one step after their layer is
+        shown.
+        """
         self.times.note(scene)
         self.invariants.note(scene.monitor)
         if "disagreement" in self.on:

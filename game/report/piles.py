@@ -61,7 +61,9 @@ def heavy(ratio: float) -> Pile:
 
 
 def crooked(count: int, seed: int = 1, aside: float = 0.64) -> Pile:
-    """Return a column of boxes, each shifted sideways at random by at most `aside` [px]; the default is 2 cm."""
+    """Return a column of boxes, each shifted sideways at random by at most `aside` [px]; the default corresponds to 2
+    cm.
+    """
     shifts = np.random.default_rng(seed).uniform(-aside, aside, count)
     return boxes([(float(shifts[k]), -BOX / 2 - BOX * k) for k in range(count)])
 

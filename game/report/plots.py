@@ -128,7 +128,8 @@ def _curves(axes, panel, dots):
 
 
 def _scale(axes, which, axis: Axis, values: Sequence[Interval]):
-    """Make an axis logarithmic if it asks for that and the values span a decade; with less, tick labels would overlap.
+    """Make the x or y axis (`which`) logarithmic, if `axis.log` is set and `values` span at least a decade. Over a
+    shorter span, tick labels would overlap.
 
     Values more than axis.decades below the largest one are drawn at the lower end, together with zero. Call it after
     all dots are drawn.

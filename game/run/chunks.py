@@ -149,7 +149,10 @@ def bytes_of(many: Iterable[Chunks]) -> int:
 
 
 def _row(size, width):
-    """Return the row size of a buffer that is stored by columns [bytes]; 1 for other arrays, 0 for no array."""
+    """Return the row size [bytes] of a buffer that is stored by columns; 1 for other arrays, 0 for no array.
+
+    size: size of the buffer [bytes]; width: size of its array items [bytes], 0 for no array.
+    """
     return width if width % WORD == 0 and size > width else min(width, 1)
 
 

@@ -36,7 +36,7 @@ class Docked(Protocol):
 
 
 class Picture:
-    """Drawing of finished pictures onto `surface`: that of the window, or for None a new one of screenshot size."""
+    """Drawing of finished pictures onto `surface`, for example the window's; None: a new surface of screenshot size."""
 
     def __init__(self, surface: pygame.Surface | None = None) -> None:
         if surface is None:
@@ -88,7 +88,7 @@ class Picture:
         return frame
 
     def draw_without(self, draw: Callable[[Frame], None], overlays: Overlays, panel: Docked | None = None) -> Frame:
-        """Draw by draw(frame) instead of drawing a scene, with an optional panel beside it. Return the frame."""
+        """Make a picture with draw(frame) in place of a scene, with an optional panel beside it. Return the frame."""
         self.canvas.begin(INK)
         self.presenter.docked = panel is not None
         frame = self.presenter.present(self.canvas)

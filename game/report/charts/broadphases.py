@@ -149,8 +149,10 @@ def _jobs(scope: ReportScope) -> list[Job]:
 
 
 def growth(rows: Sequence[Row], series: str, panel: str) -> tuple[float, float] | None:
-    """Return (exponent p of the cost's growth with n^p, its standard error), fitted from FROM bodies on; None for fewer
-    than three sizes, which give no standard error.
+    """Return (p, standard error of p) of the law that the cost grows as n^p, fitted to the rows of a series in a panel
+    with at least FROM bodies.
+
+    None for fewer than three sizes, which give no standard error.
     """
     mine = [row for row in rows if row["series"] == series and row["panel"] == panel and row["n"] >= FROM]
     points = [(row["n"], row["cost"]["seconds"][1]) for row in mine]
@@ -173,7 +175,7 @@ def _of_papers(rows) -> Iterator[Claim]:
     known = {(row["series"], row["layout"], row["moving"], row["n"]): row for row in rows}
 
     def beside(first, second):
-        """Return the ratio of the costs of two rows; None if either is not measured."""
+        """Return the ratio of the costs of two rows, given by their keys in `known`; None if either is not measured."""
         return ratio_of(known[first]["cost"], known[second]["cost"]) if first in known and second in known else None
 
     n, all_move, few = NAIVE_LIMIT, *list(MOVERS)[:: len(MOVERS) - 1]

@@ -69,7 +69,9 @@ def offsets(truth: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]], count:
 
 
 def measure(body: str, count: int) -> list[Row]:
-    """Return a row for each tier, used for both sprites, and one for the exact shapes."""
+    """Return a row for each tier, with both sprites in this tier, and a row for the exact shapes. body: key of BODIES;
+    count: number of poses.
+    """
     make, shape, truth, turned = BODIES[body]
     first, second = make(), disc_mask()
     offset = offsets(truth, count)
@@ -90,7 +92,10 @@ def measure(body: str, count: int) -> list[Row]:
 
 
 def _row(body, name, batch, normals, depths):
-    """Return a row with the errors of the contacts found by a batch; of each pair, the deepest manifold counts."""
+    """Return a row with the errors of the contacts found by a batch; of each pair, the deepest manifold counts.
+
+    normals, depths: true normal and depth [px] of each pair.
+    """
     batch.test()
     pairs = batch.pair_of[batch.found["candidate"]]
     order = np.lexsort((batch.found["separation_1"], pairs))

@@ -30,7 +30,11 @@ def scene_class(where: str) -> type[Scene]:
 
 
 def measure(scene: str, where: str, frames: int) -> list[Row]:
-    """Return one row: percentiles of the scene's step times. Runs make equal steps; each step's least time counts."""
+    """Return one row: percentiles of the scene's step times. All runs make the same steps; of each step, the least time
+    over the runs counts.
+
+    where: "module:Class" of the scene; frames: length of a run.
+    """
     start_dummy_display()
     made = scene_class(where)
     warm_up_scene(made, None, None)
@@ -61,7 +65,8 @@ def measure(scene: str, where: str, frames: int) -> list[Row]:
 
 
 def _peaks(made, frames):
-    """Return, for each step, the greatest memory that it held in addition to that at its start, (frames,) [bytes]."""
+    """Return (frames,) [bytes]: the greatest memory that each step held, less the memory held at the start of the step.
+    """
     session, found = Session(made(0), BotSource()), []
     for _ in range(5):
         session.step()
