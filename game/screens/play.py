@@ -242,8 +242,8 @@ class Play(SceneScreen):
     def restart(self) -> None:
         """Restart the scene from its first frame. A person's attempt becomes a run with its own recording.
 
-        The first input of that recording contains the settings chosen before, so that it is independent of earlier
-        runs.
+        The first input of that recording contains the settings chosen before, so that the recording does not depend on
+        earlier runs.
         """
         self.step_inspector.leave()
         self.table = table_of(self.scene.name, self.scene.level_file)

@@ -101,7 +101,9 @@ class BusyYard:
         self.ids[number], self.kinds[number] = body.id, name
 
     def _renew_rock(self):
-        """Replace the carved rock by a whole rock. Bodies in its place are removed; the star moves to its start."""
+        """Replace the carved rock by a whole rock. Bodies in its place are removed, except the star, which moves to its
+        start.
+        """
         x, y, width, height = ROCK
         star, numbers = PLACED, {identity: number for number, identity in self.ids.items()}
         for body in self.world.query_aabb((x, y - ROOM), (x + width, y + height)):

@@ -63,7 +63,7 @@ class CardHouse(Scene):
     legend_at = (342, 88)
 
     def build(self):
-        """Build the table; fill() builds the house."""
+        """Build the table; fill() builds the house on it."""
         self.yard = Yard(FLOOR, 60, table=True)
         self.held = None  # [px] motion of its cards in the ten seconds, or None
         self.slipped = False  # the house fell once with too little friction
@@ -173,7 +173,7 @@ class CardHouse(Scene):
         return "" if self.stands(self.cards) else "builds it again"
 
     def draw(self, canvas, alpha):
-        """Draw the table with its cloths, the cards, the words."""
+        """Draw the table with its cloths, the cards, and the text."""
         self.yard.draw(canvas, "HOUSE OF CARDS", "how much friction does it need to stand?")
         for x, _, color in PAIRS:
             left = round(x - CLOTH / 2)
@@ -208,7 +208,11 @@ class CardHouse(Scene):
         canvas.text(word, x, FLOOR - 82, PAPER if still else ORANGE, SMALL, align="center")
 
     def draw_on_frame(self, frame):
-        """Draw a ring at the middle of each moved card, to show where the house gives way."""
+        """Return the goals of the self-check.
+
+        The house stands for ten seconds, the pairs of cards stand or slide as theory predicts, and the house falls at a
+        low friction.
+        """
         lens = frame.lens(self.camera)
         for card in self.cards:
             moved = self.moved(card)
@@ -235,8 +239,8 @@ class CardHouse(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the time that the house stands at its friction, and the two frictions that bracket a
-        pair's need.
+        """Return a sentence with the time for which the house stands at its friction, and with two frictions: a pair of
+        cards stands at one and slides at the other.
         """
         if self.since < 60:
             return "not yet: the cards have to stand, or slide, for a second"

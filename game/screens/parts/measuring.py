@@ -160,7 +160,10 @@ class Measuring:
         self.race = self.split = None
 
     def toggle_split(self) -> str:
-        """Change between split screen and rival drawn over the scene. Return "", or a line to show without a race."""
+        """Toggle between two ways to show a race: split screen, and the rival's outlines over the scene.
+
+        Return "", or a line to show if there is no race.
+        """
         if self.race is None:
             return "no race: the panel starts one, or Shift and a click in the plot of costs"
         self.split = None if self.split is not None else SplitScreen(self.race)
