@@ -136,7 +136,8 @@ class Cradle(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        They are: a step of each channel, over one trip of a ball to its wall and back, with every chain of collisions.
+        A run is a step of one channel. It is timed over one trip of a ball to its wall and back, which includes every
+        chain of collisions.
         """
         worlds = dict(zip(SOLVERS, self.worlds, strict=True))
         return RunRequest(
@@ -165,7 +166,9 @@ class Cradle(Scene):
 
     @property
     def offer(self):
-        """Text that offers a new run if balls of the row move that should rest (they stay disordered); "" otherwise."""
+        """Text that offers a new run once balls of the row that should rest are moving, since they stay in disorder; ""
+        otherwise.
+        """
         return "lays them in anew" if any(self.others(index) > SCATTERED for index in range(len(SOLVERS))) else ""
 
     def views(self):

@@ -214,7 +214,7 @@ class Dominoes(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        All fall, none falls by itself, and the speeds have the ratio two to one.
+        All dominoes fall, none falls before the push, and the speeds of the waves have the ratio two to one.
         """
         ratio = self.ratio()
         angles = [[body.angle for body in row] for row in self.rows]

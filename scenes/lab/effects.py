@@ -51,7 +51,10 @@ class Outcome(NamedTuple):
     work: int  # further bodies moved, pairs tested and rows solved with it; below 0: fewer
 
     def shows(self, name):
-        """Return whether the effect matters. Sleeping moves nothing and reports less, so it has to save work."""
+        """Return whether the effect `name` makes a difference.
+
+        Sleeping is not to change positions or to report more, so it must save work.
+        """
         return self.work < 0 if name == "sleeping" else self.apart > VISIBLE or self.kinds > 0
 
 
@@ -82,7 +85,7 @@ class EffectsLab(Scene):
     legend_at = (198, 60)
 
     def build(self):
-        """Build the yard with all effects; its ghost begins with the first step."""
+        """Build the yard with all effects, and its copy without the selected effect."""
         self.picture = BusyPicture()
         self.real = BusyYard(self._new_world())
         self.real.furnish()
@@ -133,7 +136,9 @@ class EffectsLab(Scene):
             self._show()
 
     def change_slider(self, name, value):
-        """Select another effect, at first on."""
+        """Apply a change of a slider. If another effect is selected, copy the yard anew, and show the yard with that
+        effect.
+        """
         super().change_slider(name, value)
         if name == "effect":
             self.values["it is"] = 1
@@ -171,7 +176,8 @@ class EffectsLab(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        They are: a step of the yard at the first look at an effect, all awake, with the effect and without it.
+        A run is a step of the yard with all bodies awake, from its state when an effect was first selected. There are
+        two for each effect: with it and without it.
         """
         return RunRequest([self._run_name(name, on) for name in self.looked for on in (True, False)], self._make)
 
@@ -240,7 +246,7 @@ class EffectsLab(Scene):
             canvas.text(UNKNOWN if price is None else f"{price:+,.0f}", SIDE - 6, y, PAPER, SMALL, align="right")
 
     def _draw_words(self, canvas):
-        """Draw the stage of the marked effect and the finding on a plate over the sky."""
+        """Draw a plate over the sky with two texts: the stages that only the selected effect needs, and the finding."""
         ours, theirs = self.stages()
         if ours:
             words = f"{plain_name(self.marked)} calls for {', '.join(map(plain_name, ours))}"
@@ -277,7 +283,8 @@ class EffectsLab(Scene):
     def bot(self):
         """Return the bot's input for the next step.
 
-        Its plan: one effect after the other, two seconds beside its ghost, then off for a moment.
+        Its plan: select one effect after the other; show the yard for two seconds with the effect, then for a moment
+        without it.
         """
         turn, step = divmod(self.frame, BOT_NEXT)
         if step == 0:
@@ -285,7 +292,7 @@ class EffectsLab(Scene):
         return frozenset({"fire"} if step == BOT_OFF else ())
 
     def state(self):
-        """Return both clocks, the other world, and the results."""
+        """Return both clocks, the digest of the world that is not shown, and the results."""
         hidden = (self.other if self.is_on else self.real).world
         found = (value for name in NAMES if name in self.found for value in self.found[name])
         reported = (*self.real.reported.tolist(), *self.other.reported.tolist())

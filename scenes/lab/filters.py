@@ -60,7 +60,7 @@ class Filters(Scene):
     hides_pointer = False
 
     def build(self):
-        """Set the masks, then add two discs per cell."""
+        """Set the masks of the kinds, then add two discs to each cell."""
         self.masks = [sum(1 << KINDS.index(other) for other in MEETS[kind]) for kind in KINDS]
         self.marked = (0, 1)
         self.clock = 0.0
@@ -89,7 +89,7 @@ class Filters(Scene):
             bodies["y"][2 * number : 2 * number + 2] = y
 
     def update(self, inputs):
-        """Let clicks and keys switch a cell; swing the discs; compare contacts with the table."""
+        """Process clicks and keys, which toggle a cell; move the discs; compare the contacts with the table."""
         cell = cell_at(*inputs.pointer)
         if inputs.pointer_pressed and cell is not None:
             self.marked = cell
@@ -137,7 +137,7 @@ class Filters(Scene):
         self.filtered += self.world.profile.counters["filtered"]
 
     def draw(self, canvas, alpha):
-        """Draw the grid with its heads, and the words beside it."""
+        """Draw the grid with its headings, and the text beside it."""
         canvas.surface.fill(NIGHT)
         canvas.text("FILTERS", 4, 4, GOLD)
         canvas.text("row says yes to column?", LEFT + 240, 6, FOG, SMALL, align="right")
@@ -231,7 +231,7 @@ class Filters(Scene):
     def bot(self):
         """Return the bot's input for the next step.
 
-        Its plan: three clicks, one yes taken, one given, the first given back.
+        Its plan: three clicks: one removes a kind from a mask, one adds a kind, and one restores the first.
         """
         cell = BOT_CLICKS.get(self.frame)
         if cell is None:

@@ -157,7 +157,9 @@ def draw_plain(surface, shape, zoom, pose, ramp):
 
 
 def draw_mask(surface, mask, zoom, place, ramp):
-    """Draw the pixels of a mask that does not rotate; static ones are darker."""
+    """Draw the pixels of a mask that does not rotate. `ramp`: name of its colours; None: the mask is static and drawn
+    darker.
+    """
     picture = mask_picture(mask, RIM if ramp is None else RAMPS[ramp][1])
     width, height = picture.get_size()
     size = (max(1, round(width * zoom)), max(1, round(height * zoom)))

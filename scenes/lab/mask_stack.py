@@ -124,7 +124,7 @@ class MaskStack(Scene):
         self.tops.append(top)
 
     def _places(self):
-        """Return (kind, x, y) of each sprite: its box touches that of the one below."""
+        """Return (kind, x, y) of each sprite, placed so that its bounding box touches that of the sprite below."""
         kinds = list(self._kinds())
         heights, found = {}, []
         for kind, x in kinds:
@@ -327,7 +327,7 @@ def whole(value):
 
 
 def shapes_of(image, way):
-    """Return (the mask of a sprite, its convex collision shapes)."""
+    """Return (the mask of a sprite, its convex collision shapes). `way`: kind of collision shape, one of WAYS."""
     mask = PixelMask.from_surface(image, smooth=0.0 if way == "exact" else SMOOTH)
     if way == "box":
         left, top, right, bottom = bounds_of(mask)

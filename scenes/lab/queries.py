@@ -275,7 +275,10 @@ class Queries(Scene):
             pygame.draw.rect(frame.surface, faded(PAPER, 0.3), rect, 1)
 
     def _draw_found(self, frame, lens, world):
-        """Draw the outlines of the found shapes."""
+        """Return the runs to time beside the game.
+
+        A run makes the current kind of query at two hundred places of the picture, with one broad phase.
+        """
         ids = {each[0] for each in self.answer}
         rows = [row for row, body in enumerate(world.shapes["body"].tolist()) if body in ids]
         for outline in debug.outlines(world, rows) if rows else ():
@@ -332,7 +335,8 @@ class Queries(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        The same answers from all, to every query; and three visit less than brute force.
+        All four broad phases give the same answers to every query, and three of them visit fewer boxes and nodes than
+        brute force.
         """
         cheaper = all(self.looked[name] < self.looked["brute"] for name in STRATEGIES[:-1])
         return [

@@ -59,6 +59,6 @@ def rows_of(found):
 
 
 def angle_of(origin, target):
-    """Return the angle [rad] of the line from `origin` to `target`, at which the box of overlap queries lies."""
+    """Return the angle [rad] of the line from `origin` to `target`. Overlap queries rotate their box by this angle."""
     dx, dy = target[0] - origin[0], target[1] - origin[1]
     return atan2(dy, dx) if hypot(dx, dy) > 0.0 else 0.0

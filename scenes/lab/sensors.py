@@ -167,7 +167,11 @@ class Sensors(Scene):
                     self.play("blip", 60.0, 0.12)
 
     def _compare(self, before, after):
-        """Compute by geometry which bodies met which zones in this step. After a crossing, compare with the events."""
+        """Compute by geometry which bodies met which zones in this step. After each crossing, compare with the sensor
+        events.
+
+        `before`, `after`: {body id: position} at the start and at the end of the step.
+        """
         for name, zone in self.zones.items():
             half = np.array(ZONES[name][0]) / 2.0
             for identity in [*self.flying, *self.mines]:
@@ -344,7 +348,9 @@ class Sensors(Scene):
         return f"{sentence}, with {self.fastest:.0f} px in a step through zones down to 1 px"
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: watch, and make both faster."""
+        """Return the bot's input for the next step. Its plan: watch, then raise the speeds of the saucers and of the
+        scanner.
+        """
         faster = 200 <= self.frame < 250 and self.frame % 4 == 0
         tap = "right" if faster else "up" if self.frame in (320, 330) else ""
         return InputFrame(frozenset((tap,))) if tap else frozenset()

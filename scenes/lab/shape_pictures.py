@@ -16,7 +16,10 @@ MARGIN = 12  # [canvas px] around the picture of the differences
 
 
 def draw_shadows(frame, lens, placed, axes, colors):
-    """Draw the tested axes as short strokes on their edges, and both projections on a ruler along the best axis."""
+    """Draw the tested axes as short strokes on their edges, and both projections on a ruler along the best axis.
+
+    `placed`: (corners, radius) of both shapes; `axes`: AXIS rows, the best first; `colors`: of both shapes.
+    """
     for row in axes[::-1]:
         points, radius = placed[int(row["owner"])]
         edge = int(row["edge"])

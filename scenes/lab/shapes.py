@@ -176,7 +176,7 @@ class Shapes(Scene):
         self.worst["axis"] = max(self.worst["axis"], abs(float(self.axes[0]["separation"]) - gap.distance))
 
     def draw(self, canvas, alpha):
-        """Draw grounds, icons and numbers; the geometry is drawn at window resolution."""
+        """Draw the backgrounds, icons and numbers; the geometry is drawn at window resolution."""
         canvas.surface.fill(NIGHT)
         canvas.text("SHAPES", 4, 4, GOLD)
         canvas.text("distance, depth and how they are found", 302, 6, FOG, SMALL, align="right")

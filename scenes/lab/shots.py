@@ -26,9 +26,9 @@ SAMPLE = 0.1  # [px] between two samples of the slow reference for rods
 def aim(kind, speed, plate, random):
     """Choose a shot at random. Return (shots, gap).
 
-    `shots`: list of (shape, place, velocity, angle, spin), two for bullets that meet. The start varies by the path of a
-    step, so that impacts occur at any time of a step. `gap`: least distance from the target by geometry [px], negative
-    if they must meet.
+    `shots`: list of (shape, place, velocity, angle, spin), two for bullets that fly at each other. The start varies by
+    the path of a step, so that impacts occur at any time of a step. `gap`: least distance of the shot from its target
+    by geometry [px], negative if they must meet.
     """
     start = GUN_X + random.uniform(0.0, speed / 60)
     if kind == "balls":

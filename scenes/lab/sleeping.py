@@ -187,7 +187,8 @@ class Sleeping(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        They are: a step of these heaps while all sleep, and of the same heaps in a world without sleeping.
+        There are two: a step of these heaps while all bodies sleep, and a step of the same heaps in a world without
+        sleeping.
         """
         if self.awake or not self.asleep or self.thrown:
             return None
@@ -300,7 +301,7 @@ class Sleeping(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        All fall asleep and cost nothing; a knock wakes one island first, then others; then all sleep again.
+        All bodies fall asleep and cost nothing; a knock wakes first one island, then others; at last all sleep again.
         """
         woken = sum(count for _, count in self.waves)
         slept = f"after {self.slept_at} steps" if self.slept_at >= 0 else f"{self.awake} awake"

@@ -146,7 +146,8 @@ class Tumbler(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        They are: a step of this drum once the load has settled, with the current number of substeps and another.
+        There are two: a step of this drum once the load has settled, with the current number of substeps and with
+        another number.
         """
         return RunRequest(list(self.ways().values()), self._make) if self.since > SETTLED else None
 

@@ -64,9 +64,10 @@ class Larger:
 
 @dataclass(frozen=True)
 class Page:
-    """A hard case. The expected result: the error of the naive way exceeds `limit`, and that of the other does not.
+    """A hard case. The expected result: the error in the naive way's world exceeds `limit`, the error in the engine's
+    world does not.
 
-    If `alike`, both must stay within the limit.
+    If `alike`, both errors must stay within the limit.
     """
 
     name: str
