@@ -20,7 +20,7 @@ from scenes.lander.yard import Yard
 
 
 class Lander(Scene):
-    """The lander. Knocks of the ship and of the cargo are impulses of the solver."""
+    """The lander. Damage to the ship and to the cargo follows from the contact impulses of the solver."""
 
     name = "lander"
     title = "Lander"

@@ -201,7 +201,9 @@ class BlastWall:
         return Rubble(body, self, round(x - mask.origin[0]) - self.left, round(y - mask.origin[1]) - self.top)
 
     def _cracks(self, x, y):
-        """Return a mask of cracks, as large as the wall: they fan out from (x, y) [px], and others run across."""
+        """Return a mask of cracks, as large as the wall. Some cracks fan out from (x, y) [px]; others run across the
+        wall.
+        """
         random, (width, height) = self.world.random, self.size
         solid = np.zeros((height, width), bool)
         at = (min(max(x - self.left, 0.0), width), min(max(y - self.top, 0.0), height))

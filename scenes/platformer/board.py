@@ -114,7 +114,9 @@ def _draw_title(canvas, look):
 
 
 def _draw_signs(canvas, scene):
-    """Draw the text of the sign that the hero stands at. It is at the bottom, where it never hides him."""
+    """Draw the text of the sign at which the hero stands. The text is at the bottom of the picture, where it never
+    hides him.
+    """
     x, y = scene.hero.character.position
     for sign in scene.level.map.things_of("sign"):
         if abs(x - sign.x - sign.width / 2) < SIGN_REACH[0] and abs(y - sign.y) < SIGN_REACH[1]:

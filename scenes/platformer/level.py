@@ -141,7 +141,9 @@ class Level:
         return PLANK in under and under <= {PLANK, EMPTY}
 
     def plank_within(self, left, right, bottom, reach):
-        """Return whether feet at y = bottom, from x = left to right [px], are in a plank by at most `reach` px."""
+        """Return whether feet at y = bottom, from x = left to right [px], are in a plank, at most `reach` px below its
+        top.
+        """
         row = (bottom - 1) // self.tile
         if not 0 < bottom - row * self.tile <= reach:
             return False

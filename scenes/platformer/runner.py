@@ -25,7 +25,7 @@ KICK_SPEED = -90.0  # [px/s] vy above which the bot kicks off a wall (up is nega
 
 
 class Runner:
-    """The bot. `next`: index of the hint it heads for; `kept`: the same at the last checkpoint."""
+    """The bot. `next`: index of the hint it heads for; `kept`: the value of `next` at the last checkpoint."""
 
     def __init__(self):
         self.next = self.kept = 0

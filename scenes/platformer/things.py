@@ -251,7 +251,7 @@ class Crate:
         return (row["x"] - row["previous_x"]) * way > SLIDES
 
     def launch(self):
-        """Throw the crate up by a spring: as high as the hero, whatever the crate's mass."""
+        """Throw the crate up by a spring: as high as a spring throws the hero, whatever the crate's mass."""
         vx, vy = self.body.velocity
         mass = self.body.mass
         self.body.apply_impulse(((SPRING_KEEPS - 1.0) * vx * mass, -(SPRING_SPEED + vy) * mass))

@@ -38,7 +38,7 @@ def step_naively(side, bodies, substeps, share):
 
     `bodies`: the dynamic bodies, each solved by itself against static and kinematic bodies. `share`: part of the
     overlap that a step removes, by a velocity that the body keeps afterwards. All substeps use the moment arms of the
-    start of the step. Both are the errors that the gallery shows.
+    start of the step. The kept velocity and the old moment arms are the two errors that the gallery shows.
     """
     world, gravity = side.world, side.other.world.gravity
     ends = [solved_step(world, body, gravity, substeps, share) for body in bodies]
@@ -48,9 +48,10 @@ def step_naively(side, bodies, substeps, share):
 
 
 def solved_step(world, body, gravity, substeps, share):
-    """Solve the contacts of a body for a step, and give it the mean velocity of the step, by which the world moves it.
+    """Solve the contacts of a body for one step, and set its velocity to the mean over the substeps; the world then
+    moves it by this velocity.
 
-    Return its Motion at the end of the step.
+    Return its Motion at the end of the step. `share`: see step_naively().
     """
     row = world.bodies[world.rows([body.id])[0]]
     pushes = pushes_on(world, body, row, share)
@@ -72,7 +73,9 @@ def solved_step(world, body, gravity, substeps, share):
 
 
 def pushes_on(world, body, row, share):
-    """Return a Push for each contact of a body at the end of the last step. `row`: its row in world.bodies."""
+    """Return a Push for each contact of a body at the end of the last step. `row`: the body's row in world.bodies;
+    `share`: see step_naively().
+    """
     found, middle = [], (float(row["center_x"]), float(row["center_y"]))
     for contact in world.contacts:
         pair = int(contact["body_a"]), int(contact["body_b"])
