@@ -46,7 +46,7 @@ RANGES: dict[str, tuple[float, float]] = {
 
 @dataclass(frozen=True)
 class Note:
-    """One note: pitches (several: a rapid arpeggio) or drums, from step `start` for `steps`."""
+    """One note, from step `start` on for `steps` steps: its pitches (several: a rapid arpeggio), or drums."""
 
     start: int
     steps: int

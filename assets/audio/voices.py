@@ -36,7 +36,11 @@ def falling(seconds, constant):
 
 
 def tone(instrument, pitches, seconds, slide_from=None, vibrato=None):
-    """Return samples at FINE of one note of `seconds`, followed by its release. slide_from: the pitch before."""
+    """Return samples at the rate FINE of one note of `seconds`, followed by its release.
+
+    slide_from: MIDI pitch from which the note slides to its own, or None. vibrato: depth [cents]; None: the
+    instrument's.
+    """
     count = int((seconds + instrument.release) * FINE)
     time = np.arange(count) / FINE
     phase = np.cumsum(_pitch_curve(instrument, pitches, time, slide_from, vibrato)) / FINE

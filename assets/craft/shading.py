@@ -124,8 +124,8 @@ def flashed(pixels):
 
 
 def glow(size, ramp, brightest=0.70):
-    """Return a disc of light for additive blending: opaque, black outside, dithered falloff; brightest 0..1 in its
-    middle.
+    """Return a disc of light for additive blending: opaque, black outside, with a dithered falloff. brightest:
+    brightness of its middle, 0..1.
     """
     x, y = grid(size, size)
     fall = np.clip(1 - length(x - size / 2, y - size / 2) / (size / 2), 0, 1)

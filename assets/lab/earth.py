@@ -35,7 +35,10 @@ def solid():
 
 
 def depth_of(earth):
-    """Return the distance from the nearest open pixel [px], up to DEEPEST; the picture's sides are continued."""
+    """Return the distance of each pixel of earth from the nearest open pixel [px], up to DEEPEST.
+
+    Beyond the sides of the picture, the pixels of its edge are repeated.
+    """
     left, found = np.pad(earth, 1, mode="edge"), np.zeros(earth.shape, int)
     for _ in range(DEEPEST):
         found += left[1:-1, 1:-1]

@@ -43,8 +43,8 @@ GEMS, CLUSTER = 62, 9  # clusters of crystals, and the extent of each [px]
 
 
 def boulders(seed, count):
-    """Return (edge, facing): px to the nearest crack between boulders, and how far a boulder's side faces the light;
-    CELL².
+    """Return (edge, facing), arrays (CELL, CELL): distance to the nearest crack between boulders [px], and how far the
+    boulder's side faces the light.
     """
     random = np.random.default_rng(seed)
     middles = random.random((count, 2)) * CELL

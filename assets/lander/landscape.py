@@ -84,7 +84,7 @@ def _inside(x, y, points):
 
 
 def _near(solid, x, y, points, reach, change):
-    """Apply a change to the part of the picture that contains the points and `reach` px around them."""
+    """Call change(solid, x, y) for the part of these arrays that contains the points and `reach` px around them."""
     reach += MARGIN
     left, right = (max(0, int(f(p[0] for p in points) + s * reach)) for f, s in ((min, -1), (max, 1)))
     top, bottom = (max(0, int(f(p[1] for p in points) + s * reach)) for f, s in ((min, -1), (max, 1)))
@@ -107,7 +107,7 @@ def _filled(points):
 
 
 def _around(pixels, far=1, ways=(*ACROSS, *DOWN)):
-    """Return these pixels and those at that distance [px] from them, in these directions."""
+    """Return the given pixels and those at the distance `far` [px] from them in the directions `ways`."""
     out = pixels.copy()
     for dx, dy in ways:
         out |= shifted(pixels, far * dx, far * dy)
@@ -115,7 +115,8 @@ def _around(pixels, far=1, ways=(*ACROSS, *DOWN)):
 
 
 def _crack(rock, ice):
-    """Return the crack between a mountain over a cave and the ground, where ice joins them: halfway, a pixel wide.
+    """Return the crack between ground and a mountain over a cave, where ice joins them: in the middle of the ice, a
+    pixel wide.
 
     So the mountain is a separate piece from the start, and stays in place when all the ice is shot away.
     """
@@ -144,7 +145,9 @@ def _hanging(rock):
 
 
 def _level(solid, ice, massif, pad):
-    """Level the ground for a pad's feet, and clear the air over it; under open sky no mountain is behind that air."""
+    """Level the ground for a pad's feet, and clear the air over it. If the pad is under open sky, remove that air from
+    `massif`, too.
+    """
     left, right = pad["x"] - pad["width"] // 2 - SHOULDER, pad["x"] + pad["width"] // 2 + SHOULDER
     floor = pad["floor"]
     solid[floor : floor + 40, left:right] = True

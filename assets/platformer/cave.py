@@ -17,8 +17,8 @@ WALL_DARK = (18, 17, 38)
 
 
 def _cells(seeds):
-    """Return (own, next, slope): distance to the nearest and second nearest middle, and how far a pixel faces the
-    light.
+    """Return (own, next, slope), each (TILE, TILE): distance of a pixel to the nearest and the second nearest point of
+    `seeds` [px], and how far the pixel faces the light.
     """
     y, x = np.mgrid[0:TILE, 0:TILE] + 0.5
     nearest, second, facing = np.full(x.shape, 99.0), np.full(x.shape, 99.0), np.zeros(x.shape)

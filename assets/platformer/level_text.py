@@ -63,7 +63,8 @@ def _sections(text, source):
 
 
 def _numbers(line, count, source, rule):
-    """Return that many whole numbers of a line, as a tuple."""
+    """Return `count` whole numbers of a line, as a tuple. Raises ValueError, with `rule` as text, for any other line.
+    """
     try:
         values = [int(word) for word in line.split()]
     except ValueError:
@@ -82,7 +83,9 @@ def _platform(line, source):
 
 
 def _zone(line, source):
-    """Return (act, rectangle, rows that the camera may show or None), tiles."""
+    """Return (act, rectangle, rows) of a zone, in tiles. rectangle: (x, y, width, height); rows: (top, bottom) that the
+    camera may show, () if not given.
+    """
     act, _, rest = line.partition(" ")
     if act not in ACTS:
         raise ValueError(f"{source}: a zone is one of {', '.join(ACTS)} (got {line!r})")

@@ -105,8 +105,9 @@ def _pixels(rect):
 
 
 def walking_range(level, x, y, most=4):
-    """Return how far a walker may go to either side [px], at most so many tiles: flat free ground, or the deck under
-    it.
+    """Return how far a walker at a tile may go to either side [px], at most `most` tiles.
+
+    It may go as far as the ground is flat and free; on a platform, to the ends of the deck.
     """
     deck = _deck(level, x, y + 1)
     for step in range(1, most + 1):

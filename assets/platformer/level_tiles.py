@@ -131,8 +131,10 @@ def decor_names(level):
 
 
 def _wall_behind(level, x, y):
-    """Return the wall behind a tile: its own letter's, else that of the nearest tile in its row that is no thing, or
-    None.
+    """Return the name of the wall behind a tile, or None.
+
+    A letter for a wall names it. Behind a thing, the wall is that of the nearest tile in the row that is no thing;
+    behind a plank, it may also be that of the tile below.
     """
     if level.at(x, y) in WALLS:
         return WALLS[level.at(x, y)]

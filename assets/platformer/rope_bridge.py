@@ -54,6 +54,6 @@ def ropes():
 
 
 def add_rope_bridge(sheet):
-    """Put both pictures on a sheet."""
+    """Add the pictures of this module to a sheet."""
     sheet.add("bridge", boards())
     sheet.add("bridge_ropes", ropes())

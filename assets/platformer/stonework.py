@@ -48,7 +48,7 @@ def crumble(look):
 
 
 def crumble_bit(kind):
-    """Return a fallen bit of it, kind 0..2: 8 x 8 px."""
+    """Return a fallen bit of the crumbling stone, kind 0..2: 8 x 8 px."""
     sprite = Sprite(8, 8)
     points = (
         ((1.4, 2), (4.4, 1.2), (6.6, 3.4), (5.6, 6.4), (2.2, 6.4)),
@@ -135,7 +135,7 @@ def gem(frame):
 
 
 def add_stonework(sheet):
-    """Put all of it on a sheet."""
+    """Add the pictures of this module to a sheet."""
     for look in range(4):
         sheet.add(f"crumble_{look}", crumble(look))
     for kind in range(3):

@@ -44,7 +44,7 @@ FRINGE = np.array([3, 4, 3, 5, 4, 3, 3, 4, 5, 4, 3, 4, 3, 3, 5, 4])  # [px] dept
 
 
 def reduced(mask):
-    """Drop the invisible corner bits: those without both of their sides."""
+    """Return a mask without its invisible corner bits: those without both of their sides."""
     for corner, first, second in CORNERS:
         if not (mask & first and mask & second):
             mask &= ~corner

@@ -16,7 +16,7 @@ BANKS = {
 
 
 def player(bank):
-    """Draw one frame of the player's plane. bank: a key of BANKS."""
+    """Return one frame of the player's plane. bank: a key of BANKS."""
     left, right, spine, light_left, light_right = BANKS[bank]
     sprite = Sprite(SIZE, SIZE)
     centre = SIZE / 2

@@ -47,7 +47,7 @@ def hill_light(height):
 
 
 def border(land):
-    """Return the pixels just outside of an area that wraps around."""
+    """Return the pixels just outside of the area `land`, in a picture that wraps around."""
     around = np.zeros_like(land)
     for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
         around |= np.roll(land, (dy, dx), (0, 1))

@@ -78,7 +78,10 @@ class Pilot:
         return scene.stricken > 0 or (not scene.plane.safe and doomed) or crowded
 
     def _danger(self, scene, x, y, place_x, place_y):
-        """Return two arrays over the plans: the cost of coming near to threats, and whether the plan is hit soon."""
+        """Return two arrays over the plans: the cost of coming near to threats, and whether the plan is hit soon.
+
+        (x, y): place of the plane [px]; `place_x`, `place_y`: its predicted places [px], arrays [plan, moment].
+        """
         ahead_x, ahead_y, radius = threats(scene, x, y)
         if not len(radius):
             return np.zeros(len(place_x)), np.zeros(len(place_x), bool)
@@ -100,7 +103,9 @@ class Pilot:
         return cost, doomed
 
     def _distance(self, scene, x, y, end_x, end_y):
-        """Return an array over the plans: the cost of the distance from the plan's end to a target or pick-up."""
+        """Return an array over the plans: the cost of the distance from the plan's end (`end_x`, `end_y`) to a target
+        or pick-up.
+        """
         goal_x, goal_y, pull = 240.0, LINE_Y, 0.004
         prey = [
             e for e in scene.fleet.planes.values() if -20 < e.y < y - 30 and e.mode not in ("dive", "fall", "leave")

@@ -123,7 +123,9 @@ class Shooter(Scene):
         self._read_events()
 
     def _last_moment(self, inputs):
-        """Process one of the steps after a hit: a bomb still saves the plane; else it is lost at the end of them."""
+        """Process one of the steps after a hit: a bomb dropped now still saves the plane. After the last of these
+        steps, the plane is lost.
+        """
         self.stricken -= 1
         if inputs.pressed("bomb") and self.plane.bombs and self.bomb.body is None:
             self.stricken, self.freeze, self.hit_by = 0, 0, []

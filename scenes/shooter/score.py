@@ -48,25 +48,26 @@ class Score:
         self.hold = min(max(self.hold, 0) + hold, HOLD)
 
     def kill(self, enemy):
-        """Count a kill and add its points. Return them."""
+        """Count a kill and add its points. Return these points."""
         if enemy.kind in self.kills:
             self.kills[enemy.kind] += 1
         self._link(HOLD)
         return self._add(enemy.points * self.times)
 
     def graze(self, count):
-        """Count `count` grazes and add their points. Return them."""
+        """Count `count` grazes and add their points. Return these points."""
         for _ in range(count):
             self.grazes += 1
             self._link(GRAZE_HOLD)
         return self._add(GRAZE * count * self.times)
 
     def burn(self, count):
-        """Add the points for `count` bullets removed by a bomb or at the end of a leader's phase. Return them."""
+        """Add the points for `count` bullets removed by a bomb or at the end of a leader's phase. Return these points.
+        """
         return self._add(BURNT * count)
 
     def whole_wave(self):
-        """Count a wave that was shot down completely, and add its points. Return them."""
+        """Count a wave that was shot down completely, and add its points. Return these points."""
         self.waves += 1
         return self._add(WHOLE_WAVE * self.times)
 
@@ -89,7 +90,9 @@ class Score:
         self.chain = self.hold = 0
 
     def go_on(self):
-        """Continue after the last life: points start again at the number of continues, which is their last digit."""
+        """Continue after the last life. The points start again at the number of continues, so that their last digit
+        shows this number.
+        """
         self.continues += 1
         self.points, self.next_life = self.continues, FIRST_LIFE
         self.chain = self.hold = 0

@@ -128,7 +128,8 @@ class Wreckage:
         return [(identity, piece) for identity, piece in self.pieces.items() if piece.age >= piece.life]
 
     def strikes(self, begun, fleet):
-        """Yield (id of a piece, small plane, contact point [px]) for each contact between both that began in this step.
+        """Yield (id of the piece, plane, contact point [px]) for each contact of a piece with a small plane that began
+        in this step.
 
         `begun`: the step's begin events.
         """
