@@ -63,8 +63,7 @@ def _sections(text, source):
 
 
 def _numbers(line, count, source, rule):
-    """Return `count` whole numbers of a line, as a tuple. Raises ValueError, with `rule` as text, for any other line.
-    """
+    """Return `count` whole numbers of a line, as a tuple. Raises ValueError, with the text `rule`, otherwise."""
     try:
         values = [int(word) for word in line.split()]
     except ValueError:

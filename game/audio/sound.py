@@ -166,8 +166,7 @@ class Sounds:
         return least if least.rank <= rank else None
 
     def _variant(self, name):
-        """Return the sound `name` at a random pitch that differs from its previous one; None if its file is unusable.
-        """
+        """Return the sound `name` at a random pitch, other than its last one; None if its file is unusable."""
         if name not in self.samples:
             self.samples[name] = self._read(name)
         samples = self.samples[name]

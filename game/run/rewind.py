@@ -150,8 +150,7 @@ class Rewind:
         return self._cost() <= min(DEAREST, 0.5 * max(last.spent, enough))
 
     def _cost(self):
-        """Return the expected time of taking a key frame [s], from the least time per byte among the last key frames.
-        """
+        """Return the expected time of taking a key frame [s], from the least time per byte of the last ones."""
         return min(self.rates) * _weight(self.session.scene)
 
     def _begin_stretch(self):

@@ -173,8 +173,7 @@ class Carving(Scene):
         return carved.removed
 
     def measured(self):
-        """Return the runs to time beside the game: the current tool carves at up to sixty places of the current ground.
-        """
+        """Return the runs to time beside the game: the current tool carves at up to sixty places of the ground."""
         if self.tool.name == "hand" or self.ground not in self.world:
             return None
         masks = self.world.body(self.ground).shapes

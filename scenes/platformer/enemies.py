@@ -92,8 +92,7 @@ class Walker(Creature):
         self.left_at = x
 
     def place_after(self, seconds):
-        """Return the predicted x [px] after `seconds`. The enemy turns at the ends of its range; obstacles are ignored.
-        """
+        """Return the predicted x [px] after `seconds`. It turns at the ends of its range; obstacles are ignored."""
         if not self.range:
             return self.character.position[0]
         there = self.character.position[0] + self.way * WALK_SPEED[self.kind] * seconds
@@ -170,8 +169,7 @@ class Bat(Creature):
         """Stay in place for one step, because the hero is far away."""
 
     def _return(self, x, y):
-        """Fly back to the start for one step. If rock is in the way, move there at once after 3 FLIGHT seconds in all.
-        """
+        """Fly back to the start for one step. After 3 FLIGHT seconds in all (rock in the way), move there at once."""
         way = HOME_SPEED * STEP_SECONDS
         dx, dy = self.start[0] - x, self.start[1] - y
         far = max(abs(dx), abs(dy), 1e-9)

@@ -62,8 +62,7 @@ class Score:
         return self._add(GRAZE * count * self.times)
 
     def burn(self, count):
-        """Add the points for `count` bullets removed by a bomb or at the end of a leader's phase. Return these points.
-        """
+        """Add the points for `count` bullets removed by a bomb or at the end of a leader's phase. Return the points."""
         return self._add(BURNT * count)
 
     def whole_wave(self):

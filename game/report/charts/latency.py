@@ -65,8 +65,7 @@ def measure(scene: str, where: str, frames: int) -> list[Row]:
 
 
 def _peaks(made, frames):
-    """Return (frames,) [bytes]: the greatest memory that each step held, less the memory held at the start of the step.
-    """
+    """Return (frames,) [bytes]: greatest memory held during each step, minus the memory held at its start."""
     session, found = Session(made(0), BotSource()), []
     for _ in range(5):
         session.step()
