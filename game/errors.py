@@ -82,7 +82,9 @@ def share(texts: Sequence[object], room: int) -> list[str]:
 
 
 def unknown_name(what: str, name: object, valid: Iterable[str]) -> UsageError:
-    """Return a UsageError for a name that is not in `valid`, with the nearest valid name as a hint."""
+    """Return a UsageError for a name that is not in `valid`, with the nearest valid name as a hint. what: the kind of
+    name, such as "scene".
+    """
     from difflib import get_close_matches
 
     valid = list(valid)

@@ -248,7 +248,9 @@ class Scene:
             self.monitor.note(self.frame, self.worlds)
 
     def watch_invariants(self, on: bool = True, strict: bool = False) -> None:
-        """Start or stop checking the invariants of all worlds after every step. strict: see InvariantMonitor."""
+        """Start checking the invariants of all worlds after every step, or stop it if `on` is False. strict: see
+        InvariantMonitor.
+        """
         self.monitor = InvariantMonitor(strict) if on else None
         for world in self.worlds:
             world.watch = None
@@ -322,7 +324,9 @@ class Scene:
             world.solver = name
 
     def set_substeps(self, count: Any) -> None:
-        """Set the number of substeps of every world during a game; "auto" adapts it to the loads."""
+        """Set the number of substeps of every world during a game. count: a number, or "auto", which adapts the number
+        to the loads.
+        """
         self.substeps = count
         for slider in self.sliders:
             if slider.name == "substeps" and count != "auto" and slider.low <= count <= slider.high:
@@ -358,7 +362,7 @@ class Scene:
         self.camera.shake_share = accessibility.shake
 
     def play(self, sound: str, x: float | None = None, volume: float = 1.0) -> None:
-        """Queue a sound effect. x: canvas position for the pan; None: the middle."""
+        """Queue a sound effect. x: canvas position for the pan; None: the middle. volume: 0..1."""
         self.cues.append((sound, x, volume))
 
     @property

@@ -145,7 +145,7 @@ class Sounds:
         return voice
 
     def _lose(self, error):
-        """Switch to silence after the device was removed, and report that in one line."""
+        """Switch to silence after the sound device was removed, and report that in one line with the `error`."""
         self.silent_because = f"the sound device is gone ({error})"
         self.report(f"{self.silent_because}; the game goes on in silence")
 

@@ -141,7 +141,7 @@ class Canvas:
         return [(self.surface.subsurface(rect).copy(), rect.topleft) for rect in inside if rect.width and rect.height]
 
     def put_back(self, lifted: list[tuple[pygame.Surface, tuple[int, int]]]) -> None:
-        """Draw the copies from lift() on top."""
+        """Draw the copies returned by lift() over the canvas. lifted: the result of lift()."""
         for picture, place in lifted:
             self.surface.blit(picture, place)
 

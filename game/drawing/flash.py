@@ -25,7 +25,9 @@ class Flash:
         self.begun = []
 
     def start(self, strength: float = 1.0, color: Color = (255, 255, 255)) -> bool:
-        """Start a flash, unless MOST began within SPAN. Return whether it started."""
+        """Start a flash of `strength` 0..1, unless MOST flashes began within the last SPAN steps. Return whether it
+        started.
+        """
         self.begun = [step for step in self.begun if self.now - step < SPAN]
         if len(self.begun) >= MOST:
             return False

@@ -43,7 +43,7 @@ def icons(
 
 
 def bar(canvas: Canvas, rect: Box, share: float, color: Color, ground: Color = INK) -> pygame.Rect:
-    """Draw a bar filled to `share` 0..1 and return its rect."""
+    """Draw a bar filled to `share` 0..1, over the colour `ground`, and return its rect."""
     rect = pygame.Rect(rect)
     canvas.surface.fill(ground, rect)
     canvas.surface.fill(

@@ -61,7 +61,8 @@ class Particles:
         """Throw `count` particles from (x, y) [world px].
 
         ramp: colours from hot to cold. speed [px/s], life [s] and size [px] are (low, high) ranges. angle and spread
-        [rad] aim the cone. carry: velocity [px/s] that is added to all, such as the velocity of a wreck.
+        [rad] aim the cone. drag [1/s] slows the particles, gravity [px/s2] pulls them down. carry: velocity [px/s] that
+        is added to all, such as the velocity of a wreck.
         """
         if ramp not in self.colors:
             self.colors.append(ramp)

@@ -72,7 +72,9 @@ class RotatedPicture:
 
 
 def poses_between(bodies: np.ndarray, alpha: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return x, y [px] and angle [rad] of BODY rows, interpolated between the last two steps by alpha, 0 to 1."""
+    """Return x, y [px] and angle [rad] of the BODY rows `bodies`, interpolated between the last two steps by alpha, 0
+    to 1.
+    """
     x, y, angle = (
         bodies["previous_" + name] + (bodies[name] - bodies["previous_" + name]) * alpha for name in ("x", "y", "angle")
     )

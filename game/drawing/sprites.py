@@ -31,7 +31,7 @@ class Animation:
         return number % len(self.images) if loop else min(number, len(self.images) - 1)
 
     def at(self, seconds: float, loop: bool = True) -> pygame.Surface:
-        """Return the image that is shown `seconds` after the start."""
+        """Return the image that is shown `seconds` after the start. Without `loop` the last image stays."""
         return self.images[self.index_at(seconds, loop)]
 
     @property
@@ -115,7 +115,9 @@ class RotatedSprites:
         return self
 
     def draw(self, canvas: Canvas, camera: Camera, x: float, y: float, angle: float, alpha: float = 1.0) -> None:
-        """Draw the sprite with its mask's origin at world (x, y), as the physics places the mask on the pixel grid."""
+        """Draw the sprite, rotated by `angle` [rad], with its mask's origin at world (x, y), rounded as the physics
+        places the mask on the pixel grid.
+        """
         image, origin = self.at(angle)
         left, top = camera.view(alpha)
         place_x = floor(x - origin[0] + 0.5) - left + camera.viewport.x
@@ -132,8 +134,9 @@ class RotatedSprites:
 
 
 def pick_pixels(image: pygame.Surface, turned: Any) -> pygame.Surface:
-    """Return the picture of a rotated mask: each solid pixel has the colour of the pixel of `image` that it comes
-    from.
+    """Return the picture of a rotated mask: each solid pixel has the colour of the pixel of `image` that it comes from.
+
+    turned: the rotated mask; source_x and source_y are the places in `image` of its pixels.
     """
     height, width = turned.solid.shape
     out = pygame.Surface((max(width, 1), max(height, 1)), pygame.SRCALPHA)

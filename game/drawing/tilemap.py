@@ -70,7 +70,7 @@ class TileMap:
         return self.columns * self.tile_size, self.rows * self.tile_size
 
     def kind_of(self, number: int) -> str:
-        """Return the kind of a tile, one of KINDS; a tile without the property is decor."""
+        """Return the kind of the tile `number`, one of KINDS; "decor" if the tileset gives it none."""
         return self.tiles.get(int(number), {}).get("kind", "decor")
 
     def grid(self, layer: str = "solid") -> TileGrid:

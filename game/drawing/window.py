@@ -58,7 +58,11 @@ def set_mode(settings: Settings) -> pygame.Surface:
 
 
 def _open(size, flags, vsync):
-    """Open the window, without vsync if the system has none: the game loop's own timing then sets the rate."""
+    """Open the window with vsync if wanted, and without vsync if the system has none: the game loop's own timing then
+    sets the rate.
+
+    flags: pygame's flags of the display mode.
+    """
     if vsync and pygame.display.get_driver() not in ("dummy", "offscreen"):
         try:
             with warnings.catch_warnings():

@@ -23,7 +23,8 @@ def ghost_path(table: str) -> Path:
 
 
 def load_ghost(table: str) -> tuple[list[tuple] | None, float | None, str]:
-    """Return (trail, seconds, message) of the best run so far. Trail and seconds are None if there is no usable file.
+    """Return (trail, seconds, message) of the best run so far in a high-score table. Trail and seconds are None if
+    there is no usable file.
 
     The message reports an unusable file; it is "" otherwise.
     """

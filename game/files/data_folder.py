@@ -17,7 +17,10 @@ OVERRIDE = "HITBOX_DATA"  # variable with a folder; set by tests, or by a player
 
 
 def data_folder(environment: Mapping[str, str] | None = None, platform: str | None = None) -> Path:
-    """Return the folder of this user's files. It is not created here (see write_atomically)."""
+    """Return the folder of this user's files. The folder is not created here (see write_atomically).
+
+    environment, platform: for tests; None: os.environ and sys.platform.
+    """
     environment = os.environ if environment is None else environment
     platform = sys.platform if platform is None else platform
     if environment.get(OVERRIDE):
@@ -52,7 +55,9 @@ def is_there(path: Path) -> bool:
 
 
 def free_name(folder: Path, scene_name: str, suffix: str = ".json") -> Path:
-    """Return the path of a new file, named after the scene and the time. No file of this name exists yet."""
+    """Return the path of a new file in `folder`, named after the scene and the time, with this suffix. No file of that
+    name exists yet.
+    """
     name = f"{scene_name.replace('/', '-')}-{strftime('%Y%m%d-%H%M%S')}"
     path, number = folder / f"{name}{suffix}", 2
     while path.exists():
@@ -124,7 +129,8 @@ def keep_beside(path: str | Path, why: str = "damaged") -> Path:
 
 
 def refusal(path: Path, place: str, reason: str, instead: str, why: str = "damaged") -> str:
-    """Keep a copy of an unusable file. Return one line with the error, with `instead`, and with the name of the copy.
+    """Keep a copy of an unusable file. Return one line with the error (path, place in the file, reason), with
+    `instead`, and with the name of the copy.
 
     instead: what the game uses in place of the file's content. why: word in the name of the copy, see keep_beside.
     """

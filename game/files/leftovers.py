@@ -18,7 +18,7 @@ FOLDERS = ("", "ghosts", "replays", "replays/recent", "screenshots")  # of the d
 
 
 def remove_leftovers(folder: Path, inside: Iterable[str] = FOLDERS) -> None:
-    """Remove the old partial files in these subfolders of a folder; ignore folders that cannot be read."""
+    """Remove the old partial files in the subfolders `inside` of a folder; ignore folders that cannot be read."""
     for name in inside:
         place = folder / name
         with contextlib.suppress(OSError, ValueError):

@@ -165,7 +165,7 @@ def key_name(code: int) -> str | None:
 
 
 def shown(control: str) -> str:
-    """Return the text that stands for a key or button on screen."""
+    """Return the text that stands for a control, a key or button, on screen."""
     return PICTURED.get(control, control.capitalize())
 
 

@@ -119,8 +119,8 @@ class Drag:
 
 
 def _goes_on(hold, views):
-    """Return whether the hold can continue: its world is in `views` (not so after the scene was rebuilt), and its body
-    exists and can still be held.
+    """Return whether the hold can continue. It cannot if its world is not in `views` (the scene was rebuilt), or if its
+    body is gone or can no longer be held.
     """
     return any(world is hold.world for world, _ in views) and hold.is_there() and can_be_held(hold.body)
 
@@ -144,7 +144,9 @@ def _pull(hold, target):
 
 
 def to_world(camera: View, pointer: tuple[float, float]) -> tuple[float, float]:
-    """Return the world point under a canvas point, without the shake, which the settings may switch off."""
+    """Return the world point under the canvas point `pointer`, as if the camera did not shake: the settings may switch
+    the shake off.
+    """
     view = camera.viewport
     return (pointer[0] - view.x) / camera.zoom + camera.x, (pointer[1] - view.y) / camera.zoom + camera.y
 

@@ -48,10 +48,11 @@ def rebind(table: dict[str, list[str]], device: str, action: str, control: str |
 
 
 def _make_room(table, device, other, control, given_up):
-    """Take `control` away from the action `other`, and give `other` a different control if possible: `given_up`, if it
-    is free.
+    """Take `control` away from the action `other` in a table {action: controls}, and give `other` another control if
+    possible.
 
-    Return the line for the player; None if `other` would be left without a control.
+    device: "keys" or "buttons". given_up: the control to try first, which the new owner of `control` gives up. Return
+    the line for the player; None if `other` would be left without a control.
     """
     place = table[other].index(control)
     rest = [each for each in table[other] if each != control]
@@ -67,9 +68,10 @@ def _make_room(table, device, other, control, given_up):
 
 
 def _is_free(table, device, action, control):
-    """Return whether a control is free for an action.
+    """Return whether a control is free for an action in a table {action: controls}. device: "keys" or "buttons".
 
-    It must not be fixed, belong to the action already, or belong to an action that cannot share it (bindings.rivals).
+    The control must not be fixed, belong to the action already, or belong to an action that cannot share it
+    (bindings.rivals).
     """
     taken = FIXED[device].union(*(controls for name, controls in table.items() if rivals(action, name)), table[action])
     return control not in taken
@@ -94,8 +96,8 @@ def default_table(device: str) -> dict[str, list[str]]:
 
 
 def completed(table: Table, device: str) -> dict[str, list[str]]:
-    """Return a copy of the table with the actions that an older file lacks. They get those default controls that clash
-    with no other action.
+    """Return a copy of the table with the actions that an older file lacks. They get their default controls, except
+    those that clash with another action. device: "keys" or "buttons".
     """
     full = {}
     for action in DEFAULTS[device]:

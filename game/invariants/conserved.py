@@ -76,6 +76,8 @@ class Momentum(OfTheAlone):
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
         """Return (gain, allowance, change): the gain of momentum in this step (2,), the gain that is allowed in LONG
         steps, and the change of each body (n,).
+
+        alone: (n,) bool, the bodies over which the gain is summed.
         """
         now, before = step.now, step.before
         mass = now.mass * alone
@@ -124,6 +126,8 @@ class Spin(OfTheAlone):
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
         """Return (gain, allowance, change): [gain of angular momentum in this step, 0], the gain that is allowed in
         LONG steps, and the change of each body (n,).
+
+        alone: (n,) bool, the bodies over which the gain is summed.
         """
         now, before = step.now, step.before
         mass, inertia = now.mass * alone, now.inertia * alone
@@ -239,7 +243,7 @@ class Energy(Invariant):
 
 
 def driven(step: Step) -> str:
-    """Return a phrase that names the drive that adds energy to bodies; "" if there is none."""
+    """Return a phrase that names the drive that adds energy to bodies in this step; "" if there is none."""
     world, effects = step.world, step.world.effects
     if step.forced.any():
         return "forces act"

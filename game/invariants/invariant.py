@@ -54,7 +54,9 @@ class Invariant:
         raise TypeError(f"{type(self).__name__} must define look")
 
     def broken(self, step: Step, bodies: Iterable[int], value: float, allowed: float, sentence: str) -> Broken:
-        """Return the answer of look() for a broken invariant."""
+        """Return the answer of look() for a broken invariant: a Broken with these values. bodies: ids; allowed: the
+        greatest allowed value.
+        """
         return Broken(
             self.id, self.word, step.number, tuple(int(b) for b in bodies), float(value), float(allowed), sentence
         )

@@ -64,7 +64,7 @@ class InvariantMonitor:
         world.watch = Watch(concave=self.strict)
 
     def note(self, frame: int, worlds: Iterable[WatchedWorld]) -> None:
-        """Update the states after frame number `frame`."""
+        """Update the states after frame number `frame` from the checks of these worlds."""
         self.frame, self.seconds = frame, 0.0
         answers = []
         for number, world in enumerate(worlds):

@@ -102,7 +102,8 @@ class References:
         }
 
     def _verdict(self, setting) -> Error:
-        """Return the "verdict" error: compare touching pairs with those of an exact world, in LOOKS steps.
+        """Return the "verdict" error of a setting: in LOOKS of the steps, the touching pairs are compared with those of
+        an exact world.
 
         Bodies move alike in both worlds, because there is no collision response.
         """
@@ -135,7 +136,9 @@ def pairs_of(world: World) -> set[tuple[int, int]]:
 
 
 def gap(world: World, first: int, second: int) -> float:
-    """Return the separation [px] of two bodies, given by id: the least over their shapes, negative if they overlap."""
+    """Return the separation [px] of the bodies with the ids `first` and `second`: the least over their shapes, negative
+    if they overlap.
+    """
     a, b = world.body(first), world.body(second)
     poses = [(body.position.x, body.position.y, body.angle) for body in (a, b)]
     return min(distance(s, poses[0], t, poses[1]).distance for s in a.shapes for t in b.shapes)

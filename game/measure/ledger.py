@@ -127,7 +127,7 @@ class Side:
         return played if isinstance(played, InputFrame) else InputFrame(frozenset(played))
 
     def step(self, keys: InputFrame) -> None:
-        """Run one step. Raises ValueError if the scene uses an effect that is not declared."""
+        """Run one step with the input `keys`. Raises ValueError if the scene uses an effect that is not declared."""
         self.inputs.set(keys)
         self.scene.step(self.inputs)
         self.seconds = sum(sum(world.profile.stages.values()) for world in self.scene.worlds)
@@ -159,7 +159,9 @@ class Side:
 
 
 def root_mean_square(one: Scene, other: Scene) -> float:
-    """Return the root mean square distance [px] of equal bodies (by world and id) in both scenes; 0 without any."""
+    """Return the root mean square distance [px] of the bodies that both scenes have (same world and id); 0 if there are
+    none.
+    """
     squares = []
     for ours, theirs in zip(one.worlds, other.worlds, strict=False):
         a, b = ours.bodies, theirs.bodies

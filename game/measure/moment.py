@@ -63,7 +63,9 @@ class Moment:
         return seconds_a_step(do, steps)
 
     def way(self, setting: Setting, steps: int = STEPS, divided: int = 1) -> "Way":
-        """Return the motion of the bodies from this moment. divided: number of shorter steps that replace each step."""
+        """Return the motion of the bodies from this moment under a setting. divided: number of shorter steps that
+        replace each step.
+        """
         world = self.world(setting)
         return follow(world, steps, divided)
 
@@ -116,6 +118,6 @@ def here_of(world: World, tier: str | None) -> Setting:
 
 
 def setting_of(effects: Effects, broadphase: str, solver: str, substeps: int | str, tier: str | None) -> Setting:
-    """Return a Setting. Solver and substeps are None if the effects do not use them."""
+    """Return the Setting of a world. The fields `solver` and `substeps` are None if the effects do not use them."""
     used = solver if effects.response else None
     return Setting(broadphase, effects.narrowphase, used, substeps if used in SUBSTEPPED else None, tier)

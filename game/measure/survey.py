@@ -119,7 +119,9 @@ class Survey:
         return pareto_front({s: (cost.median, reported_error(error)) for s, (cost, error) in self.known(kind).items()})
 
     def finding(self, kind: str, here: Setting) -> str:
-        """Return one sentence that compares the setting `here` with the others; "" if too few are measured."""
+        """Return one sentence that compares the setting `here` with the others by cost and by this kind of error; "" if
+        too few are measured.
+        """
         known = {s: each for s, each in self.known(kind).items() if self.dots[s].sure}
         if here not in known or len(known) < 2:
             return ""

@@ -66,7 +66,7 @@ class Surveyor:
         self._hand_on_beside(order, partial(snapshot.save, order["snapshot"]))
 
     def measure_sprites(self, first: PixelMask, second: PixelMask) -> None:
-        """Measure every tier of two sprites; the results go to `figures`."""
+        """Order measurements of every tier for a pair of sprites, `first` and `second`; the results go to `figures`."""
         if not self._started():
             return
         self.figures, self.latest = {}, "sprites"
@@ -99,9 +99,11 @@ class Surveyor:
         self._hand_on_beside(order, lambda: [each.save(paths[id(each)]) for each in snapshots])
 
     def measure_effects(self, snapshot: Snapshot, broadphase: str, pieces: tuple[str, ...] | None) -> None:
-        """Measure the cost of each effect at this moment and count its compiled kernels; the results go to `effects`.
+        """Order measurements of the cost of each effect from `snapshot`, and of the number of its compiled kernels; the
+        results go to `effects`.
 
-        pieces: the parts of the physics that the scene uses, as physics.warmup takes them.
+        broadphase: name of the broad phase of the snapshot's world. pieces: the parts of the physics that the scene
+        uses, as physics.warmup takes them.
         """
         if not self._started():
             return

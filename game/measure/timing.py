@@ -83,7 +83,7 @@ def timed_steps(steps: Mapping[Name, Callable[[], object]], count: int = 60, run
 def timed_in_turns(
     works: Mapping[str, Callable[[], object]], pieces: Mapping[str, int], runs: int = RUNS, seed: int = 0
 ) -> dict[str, Cost]:
-    """Return {name: Cost} of functions, called in random order.
+    """Return {name: Cost} of functions, each called `runs` times in random order.
 
     A call of works[name] does pieces[name] pieces of work. The first call is not counted.
     """

@@ -95,8 +95,8 @@ class Masks(Layer):
         del pixels  # unlocks the surface
 
     def _images(self, solid, place, view, palette):
-        """Yield the (image, place) pairs that show a mask at a place on the canvas; for a large mask, one pair per
-        visible block.
+        """Yield the (image, place) pairs that show the mask `solid` at a place on the canvas: one pair, or for a large
+        mask one per visible block.
         """
         (height, width), (x, y) = solid.shape, place
         if height <= BLOCK and width <= BLOCK:
@@ -109,8 +109,10 @@ class Masks(Layer):
                     yield image, (x + left, y + top)
 
     def _block(self, solid, left, top, palette):
-        """Return the image of a block of a large mask; None if the block is empty. Images are cached by place and
-        pixels, since carving changes few blocks.
+        """Return the image of the block of a large mask whose first pixel is solid[top, left]; None if the block is
+        empty.
+
+        Images are cached by place and pixels, since carving changes few blocks.
         """
         # With a margin of one pixel, so that no edge is drawn at the border of the block.
         part = solid[max(top - 1, 0) : top + BLOCK + 1, max(left - 1, 0) : left + BLOCK + 1]

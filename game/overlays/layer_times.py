@@ -158,8 +158,8 @@ class Times(Layer):
             pygame.draw.line(frame.surface, SLATE, (plot.left, y), (plot.right - 1, y))
 
     def _scroll(self, size, top, palette):
-        """Update the image of the bars: scroll it and paint the new steps, or paint all if its size or scale
-        changed.
+        """Update the image of the bars, of `size` and with `top` [ms] at its upper edge: scroll it and paint the new
+        steps. If size, top or palette have changed, paint all.
         """
         column = max(1, size[0] // HISTORY)
         new = self.noted - self.painted

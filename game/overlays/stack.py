@@ -227,7 +227,9 @@ def draw_legend(frame: Frame, lines: Sequence[LegendLine], x: int, y: int, scale
 
 
 def _corners(area, size, margin):
-    """Return the places to try for a box in an area: corners, middles of sides, then down the left and right edges."""
+    """Return the places to try for a box of `size` in an area, `margin` from its border: corners, middles of the sides,
+    then down the left and right edges.
+    """
     left, right = area.left + margin, area.right - size[0] - margin
     top, bottom = area.top + margin, area.bottom - size[1] - margin
     middle_x, middle_y = (left + right) // 2, (top + bottom) // 2

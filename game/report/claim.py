@@ -45,6 +45,7 @@ def at_least(text: str, ratio: tuple[float, float, float], limit: float, source:
     high).
 
     HOLDS if the whole interval is at least `limit`, FAILS if the whole interval is below `limit`, otherwise TIE.
+    source: paper that claims it, or ""; unit: printed after the ratio.
     """
     low, middle, high = ratio
     verdict = HOLDS if low >= limit else FAILS if high < limit else TIE
@@ -55,7 +56,8 @@ def at_most(text: str, ratio: tuple[float, float, float], limit: float, source: 
     """Return the claim that a measured ratio is at most `limit`. text: the claim as a sentence; ratio: (low, middle,
     high).
 
-    HOLDS if the whole interval is at most `limit`, FAILS if the whole interval is above `limit`, otherwise TIE.
+    HOLDS if the whole interval is at most `limit`, FAILS if the whole interval is above `limit`, otherwise TIE. source:
+    paper that claims it, or ""; unit: printed after the ratio.
     """
     low, middle, high = ratio
     verdict = HOLDS if high <= limit else FAILS if low > limit else TIE

@@ -34,7 +34,8 @@ class Job(NamedTuple):
 
 
 def run_job(name: str, work: str, params: Mapping[str, Any]) -> Row:
-    """Run a job. Return {name, rows, spent, compiled}, or {name, failed, spent} with the text of the error.
+    """Run a job: the function `work` ("module:function") with the arguments `params`. Return {name, rows, spent,
+    compiled}, or {name, failed, spent} with the text of the error.
 
     spent: duration [s]; compiled: the part of it that went into compiling kernels, which no cost includes.
     """

@@ -188,8 +188,8 @@ def _page_colors(figure) -> str:
 
 
 def shown(dot: Dot, panel: Panel) -> Mapping[str, str]:
-    """Return {label: text} of the box that appears when the pointer is over a dot: both figures with their intervals,
-    failures, and ignored effects.
+    """Return {label: text} of the box that appears when the pointer is over a dot of a panel: the figures of both axes
+    with their intervals, failures, and ignored effects.
     """
     reported = {
         "": f"{dot.row['series']}: {dot.row['label']}" if dot.row["label"] != dot.row["series"] else dot.row["label"]

@@ -137,7 +137,9 @@ class Chunks:
 
 
 def bytes_of(many: Iterable[Chunks]) -> int:
-    """Return the memory of several Chunks together [bytes], Python's overhead included. Shared chunks count once."""
+    """Return the memory of several Chunks together [bytes], Python's overhead included. Chunks that several of them
+    share count once.
+    """
     parts = {id(part): part for chunks in many for part in chunks.parts}
     layouts = {id(chunks.layout): chunks.layout for chunks in many}
     each = {id(chunk): chunk for part in parts.values() for chunk in part}

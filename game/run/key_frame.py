@@ -72,8 +72,8 @@ def table_of(rows: np.ndarray, capacity: int) -> Table:
 
 
 def shared(number: int) -> object:
-    """Stand, in the pickle, for the object with this index in the key frame's `kept`. Raises LookupError if called,
-    since a key frame's own reader replaces it.
+    """Stand, in the pickle, for the object `kept[number]` of the key frame. Raises LookupError if called, since a key
+    frame's own reader replaces this function.
     """
     raise LookupError(f"object {number} is not in this pickle: a key frame holds it")
 

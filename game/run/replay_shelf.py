@@ -55,7 +55,9 @@ def files_of(folder: Path) -> list[tuple[float, Path]]:
 
 
 def put_recent(recorder: Recorder, result: Result | None = None) -> Path | None:
-    """Save a run in recent/ and delete the oldest runs there. Return the path; None if the run is too short to keep.
+    """Save a run, with the result of its game if any, in recent/, and delete the oldest runs there. Return the path;
+    None if the run is too short to keep.
+
     Raises OSError.
     """
     if recorder.frames < SHORTEST:

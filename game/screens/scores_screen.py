@@ -36,8 +36,8 @@ class Page(NamedTuple):
 
 
 def pages_of(registry: Registry, records: Records, played: tuple[str, Path | None] | None = None) -> list[Page]:
-    """Return the pages in menu order. played: (scene name, level file) of the current game; its level gets a page even
-    if the file is not in the level folder.
+    """Return the pages in menu order. played: (scene name, level file) of the current game, or None. Its level gets a
+    page even if the file is not in the level folder.
     """
     found = []
     for scene_class in registry.all_classes():

@@ -337,7 +337,7 @@ def docked(frame: Frame, area: pygame.Rect, ring: pygame.Rect | None) -> pygame.
 
 
 def draw_ring(frame: Frame, ring: pygame.Rect) -> None:
-    """Draw a golden rectangle between two dark lines, visible on any background."""
+    """Draw a golden rectangle around `ring` between two dark lines, so that it is visible on any background."""
     thick = max(2, frame.scale)
     outer = ring.inflate(2 * thick, 2 * thick).clip(frame.rect)
     corner = 5 * frame.scale

@@ -171,7 +171,7 @@ class Watch(SceneScreen):
         self.tape.begin_seek(round(max(0.0, min(1.0, share)) * self.tape.length))
 
     def single(self, way: int) -> None:
-        """Freeze, and move one frame forward or back."""
+        """Freeze, and move one frame forward (`way` 1) or back (-1)."""
         self.clock.paused = True
         self.leap(way)
 
@@ -281,7 +281,7 @@ class Watch(SceneScreen):
 
 
 def _draw_button(surface, rect, paused, scale):
-    """Draw the button: two bars during playback, a triangle while frozen."""
+    """Draw the button: a triangle while `paused`, two bars during playback."""
     x, y, high = rect.x + 3 * scale, rect.y, rect.height
     if paused:
         pygame.draw.polygon(surface, GOLD, ((x, y), (x, y + high), (x + high, y + high // 2)))

@@ -108,7 +108,9 @@ class Broadphases(Scene):
         return MeasuredRun([made], strategy, stage="broad_phase")
 
     def growth(self, strategy):
-        """Return the measured points (number, cost) of a broad phase in this layout, and the fitted power law."""
+        """Return the Series of the broad phase `strategy` in this layout: the measured points (number, cost), and the
+        fitted power law.
+        """
         known = [(size, self.figures.get((self.layout, size, strategy))) for size in SIZES]
         points = [(size, figures.cost) for size, figures in known if figures is not None]
         done = all(figures is not None and figures.sure for _, figures in known)

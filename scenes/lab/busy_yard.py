@@ -175,7 +175,9 @@ class BusyYard:
 
 
 def apart(one, other):
-    """Return (numbers of the bodies that both yards have, array of the distances between their positions [px])."""
+    """Return (numbers, distances): the numbers of the bodies that both yards have, and an array of the distances
+    between their positions in the two yards [px].
+    """
     numbers = sorted(one.ids.keys() & other.ids.keys())
     return numbers, np.hypot(*(one.places(numbers) - other.places(numbers)).T) if numbers else np.zeros(0)
 

@@ -319,7 +319,7 @@ class Conveyor(Scene):
 
 
 def direction(start, end):
-    """Return the unit vector along a belt."""
+    """Return the unit vector along a belt from `start` to `end`."""
     dx, dy = end[0] - start[0], end[1] - start[1]
     length = hypot(dx, dy)
     return dx / length, dy / length

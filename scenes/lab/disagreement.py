@@ -196,7 +196,9 @@ class Disagreement(Shooter):
 
 
 def rehearse(effects):
-    """Evaluate every tier once on two planes and a disc, so that all kernels are compiled before the game begins."""
+    """Evaluate every tier once on two planes and a disc in a world with these effects, so that all kernels are compiled
+    before the game begins.
+    """
     world, reference = World(effects, BROADPHASES["sweep"]()), ReferenceTier(FIRST)
     masks = [load_atlas("planes").mask(name) for name in ("player", "gunship_0")]
     for x, mask in zip((0.0, 9.0), masks, strict=True):

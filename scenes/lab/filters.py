@@ -245,7 +245,7 @@ class Filters(Scene):
 
 
 def cell_rect(row, column):
-    """Return the canvas rectangle of a cell of the grid."""
+    """Return the canvas rectangle of the cell (row, column) of the grid."""
     return pygame.Rect(LEFT + column * CELL_WIDTH, TOP + row * CELL_HEIGHT, CELL_WIDTH - 2, CELL_HEIGHT - 2)
 
 

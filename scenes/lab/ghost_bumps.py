@@ -330,7 +330,7 @@ def share(number, value):
 
 
 def amount(error):
-    """Return a share as short text: 0, 1e-12, 3 %."""
+    """Return an error, a share, as short text: 0, 1e-12, 3 %."""
     if error <= 0.0:
         return "0"
     return f"{error:.0%}" if error >= 0.01 else f"{error:.0e}".replace("e-0", "e-")

@@ -37,7 +37,9 @@ def _place(random, layout):
 
 
 def snapshot_of(effects, seed, layout, count):
-    """Return the snapshot of a world with the bodies of a layout, before its first step. `effects`: their names."""
+    """Return the snapshot of a world with `count` bodies of a layout, before its first step. `effects`: names of the
+    world's effects.
+    """
     world = World(Effects.named(effects))
     populate(world, layout, count, seed)
     return world.snapshot()

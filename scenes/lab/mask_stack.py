@@ -177,7 +177,9 @@ class MaskStack(Scene):
                     return
 
     def share(self, way):
-        """Return (corners, pixels of air held, pixels missed) of a pile; nan until all in it are measured."""
+        """Return (corners, pixels of air held, pixels missed) of the whole pile `way`; nan until all its sprites are
+        measured.
+        """
         fits = [self.fits.get((name, way), (nan, nan, nan)) for name, _, _ in self.laid[way]]
         return tuple(float(sum(column)) for column in zip(*fits, strict=True))
 
@@ -336,5 +338,5 @@ def shapes_of(image, way):
 
 
 def bounds_of(mask):
-    """Return (left, top, right, bottom) [px] of a sprite's pixels about its middle."""
+    """Return (left, top, right, bottom) [px] of the solid pixels of a sprite's mask, relative to its origin."""
     return mask.bounds or (0.0, 0.0, 0.0, 0.0)

@@ -137,7 +137,9 @@ class MaskSweep(Scene):
             self.fired[way, SHAPES[lane]] += 1
 
     def _count(self, column):
-        """Count the shots that met a wall in this step, and those beyond it without a contact."""
+        """Count, in world number `column`, the shots that met a wall in this step, and those that are beyond it without
+        a contact.
+        """
         world, way = self.worlds[column], WAYS[column]
         begun = world.events.begin
         met = set(begun["body_a"].tolist()) | set(begun["body_b"].tolist())
@@ -163,7 +165,10 @@ class MaskSweep(Scene):
         self.shots = left
 
     def _mark(self, column, kind, body, ghost):
-        """Record where a shot met a wall; `ghost`: its pose without the wall, see debug.impact_ghosts, or None."""
+        """Record where a shot of the given kind met a wall in world number `column`.
+
+        `ghost`: its pose without the wall, see debug.impact_ghosts, or None.
+        """
         world = self.worlds[column]
         rows = np.flatnonzero(world.shapes["body"] == body.id)
         x, y = body.position

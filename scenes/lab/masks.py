@@ -251,7 +251,7 @@ class Masks(Scene):
 
 
 def share_a_pixel(masks, poses):
-    """Return whether two rotated masks share a solid pixel.
+    """Return whether two masks, placed at poses (x, y, angle), share a solid pixel.
 
     This is the slow reference: it draws both on one pixel grid and searches for a pixel that is solid in both.
     """

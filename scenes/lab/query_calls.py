@@ -32,7 +32,9 @@ def ask(world, query, origin, target, size):
 
 
 def asking(world, query, origin, area, size):
-    """Return a function that runs the query once per call, each time elsewhere in `area` (width, height) [px]."""
+    """Return a function that runs the query once per call. Rays and casts start at `origin`; the target is elsewhere in
+    `area` (width, height) [px] each time.
+    """
     numbers = count()
 
     def ask_the_next():
@@ -43,7 +45,9 @@ def asking(world, query, origin, area, size):
 
 
 def rows_of(found):
-    """Return results as rows (body id, x, y, normal x, normal y, fraction or distance); missing values are 0."""
+    """Return the results of ask() as rows (body id, x, y, normal x, normal y, fraction or distance); missing values are
+    0.
+    """
     rows = []
     for each in found:
         if each is None:

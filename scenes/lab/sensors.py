@@ -370,9 +370,10 @@ class Sensors(Scene):
 
 
 def least_gap(start, end, zone_start, zone_end, half):
-    """Return the least distance [px] between a point and a box while both move on straight lines from start to end.
+    """Return the least distance [px] between a point and a box, while both move on straight lines in the step.
 
-    The motion is sampled finely. `half`: half width and half height of the box [px].
+    `start`, `end`: places of the point; `zone_start`, `zone_end`: places of the box's middle; `half`: half its width
+    and half its height [px]. The motion is sampled finely.
     """
     x = np.array([start[0] - zone_start[0], end[0] - zone_end[0]])
     y = np.array([start[1] - zone_start[1], end[1] - zone_end[1]])

@@ -362,7 +362,7 @@ class Sleeping(Scene):
 
 @lru_cache(maxsize=64)
 def dimmed(shape, ramp):
-    """Return the picture of a sleeping shape."""
+    """Return the picture of a sleeping shape, in dimmed colours of `ramp`."""
     image = piece(shape, ramp)
     image.fill((*DIM, 255), special_flags=pygame.BLEND_RGBA_MULT)
     return RotatedPicture(image)

@@ -75,7 +75,7 @@ class Tool:
 def carving(world, name, radius, ground, crumb):
     """Return a function that carves the body `ground` once per call, each time at another solid pixel.
 
-    `name`, `radius`: the tool. Successive places are far apart.
+    `name`, `radius`: the tool; `crumb`: as for Body.carve. Successive places are far apart.
     """
     tool = Tool()
     tool.choose(name, radius)

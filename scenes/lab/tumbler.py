@@ -46,7 +46,9 @@ STEEL = ((58, 60, 82), (92, 96, 124), (138, 144, 172), (190, 196, 216))
 
 
 def ring(count, size, start):
-    """Return the corners of a regular polygon that fills size x size about its middle."""
+    """Return the corners of a regular polygon with `count` corners that fills size x size about its middle. start:
+    angle of the first corner [rad].
+    """
     angles = start + np.arange(count) * 2 * pi / count
     return [(size / 2 * cos(a), size / 2 * sin(a)) for a in angles]
 
@@ -253,7 +255,7 @@ def drum_boxes():
 
 
 def radial(distance, angle):
-    """Return the point at a distance from the drum's middle in a direction."""
+    """Return the point (x, y) at a distance from the drum's middle in the direction `angle` [rad]."""
     return distance * cos(angle), distance * sin(angle)
 
 

@@ -145,7 +145,9 @@ class Lander(Scene):
             self._crash()
 
     def _knocks(self, hits):
-        """Process the impacts of a step on ship, cargo and rocks. Impulse / mass is the change of velocity [px/s]."""
+        """Process the impacts of a step on ship, cargo and rocks. hits: the step's hit events. Impulse / mass is the
+        change of velocity [px/s].
+        """
         columns = (hits[name].tolist() for name in ("body_a", "body_b", "point_x", "point_y", "normal_impulse"))
         for a, b, x, y, impulse in zip(*columns, strict=True):
             for identity in (a, b):

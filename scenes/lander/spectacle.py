@@ -140,7 +140,7 @@ class Spectacle:
         self.act_since = 0
 
     def landed(self, pad, last):
-        """Show a landing at a site."""
+        """Show a landing on a pad. `last`: whether it is the last site."""
         scene = self.scene
         self.pulse = 1.0
         for share in (-0.45, -0.2, 0.2, 0.45):
@@ -206,7 +206,7 @@ class Spectacle:
             self.works.word(f"CARGO {piece.whole:.0f}%", piece.body.center.x, piece.body.center.y - 16, TINT["bad"])
 
     def rock_knocked(self, x, y, impulse):
-        """Show an impact of a rock or of a piece of ground at (x, y) [px]."""
+        """Show an impact of a rock or of a piece of ground at (x, y) [px], in proportion to its impulse."""
         strength = min(impulse / 30000.0, 1.0)
         if strength > 0.05:
             self.scene.particles.burst(

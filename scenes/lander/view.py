@@ -83,7 +83,7 @@ class View:
         return -margin < x - self.left < CANVAS_SIZE[0] + margin and -margin < y - self.top < CANVAS_SIZE[1] + margin
 
     def centred(self, image, x, y, flags=0):
-        """Draw a picture centred on the world point (x, y)."""
+        """Draw a picture centred on the world point (x, y). flags: pygame's blend flags."""
         width, height = image.get_size()
         self.surface.blit(
             image, (whole(x - width / 2) - self.left, whole(y - height / 2) - self.top), special_flags=flags

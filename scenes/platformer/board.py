@@ -98,7 +98,9 @@ def _empty(icon):
 
 
 def _draw_title(canvas, look):
-    """Draw the name of the act that the hero has entered; it slides in and fades out."""
+    """Draw the name of the act that the hero has entered; it slides in and fades out. `look`: Look, with the act and
+    its age.
+    """
     age = look.act_age
     if age >= TITLE_TIME:
         return

@@ -89,7 +89,7 @@ class Level:
         return world.add_body(grid, kind="static", filter=TILE_FILTER, user="tiles")
 
     def kind(self, column, row):
-        """Return the kind of a tile: EMPTY, SOLID, PLANK or SLOPE.
+        """Return the kind of the tile (column, row): EMPTY, SOLID, PLANK or SLOPE.
 
         Tiles beside the map are SOLID, tiles above and below it EMPTY.
         """
@@ -114,7 +114,9 @@ class Level:
         return (row + 1 - low - (high - low) * share) * self.tile
 
     def blocks(self, left, top, width, height):
-        """Return whether a box [px] overlaps solid tiles or slopes. Planks are one-way, so they never block."""
+        """Return whether a box with its corner at (left, top) [px] overlaps solid tiles or slopes. Planks are one-way,
+        so they never block.
+        """
         bottom = top + height
         for row in range(floor(top / self.tile), floor((bottom - 1) / self.tile) + 1):
             for column in range(floor(left / self.tile), floor((left + width - 1) / self.tile) + 1):

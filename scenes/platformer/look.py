@@ -231,7 +231,9 @@ class Look:
                 bursts.launch(self.scene.particles, *self._feet())
 
     def show(self, word, thing):
-        """Show the event `word` of a stone ("shake", "break", "back"), a bat ("wake") or a bomb."""
+        """Show the event `word` of a stone ("shake", "break", "back"), a bat ("wake") or a bomb. thing: the stone, bat
+        or bomb.
+        """
         scene = self.scene
         if word == "wake":
             self._sound_at("blip", thing.character.position[0], 0.35)

@@ -67,7 +67,7 @@ class Runner:
         return self._press(scene.hero, set(keys), jump)
 
     def _press(self, hero, keys, jump):
-        """Return the actions, with jump added while it is held.
+        """Return the actions `keys` as a frozenset, with jump added while it is held. jump: whether a jump is wanted.
 
         Jump is held while the hero rises, and released for one step before the next press: only a new press jumps.
         """
@@ -107,7 +107,9 @@ class Runner:
         return _keys(way), self._must_jump(scene, hero, hint, way)
 
     def _needs_a_run_up(self, scene, hero, way):
-        """Return whether a hedgehog ahead is so near that a jump at the present speed would end on it."""
+        """Return whether a hedgehog ahead in the direction `way` is so near that a jump at the present speed would end
+        on it.
+        """
         x, feet = hero.character.position[0], hero.box[3]
         return (
             hero.vx * way < 120.0
@@ -121,7 +123,9 @@ class Runner:
         )
 
     def _waits_at_edge(self, scene, hero, hint, way):
-        """Return whether a hedgehog is below the edge ahead, where a step down would end."""
+        """Return whether to wait at an edge on the way to a hint: a hedgehog is below the edge, where a step down in
+        the direction `way` would end.
+        """
         x, feet = hero.character.position[0], hero.box[3]
         if _foot(hint) < feet + STEP or self._ground(scene, x + 16 * way, feet):
             return False

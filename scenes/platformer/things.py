@@ -115,7 +115,9 @@ class Platform:
         )
 
     def aim(self, tick):
-        """Set the velocity that moves the platform to its place of the next step, so that it carries bodies."""
+        """Set the velocity that moves the platform from its place in step `tick` to its place in the next step, so that
+        it carries bodies.
+        """
         x, y = self.body.position
         next_x, next_y = self.place_at(tick + 1)
         self.body.velocity = ((next_x - x) / STEP_SECONDS, (next_y - y) / STEP_SECONDS)

@@ -122,7 +122,7 @@ def _summary(scene):
 
 
 def band(canvas, top, high):
-    """Draw a dark band of height `high` [px] across the picture, behind a banner's text.
+    """Draw a dark band of height `high` [px] across the picture, behind a banner's text. `top`: its y when fully grown.
 
     It grows from its middle line; once two lines of text fit, it grows downwards only.
     """

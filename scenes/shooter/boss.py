@@ -63,7 +63,7 @@ class Leader(Enemy):
         self.frame = "midboss_0" if self.kind == "midboss" else f"boss_{'abc'[self.number]}_0"
 
     def think(self, sky):
-        """Choose the motion and fire of each mode: arrive, fight, change, fall, leave."""
+        """Choose motion and fire for the leader's mode: arrive, fight, change, fall or leave. sky: the scene."""
         if self.mode == "arrive":
             if self.approach(self.home_x, self.home_y, ARRIVE_SPEED) < 3.0:
                 self.begin("fight")

@@ -64,7 +64,7 @@ class Bullets:
         self.table.keep(np.zeros(count, bool))
 
     def fire(self, look, x, y, headings, speed, out=0.0):
-        """Add one bullet per heading [rad] to the volley, which launch() adds to the world.
+        """Add one bullet per heading [rad] to the volley, which launch() adds to the world. look: key of LOOKS.
 
         Each starts at (x, y) [px], moved `out` [px] along its heading, and flies at `speed` [px/s].
         """

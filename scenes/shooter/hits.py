@@ -22,7 +22,10 @@ class Hits:
         self.now = {"core": [], "hull": []}
 
     def read(self, world, plane, incoming, fleet):
-        """Count the hits of the last step. Return the ids of bullets that enter the graze ring for the first time."""
+        """Count the hits of the player's plane by enemy bullets (`incoming`) and enemies (`fleet`) in the last step.
+
+        Return the ids of the bullets that enter the graze ring for the first time.
+        """
         events = world.events
         for part, bit in PARTS.items():
             self.now[part] = partners(events.begin, plane.bodies[part].id)

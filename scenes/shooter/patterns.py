@@ -40,7 +40,9 @@ def ring(count, turn=0.0):
 
 
 def wall(spacing, middle, gap, width=WIDTH):
-    """Return the x [px] of the bullets of a row across the sky, with a gap of width `gap` around x = `middle`."""
+    """Return the x [px] of the bullets of a row across the sky, `spacing` apart, with a gap of width `gap` around x =
+    `middle`.
+    """
     count = int(width / spacing) + 1
     edge = (width - (count - 1) * spacing) / 2
     places = [edge + spacing * number for number in range(count)]
@@ -59,7 +61,9 @@ class Gun:
         self.middle = WIDTH / 2  # x of the middle of the last wall's gap [px]
 
     def step(self, sky, x, y):
-        """Advance by one step, and fire if a shot is due. (x, y): centre of the plane [px]. Return whether it fired."""
+        """Advance by one step, and fire if a shot is due. sky: the scene; (x, y): centre of the plane [px]. Return
+        whether the gun fired.
+        """
         self.age += 1
         self.wait -= 1
         if self.wait > 0:

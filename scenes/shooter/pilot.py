@@ -71,7 +71,9 @@ class Pilot:
         return frozenset(actions)
 
     def _bombs(self, scene, doomed):
-        """Return whether to drop a bomb: just after a hit, before a certain hit, or once when the sky is very full."""
+        """Return whether to drop a bomb: just after a hit, before a certain hit (`doomed`), or once when the sky is
+        very full.
+        """
         if not scene.plane.bombs or scene.bomb.body is not None:
             return False
         crowded = not scene.score.bombs and len(scene.incoming) >= CROWD

@@ -97,7 +97,7 @@ class Score:
         self.chain = self.hold = 0
 
     def final(self, lives, bombs):
-        """Return the bonuses at the end of the stage, a list of (reason, points)."""
+        """Return the bonuses at the end of the stage for lives, bombs and grazes, a list of (reason, points)."""
         found = [("LIVES", lives * LIFE_BONUS), ("BOMBS", bombs * BOMB_BONUS), ("GRAZES", self.grazes * GRAZE_BONUS)]
         return found + [("NO CONTINUE", PURE_BONUS)] if not self.continues else found
 

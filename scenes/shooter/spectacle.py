@@ -118,7 +118,7 @@ class Spectacle:
     # --- the stage ---------------------------------------------------------------------------------------------------
 
     def wave(self, director):
-        """Announce a new wave: show its name, with a sound from the second wave on."""
+        """Announce the new wave of the director: show its name, with a sound from the second wave on."""
         self.news = NEWS
         if director.number > 1:
             self.scene.play("blip", volume=0.3)
@@ -245,7 +245,7 @@ class Spectacle:
         self.scene.play("hurt", plane.x, 0.4)
 
     def player_lost(self, plane, blow):
-        """Show the explosion of the player's plane."""
+        """Show the explosion of the player's plane after `blow`."""
         x, y, works = plane.x, plane.y, self.works
         works.burst("explosion_large", x, y, 0.0, 12.0)
         works.chain(x, y, 16, 16, 4, 0.12)
@@ -294,7 +294,9 @@ class Spectacle:
         self.works.sparks(x, y, 14, GOLD, 90)
 
     def loot_taken(self, plane, what, worth):
-        """Show that the player takes a pick-up. `worth`: points in place of a gain, or 0."""
+        """Show that the player takes the pick-up `what`. `worth`: points given because the plane had the maximum
+        already, or 0.
+        """
         self.gain = 1.0
         self.works.sparks(plane.x, plane.y, 30, GOLD, 150)
         self.works.ring(plane.x, plane.y, 30.0)
@@ -315,7 +317,9 @@ class Spectacle:
     # --- leaders -----------------------------------------------------------------------------------------------------
 
     def phase_over(self, leader, last, worth):
-        """Show the end of a phase of a leader's fight, with explosions. `worth`: bonus points, 0 if time ran out."""
+        """Show the end of a phase of a leader's fight, with explosions. `last`: whether the fight ends; `worth`: bonus
+        points, 0 if time ran out.
+        """
         x, y, works = leader.x, leader.y, self.works
         self.bonus = ["PHASE BONUS" if worth else "TIME OUT", worth, BONUS_SHOWN]
         works.ring(x, y, 220.0)

@@ -115,7 +115,10 @@ class View:
         banners.draw_banners(canvas, scene)
 
     def places(self, scene, ids):
-        """Return arrays of x, y [px] and angle [rad] of bodies. Positions are interpolated between two steps."""
+        """Return arrays of x, y [px] and angle [rad] of the bodies `ids`.
+
+        Positions are interpolated between two steps.
+        """
         rows, bodies = scene.world.rows(ids), scene.world.bodies
         x, y = bodies["x"][rows], bodies["y"][rows]
         back = 1.0 - self.alpha
@@ -222,7 +225,9 @@ class View:
                 self._stamp_turned(shown, frame, x[mine], y[mine], angles[mine])
 
     def _stamp(self, image, origin, x, y, flags=0):
-        """Draw one picture at many world points (arrays x, y)."""
+        """Draw one picture at many world points (arrays x, y). origin: point of the picture that lies there; flags:
+        pygame's blend flags.
+        """
         across = (np.floor(x - origin[0] + 0.5).astype(np.int64) - self.left).tolist()
         down = (np.floor(y - origin[1] + 0.5).astype(np.int64) - self.top).tolist()
         blit_many(self.surface, list(zip(repeat(image), zip(across, down, strict=True))), flags)

@@ -82,7 +82,7 @@ class Wreckage:
         return any(due.identity == identity for due in self.due)
 
     def break_due(self, fleet):
-        """Break the marked planes into pieces.
+        """Break the marked planes into pieces, and remove the planes from the fleet.
 
         Return a list of (plane, x, y), where (x, y) [px] is the point at which the cracks of the plane cross.
         """

@@ -58,7 +58,9 @@ BODIES = {
 
 
 def offsets(truth: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]], count: int) -> np.ndarray:
-    """Return (count, 2) random offsets [px] of touching pairs that overlap by less than DEEPEST, uniform in area."""
+    """Return (count, 2) random offsets [px] of touching pairs that overlap by less than DEEPEST, uniform in area.
+    truth: of_disc or of_square.
+    """
     chance, found = np.random.default_rng(4), np.zeros((0, 2))
     while len(found) < count:
         tried = chance.uniform(-2.0 * RADIUS, 2.0 * RADIUS, (4 * count, 2))

@@ -27,8 +27,8 @@ EFFECTS = Effects(response=True, continuous=True)
 
 
 def name_of(way: str, divided: int) -> str:
-    """Return the name of a method in the chart: the kind of continuous collision, or the number of steps that a step is
-    divided into.
+    """Return the name of a method in the chart: `way`, the kind of continuous collision, or the number of steps that a
+    step is divided into.
     """
     return way if divided == 1 else f"{divided} steps in one"
 
@@ -71,7 +71,9 @@ def world_of(way: str, divided: int, lanes: int, ratio: float, plates: bool = Tr
 
 def measure(ratio: float, lanes: int) -> list[Row]:
     """Return a row for each method: missed hits, false hits, and the distance of the reported contact from the first
-    touch. ratio: disc diameters per step.
+    touch.
+
+    ratio: disc diameters per step; lanes: number of discs.
     """
     step = ratio * 2.0 * RADIUS
     begin = starts(lanes, step)
@@ -211,7 +213,9 @@ def _time_claims(rows: Sequence[Row]) -> list[Claim]:
 
 
 def _expected(ratio):
-    """Return the expected share of hits that a discrete test misses, averaged over all paths that meet the plate."""
+    """Return the expected share of hits that a discrete test misses, averaged over all paths that meet the plate.
+    ratio: disc diameters per step.
+    """
     step = ratio * 2.0 * RADIUS
     aside = np.abs(np.linspace(0.0, HALF + RADIUS, 20_001))[:-1]
     beyond = np.maximum(aside - HALF, 0.0)

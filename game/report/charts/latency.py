@@ -25,7 +25,7 @@ RUNS, TRACED = 3, 30  # runs, of which each step's least time counts; steps whos
 
 
 def scene_class(where: str) -> type[Scene]:
-    """Return the class that "module:Class" names."""
+    """Return the class that `where`, "module:Class", names."""
     return resolve_name(where)
 
 
@@ -65,7 +65,9 @@ def measure(scene: str, where: str, frames: int) -> list[Row]:
 
 
 def _peaks(made, frames):
-    """Return (frames,) [bytes]: greatest memory held during each step, minus the memory held at its start."""
+    """Return (frames,) [bytes]: greatest memory held during each step, minus the memory held at its start. made: class
+    of the scene.
+    """
     session, found = Session(made(0), BotSource()), []
     for _ in range(5):
         session.step()

@@ -96,7 +96,7 @@ def _sprite(mask, rect):
 
 
 def measure_sprites(count: int) -> list[Row]:
-    """Return a row for each method: the time to find all hits once, and its false and missed hits."""
+    """Return a row for each method: the time to find all hits of `count` sprites, and its false and missed hits."""
     traffic = Traffic(count)
     truth = traffic.all_pairs()
     ways: dict[str, Callable[[], set]] = {

@@ -142,8 +142,10 @@ def claims(rows: Sequence[Row]) -> Iterator[Claim]:
 
 
 def beside(text: str, better: Row, worse: Row, source: str) -> Claim:
-    """Return the claim that the row `better` has an error at least a tenth below that of `worse`. Errors are the same
-    in every run, so that no interval is needed.
+    """Return the claim that the row `better` has an error at least a tenth below that of the row `worse`. text: the
+    claim; source: its paper.
+
+    Errors are the same in every run, so that no interval is needed.
     """
     a, b = better["error"], worse["error"]
     figure = ", ".join(f"{row['error']:.3g} px in {1e6 * row['cost']['seconds'][1]:.3g} us" for row in (better, worse))

@@ -52,7 +52,7 @@ class AdviceRows:
             self.apply(best)
 
     def draw(self, frame: Frame, left: int, y: int, width: int, scale: int) -> int:
-        """Draw the lines. Return the y below them."""
+        """Draw the lines from (left, y) down, `width` wide. Return the y below them."""
         texts = ((self._advice(), GREEN), (self._tuning(), SKY if self.tuner.on else FOG))
         for row, (text, color) in enumerate(texts):
             self.rects[row] = rect = pygame.Rect(left, y + row * ROW * scale, width, (ROW - 1) * scale)

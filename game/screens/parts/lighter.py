@@ -39,7 +39,7 @@ class Lighter:
         return f"{' and '.join(less)} until the physics is compiled"
 
     def note(self, busy: float) -> None:
-        """Record the duration of a frame [s], and apply or undo the changes if they are due."""
+        """Record that a frame took `busy` [s], and apply or undo the changes if they are due."""
         if self.over or not self.scene.lighter:
             return
         if self.changed:

@@ -102,7 +102,9 @@ class SplitScreen:
 
 
 def _curve(apart: deque[float], rect: pygame.Rect) -> list[tuple[float, float]]:
-    """Return the points of a curve of distances [px], with the newest distance at the right border."""
+    """Return the points of the curve of the distances `apart` [px], with the newest distance at the right border of the
+    rect.
+    """
     width = rect.width / (apart.maxlen or len(apart))
     first = rect.right - width * len(apart)
     return [(first + width * number, _height(value, rect)) for number, value in enumerate(apart)]

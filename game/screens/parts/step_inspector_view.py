@@ -222,7 +222,7 @@ class StepInspectorView:
         frame.fix(rect)
 
     def _place(self, frame, area, size):
-        """Return the card's place: a top corner, chosen once per step, where it covers the least text."""
+        """Return the card's place: a top corner of the area, chosen once per step, that covers the least text."""
         corners = area.left, area.right - size[0]
         if self.corner is None:
             narrow = pygame.Rect(area.x, area.y, area.width, min(area.height, size[1]))

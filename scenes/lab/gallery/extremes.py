@@ -41,7 +41,9 @@ def fastest_move(side):
 
 
 def farthest_move(figures):
-    """Return the greatest distance that a body moved in a step of the run beside the game, as a speed [m/s]."""
+    """Return the greatest distance that a body moved in a step of the run beside the game, as a speed [m/s]. figures:
+    of that run.
+    """
     assert figures.farthest is not None  # set, because it was judged
     return figures.farthest * 60.0 / METER
 

@@ -300,7 +300,7 @@ class Gallery(Scene):
 
 
 def is_met(page, naive, ours):
-    """Return whether the errors of both ways are as the page expects."""
+    """Return whether the errors of both ways, `naive` and `ours`, are as the page expects."""
     return ours <= page.limit and (naive <= page.limit) == page.alike
 
 

@@ -96,7 +96,7 @@ def pushes_on(world, body, row, share):
 
 
 def solved(motion, push, inverse):
-    """Apply the normal and the friction impulse of a contact. Return the new Motion.
+    """Apply the normal and the friction impulse of the contact `push` to a body with `motion`. Return its new Motion.
 
     `inverse`: (1 / mass, 1 / inertia).
     """
@@ -111,7 +111,11 @@ def solved(motion, push, inverse):
 
 
 def impulse(motion, push, axis, wanted, inverse):
-    """Return (impulse, its moment arm [px]) that gives the contact the relative speed `wanted` [px/s] along an axis."""
+    """Return (impulse, its moment arm [px]) that gives the contact `push` the relative speed `wanted` [px/s] along an
+    axis.
+
+    motion: present Motion of the body; inverse: (1 / mass, 1 / inertia).
+    """
     (rx, ry), (x, y) = push.arm, axis
     arm = rx * y - ry * x
     speed = (motion.vx - motion.spin * ry - push.other[0]) * x + (motion.vy + motion.spin * rx - push.other[1]) * y
@@ -119,7 +123,9 @@ def impulse(motion, push, axis, wanted, inverse):
 
 
 def struck(motion, axis, arm, amount, inverse):
-    """Return the Motion after an impulse of size `amount` along an axis, with moment arm `arm` [px]."""
+    """Return the Motion of a body after an impulse of size `amount` along an axis, with moment arm `arm` [px]. inverse:
+    (1 / mass, 1 / inertia).
+    """
     x, y = axis
     return Motion(
         motion.vx + amount * x * inverse[0],
