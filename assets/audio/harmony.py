@@ -56,7 +56,7 @@ class Chord(NamedTuple):
         return frozenset((self.root + tone) % 12 for tone in self.tones) | {self.bass}
 
     def moved(self, semitones):
-        """Return the same chord, transposed."""
+        """Return the same chord, transposed by a number of semitones."""
         return Chord(self.name, (self.root + semitones) % 12, self.tones, (self.bass + semitones) % 12)
 
 

@@ -55,7 +55,7 @@ def render(tune):
 
 
 def _sing(tune, notes, voice):
-    """Add the notes of a pulse or triangle voice to `voice`, its ring of samples (2, length)."""
+    """Add the notes of a pulse or triangle voice of a tune to `voice`, the voice's ring of samples (2, length)."""
     made, before = {}, None
     for note in notes:
         instrument = note.instrument
@@ -73,8 +73,8 @@ def _sing(tune, notes, voice):
 
 
 def _drums(tune, notes, voice):
-    """Add the strokes of the drums to `voice`, their ring of samples (2, length). Each drum uses its TAKES recordings
-    in turn.
+    """Add the strokes of the drums of a tune to `voice`, their ring of samples (2, length). Each drum has TAKES
+    variants, used in turn.
     """
     takes, struck = {}, {}
     for note in notes:
@@ -98,8 +98,10 @@ def _sides(place):
 
 
 def _add(ring, start, samples, gain, place):
-    """Add mono samples to a ring (2, length), from index `start` on; samples past its end continue at its start. place:
-    -1 left .. 1 right.
+    """Add mono samples, times `gain`, to a ring (2, length), from index `start` on; samples past its end continue at
+    its start.
+
+    place: -1 left .. 1 right.
     """
     length, gains = ring.shape[1], gain * _sides(place)
     start %= length
@@ -110,7 +112,7 @@ def _add(ring, start, samples, gain, place):
 
 
 def _echo(tune, voice, instrument):
-    """Add the echoes of a voice to `voice`, its ring of samples (2, length).
+    """Add the echoes of an instrument to `voice`, the ring of samples (2, length) of its voice.
 
     Each echo is duller than the voice and softer than the echo before. The echoes change sides; the first is on the
     side away from the voice.

@@ -265,7 +265,8 @@ class _Reader:
     def _notes(self, voice, bars, instrument, first, move):
         """Return the notes of one voice in one section, with degrees and tones resolved against the chords.
 
-        bars: [(text of a bar, line number)]; first: step at which the section begins; move: transposition in semitones.
+        bars: [(text of a bar, line number)]; instrument: in this section; first: step at which the section begins;
+        move: transposition in semitones.
         """
         notes, bar_steps, sounding = [], self.tune.beats * STEPS_PER_BEAT, False
         for index, (bar, line) in enumerate(bars):

@@ -56,7 +56,10 @@ def decode(ogg):
 
 
 def frame_count(ogg):
-    """Return the number of frames of a file, from its last page. Raises ValueError for anything but whole pages."""
+    """Return the number of frames of an Ogg file, from its last page.
+
+    Raises ValueError for anything but whole pages.
+    """
     at, frames = 0, 0
     while at < len(ogg):
         if ogg[at : at + 4] != b"OggS" or at + 27 > len(ogg):

@@ -46,7 +46,9 @@ def _encode(linear):
 
 
 def ramp(hue, chroma, low=DARKEST, high=LIGHTEST):
-    """Return (STEPS, 3) uint8 from shadow to light around a base hue in degrees."""
+    """Return (STEPS, 3) uint8 from shadow to light around a base hue in degrees. low, high: lightness of the first and
+    the last colour.
+    """
     colours = []
     for i in range(STEPS):
         t = i / (STEPS - 1)

@@ -70,7 +70,7 @@ def painted():
 
 
 def _grow_turf(rgb, earth):
-    """Draw grass under open sky, with blades of several lengths."""
+    """Draw grass on the earth (h, w) bool under open sky, with blades of several lengths, into the picture `rgb`."""
     height, width = earth.shape
     open_above = np.logical_and.accumulate(~earth, axis=0)
     top = np.argmax(~open_above, axis=0)

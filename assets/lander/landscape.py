@@ -32,7 +32,7 @@ class Landscape:
 
 
 def plan():
-    """Return the plan from its file."""
+    """Return the plan of the moon, read from assets/levels/lander.json."""
     return json.loads((FOLDER / "levels" / "lander.json").read_text(encoding="utf-8"))
 
 
@@ -71,7 +71,9 @@ def _bend(width, height, seed):
 
 
 def _inside(x, y, points):
-    """Return the pixels inside a polygon by the crossing rule, each edge in the rows that it can reach."""
+    """Return the pixels (x, y) inside the polygon `points`, by the crossing rule. Each edge is applied only to the rows
+    that it can reach.
+    """
     inside = np.zeros(x.shape, bool)
     for i, (ax, ay) in enumerate(points):
         bx, by = points[i - 1]
@@ -115,8 +117,8 @@ def _around(pixels, far=1, ways=(*ACROSS, *DOWN)):
 
 
 def _crack(rock, ice):
-    """Return the crack between ground and a mountain over a cave, where ice joins them: in the middle of the ice, a
-    pixel wide.
+    """Return the crack between a mountain over a cave and the ground, where ice joins the two: in the middle of the
+    ice, a pixel wide.
 
     So the mountain is a separate piece from the start, and stays in place when all the ice is shot away.
     """
@@ -145,8 +147,8 @@ def _hanging(rock):
 
 
 def _level(solid, ice, massif, pad):
-    """Level the ground for a pad's feet, and clear the air over it. If the pad is under open sky, remove that air from
-    `massif`, too.
+    """Level the ground for a pad's feet, and clear rock and ice from the air over it. If the pad is under open sky,
+    remove that air from `massif`, too.
     """
     left, right = pad["x"] - pad["width"] // 2 - SHOULDER, pad["x"] + pad["width"] // 2 + SHOULDER
     floor = pad["floor"]

@@ -40,7 +40,9 @@ def pad(width):
 
 
 def mast(lit):
-    """Return a mast beside a pad, its lamp off or on, a dish half way up; its foot is its lower edge."""
+    """Return a mast beside a pad, with a dish half way up and its lamp on (`lit`) or off. Its foot is at the picture's
+    lower edge.
+    """
     sprite = Sprite(*MAST)
     x, y = sprite.x, sprite.y
     for side in (-1, 1):

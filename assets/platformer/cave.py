@@ -61,7 +61,9 @@ def boulders(variant):
 
 
 def clods(ramp, seed):
-    """Return packed earth, (16, 16, 3) uint8: the same wedged pieces as rock, but soft and of little contrast."""
+    """Return packed earth, (16, 16, 3) uint8: wedged pieces like those of rock, but soft and of little contrast. ramp:
+    array of its colours.
+    """
     nearest, second, facing = _cells(CLODS)
     grain = noise(TILE, TILE, 8, 8, seed) - 0.5
     level = 1.0 + facing * 0.10 + grain * 1.5

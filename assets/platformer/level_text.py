@@ -82,8 +82,9 @@ def _platform(line, source):
 
 
 def _zone(line, source):
-    """Return (act, rectangle, rows) of a zone, in tiles. rectangle: (x, y, width, height); rows: (top, bottom) that the
-    camera may show, () if not given.
+    """Return (act, rectangle, rows) of a zone, in tiles. rectangle: (x, y, width, height).
+
+    rows: (top, bottom) that the camera may show, () if not given. source: name of the file, for errors.
     """
     act, _, rest = line.partition(" ")
     if act not in ACTS:

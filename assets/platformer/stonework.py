@@ -89,7 +89,7 @@ def belt(part, phase):
 
 
 def _wheel(sprite, middle, radius, phase):
-    """Draw a wheel of the belt, whose spoke rotates with it."""
+    """Draw a wheel of the belt around x = middle, whose spoke rotates with the phase 0..3."""
     x, y = sprite.x, sprite.y
     sprite.part(circle(x, y, middle, 7, radius), RAMPS["steel"], bulge=2.4, base=0.50, gain=0.5, grain=0)
     turn = ((1.0, 0.0), (0.7, 0.7), (0.0, 1.0), (-0.7, 0.7))[phase]
@@ -104,7 +104,7 @@ def _wheel(sprite, middle, radius, phase):
 
 
 def _open(sprite, column):
-    """Open the side towards the next piece: the outline continues above and below the belt."""
+    """Open the side of the belt at `column` towards the next piece: draw the outline only above and below the belt."""
     for row in (0, 13):
         sprite.dot(column, row, OUTLINE)
 

@@ -25,7 +25,7 @@ def _properties(values):
 
 
 def tileset(table):
-    """Return the embedded tileset: the place of each tile in images/tiles.png, and its kind."""
+    """Return the embedded tileset of a tile_table(): the place of each tile in images/tiles.png, and its kind."""
     columns = SHEET_WIDTH // TILE
     rows = -(-len(table) // columns)
     return {
@@ -124,7 +124,7 @@ def _object_layers(level):
 
 
 def to_tmj(structure):
-    """Return the map's bytes with a line per map row, tile and object, so that changes give small diffs."""
+    """Return the bytes of a tiled_map(), with a line per map row, tile and object, so that changes give small diffs."""
     text = json.dumps(structure, ensure_ascii=False)
     for layer in structure["layers"]:
         if "data" in layer:

@@ -78,7 +78,9 @@ def texture(material, variant=0):
 
 
 def deep(variant):
-    """Return ground far below the surface, (16, 16, 4) uint8: darker and quieter; 0..2 plain, 3 a bone, 4 a crystal."""
+    """Return ground far below the surface, (16, 16, 4) uint8: darker and quieter. variant: 0..2 plain, 3 a bone, 4 a
+    crystal.
+    """
     dark = mix(RAMPS["dirt"][1], OUTLINE, 0.42)
     light = mix(RAMPS["dirt"][1], OUTLINE, 0.18)
     grain = noise(TILE, TILE, 4, 4, 340) * 0.7 + noise(TILE, TILE, 8, 8, 341 + variant) * 0.3
@@ -103,7 +105,11 @@ def fading(variant):
 
 
 def _bricks(picture, ramp, variant):
-    """Draw two courses of blocks, offset by half, with lit upper and dark lower edges."""
+    """Draw two courses of blocks in the colours of `ramp`, offset by half, with lit upper and dark lower edges; return
+    the picture.
+
+    variant: 0 plain, 1 and 3 with a crack, 2 worn.
+    """
     picture[:] = mix(picture, ramp[2], 0.6)
     for row, offset in ((0, 4), (8, 12)):
         picture[row] = ramp[3]
@@ -125,7 +131,10 @@ def _bricks(picture, ramp, variant):
 
 
 def blob(material, mask, variant=0):
-    """Return one ground tile for the neighbours in mask, (16, 16, 4) uint8, fully solid."""
+    """Return one tile of a material for the neighbours in mask, (16, 16, 4) uint8, fully solid.
+
+    variant: see texture().
+    """
     ramp, cap = RAMPS[MATERIALS[material][0]], RAMPS[MATERIALS[material][1]]
     picture = texture(material, variant)
     grass = material == "ground"
@@ -154,7 +163,9 @@ def _side(picture, ramp, column, inward, light):
 
 
 def _top(picture, cap, material):
-    """Draw outline, lit blades and a ragged fringe of grass, or a worn lip of stone or rock."""
+    """Draw the top of a tile in the colours of `cap`: lit blades and a ragged fringe of grass on ground, a worn lip on
+    stone or rock.
+    """
     picture[0] = OUTLINE
     if material != "ground":
         picture[1] = cap[5]
@@ -174,7 +185,9 @@ def _top(picture, cap, material):
 
 
 def _inner_corner(picture, corner, cap, grass):
-    """Draw the outline, and the end of the neighbour's grass, at a missing diagonal neighbour."""
+    """Draw the outline, and the end of the neighbour's grass, in a corner (NE, SE, SW or NW) where the diagonal
+    neighbour is missing.
+    """
     column = 0 if corner in (NW, SW) else 15
     row = 0 if corner in (NW, NE) else 15
     picture[row, column] = OUTLINE
@@ -236,7 +249,9 @@ def plank(part):
 
 
 def _bracket(picture, column, inward):
-    """Draw a short strut under an end of a plank."""
+    """Draw a short strut under an end of a plank. column: of the strut; inward: 1 or -1, direction of the plank's
+    middle.
+    """
     for i in range(5):
         for dx, colour in ((0, RAMPS["wood"][2]), (inward, RAMPS["wood"][1])):
             picture[6 + i, column + dx] = (*colour, 255)

@@ -17,7 +17,8 @@ ROOT = FOLDER.parents[len(ABOVE)]  # where the names are looked up
 
 
 def filmed(what, *names):
-    """Run `python -m scenes.filming` with these arguments; return {file name: bytes} in the order of their names.
+    """Run `python -m scenes.filming` with the arguments `what` and `names`; return {file name: bytes} in the order of
+    the file names.
 
     Raises RuntimeError with the program's output when it fails.
     """

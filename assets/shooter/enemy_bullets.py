@@ -34,7 +34,10 @@ RING_DARK = mix(OUTLINE, RAMPS["purple"][0], 0.3)
 
 
 def tones_of(name, safe):
-    """Return (edge, body, light) of a bullet's saturated ring, dark to light."""
+    """Return (edge, body, light) of a bullet's saturated ring, dark to light.
+
+    safe: in the colours for colour blindness.
+    """
     if safe:
         colour = np.array(SAFE[name][0], np.uint8)
         return mix(colour, OUTLINE, 0.20), colour, mix(colour, WHITE, 0.35)
@@ -43,7 +46,7 @@ def tones_of(name, safe):
 
 
 def round_bullet(name, safe, frame):
-    """Return one round bullet, frame 0..1."""
+    """Return one round bullet, frame 0..1. name: key of ROUND; safe: in the colours for colour blindness."""
     radius, size, _ = ROUND[name]
     sprite = Sprite(size, size)
     dx, dy = sprite.x - size / 2, sprite.y - size / 2
@@ -74,7 +77,7 @@ def round_bullet(name, safe, frame):
 
 
 def needle(safe):
-    """Return the aimed shot, drawn pointing down: 7 x 14 px."""
+    """Return the aimed shot, drawn pointing down: 7 x 14 px. safe: in the colours for colour blindness."""
     sprite = Sprite(7, 14)
     x, y = sprite.x, sprite.y
     edge, body, light = tones_of("bullet_needle", safe)

@@ -81,7 +81,7 @@ def _jet_side(sprite, side):
 
 
 def _strip(sprite, first, second, corner=0.0):
-    """Return the box field between two corners given in either order."""
+    """Return the box field between two corners (x, y), `first` above `second`; either may be the left one."""
     left, right = min(first[0], second[0]), max(first[0], second[0])
     return box(sprite.x, sprite.y, left, first[1], right, second[1], corner)
 

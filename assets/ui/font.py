@@ -56,7 +56,7 @@ def load_glyphs(name):
 
 
 def write(target, text, x, y, colour):
-    """Write one line of the larger font on target (h, w, 3) uint8, its top left at (x, y)."""
+    """Write one line of the larger font in a colour on target (h, w, 3) uint8, its top left at (x, y)."""
     glyphs = load_glyphs("font5x7")
     for character in text:
         ink = glyphs[character]

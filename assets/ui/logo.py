@@ -87,7 +87,9 @@ def logo():
 
 
 def _boxes(sprite, face):
-    """Draw the thin bounding boxes with their corners, and the pixels of the one true hit."""
+    """Draw the thin bounding boxes with their corners, and the pixels of the one true hit. face: the pixels of the
+    letters.
+    """
     for letter, colour in (("O", BOX_COLOUR), ("X", BOX_COLOUR)):
         left, right = LETTER_X[letter] - 4, LETTER_X[letter] + LETTER_WIDTH[letter] + 3
         top, bottom = TOP - 5, BOTTOM + 4

@@ -250,7 +250,7 @@ def cell_rect(row, column):
 
 
 def cell_center(row, column):
-    """Return the point of a cell [px] about which its discs swing: the middle, slightly above its marks."""
+    """Return the point [px] about which the discs of the cell (row, column) swing: slightly above its middle."""
     return LEFT + (column + 0.5) * CELL_WIDTH - 1.0, TOP + (row + 0.5) * CELL_HEIGHT - 3.0
 
 

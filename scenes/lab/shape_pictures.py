@@ -128,7 +128,7 @@ def placed_hull(shape, pose):
 
 
 def difference(a, b):
-    """Return the corners of the Minkowski difference of two point sets, clockwise on the screen (monotone chain)."""
+    """Return the corners of the Minkowski difference A - B of two point sets, clockwise on the screen."""
     points = sorted({(round(ax - bx, 9), round(ay - by, 9)) for ax, ay in a for bx, by in b})
     if len(points) < 3:
         return [list(point) for point in points]

@@ -102,7 +102,7 @@ class Level:
         return self.kind(floor(x / self.tile), floor(y / self.tile))
 
     def surface(self, column, row, x):
-        """Return the y [px] of the ground in a tile, at x [px], or None if the tile has no solid ground."""
+        """Return the y [px] of the ground in the tile (column, row), at x [px], or None if it has no solid ground."""
         kind = self.kind(column, row)
         if kind == SOLID:
             return row * self.tile

@@ -309,7 +309,7 @@ class Runner:
         return False
 
     def _enemy_ahead(self, scene, hero, way):
-        """Return whether to jump now, onto an enemy that can be stomped or over another enemy."""
+        """Return whether to jump now in the direction `way`: onto an enemy that can be stomped, or over another."""
         x, bottom = hero.character.position[0], hero.box[3]
         for enemy in scene.things.enemies.values():
             there = (enemy.character.position[0] - x) * way
