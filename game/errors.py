@@ -72,7 +72,9 @@ def brief(text: object, most: int = LONGEST) -> str:
 
 
 def share(texts: Sequence[object], room: int) -> list[str]:
-    """Return the texts, shortened to `room` characters in all. Room that a short text leaves goes to longer ones."""
+    """Return the texts, shortened to `room` characters in all. A text shorter than its share leaves the rest to longer
+    texts.
+    """
     lines = [str(text) for text in texts]
     by_length = sorted(range(len(lines)), key=lambda number: len(lines[number]))
     for left, number in zip(range(len(lines), 0, -1), by_length, strict=True):

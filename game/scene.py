@@ -1,9 +1,9 @@
 """Scene: base class of the scenes, one subclass per file in scenes/. The same scene is played, tested headless, and
 measured.
 
-update() is one fixed step of 1/60 s: rules, world.step(), events. It is deterministic, uses no display and reads no
-clock. draw() changes neither the state nor the random numbers. Purely visual data (particles, curves, camera shake) is
-outside state() and uses its own random numbers.
+update() is one fixed step of 1/60 s: rules, world.step(), events. update() is deterministic, uses no display and reads
+no clock. draw() changes neither the state nor the random numbers. Purely visual data (particles, curves, camera shake)
+is outside state() and uses its own random numbers.
 """
 
 import gc
@@ -381,8 +381,8 @@ class Scene:
 
     @property
     def chosen(self) -> tuple:
-        """Return the values of all sliders and switches. A measured run that depends on them has this tuple in its
-        name.
+        """Return the values of all sliders and switches. A measured run that depends on these values has this tuple in
+        its name.
         """
         return *self.values.values(), self.broadphase, self.solver, self.substeps, self.narrowphase
 

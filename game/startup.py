@@ -89,9 +89,9 @@ def end_quietly_on_interrupt() -> "object":
     """Make Ctrl-C end the program at once, with exit code 130 and without a traceback, until take_interrupts() is
     called.
 
-    Return the previous handler, the argument of take_interrupts(). This is for the time of the imports: they need no
-    cleanup, and an exception during an import prints many lines or is swallowed. A handler other than Python's default
-    is left in place.
+    Return the previous handler, the argument of take_interrupts(). Call this function before the imports: imports need
+    no cleanup, and an exception during an import prints many lines or is swallowed. A handler other than Python's
+    default is left in place.
     """
     import signal
     import threading

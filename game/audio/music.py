@@ -1,7 +1,7 @@
-"""Music: one tune at a time, streamed from its file, with fades from one to the next, and jingles in between.
+"""Music: one tune at a time, streamed from its file, with fades between tunes, and jingles in between.
 
-A file is read when it is wanted. The old tune fades out before the new one fades in: two tunes in different keys over
-each other are noise. The volume is set once per drawn frame (step), so that a slider is heard while it moves.
+A file is read when its tune is wanted. The old tune fades out before the new one fades in: two tunes in different keys
+over each other are noise. The volume is set once per drawn frame (step), so that a slider is heard while it moves.
 """
 
 from collections.abc import Callable

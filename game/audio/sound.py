@@ -50,7 +50,10 @@ RANKS = {
 
 @dataclass
 class Voice:
-    """One channel of the mixer and its last sound. `started`: number of sounds started up to this one."""
+    """One channel of the mixer and its last sound.
+
+    `started`: number of that sound, counting all sounds started so far.
+    """
 
     channel: "pygame.mixer.Channel"  # in quotes: a pygame without its mixer has no such name
     name: str = ""

@@ -132,9 +132,9 @@ class Canvas:
         self.fixed.append(pygame.Rect(rect))
 
     def lift(self) -> list[tuple[pygame.Surface, tuple[int, int]]]:
-        """Return copies of the text and of the fixed rects, as (picture, top left) each.
+        """Return copies of the text and of the fixed rects, each as (picture, top left).
 
-        put_back() draws them again, over anything that was drawn after the call of lift().
+        put_back() draws these copies again, over anything that was drawn after the call of lift().
         """
         rects = [box.inflate(2 * self.edge, 2 * self.edge) for box, _ in self.boxes] + self.fixed
         inside = [rect.clip(self.rect) for rect in rects]

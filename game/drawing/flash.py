@@ -1,7 +1,7 @@
-"""Flashes of the whole picture, in one module, so that they can be limited and switched off.
+"""Flashes of the whole picture. They are all in this module, so that they can be limited and switched off.
 
-At most two flashes begin within a second, and none adds more than a third of white: half of the limit of WCAG 2.3.1
-(three general flashes a second).
+At most two flashes begin within a second, and none adds more than a third of white. The limit of WCAG 2.3.1 is three
+general flashes a second.
 """
 
 import pygame

@@ -1,5 +1,5 @@
-"""Particles: columns moved with NumPy. They are decoration: no game rule reads them, and they have their own random
-numbers.
+"""Particles, stored as columns and moved with NumPy. They are decoration: no game rule reads them, and they have their
+own random numbers.
 """
 
 import numpy as np
@@ -96,7 +96,9 @@ class Particles:
         age += dt
 
     def draw(self, canvas: Canvas, camera: Camera, alpha: float = 1.0) -> None:
-        """Draw the particles in view. One array write per pixel of the largest size replaces a loop over particles."""
+        """Draw the particles in view. The loop is over the pixels of the largest size, with one array write each, not
+        over particles.
+        """
         x, y, _, _, age, life, size, _, _ = self.rows
         alive = np.flatnonzero(age < life)
         if len(alive) == 0:

@@ -1,4 +1,5 @@
-"""Pictures of rotating bodies: small pixel art at any angle, with sharp edges, and the picture of each body (Cast).
+"""Pictures of rotating bodies: small pixel art at any angle with sharp edges, and Cast, which draws each body of a
+world with its picture.
 
 A picture is enlarged eight times by Scale2x, which keeps edges sharp, and then sampled at each pixel of the rotated
 picture (the idea of RotSprite). Rotated pictures are cached.

@@ -85,7 +85,7 @@ def load_backdrop(name: str) -> pygame.Surface:
 
 @cache
 def load_atlas(name: str) -> Atlas:
-    """Return the sheet assets/images/<name>.png with its .json. Raises FileError for a damaged one."""
+    """Return the sheet assets/images/<name>.png with its .json. Raises FileError if either file is damaged."""
     path = IMAGES / f"{name}.json"
     sheet = load_image(IMAGES / f"{name}.png")
     try:

@@ -1,7 +1,7 @@
 """Ghost of a scene: the player's positions in the fastest won run, kept in a file, and drawn beside later runs.
 
-A trail is a list of (x, y, frame name, way) rows, one per step. An unusable ghost file is kept and not shown: it never
-stops a game.
+A trail is a list of (x, y, frame name, way) rows, one per step; way: -1 or 1, the direction that the player faces. An
+unusable ghost file is kept and not shown: it never stops a game.
 """
 
 import json

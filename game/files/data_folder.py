@@ -68,9 +68,9 @@ def free_name(folder: Path, scene_name: str, suffix: str = ".json") -> Path:
 def write_atomically(path: str | Path, content: str | bytes, makes_folder: bool = True) -> None:
     """Write a file, text or bytes, so that a reader sees the old file or the new one, never a part of one.
 
-    A device or a pipe is written to, not replaced. makes_folder: whether a missing folder is created. Partial files of
-    this file, left by an earlier process, are removed. Raises OSError if the folder cannot be written; the old file is
-    then unchanged.
+    A device or a pipe is written to, not replaced. makes_folder: whether a missing folder is created. Partial versions
+    of this file that an earlier process left are removed. Raises OSError if the folder cannot be written; the old file
+    is then unchanged.
     """
     path, content = Path(path), content.encode() if isinstance(content, str) else content
     if not path.name:

@@ -110,7 +110,7 @@ _NAMES = {}  # key code -> name, filled at the first call
 
 
 def rivals(action: str, other: str) -> bool:
-    """Return whether one game uses both actions, so that they cannot share a key."""
+    """Return whether some game uses both actions, so that they cannot share a key."""
     return action != other and any(action in game and other in game for game in USED_TOGETHER)
 
 

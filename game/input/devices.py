@@ -64,7 +64,9 @@ class DeviceSource:
         self.changes.append((name, value))
 
     def next(self, scene: object | None = None) -> InputFrame:
-        """Return the input of the next step. A tap between two steps counts as held for one."""
+        """Return the input of the next step. An action that is pressed and released between two steps counts as held in
+        one step.
+        """
         actions = frozenset(self.tapped.union(*self.held.values()) if self.held else self.tapped)
         down = self.pointer_down or self.pointer_tapped
         frame = InputFrame(actions, self.pointer, down, self.wheel, tuple(self.changes))

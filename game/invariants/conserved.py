@@ -1,7 +1,7 @@
 """Invariants U3, U4 and U5: without outside influence, bodies keep momentum and angular momentum and gain no energy.
 
-They are checked only where the tables of the world prove that nothing acts from outside. A change by the game between
-two steps starts a new comparison.
+The invariants are checked only where the tables of the world prove that nothing acts from outside. A change by the game
+between two steps starts a new comparison.
 """
 
 import math
@@ -146,10 +146,11 @@ class Spin(OfTheAlone):
 
 
 def slip(step: Step, among: np.ndarray) -> float:
-    """Return the error of angular momentum that the contacts of a step may cause.
+    """Return the error of angular momentum that the contacts of a step may cause. among: (n,) bool, the bodies to
+    consider.
 
-    It is Σ impulse · (relative path of the two bodies in the step + gap or overlap), over contacts between bodies in
-    `among`.
+    The error is Σ impulse · (relative path of the two bodies in the step + gap or overlap), over contacts between these
+    bodies.
     """
     rows, (a, b) = step.contacts, step.sides
     pushed = np.flatnonzero(among[a] & among[b])
@@ -205,7 +206,8 @@ class Account:
 
 
 class Energy(Invariant):
-    """Invariant U5: without a drive, the energy of bodies never rises above the start by more than Account.gain allows.
+    """Invariant U5: without a drive, the energy of bodies never exceeds the energy at the start by more than
+    Account.gain allows.
 
     The comparison starts after the last change by the game, as soon as no overlap is deeper than two slops: bodies that
     were placed into each other are pushed apart, some of them upwards.

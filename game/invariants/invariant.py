@@ -44,7 +44,9 @@ Answer = Broken | NotAsked | None  # None: checked, and it holds
 
 
 class Invariant:
-    """Base class of the invariants; `id` and `word` label one. look() is called once after every step."""
+    """Base class of the invariants. `id`, `word`: label of the invariant, such as "U1" and "finite". look() is called
+    once after every step.
+    """
 
     id: str
     word: str

@@ -11,7 +11,8 @@ COMPARED = ("x", "y", "angle", "vx", "vy", "angular_velocity")
 
 
 class Order(Invariant):
-    """Invariant U9. It cannot be checked in one running world, which has one order only, so its state is never green.
+    """Invariant U9. One running world has only one order of bodies, so U9 cannot be checked in it, and its state is
+    never green.
 
     Tests compare two worlds with `furthest_apart` (tests/game/test_invariants.py). U9 holds for bodies that do not
     press on each other. Loaded contacts are solved one after the other, in an order that begins with the ids, and the

@@ -1,4 +1,4 @@
-"""Sample of the candidate pairs of a step, another one in each step, as shapes at poses for collision queries."""
+"""Samples of the candidate pairs of a step, as shapes at poses for collision queries. Each step has another sample."""
 
 from collections.abc import Iterator
 from typing import NamedTuple

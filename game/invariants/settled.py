@@ -15,7 +15,8 @@ CALM_TIME = 0.5  # [s] a pile has settled once all of it has been slower than th
 
 
 class Settled(Invariant):
-    """Invariant U6: bodies that have been slow for half a second, with all that they touch, hardly overlap.
+    """Invariant U6: bodies that have been slow for half a second, and so have all bodies that they touch, hardly
+    overlap.
 
     Two slops are allowed, five where masses differ by more than 100 : 1.
 

@@ -31,15 +31,15 @@ class Step:
 
     @cached_property
     def overlap(self) -> float:
-        """Overlap of the deepest contact [px]; 0 without one."""
+        """Overlap of the deepest contact [px]; 0 if no contact overlaps."""
         depths = self.contacts["separation"]
         return max(0.0, -float(depths.min())) if len(depths) else 0.0
 
     @cached_property
     def max_speed(self) -> np.ndarray:
-        """Speed of each body [px/s]: the greater of its velocity and its displacement in the step divided by dt.
+        """Speed of each body [px/s]: its velocity, or its displacement in the step divided by dt if that is greater.
 
-        They differ because push-out moves a body without changing its velocity.
+        The two differ because push-out moves a body without changing its velocity.
         """
         if self.dt == 0.0 or len(self.before) != len(self.now):
             return self.now.speed

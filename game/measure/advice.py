@@ -23,7 +23,7 @@ PARTS = (("broadphase",), ("tier",), ("solver", "substeps"), ("narrowphase",))
 class Advice(NamedTuple):
     """The result of `advise`.
 
-    here: the present setting. best: the setting to use; it is `here` if no setting is certainly faster, and None if no
+    here: the present setting. best: the setting to use; equal to `here` if no setting is certainly faster; None if no
     setting is within the error.
     """
 

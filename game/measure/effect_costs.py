@@ -51,7 +51,7 @@ class EffectCost(NamedTuple):
 
 
 def sides_of(effects: Effects) -> dict[str, tuple[Side, Side]]:
-    """Return {effect: (Side with the effect, Side without it)} of all effects, for a world with these effects."""
+    """Return {effect: (Side with the effect, Side without it)} of all effects, for a world that declares `effects`."""
     found = {}
     for name in EFFECTS:
         if getattr(effects, name):

@@ -128,7 +128,8 @@ class References:
 def pairs_of(world: World) -> set[tuple[int, int]]:
     """Return the pairs of ids of touching bodies, the smaller id first.
 
-    So pairs of worlds at different tiers can be compared: which body of a contact is A depends on the shapes.
+    With this order, pairs of worlds at different tiers can be compared: which body of a contact is A depends on the
+    shapes.
     """
     contacts = world.contacts[world.contacts["separation"] <= 0.0]  # contacts include pairs about to meet
     ids = np.sort(np.stack([contacts["body_a"], contacts["body_b"]], axis=1), axis=1)

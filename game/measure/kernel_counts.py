@@ -3,8 +3,8 @@
 Kernels run as plain Python and record the types of their arguments; nothing is compiled.
 
 Standard input takes one line: {"effects": names, "broadphase": name, "pieces": shape pairs and queries as in
-physics.warmup}. Standard output gets one line per effect: [name, number of kernels called with it and not without it].
-Without a compiler there is no output.
+physics.warmup}. Standard output gets one line per effect: [name, number of kernels that are called only with this
+effect]. Without a compiler there is no output.
 """
 
 import json

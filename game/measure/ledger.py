@@ -29,7 +29,9 @@ NEVER_NEUTRAL = ("narrowphase", "response", "stacking", "rotation", "sleeping")
 
 
 class Entry(NamedTuple):
-    """Result for one effect of one scene. Frames count from 1; None: the copies never differ in this respect."""
+    """Result for one effect of one scene. Frames count from 1. A frame is None if the two copies never differ in that
+    respect.
+    """
 
     effect: str
     declared: bool
@@ -47,7 +49,10 @@ class Entry(NamedTuple):
 
     @property
     def matters(self) -> bool:
-        """True if the effect changes the run, or if the scene cannot run without it; for sleeping, if it saves work."""
+        """True if the effect changes the run, or if the scene cannot run without it.
+
+        Sleeping matters if it saves work.
+        """
         if self.refused:
             return True
         if self.effect == "sleeping":

@@ -50,7 +50,8 @@ class Moment:
         count it.
 
         stage: time this stage only, 0 if the step has no stage of that name; None: time the whole step. act: time this
-        action instead of steps. It runs after one step, which fills the broad phase, and one untimed call.
+        action instead of steps; before it, one step is made, which fills the broad phase, and the action is called once
+        untimed.
         """
         world = self.world(setting)
         if stage is not None:

@@ -36,7 +36,7 @@ class ReferenceTier:
         self._hits: dict[str, Pairs] = {}
 
     def ask(self, world: World) -> bool:
-        """Test one more tier, at a new snapshot of the world if all tiers were tested.
+        """Test one more tier. If all tiers were tested at the present snapshot, take a new snapshot of the world first.
 
         Return whether this was the last tier of the snapshot.
         """

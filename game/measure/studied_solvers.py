@@ -1,6 +1,7 @@
 """Variants of the stacking solvers with a part repeated or left out, to measure the effect of each part.
 
-A variant is a stage for staged.stages_of(), where it replaces the stage of the solver. It has no name for World.solver.
+A variant is a stage for staged.stages_of(), where it replaces the stage of the solver. A variant cannot be chosen by
+name as World.solver.
 """
 
 from collections.abc import Mapping

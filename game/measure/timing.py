@@ -1,7 +1,7 @@
 """Times of named functions: warmed up, called in random order, given as the least and the median of several runs.
 
-Other load on the machine only ever adds time. So the least time is the cost of the function, and the distance of the
-median from the least time is the noise. All functions run in every round, so that load affects them alike.
+Other load on the machine only ever adds time. So the least time is the cost of the function, and the difference between
+the median and the least time is the noise. All functions run in every round, so that load affects them alike.
 """
 
 import gc

@@ -75,8 +75,10 @@ class Disagreement(Layer):
             self._mark_own(scene, *reported[0])
 
     def _mark_own(self, scene, hits, lies):
-        """Add a mark at the player's box when another body's box leaves it without ever having hit it. hits, lies:
-        results of false_hits().
+        """Add a mark at the player's box when the box of another body, which overlapped it without a hit, no longer
+        overlaps it.
+
+        hits, lies: results of false_hits().
         """
         own, world = scene.own_body, scene.world
         now = {}

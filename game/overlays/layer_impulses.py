@@ -100,7 +100,7 @@ def step_of(value: float) -> float:
 
 
 def short(value: float) -> str:
-    """Return a number that is 1, 2 or 5 times a power of ten as short text, such as "20k"."""
+    """Return a value that is 1, 2 or 5 times a power of ten as short text, such as "20k"."""
     for limit, divisor, letter in ((1e3, 1, ""), (1e6, 1e3, "k"), (1e9, 1e6, "M")):
         if value < limit:
             return f"{value / divisor:g}{letter}"

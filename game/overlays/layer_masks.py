@@ -61,7 +61,7 @@ class Masks(Layer):
         draw_lines(frame.surface, lens, edges.outer, WHITE, max(1, frame.scale - 1))
 
     def draw_on_canvas(self, canvas: Canvas, camera: Camera, world: World) -> None:
-        """Draw the masks of a world on the canvas. A zoomed view is skipped: its pixels are not mask pixels."""
+        """Draw the masks of a world on the canvas. A zoomed view is skipped, because its pixels are not mask pixels."""
         if camera.zoom != 1.0:
             return
         left, top = camera.view()

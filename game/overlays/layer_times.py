@@ -99,7 +99,8 @@ class Times(Layer):
     def draw_graph(self, frame: Frame, rect: pygame.Rect) -> None:
         """Draw into a frame rect: the graph at the left, the table of stages in the middle, the counters at the right.
 
-        If not both tables fit, the counters are left out; in a narrow rect the stages are drawn below the graph.
+        If there is no room for both tables, the counters are left out; in a narrow rect the stages are drawn below the
+        graph.
         """
         scale, self.rect = frame.text_scale, pygame.Rect(rect)
         frame.surface.fill(faded(NIGHT, 0.3), rect)

@@ -91,7 +91,9 @@ class Overlays:
         self.watch(scene)
 
     def watch(self, scene: Scene) -> None:
-        """Start monitoring the invariants of the scene if they are shown; stop it if not, unless the run is strict."""
+        """Start monitoring the invariants of the scene if their layer is on. If the layer is off, stop monitoring,
+        unless the run is strict.
+        """
         shown = "invariants" in self.on
         if shown and scene.monitor is None:
             scene.watch_invariants()

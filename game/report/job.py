@@ -25,7 +25,9 @@ class ReportScope(NamedTuple):
 
 
 class Job(NamedTuple):
-    """One job. name: the chart's key, a slash, and its subject; work: "module:function", which returns rows."""
+    """One job. name: the chart's key, a slash, and the subject of the job; work: "module:function"; this function
+    returns rows.
+    """
 
     name: str
     work: str

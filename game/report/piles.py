@@ -58,7 +58,7 @@ def pyramid(rows: int, across: float = 1.1, up: float = 1.0) -> Pile:
 
 
 def heavy(ratio: float) -> Pile:
-    """Return a light box with a box on it of `ratio` times its density."""
+    """Return a light box, and on it a box of `ratio` times the density of the light box."""
     return boxes(stack(2).places, [1.0, ratio])
 
 

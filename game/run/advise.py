@@ -83,8 +83,10 @@ def lines_of(options: Options, error: float, advice: Advice, survey: Survey) -> 
 
 
 def interval(survey: Survey, setting: Setting, here: Setting) -> tuple[float, float]:
-    """Return (least, most) time of `setting` as a share of the time of `here`, from the fastest runs and the upper
-    quartiles of both.
+    """Return (least, most) time of `setting` as a share of the time of `here`, by the survey.
+
+    least: from the fastest run of `setting` and the upper quartile of `here`; most: from the upper quartile of
+    `setting` and the fastest run of `here`.
     """
     cost, now = survey.dots[setting].cost, survey.dots[here].cost
     assert cost is not None and now is not None

@@ -108,7 +108,7 @@ class Rewind:
 
     @property
     def since_result(self) -> int:
-        """Number of steps since the game ended, counted at the current state; 0 if it has not ended."""
+        """Number of steps from the end of the game to the current state; 0 if the game has not ended in this state."""
         return 0 if self.session.scene.result is None else self.position - self.ended_at + 1
 
     def note(self) -> None:

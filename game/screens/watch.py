@@ -107,7 +107,7 @@ class Watch(SceneScreen):
             self.clock.paused = True
 
     def step(self) -> None:
-        """Play one recorded step. Its sounds are played only at normal speed."""
+        """Play one recorded step. The sounds of the step are played only at normal speed."""
         if not self.tape.ended:
             self.tape.step()
             self.overlays.note(self.tape.scene)
@@ -136,7 +136,9 @@ class Watch(SceneScreen):
 
     @property
     def shows_controls(self) -> bool:
-        """True while the controls are visible. They hide during undisturbed playback, not to cover the game."""
+        """True while the controls are visible. During undisturbed playback they are hidden, so that they do not cover
+        the game.
+        """
         return self.clock.paused or self.alone < HIDE_SECONDS or self.tape.goal is not None or self.dragging
 
     def feed(self, event: pygame.event.Event) -> bool:

@@ -334,8 +334,8 @@ class Billiards(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the loss of a break's momentum before its first cushion, and the gain of energy in
-        collisions of two.
+        """Return a sentence with the error of the momentum of a break before its first cushion, and the gain of energy
+        in collisions of two balls.
         """
         if not self.compared:
             return "not yet: a ball has to be hit and to run a step before it meets a cushion"

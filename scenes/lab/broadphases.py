@@ -47,7 +47,7 @@ FITTED = 5  # of the largest sizes, a decade: below it the fixed cost of a step 
 
 
 class Broadphases(Scene):
-    """Four worlds fed the same motion, one per strategy."""
+    """Four worlds with the same bodies and motions, one per broad phase."""
 
     name = "lab/broadphases"
     title = "Broad phases"

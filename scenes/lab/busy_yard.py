@@ -123,7 +123,7 @@ class BusyYard:
         self.rock = self.world.add_body(mask, position=(x, y), kind="static", material=GRIP).id
 
     def beside(self, world):
-        """Return a copy of this yard for another world, which must have the same bodies with the same ids."""
+        """Return a copy of this yard for `world`, which must have the same bodies with the same ids."""
         other = BusyYard(world)
         other.ids, other.kinds, other.ends = dict(self.ids), dict(self.kinds), dict(self.ends)
         other.rock = self.rock

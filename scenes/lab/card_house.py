@@ -208,11 +208,7 @@ class CardHouse(Scene):
         canvas.text(word, x, FLOOR - 82, PAPER if still else ORANGE, SMALL, align="center")
 
     def draw_on_frame(self, frame):
-        """Return the goals of the self-check.
-
-        The house stands for ten seconds, the pairs of cards stand or slide as theory predicts, and the house falls at a
-        low friction.
-        """
+        """Draw a ring at the middle of each moved card, to show where the house gives way."""
         lens = frame.lens(self.camera)
         for card in self.cards:
             moved = self.moved(card)
@@ -222,7 +218,8 @@ class CardHouse(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        It stands for ten seconds, the pairs follow theory, and at a low friction it falls.
+        The house stands for ten seconds, the pairs of cards stand or slide as theory predicts, and the house falls at a
+        low friction.
         """
         slid, stood = (self.stands(cards) for cards in self.pairs)
         moved = self.wandered if self.held is None else self.held

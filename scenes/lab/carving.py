@@ -54,7 +54,7 @@ FEWEST = 6  # places of the ground at which a carve is timed
 
 
 class Carving(Scene):
-    """One world: the ground, things on it, and fragments of both."""
+    """One world: the ground, things on it, and fragments of the ground and of the things."""
 
     name = "lab/carving"
     title = "Carving"

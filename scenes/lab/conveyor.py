@@ -178,7 +178,7 @@ class Conveyor(Scene):
                     self.seen[kind].add(name)
 
     def _rest(self):
-        """Record how far a crate in the world without the effect has moved since one second after its fall."""
+        """Record how far a crate in the world without the effect has moved since one second after it was added."""
         for identity in self.kinds[1]:
             x, y = self.worlds[1].body(identity).position
             age, start = self.fallen.get(identity, (0, None))

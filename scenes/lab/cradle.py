@@ -243,7 +243,10 @@ class Cradle(Scene):
                     )
 
     def check(self):
-        """Return the goals of the self-check: one in, one out; two in, two out; nothing lost."""
+        """Return the goals of the self-check.
+
+        As many balls leave as strike, one or two, and no momentum or energy is lost.
+        """
         goals = []
         for name in SOLVERS:
             for strikers, due in ((1, 200), (2, SWITCH_AT + 200)):

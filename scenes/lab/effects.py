@@ -145,7 +145,7 @@ class EffectsLab(Scene):
             self._part()
 
     def update(self, inputs):
-        """Process keys and the pointer, step both yards, and compare them once."""
+        """Process keys and the pointer, step both yards, and after two seconds compare them."""
         way = inputs.pressed("down") - inputs.pressed("up") - inputs.wheel
         row = (inputs.pointer[1] - TOP) // ROW
         points = inputs.pointer_pressed and inputs.pointer[0] < SIDE and 0 <= row < len(NAMES)
@@ -191,7 +191,10 @@ class EffectsLab(Scene):
         return MeasuredRun([made], self.broadphase, WINDOW)
 
     def stages(self):
-        """Return (stages of the step that only the selected effect needs, stages that replace them without it)."""
+        """Return (own, replaced). own: names of the stages that a step has only because of the selected effect.
+
+        replaced: names of the stages that a step has only without the effect.
+        """
         real, other = self.real.world.stages, self.other.world.stages
         return [name for name in real if name not in other], [name for name in other if name not in real]
 

@@ -120,7 +120,7 @@ class Filters(Scene):
         return bool(self.masks[row] >> column & 1)
 
     def _judge(self):
-        """Check that overlapping discs are in contact if both masks allow it, and that no other discs are."""
+        """Check that overlapping discs are in contact exactly if both masks allow it."""
         self.touching[:] = False
         for a, b in zip(self.world.contacts["body_a"].tolist(), self.world.contacts["body_b"].tolist(), strict=True):
             self.wrong += self.cell_of[a] != self.cell_of[b]
@@ -214,8 +214,8 @@ class Filters(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the number of box pairs that the filter dropped in the last step, and whether contacts
-        are those allowed.
+        """Return a sentence with the number of box pairs that the filter dropped in the last step, and whether all
+        contacts were allowed.
         """
         if not self.steps:
             return "not yet: the discs have to swing"

@@ -14,7 +14,7 @@ MOVING_SHARE = 0.05  # of the bodies in the "still" layout
 
 
 def populate(world, layout, count, seed):
-    """Add `count` bodies to a world, the same for the same layout, count and seed."""
+    """Add `count` bodies to a world. The bodies depend only on layout, count and seed."""
     random = Random(f"{seed} {layout} {count}")
     positions = np.array([_place(random, layout) for _ in range(count)])
     speed = SLOW if layout == "ground" else FAST

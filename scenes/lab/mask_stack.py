@@ -168,7 +168,9 @@ class MaskStack(Scene):
             self._measure(way, world, top)
 
     def _measure_one_fit(self):
-        """Measure how well the shapes of one sprite fit. One sprite a step, because all take seconds without numba."""
+        """Measure how well the shapes of one sprite fit. Only one sprite is measured per step, because all take seconds
+        without numba.
+        """
         for way in WAYS:
             for name, mask, shapes in self.laid[way]:
                 if (name, way) not in self.fits:
@@ -308,7 +310,7 @@ class MaskStack(Scene):
         return "; ".join(parts)
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: watch them come to rest, nudge once, watch again."""
+        """Return the bot's input for the next step. Its plan: watch the piles come to rest, nudge once, watch again."""
         return InputFrame(frozenset(("fire",)) if self.frame == 240 else frozenset())
 
     def state(self):

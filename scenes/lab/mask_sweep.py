@@ -309,7 +309,7 @@ class MaskSweep(Scene):
         return self.passed, {key: count + self.passed[key] for key, count in self.hit.items()}
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: watch; later only swords, faster."""
+        """Return the bot's input for the next step. Its plan: watch, and later raise the speed three times."""
         return frozenset(("right",)) if self.frame in (200, 210, 220) else frozenset()
 
     def state(self):

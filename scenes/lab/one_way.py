@@ -118,7 +118,9 @@ class OneWay(Scene):
         self.disturbed = False  # a rider was dragged
 
     def change_slider(self, name, value):
-        """Change the lift's swing; its riders settle again."""
+        """Apply a change of a slider. If the lift's swing has changed, its riders settle again before their slip is
+        measured.
+        """
         super().change_slider(name, value)
         if name == "lift":
             self.offsets = None

@@ -170,7 +170,9 @@ class Pyramid(Scene):
         return found
 
     def finding(self):
-        """Return cost and error of the current setting, and the cheapest setting of the same accuracy."""
+        """Return a sentence with the cost and error of the current setting, and with the cheapest setting of the same
+        accuracy.
+        """
         dots = self.dots()
         if self.run_name not in dots:
             return "not yet: this pyramid has to be stepped beside the game"
@@ -199,7 +201,7 @@ class Pyramid(Scene):
         return 0.0, -(int(self.values["rows"]) - 0.5) * SIZE
 
     def _drop(self):
-        """Throw a new ball from the upper left; the last one is removed."""
+        """Throw a new ball from the upper left; the previous ball is removed."""
         if self.thrown is not None:
             self.world.remove_body(self.thrown)
         radius = BALL / self.camera.zoom
@@ -296,7 +298,7 @@ class Pyramid(Scene):
         ]
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: watch it stand, then drop the ball."""
+        """Return the bot's input for the next step. Its plan: watch the pyramid stand, then drop the ball."""
         return InputFrame(frozenset(("fire",)) if self.frame == DROP_AT else frozenset())
 
     def state(self):

@@ -196,7 +196,7 @@ class Queries(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        They are: this kind of query at two hundred places of the picture, by each strategy.
+        A run makes the current kind of query at two hundred places of the picture, with one broad phase.
         """
         made = []  # one snapshot for all unknown ones
 
@@ -275,10 +275,7 @@ class Queries(Scene):
             pygame.draw.rect(frame.surface, faded(PAPER, 0.3), rect, 1)
 
     def _draw_found(self, frame, lens, world):
-        """Return the runs to time beside the game.
-
-        A run makes the current kind of query at two hundred places of the picture, with one broad phase.
-        """
+        """Draw the outlines of the found shapes."""
         ids = {each[0] for each in self.answer}
         rows = [row for row, body in enumerate(world.shapes["body"].tolist()) if body in ids]
         for outline in debug.outlines(world, rows) if rows else ():

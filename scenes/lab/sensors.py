@@ -311,7 +311,9 @@ class Sensors(Scene):
         canvas.text(f"{self.unpaired}", 474, y, GREEN if self.unpaired == 0 else RED, SMALL, align="right")
 
     def check(self):
-        """Return the goals of the self-check: every entry is reported once, with one exit, and none is false."""
+        """Return the goals of the self-check: every entry is reported once, with one exit, and no false entry is
+        reported.
+        """
         missed, false = sum(self.missed.values()), sum(self.false.values())
         balance = all(
             self.entered[name] - self.left[name] == sum(1 for zone, _ in self.inside if zone == name) for name in ZONES

@@ -156,7 +156,7 @@ class Shapes(Scene):
         self.steps = gjk_steps(a, pose_a, b, pose_b)
 
     def _compare(self):
-        """Compare three methods in both orders: overlap, distance, depth."""
+        """Compare overlap, distance and depth of the two shapes by three methods, in both orders of the shapes."""
         a, b = self.shapes
         pose_a, pose_b = (tuple(pose) for pose in self.hands.poses)
         gap, other = self.gap, distance(b, pose_b, a, pose_a)

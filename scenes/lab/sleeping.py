@@ -256,7 +256,7 @@ class Sleeping(Scene):
         self._draw_figures(canvas)
 
     def _draw_aim(self, surface):
-        """Draw the start of the balls, and the next one's path."""
+        """Draw the point from which the balls start, and the path of the next ball."""
         (x, y), (to_x, to_y) = (
             self.camera.to_canvas(*place) for place in (MOUTH, (self.aim, -self.values["high"] * 0.8 * METER))
         )
@@ -319,8 +319,8 @@ class Sleeping(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the cost of sleeping against that of being awake, and the number of islands that a
-        knock woke.
+        """Return a sentence with the cost of a step with and without sleep, and with the number of islands that a knock
+        woke.
         """
         parts = [f"{self.awake} of {self.awake + self.asleep} bodies are awake"]
         awake, asleep = (cost_of(self, self._run_name(how)) for how in SLEPT)

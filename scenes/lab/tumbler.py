@@ -211,7 +211,9 @@ class Tumbler(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the number of shapes out after so many turns, and the overlap in the load."""
+        """Return a sentence with the number of shapes that got out, the turns of the drum so far, and the overlap in
+        the load.
+        """
         if self.since < SETTLED + 60:
             return "not yet: the load has to settle for two seconds, and to be looked at for one"
         turns = abs(self.drum.angle) / (2 * pi)

@@ -353,7 +353,7 @@ class Tunnelling(Scene):
         return f"{kind}: {', '.join(parts)}"
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: watch balls, rods and bullets; make it faster once."""
+        """Return the bot's input for the next step. Its plan: watch balls, rods and bullets; raise the speed once."""
         tap = {100: "right", 220: "fire", 420: "fire"}.get(self.frame)
         return InputFrame(frozenset((tap,)) if tap else frozenset())
 

@@ -100,7 +100,7 @@ class Spectacle:
                 )
 
     def _jet(self, ship, side):
-        """Emit a puff of the small jet on one `side` (-1, 1) that turns the ship."""
+        """Emit a puff of one of the small jets that turn the ship. `side`: -1 left, 1 right."""
         across, down = cos(ship.angle), sin(ship.angle)
         self.scene.particles.burst(
             ship.x + 9 * side * across + 6 * down,

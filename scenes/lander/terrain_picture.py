@@ -1,7 +1,7 @@
 """The picture of the ground: rock, the wall behind it, and the edges of craters. It is drawn in cached tiles.
 
-A tile is drawn from its current pixels alone, so it is also right after a restart or a rewind. Beside carved pixels the
-rock is scorched, and its edge is light or dark like the painted edges.
+A tile is drawn from its current pixels alone, so its picture is right after a restart or a rewind, too. Beside carved
+pixels the rock is scorched, and its edge is light or dark like the painted edges.
 """
 
 import numpy as np

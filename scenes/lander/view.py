@@ -165,7 +165,9 @@ class View:
         self.centred(self.atlas["hook"], load_x, load_y)
 
     def _mark_reach(self, scene, x, y):
-        """Draw a mark above each piece of cargo near the ship at (x, y); it is green if the line can reach it."""
+        """Draw a mark above each piece of cargo near the ship at (x, y). The mark is green if the line can reach the
+        cargo.
+        """
         near = [
             (place[0], place[1])
             for place in (self.pose(scene, identity) for identity in scene.yard.cargo)

@@ -116,7 +116,8 @@ class Yard:
                         self.cargo[piece].over = self.zones[zone] if came else None
 
     def delivered(self, held):
-        """Return the ids of the cargo that is delivered in this step: it has been at rest on a pad for long enough.
+        """Return the ids of the cargo that is delivered in this step, because it has now been at rest on a pad for long
+        enough.
 
         `held`: body id of the line's load, which does not count; -1: none.
         """

@@ -1,7 +1,7 @@
 """Chart 2: cost of a contact, and the errors of its normal and depth, for each tier of collision shape.
 
-The truth is analytic: a disc against a disc or an upright square. The tiers are fitted to pixel masks of them. The
-outline of the pixels cannot serve as truth, because its normals have four directions only.
+The truth is analytic: a disc against a disc or an upright square. The tiers are fitted to pixel masks of these shapes.
+The outline of the pixels cannot serve as truth, because its normals have four directions only.
 """
 
 from collections.abc import Callable, Sequence

@@ -1,6 +1,6 @@
-"""Chart 12: the time of the steps of every scene, played by its bot, up to the slowest step, and the memory they need.
+"""Chart 12: the time of the steps of every scene, played by its bot, up to the slowest step, and the memory of a step.
 
-A step is that of the whole scene, as `--headless` runs it without drawing: bot, rules and physics.
+A step is a step of the whole scene, as `--headless` runs it without drawing: bot, rules and physics.
 """
 
 import tracemalloc

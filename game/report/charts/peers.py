@@ -1,7 +1,7 @@
 """Chart 14: the same work done by common libraries: pygame's rectangles and masks, pymunk's solver.
 
 Sprites have integer positions, because pygame compares whole pixels. The truth is the set of pairs of masks that share
-a pixel; all pairs are tested for it.
+a pixel; to find it, all pairs are tested.
 """
 
 from collections.abc import Callable, Sequence

@@ -96,7 +96,7 @@ def measure(pile: str) -> list[Row]:
 
 
 def jobs(scope: ReportScope) -> list[Job]:
-    """Return one job per pile; none in a quick report."""
+    """Return one job per pile; in a quick report, no jobs."""
     return [
         Job(
             f"solvers/parts-{pile}".replace(" ", "-").replace(":", "-to-"),

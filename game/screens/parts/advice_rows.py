@@ -29,8 +29,8 @@ class AdviceRows:
         return self.tuner.on, len(self.tuner.decisions)
 
     def key(self, key: int) -> bool:
-        """Process a key: Page Up applies the advice, Page Down switches the tuner. Return whether it was one of
-        them.
+        """Process a key: Page Up applies the advice, Page Down switches the tuner. Return whether the key was Page Up
+        or Page Down.
         """
         if key == TAKE:
             self.take()

@@ -45,7 +45,7 @@ class Repeat:
         self.wait = 0.0
 
     def move(self, inputs: InputState, dt: float) -> int:
-        """Return the move of this step: -1, 0 or +1. Call it in each step; dt: its length [s]."""
+        """Return the move of this step: -1, 0 or +1. Call move() in each step; dt: length of the step [s]."""
         back, forth = self.names
         for action, way in ((back, -1), (forth, 1)):
             if inputs.pressed(action):

@@ -128,7 +128,9 @@ class StepInspectorView:
         return True
 
     def _turn_world(self, way):
-        """Inspect the next visible world (`way` 1; -1: the previous one) that makes a step in this frame."""
+        """Inspect the next visible world that makes a step in this frame. way: 1 for the next world, -1 for the
+        previous one.
+        """
         here, count = self.world, len(self.worlds())
         for number in range(1, count + 1):
             if not self.enter(here + way * number):

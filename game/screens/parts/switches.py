@@ -65,7 +65,7 @@ class Switches:
         self.report(f"{what}: {plain_name(str(new))}, was {plain_name(str(old or 'none'))}")
 
     def report(self, line: str) -> None:
-        """Show a line of text for REPORT_SECONDS."""
+        """Show a line of text for the next REPORT_SECONDS."""
         self.reported = line, self.now + REPORT_SECONDS
 
     @property
@@ -75,5 +75,7 @@ class Switches:
 
 
 def following(names: Sequence[Any], name: Any, way: int) -> Any:
-    """Return the element `way` places after `name` in `names`, cyclically; the first one if `name` is not there."""
+    """Return the element `way` places after `name` in `names`, cyclically; the first element if `name` is not in
+    `names`.
+    """
     return names[(names.index(name) + way) % len(names)] if name in names else names[0]

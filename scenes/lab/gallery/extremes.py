@@ -84,7 +84,7 @@ def build_pyramid(side, origin):
 
 
 def apart(side):
-    """Return the greatest difference, along x or y, between the positions of a body in both worlds [mm]."""
+    """Return the greatest difference between the positions of the same body in the two worlds, along x or y [mm]."""
     b, other = dynamic(side.world), dynamic(side.other.world)
     shift = side.kept["origin"] - side.other.kept["origin"]
     return MM * max(float(np.abs(b[axis] - other[axis] - shift).max()) for axis in ("x", "y"))

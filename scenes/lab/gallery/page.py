@@ -34,9 +34,9 @@ class Way:
 
 
 def auto(accuracy):
-    """Return the Way whose world chooses as many substeps as limit the sag of contacts to `accuracy` [mm].
+    """Return the Way whose world chooses the number of substeps that limits the sag of contacts to `accuracy` [mm].
 
-    This holds as long as 32 substeps suffice.
+    The limit is kept as long as 32 substeps suffice.
     """
     name = f'substeps="auto", to {accuracy} mm'
     return Way(name, {"substeps": "auto", "accuracy": accuracy / MM})
@@ -50,7 +50,7 @@ PLAIN = Way("projection", PUSHED.world, without=("stacking",))
 
 @dataclass(frozen=True)
 class Larger:
-    """The case of a page at a size that is too large for real time. It runs beside the game.
+    """The case of a page at a size that is too large for real time, which runs beside the game.
 
     `maker`: "module:function" that returns its snapshot; the argument is a Way's `world`. `steps`: how many steps from
     the start are judged.
