@@ -72,8 +72,9 @@ def brief(text: object, most: int = LONGEST) -> str:
 
 
 def share(texts: Sequence[object], room: int) -> list[str]:
-    """Return the texts, shortened to `room` characters in all. A text shorter than its share leaves the rest to longer
-    texts.
+    """Return the texts, shortened to `room` characters in all.
+
+    Each text has an equal share of the room. The part of a share that a short text does not need goes to longer texts.
     """
     lines = [str(text) for text in texts]
     by_length = sorted(range(len(lines)), key=lambda number: len(lines[number]))

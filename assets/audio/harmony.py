@@ -61,7 +61,7 @@ class Chord(NamedTuple):
 
 
 def pitch(name):
-    """Return the MIDI number of a note such as F#4. Raises ValueError."""
+    """Return the MIDI number of a note such as F#4. Raises ValueError for any other text."""
     match = re.fullmatch(r"([A-G])([#b]?)([0-8])", name)
     if not match:
         raise ValueError(f"no note {name!r}; notes are a letter A..G, # or b if wanted, and an octave, such as F#4")
@@ -70,7 +70,7 @@ def pitch(name):
 
 
 def chord(name):
-    """Return the Chord of a symbol such as F#m7 or C/E. Raises ValueError."""
+    """Return the Chord of a symbol such as F#m7 or C/E. Raises ValueError for any other text."""
     match = re.fullmatch(r"([A-G])([#b]?)([a-z0-9]*)(?:/([A-G])([#b]?))?", name)
     if not match or match.group(3) not in QUALITIES:
         raise ValueError(
@@ -82,7 +82,7 @@ def chord(name):
 
 
 def scale(text):
-    """Return the pitch classes of a key such as "D mixolydian". Raises ValueError."""
+    """Return the pitch classes of a key such as "D mixolydian". Raises ValueError for any other text."""
     match = re.fullmatch(r"([A-G])([#b]?) (\w+)", text)
     if not match or match.group(3) not in SCALES:
         raise ValueError(f"no key {text!r}; a key is a root and one of {', '.join(SCALES)}")

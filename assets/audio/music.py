@@ -87,12 +87,12 @@ def _drums(tune, notes, voice):
 
 
 def _gain(note):
-    """Return the gain of a note: its own volume, and its position in the beat."""
+    """Return the gain of a note, which depends on its volume and on its position in the beat."""
     return note.volume * STRESS[note.start % STEPS_PER_BEAT]
 
 
 def _sides(place):
-    """Return the gains of left and right, (2, 1). place: -1 left .. 1 right."""
+    """Return the gains of the left and the right side, (2, 1). place: -1 left .. 1 right."""
     place = max(-1.0, min(1.0, place))
     return np.array([[1 - place], [1 + place]])
 
@@ -156,7 +156,8 @@ def _level(samples):
 
 
 def music_files(name):
-    """Return {relative path: bytes or Recording} of one tune: its samples' hash, and the file to be made from them.
+    """Return {relative path: bytes or Recording} of one tune: a file with the hash of its samples, and the Recording of
+    the samples.
 
     Raises ValueError if a note does not fit its chord.
     """

@@ -47,7 +47,7 @@ class TuneError(ValueError):
 
 @dataclass
 class Section:
-    """One page: the contents of its lines, with the number of each line."""
+    """One section of a tune: the contents of its lines, with the number of each line."""
 
     line: int
     chords: list = field(default_factory=list)  # a list of Chord per bar
@@ -265,8 +265,9 @@ class _Reader:
     def _notes(self, voice, bars, instrument, first, move):
         """Return the notes of one voice in one section, with degrees and tones resolved against the chords.
 
-        bars: [(text of a bar, line number)]; instrument: in this section; first: step at which the section begins;
-        move: transposition in semitones.
+        bars: [(text of a bar, line number)]; instrument: the voice's instrument in this section; first: step at which
+        the
+        section begins; move: transposition in semitones.
         """
         notes, bar_steps, sounding = [], self.tune.beats * STEPS_PER_BEAT, False
         for index, (bar, line) in enumerate(bars):

@@ -63,7 +63,9 @@ class Note:
 
     @property
     def place(self):
-        """Position, -1 left .. 1 right. The middle of an instrument is an octave above its `floor`."""
+        """Position, -1 left .. 1 right. The pitch that is an octave above the instrument's `floor` is at the
+        instrument's `pan`.
+        """
         octaves = (self.pitches[0] - self.instrument.floor) / 12 - 1
         return self.instrument.pan + self.instrument.spread * max(-1.0, min(1.0, octaves))
 

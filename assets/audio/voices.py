@@ -1,6 +1,6 @@
 """The instruments of the tunes, at four times the rate of the file: pulses, triangles and drums.
 
-Edges are averaged over one sample, and the sum is filtered before every fourth sample is kept, which prevents aliases.
+Edges are averaged over one sample, and the sum is filtered before every fourth sample is kept; both prevent aliases.
 Only elementwise arithmetic and rounded tables are used, as in synth.py: the bytes are the same on every machine.
 """
 

@@ -16,7 +16,7 @@ def grid(width, height):
 
 
 def length(x, y):
-    """Return the Euclidean length from exactly rounded steps (hypot differs between C libraries)."""
+    """Return the Euclidean length of (x, y) by exactly rounded steps, since hypot differs between C libraries."""
     return np.sqrt(x * x + y * y)
 
 
@@ -69,7 +69,7 @@ def polygon(x, y, points):
 
 
 def noise(width, height, cells_x, cells_y, seed):
-    """Return smooth value noise 0..1, (height, width), seamless in both directions, with that many cells across."""
+    """Return smooth value noise 0..1, (height, width), seamless in both directions, from cells_x x cells_y cells."""
     lattice = np.random.default_rng(seed).random((cells_y, cells_x))
     x, y = grid(width, height)
     x, y = x * cells_x / width, y * cells_y / height

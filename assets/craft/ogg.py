@@ -1,4 +1,4 @@
-"""Ogg Vorbis files of int16 samples, (frames, channels): writing, reading, and comparison with their source.
+"""Ogg Vorbis files of int16 samples, (frames, channels): writing, reading, and comparison with the samples.
 
 The encoder comes with soundfile, of the extra "assets"; the game reads such files without it. Vorbis is lossy, and no
 two encodings have the same bytes. A file is right if it decodes to the same number of frames and differs from the

@@ -52,7 +52,7 @@ class Sprite:
         return self
 
     def flat(self, field, colour):
-        """Fill a field with one colour."""
+        """Fill the inside of a field with one colour, and make it solid."""
         inside = field < 0
         self.rgb[inside] = colour
         self.solid |= inside
@@ -90,7 +90,7 @@ class Sprite:
         return self
 
     def outline(self):
-        """Put one dark pixel around the shape (4-neighbours)."""
+        """Set a dark pixel wherever a clear pixel touches the shape at one of its four sides."""
         around = np.zeros_like(self.solid)
         for dx, dy in SIDES:
             around |= shifted(self.solid, dx, dy)

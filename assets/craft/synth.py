@@ -32,7 +32,7 @@ def triangle(phase):
 
 
 def sweep(start, end, count):
-    """Return an exponential glide from start to end, both > 0, in `count` samples."""
+    """Return a pitch that glides exponentially from `start` to `end`, both > 0, in `count` samples."""
     ratio = end / start
     knots = [start * math.pow(ratio, i / KNOTS) for i in range(KNOTS + 1)]
     return np.interp(np.linspace(0, KNOTS, count), np.arange(KNOTS + 1), np.round(knots, 6))

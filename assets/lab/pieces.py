@@ -1,6 +1,6 @@
 """The sheet "lab": pictures of the lab's bodies: crates, blocks, balls, dominoes, and the billiard table.
 
-A piece fills its picture to the last pixel, outline included, so that picture and collision shape have one size.
+A piece fills its picture to the last pixel, outline included, so that picture and collision shape have the same size.
 """
 
 import math

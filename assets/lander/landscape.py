@@ -1,6 +1,6 @@
 """The shape of the lander's moon: the pixels of rock, of ice that a shell breaks, and of the wall behind holes.
 
-The plan in assets/levels/lander.json has straight lines; noise bends them, so that edges look natural.
+The plan in assets/levels/lander.json has straight lines; noise bends these lines, so that edges look natural.
 """
 
 import json
@@ -24,7 +24,9 @@ ACROSS, DOWN = ((1, 0), (-1, 0)), ((0, 1), (0, -1))
 
 @dataclass
 class Landscape:
-    """The moon, all (height, width): solid and ice bool; `massif`: rock before caves were hollowed out."""
+    """The moon, as (height, width) bool arrays. `solid`: rock and ice; `ice`: ice; `massif`: rock before caves were
+    hollowed out.
+    """
 
     solid: np.ndarray
     ice: np.ndarray
@@ -86,7 +88,7 @@ def _inside(x, y, points):
 
 
 def _near(solid, x, y, points, reach, change):
-    """Call change(solid, x, y) for the part of these arrays that contains the points and `reach` px around them."""
+    """Call change(solid, x, y) with the part of each array that contains the points and `reach` px around them."""
     reach += MARGIN
     left, right = (max(0, int(f(p[0] for p in points) + s * reach)) for f, s in ((min, -1), (max, 1)))
     top, bottom = (max(0, int(f(p[1] for p in points) + s * reach)) for f, s in ((min, -1), (max, 1)))

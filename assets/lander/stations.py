@@ -68,7 +68,9 @@ def mast(lit):
 
 
 def crate():
-    """Return cargo in a steel box with orange corners, 18 x 18 px: a full square, so that it slides and tips as one."""
+    """Return cargo in a steel box with orange corners, 18 x 18 px. It is a full square, so that it slides and tips like
+    a box.
+    """
     sprite = Sprite(18, 18)
     x, y = sprite.x, sprite.y
     sprite.flat(box(x, y, 0, 0, 18, 18), OUTLINE)

@@ -34,8 +34,8 @@ def _cells(seeds):
 
 
 def boulders(variant):
-    """Return the inside of the rock, (16, 16, 3) uint8: wedged boulders, variant 0..3; all share one layout, so all
-    join.
+    """Return the inside of the rock, (16, 16, 3) uint8: wedged boulders. variant: 0..3; the variants share one layout,
+    so they fit together.
     """
     ramp = RAMPS["rock"]
     nearest, second, facing = _cells(SEEDS)
@@ -87,7 +87,7 @@ def back_cave(variant):
 
 
 def dripstone(hanging):
-    """Return a stalactite, or a stalagmite with hanging False; its broad end touches the tile's edge."""
+    """Return a stalactite, or a stalagmite if `hanging` is False. Its broad end touches the tile's edge."""
     sprite = Sprite(TILE, TILE)
     ways = ([(2.6, -2), (7.6, -2), (5.4, 13.6)], [(8.4, -2), (13.4, -2), (11.2, 8.6)])
     for points in ways[::-1]:

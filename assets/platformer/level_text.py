@@ -36,15 +36,15 @@ class Map:
         }  # open tiles under covers
 
     def at(self, x, y):
-        """Return the letter at a tile; outside counts as ground, so that the map's edges look like its inside."""
+        """Return the letter at a tile. Outside the map it is GROUND, so that the map's edges look like its inside."""
         return self.rows[y][x] if 0 <= x < self.width and 0 <= y < self.height else GROUND
 
     def buried(self, x, y):
-        """Return the letter at a tile, with covered rooms filled."""
+        """Return the letter at a tile of the level in which all covered rooms are filled."""
         return Filled(self, self.rooms).at(x, y)
 
     def places(self, letter):
-        """Return the tiles (x, y) of a letter, left to right, top to bottom within a column."""
+        """Return the tiles (x, y) of a letter, column by column from the left, each from top to bottom."""
         return [(x, y) for x in range(self.width) for y in range(self.height) if self.rows[y][x] == letter]
 
 
@@ -101,7 +101,7 @@ def _hint(line, source):
 
 
 class Filled:
-    """A level with its rooms filled by the letter above them."""
+    """A level whose covered rooms are filled. A filled tile has the letter of the nearest tile above the room."""
 
     def __init__(self, level, rooms):
         self.level, self.rooms = level, rooms

@@ -25,7 +25,9 @@ GAPS = ((), ((8, 0, 11, 3),), ((0, 13, 4, 16), (21, 0, 24, 3)), ((14, 12, 18, 16
 
 
 def crumble(look):
-    """Return a crumbling stone slab, look 0..3: more cracks, then missing bits; one piece throughout."""
+    """Return a crumbling stone slab. look: 0..3, with more cracks and then missing bits; the slab is in one piece in
+    all looks.
+    """
     sprite = Sprite(*CRUMBLE)
     x, y = sprite.x, sprite.y
     stone = RAMPS["stone"]

@@ -1,9 +1,9 @@
 """Conversion of assets/levels/platformer.txt, one letter per tile, to a Tiled map (.tmj) with the tileset embedded.
 
 Layers, back to front: "decor" and "solid" (tiles), "cover" (tiles that hide rooms until the hero is inside), "things"
-and "bot hints" (objects). Objects are rectangles in px, x and y the top left corner; moving platforms have to_x, to_y
-(px, of that corner at the far end) and period (s, there and back), belts speed (px/s), zones the act that sets their
-look.
+and "bot hints" (objects). Objects are rectangles in px, given by their top left corner (x, y). Moving platforms have
+to_x, to_y (that corner at the far end [px]) and period (there and back [s]); belts have speed [px/s]; zones have the
+act that sets their look.
 """
 
 import itertools

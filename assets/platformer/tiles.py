@@ -1,8 +1,9 @@
 """The sheet "tiles": 16 px ground, stone, rock, slopes, planks, ladders and decoration, each with its collision kind.
 
-Ground, stone and rock are drawn from which of the eight neighbours are of the same kind, so a map made of one letter
-gets its grass, edges and corners by itself. A blob name is `ground_<mask>`, the mask being the sum of the neighbours
-present: N 1, NE 2, E 4, SE 8, S 16, SW 32, W 64, NW 128, where a corner counts only if both its sides do (47 cases).
+The picture of ground, stone and rock depends on which of the eight neighbours are of the same kind, so a map made of
+one letter gets its grass, edges and corners by itself. Such a tile is named `ground_<mask>`. The mask is the sum of the
+neighbours present: N 1, NE 2, E 4, SE 8, S 16, SW 32, W 64, NW 128, where a corner counts only if both its sides do (47
+cases).
 """
 
 import numpy as np
@@ -55,8 +56,8 @@ BLOBS = sorted({reduced(mask) for mask in range(256)})
 
 
 def texture(material, variant=0):
-    """Return the inside of a material, (16, 16, 3) uint8: quiet, with a few clods, stones or cracks; any variants
-    join.
+    """Return the inside of a material, (16, 16, 3) uint8: quiet, with a few clods, stones or cracks. All variants fit
+    together.
     """
     body, _, seed = MATERIALS[material]
     ramp = RAMPS[body]
@@ -97,8 +98,8 @@ def deep(variant):
 
 
 def fading(variant):
-    """Return the transition from ground to deep ground: one dithered into the other, (16, 16, 4) uint8, variant
-    0..1.
+    """Return the transition from ground to deep ground, (16, 16, 4) uint8: pixels of the two in a dither pattern.
+    variant: 0..1.
     """
     upper, lower = texture("ground", variant), deep(variant)[..., :3]
     return opaque(np.where((dither(TILE, TILE) > 0)[..., None], upper, lower))
@@ -260,7 +261,9 @@ def _bracket(picture, column, inward):
 
 
 def ladder(top):
-    """Return a wooden ladder, 16 x 16, repeating downwards; its top piece has a landing of planks to stand on."""
+    """Return a wooden ladder, 16 x 16, repeating downwards. top: the top piece, which has a landing of planks to stand
+    on.
+    """
     wood = RAMPS["wood"]
     picture = np.zeros((TILE, TILE, 4), np.uint8)
     for left in (2, 11):
@@ -283,7 +286,9 @@ def ladder(top):
 
 
 def material_tiles(material):
-    """Return {name: (pixels, properties)} of one material: every blob, then the variations of its inside."""
+    """Return {name: (pixels, properties)} of one material: a tile for every mask of neighbours, then the variants of
+    its inside.
+    """
     table = {f"{material}_{mask}": (blob(material, mask), {"kind": "solid"}) for mask in BLOBS}
     for variant in range(1, DEPTHS):
         table[f"{material}_255_{variant}"] = (blob(material, 255, variant), {"kind": "solid"})

@@ -1,6 +1,6 @@
 """Pictures of the games, filmed while their bots play: the menu's small pictures of all scenes.
 
-Art does not import the games: the program scenes/filming.py films them, and is run here.
+The scripts of assets/ do not import the games: the program scenes/filming.py films the games, and is run here.
 """
 
 import os

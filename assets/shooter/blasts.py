@@ -15,7 +15,7 @@ WAKE = (0.95, 0.58, 0.38, 0.28, 0.21, 0.15)  # width of the wake behind the fron
 
 
 def bomb_ring(frame):
-    """Return the shock ring, frame 0..5."""
+    """Return frame 0..5 of the shock ring."""
     size = RING_SIZES[frame]
     sprite = Sprite(size, size)
     radius = size / 2 - 1.5

@@ -1,7 +1,7 @@
-"""The shooter's two leaders, flying down: the heavy bomber half way and the fortress at the end.
+"""The shooter's two leaders, flying down: the heavy bomber of the middle of the stage and the fortress of its end.
 
 The fortress has three looks of one family: whole with its eye half shut, armour torn open, and burning with a wing tip
-gone. Each look has two frames of one silhouette (engines and eye pulse), so that both have one mask.
+gone. Each look has two frames (engines and eye pulse) with the same silhouette, so that both frames have one mask.
 """
 
 from assets.craft.fields import box, capsule, ellipse, polygon
@@ -121,7 +121,7 @@ def boss(look, frame):
 
 
 def _wing(sprite, side, frame):
-    """Draw an armoured wing with engines, plates, stripes and two turrets of one side."""
+    """Draw the armoured wing of one side, with engines, plates, stripes and two turrets. side: -1 left, 1 right."""
     x, y = sprite.x, sprite.y
     lit = -side * 0.06
 
@@ -188,7 +188,7 @@ def _wing(sprite, side, frame):
 
 
 def _prong(sprite, side):
-    """Draw the claw at a wing's end with its heavy gun."""
+    """Draw the claw at a wing's end with its heavy gun. side: -1 left, 1 right."""
     x, y = sprite.x, sprite.y
     lit = -side * 0.06
 

@@ -40,7 +40,7 @@ def from_above(seed, threshold, alpha, cells_x, cells_y, tones=HIGH):
 
 
 def shadow_of(clouds, alpha):
-    """Return the shadow a cloud layer casts: the same shape in transparent dark."""
+    """Return the shadow of a cloud layer: the same shape in a dark colour with the given alpha, 0..255."""
     out = np.zeros_like(clouds)
     solid = clouds[..., 3] > 0
     out[solid] = (12, 10, 30, alpha)

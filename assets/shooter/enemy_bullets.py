@@ -1,7 +1,8 @@
 """Enemy bullets: dark ring, saturated ring, white core, so that a bullet stands out on any ground.
 
-Each kind comes twice with the same silhouette: as NAME_0..1 and as safe_NAME_0..1 in colours of the Okabe-Ito set,
-which stay distinct under colour blindness; there the shape of the core differs, too. The second frame of a pair pulses.
+Each kind comes twice with the same silhouette: as NAME_0..1, and as safe_NAME_0..1 in colours of the Okabe-Ito set,
+which stay distinct under colour blindness. The cores of the safe kinds also differ in shape. The second frame of a pair
+pulses.
 """
 
 import numpy as np

@@ -114,7 +114,10 @@ def scorch(sprite, x, y, radius, seed):
 
 
 def wound(sprite, x, y, radius, seed, hot):
-    """Draw a torn hole in the plating: soot, bright torn edge, glowing inside. hot 0..1: its brightness."""
+    """Draw a torn hole in the plating: soot, a bright torn edge, and a glow inside.
+
+    hot: brightness of the glow, 0..1.
+    """
     scorch(sprite, x, y, radius * 1.9, seed)
     height, width = sprite.solid.shape
     rough = (noise(width, height, max(2, width // 3), max(2, height // 3), seed + 1) - 0.5) * radius * 1.5

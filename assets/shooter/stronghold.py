@@ -1,6 +1,7 @@
 """The shooter's last stretch: a fortress of concrete and steel on black rocks in a night sea, 480 x 540, seamless.
 
-It is darker than the stretches before it, so that the boss's bullets stand out more. Buildings are listed by hand.
+It is darker than the stretches before it, so that the boss's bullets stand out more. Pads, blocks and tanks are placed
+at random on the paving, with a fixed seed.
 """
 
 import numpy as np
@@ -68,7 +69,7 @@ def _build(picture, paved, random):
 
 
 def _paving(picture, height):
-    """Draw slabs over the middle of the land and a wall with lamps around them. Return the paved pixels."""
+    """Draw slabs over the middle of the land, and around the slabs a wall with lamps. Return the paved pixels."""
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH]
     # The yard's edge follows a grid, like a real building's.
     coarse = height[(y // GRID * GRID + GRID // 2) % HEIGHT, (x // GRID * GRID + GRID // 2) % WIDTH]

@@ -1,8 +1,9 @@
 """Two bitmap fonts of this project, drawn as text in assets/drawings/*.txt.
 
-A drawing consists of bands: a line "= A B C" names the glyphs, the lines under it show them side by side, # for ink. A
-glyph has its drawn width, so text is proportional; digits share one width, so numbers in a column stay aligned. The
-JSON: {"height", "baseline", "glyphs": {character: {"x", "y", "w"}}}; w is the advance, one clear column included.
+A drawing consists of bands: a line "= A B C" names the glyphs, and the lines under it show these glyphs side by side, #
+for ink. A glyph has its drawn width, so text is proportional; digits share one width, so numbers in a column stay
+aligned. The JSON: {"height", "baseline", "glyphs": {character: {"x", "y", "w"}}}; w is the advance, one clear column
+included.
 """
 
 import numpy as np

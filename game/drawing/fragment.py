@@ -55,7 +55,7 @@ class FragmentPicture:
         return self.kept[number]
 
     def middle(self, x: float, y: float, angle: float) -> tuple[float, float]:
-        """Return the centre of the picture for a body at a position and an angle."""
+        """Return the world position of the picture's centre for a body at position (x, y), rotated by `angle` [rad]."""
         c, s = cos(angle), sin(angle)
         return x + c * self.off[0] - s * self.off[1], y + s * self.off[0] + c * self.off[1]
 

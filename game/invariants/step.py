@@ -80,7 +80,7 @@ class Step:
 
     @cached_property
     def moved_by_hand(self) -> np.ndarray:
-        """Flags of the kinematic bodies that moved."""
+        """(n,) bool: whether a body is kinematic, and has a velocity or changed its pose in this step."""
         now = self.now
         moves = (now.vx != 0.0) | (now.vy != 0.0) | (now.turn != 0.0)
         moves |= (now.numbers[:3] != self.before.numbers[:3]).any(axis=0)

@@ -36,7 +36,10 @@ class TierFigures(NamedTuple):
 
 
 class Poses(NamedTuple):
-    """(n, 3) poses x, y [px], angle [rad] of two sprites; `met`: (n,) bool, whether the pixels of each pair touch."""
+    """Poses of pairs of two sprites. `first`, `second`: (n, 3) rows of x, y [px], angle [rad] for each sprite.
+
+    `met`: (n,) bool, whether the pixels of the two sprites touch.
+    """
 
     first: np.ndarray
     second: np.ndarray

@@ -69,7 +69,7 @@ class Overlays:
         self.on = set(on)
 
     def _only(self, kind: type[Kind]) -> Kind:
-        """Return the layer of this class."""
+        """Return the only layer of the class `kind`."""
         return next(each for each in self.layers if isinstance(each, kind))
 
     def toggle(self, name: str) -> None:

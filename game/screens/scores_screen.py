@@ -26,9 +26,7 @@ HEADS = ("", "NAME", "POINTS", "TIME", "DATE", "")
 
 
 class Page(NamedTuple):
-    """A page of high scores: its heading, the key of its table in the records, and the result that orders it ("points"
-    or "seconds").
-    """
+    """A page of high scores: its heading, the key of its table in the records, its order ("points" or "seconds")."""
 
     title: str
     table: str

@@ -56,7 +56,10 @@ class Spectacle:
         self.works.step(dt)
 
     def _engine(self, ship):
-        """Emit the engine's fire, and dust from ground that the exhaust reaches. Measure the height above ground."""
+        """Measure the ship's height above ground.
+
+        Emit the engine's fire, and dust from ground that the exhaust reaches.
+        """
         scene = self.scene
         x, y = ship.nose
         self.height = scene.ground.clear_way(ship.x, ship.y + 17.0, 0.0, 1.0, WARN_HEIGHT)

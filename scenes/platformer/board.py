@@ -137,7 +137,9 @@ def _draw_signs(canvas, scene):
 
 
 def _opened(scene):
-    """Return how far the iris wipe is open, 0..1. It closes at the end of a life and opens at the next."""
+    """Return how far the iris wipe is open, 0..1. The iris closes at the end of a life and opens at the start of the
+    next.
+    """
     if scene.phase == "won" or (scene.phase == "playing" and not scene.deaths):
         return 1.0  # the first life begins with the iris open: a replay may be frozen at its first frame
     left = scene.since if scene.phase == "playing" else scene.life_after - scene.since

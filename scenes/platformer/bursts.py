@@ -1,6 +1,6 @@
 """Particles of the platformer: dust, grit, sparks and confetti. They never influence the game rules.
 
-Every function takes the scene's Particles and a place in the world [px]. Speeds are in px/s, life times in s.
+Every function takes the scene's Particles and a place in the world [px]. Speeds are in px/s, lifetimes in s.
 """
 
 from math import pi

@@ -1,4 +1,4 @@
-"""The three enemies: walkers, which can be stomped; hedgehogs, which cannot; bats, which hang and dive.
+"""The three enemies: walkers, which can be stomped; hedgehogs, which cannot be stomped; bats, which hang and dive.
 
 The hero passes through enemies: his contacts with them are read after the step. A falling crate flattens an enemy.
 """

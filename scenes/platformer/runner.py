@@ -1,8 +1,8 @@
 """The platformer's bot: it follows hints in the map, and presses keys by rules.
 
-A hint is a place in the map and the way to reach it: run (with jumps at obstacles), jump at once, climb, kick from wall
-to wall, ride a platform, drop through a plank, push, fall, throw a bomb, or jump by a spring. The rules find the right
-moment: when a platform is at its end, where an enemy will be, whether there is ground ahead.
+A hint is a place in the map and the way to reach that place: run (with jumps at obstacles), jump at once, climb, kick
+from wall to wall, ride a platform, drop through a plank, push, fall, throw a bomb, or jump by a spring. The rules find
+the right moment: when a platform is at its end, where an enemy will be, whether there is ground ahead.
 """
 
 from math import sqrt
@@ -39,7 +39,7 @@ class Runner:
     def start_again(self):
         """Begin a new life at the hint of the last checkpoint, after a wait.
 
-        The wait differs from life to life, because identical steps would end in the same loss.
+        The wait differs from life to life. Otherwise the same steps would end in the same loss.
         """
         self.next = self.kept
         self.lives += 1

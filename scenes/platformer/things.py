@@ -191,7 +191,7 @@ class Crumble(Block):
     def step(self):
         """Advance the stone and its pieces by one step.
 
-        Return "shake" when it begins to shake, "break" when it breaks, "back" when it is whole again, else None.
+        Return "shake" when the stone begins to shake, "break" when it breaks, "back" when it is whole again, else None.
         """
         for bit in self.bits:
             bit[1] += 1

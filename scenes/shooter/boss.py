@@ -21,8 +21,9 @@ ALMOST = 5.0  # [s] before the end of a phase: from then on its timer is red and
 
 
 class Leader(Enemy):
-    """A mid-boss or boss. `number`: index of the current phase; `clock`: its remaining steps; `beaten`: whether the
-    phase that ended last was won by the player (True) or ran out of time (False).
+    """A mid-boss or boss. `number`: index of the current phase; `clock`: remaining steps of this phase.
+
+    `beaten`: whether the last finished phase was won by the player (True) or ran out of time (False).
     """
 
     heavy = leads = True

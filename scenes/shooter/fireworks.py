@@ -66,7 +66,9 @@ class Fireworks:
         self.bursts.append([name, x, y, vx, vy, age])
 
     def chain(self, x, y, wide, high, count, apart):
-        """Add `count` small explosions within (wide, high) [px] of (x, y), one every `apart` seconds."""
+        """Add `count` small explosions around (x, y), one every `apart` seconds, at most `wide` and `high` px away
+        along x and y.
+        """
         for number in range(count):
             dx, dy = self.random.uniform(-wide, wide), self.random.uniform(-high, high)
             self.burst("explosion_small", x + dx, y + dy, dx * 0.6, dy * 0.6 + 12, -apart * number)

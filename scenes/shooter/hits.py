@@ -55,7 +55,7 @@ def partners(events, identity):
 
 
 def boxes_met(world, identity):
-    """Return the ids of enemies and bullets whose bounding box overlapped that of body `identity` in the last step."""
+    """Return ids of enemies and bullets whose bounding box overlapped the box of body `identity` in the last step."""
     shapes = world.shapes
     box = shapes[np.flatnonzero(shapes["body"] == identity)[0]]  # it has one shape, whatever the tier
     a, b = world.candidates[:, 0], world.candidates[:, 1]

@@ -1,7 +1,7 @@
 """Fire of the bosses: functions that compute headings of bullets, and a Gun that fires one Pattern of a stage file.
 
-"aimed", "lead" and "fan" target the player; "ring", "spiral" and "wall" fill the sky. The bullets of a "stream" all
-follow the heading of its first bullet.
+"aimed", "lead" and "fan" target the player; "ring", "spiral" and "wall" fill the sky. All bullets of a "stream" follow
+the heading of the first one.
 """
 
 from math import atan2, hypot, pi, radians, sin
@@ -50,7 +50,9 @@ def wall(spacing, middle, gap, width=WIDTH):
 
 
 class Gun:
-    """A gun that fires a Pattern. It keeps the time until the next shot, the number of shots, and the heading."""
+    """A gun that fires a Pattern. It records the time until the next shot, the number of shots, and the heading of a
+    stream.
+    """
 
     def __init__(self, pattern):
         self.pattern = pattern

@@ -1,7 +1,7 @@
 """The shooter's bot: it predicts the bullets, compares several plans of flight, and takes the least dangerous plan.
 
-A plan is a direction, flown for a number of steps; then the plane stops. Distances of all plans to all threats at all
-predicted moments are one array expression. The bot drops a bomb if its best plan ends in a hit soon.
+A plan is a direction, flown for a number of steps; then the plane stops. One array expression gives the distances of
+all plans from all threats at all predicted moments. The bot drops a bomb if its best plan soon ends in a hit.
 """
 
 import numpy as np

@@ -1,6 +1,7 @@
-"""Points of the shooter: the values of kills and grazes, and the chain that multiplies them.
+"""Points of the shooter: the values of kills and grazes, and the chain that multiplies these values.
 
-Each kill or graze adds a link to the chain. The chain breaks after a while without either, or when the player is hit.
+Each kill or graze adds a link to the chain. The chain breaks after a while without kills and grazes, or when the player
+is hit.
 """
 
 from scenes.shooter.cast import steps
@@ -79,7 +80,9 @@ class Score:
         return self._add(round(bonus * (0.5 + 0.5 * left) / 100) * 100)
 
     def take(self, gained):
-        """Count a pick-up. If the plane gained nothing by it, add points instead. Return these points, else 0."""
+        """Count a pick-up. gained: whether the plane gained something by it; if not, points are added. Return these
+        points, else 0.
+        """
         self.taken += 1
         return 0 if gained else self._add(SPARE * self.times)
 

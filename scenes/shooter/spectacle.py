@@ -44,7 +44,7 @@ WORDS = {"power": "POWER UP", "bomb": "BOMB", "life": "1UP"}
 class Spectacle:
     """The effects of the scene. `works`: moving decoration (explosions, debris, texts); other attributes are timers.
 
-    The methods below step() show one event each, with pictures and sound.
+    The methods from wave() on show one event each, with pictures and sound.
     """
 
     def __init__(self, scene):
@@ -124,7 +124,7 @@ class Spectacle:
             self.scene.play("blip", volume=0.3)
 
     def wave_done(self, enemy, worth):
-        """Show the points `worth` for a wave of which all planes were shot down; `enemy` was its last one."""
+        """Show the points `worth` for a wave of which all planes were shot down; `enemy` was the last of them."""
         self.works.word(f"WAVE +{worth}", enemy.x, enemy.y - 34, PRAISE)
 
     def warning(self, event):
@@ -268,7 +268,7 @@ class Spectacle:
         self.scene.play("bomb", bomb.x, 0.9)
 
     def bullets_burnt(self, xs, ys):
-        """Show sparks where bullets are removed, at (xs, ys) [px]; for at most about MOST_EMBERS of them."""
+        """Show sparks where bullets are removed, at (xs, ys) [px]. Only about MOST_EMBERS of the places get sparks."""
         each = -(-len(xs) // MOST_EMBERS)
         self.works.embers(xs[::each], ys[::each])
 
@@ -332,7 +332,7 @@ class Spectacle:
         self.scene.play("big_explosion", x, 0.9)
 
     def leader_burns(self, leader, whole):
-        """Show explosions on a falling leader. They come faster towards the end of its fall of `whole` steps."""
+        """Show explosions on a falling leader, more often in the second half of its fall, which takes `whole` steps."""
         share = leader.since / whole
         every = 10 if share < 0.5 else 5
         if leader.since % every == 0:

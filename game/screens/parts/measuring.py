@@ -170,7 +170,7 @@ class Measuring:
         return ""
 
     def rivals(self) -> list[Setting]:
-        """Return the settings that differ from the current one in one part and that the scene can be raced under."""
+        """Return the settings under which the scene can be raced: all that differ from the current one by one field."""
         found = settings_around(self.now(), self.world.effects)[1:]
         return [setting for setting in found if not isinstance(self._changes(setting), str)]
 

@@ -97,7 +97,7 @@ class Race:
         return np.hypot(*(ours - theirs).T)
 
     def report_lines(self) -> list[str]:
-        """Return three lines: setting and time of the scene, the same of the rival, and their distance."""
+        """Return three lines: setting and time of the scene, setting and time of the rival, and distance of both."""
         now, other = (here_of(each.world, each.tier) for each in (self.scene, self.rival))
         apart = self.distances()
         rms = self.apart[-1] if self.apart else 0.0
