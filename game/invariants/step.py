@@ -37,7 +37,7 @@ class Step:
 
     @cached_property
     def max_speed(self) -> np.ndarray:
-        """Speed of each body [px/s]: its velocity, or its displacement in the step divided by dt if that is greater.
+        """Speed of each body [px/s]: the magnitude of its velocity, or its displacement in the step over dt if greater.
 
         The two differ because push-out moves a body without changing its velocity.
         """

@@ -144,7 +144,7 @@ class Broadphases(Scene):
             self.tests[strategy] += tests_of(world)
 
     def observe(self):
-        """Update the curves."""
+        """Add this step's counts of candidates and of tests to the curves."""
         by_name = dict(zip(STRATEGIES, self.worlds, strict=True))
         self.curves[0].note({"all four": len(self.worlds[0].candidates)})
         self.curves[1].note({name: tests_of(w) for name, w in by_name.items()})

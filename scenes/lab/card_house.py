@@ -164,7 +164,7 @@ class CardHouse(Scene):
         return hypot(card.center[0] - x, card.center[1] - y)
 
     def stands(self, cards):
-        """Return whether no card has sunk or slid by half its reach."""
+        """Return whether every card is nearer to its start than half of REACH."""
         return all(self.moved(card) < REACH / 2 for card in cards)
 
     @property
