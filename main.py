@@ -1,7 +1,7 @@
 """Hitbox: the command line, nothing else. `python main.py --help` lists the flags.
 
-The syntax of this file and of game/startup.py stays that of old Pythons, so that the line which says
-"too old" can be printed by them. Everything else is imported after those checks.
+This file and game/startup.py use only the syntax of old Pythons, so that an old Python can run them and print that it
+is too old. Everything else is imported after those checks.
 """
 
 import sys

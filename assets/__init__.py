@@ -2,8 +2,8 @@
 
 Every picture, sound, tune and level file in this folder is written by `python -m assets.build` and stored in the
 repository, so the game only reads files and starts at once. The scripts need NumPy; music also needs the encoder of the
-extra "assets", and the menu's pictures are filmed by a program of scenes/. A script imports its own folder and craft/,
-nothing of the game.
+extra "assets", and the menu's pictures are filmed by a program of scenes/. A script imports from its own folder and
+from craft/, and nothing of the game.
 """
 
 from pathlib import Path

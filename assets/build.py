@@ -39,9 +39,10 @@ PRODUCTS = {
 
 
 def make(name):
-    """Return {path relative to assets/: bytes, or the Recording to be encoded} of one product, without writing it.
+    """Return the files of one product, without writing them: {path relative to assets/: bytes, or a Recording to be
+    encoded}.
 
-    Raises KeyError naming the valid products for an unknown one.
+    Raises KeyError, which names the valid products, for an unknown name.
     """
     if name not in PRODUCTS:
         raise KeyError(f"no product {name!r}; choose one of {', '.join(PRODUCTS)}")
@@ -52,8 +53,8 @@ def make(name):
 def differences(name):
     """Return the paths of one product that are missing from the folder or differ from the script's result.
 
-    A PNG is compared by header and inflated rows: another build of zlib packs the same picture differently. A tune is
-    compared by the hash of its samples, stored beside it, and by decoding the file (craft/ogg.py).
+    A PNG is compared by header and inflated rows, because another build of zlib packs the same picture differently. A
+    tune is compared by the hash of its samples, stored beside it, and by decoding the file (craft/ogg.py).
     """
     wrong = []
     for path, made in make(name).items():
@@ -79,7 +80,7 @@ def _same(path, kept, made):
 def write(name):
     """Write one product's files. Return their relative paths.
 
-    An existing recording of these samples is not replaced: each encoding of the same samples has other bytes.
+    An existing recording of the same samples is kept: encoding the same samples again gives other bytes.
     """
     files = make(name)
     for path, content in files.items():

@@ -162,7 +162,10 @@ class App:
         self.before = now
 
     def _rest(self, started: float) -> None:
-        """Wait until the frame cap allows the next frame: without vsync, the loop would occupy a whole core."""
+        """Wait until the frame cap allows the next frame: without vsync, the loop would occupy a whole core.
+
+        `started`: time at which this iteration of the loop began [s].
+        """
         spent = perf_counter() - started
         self.frame_time.note(spent)
         wanted = 1.0 / self.settings.frame_cap if self.settings.frame_cap else 0.0
@@ -187,7 +190,9 @@ class App:
                 self.arcade.devices.feed(event)
 
     def _follow(self, outcome: Outcome) -> None:
-        """Perform the outcome of the top screen, for example open the menu, with a wipe from the old picture."""
+        """Perform `outcome`, the top screen's request to change the screen (for example: open the menu). A wipe from
+        the old picture to the new one follows.
+        """
         if outcome[0] == "menu" and self.screens.played is not None:
             if self.options.scene and (self.options.is_a_run or self.options.recording):
                 self.arcade.running = False  # such a run is about one scene: leaving the scene ends the program

@@ -26,7 +26,7 @@ class Parser(argparse.ArgumentParser):
     """Argument parser that reports a mistake in one line, as UsageError with exit code 2."""
 
     def error(self, message: str) -> NoReturn:
-        """Raise UsageError; argparse calls this for every mistake that it finds."""
+        """Raise UsageError with the message. argparse calls this method for every mistake that it finds."""
         if message.startswith("unrecognized arguments: "):
             given = message.split(": ", 1)[1].split()[0]
             flags = sorted(flag for flag in self._option_string_actions if flag.startswith("--"))
@@ -143,7 +143,9 @@ def read_options(arguments: Sequence[str], registry: Registry) -> Options:
 
 
 def _check_output(flag, name):
-    """Raise UsageError if `name` cannot be an output file, before the run starts."""
+    """Raise UsageError if `name`, the value of the flag --`flag`, cannot be an output file. This is checked before the
+    run starts.
+    """
     try:
         is_folder = name and is_there(Path(name)) and S_ISDIR(Path(name).stat().st_mode)
     except (OSError, ValueError) as error:  # ValueError: a name that is invalid on every system

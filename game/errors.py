@@ -72,7 +72,10 @@ def brief(text: object, most: int = LONGEST) -> str:
 
 
 def share(texts: Sequence[object], room: int) -> list[str]:
-    """Return the texts, shortened to `room` characters in all. Room that a short text leaves goes to longer ones."""
+    """Return the texts, shortened to `room` characters in all.
+
+    Each text has an equal share of the room. The part of a share that a short text does not need goes to longer texts.
+    """
     lines = [str(text) for text in texts]
     by_length = sorted(range(len(lines)), key=lambda number: len(lines[number]))
     for left, number in zip(range(len(lines), 0, -1), by_length, strict=True):
@@ -82,7 +85,9 @@ def share(texts: Sequence[object], room: int) -> list[str]:
 
 
 def unknown_name(what: str, name: object, valid: Iterable[str]) -> UsageError:
-    """Return a UsageError for a name that is not in `valid`, with the nearest valid name as a hint."""
+    """Return a UsageError for a name that is not in `valid`, with the nearest valid name as a hint. what: the kind of
+    name, such as "scene".
+    """
     from difflib import get_close_matches
 
     valid = list(valid)

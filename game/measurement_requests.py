@@ -58,8 +58,8 @@ class MeasuredRun(NamedTuple):
 
 
 class RunRequest(NamedTuple):
-    """Request for measured runs. make(name) returns the run of a name. It is called once per name, and the results are
-    cached.
+    """Request for measured runs. make(name) returns the run of a name. make() is called once per name, and its results
+    are cached.
     """
 
     names: Sequence[Hashable]  # numbers, words or tuples of them: runs with the same name cost the same

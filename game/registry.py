@@ -20,7 +20,7 @@ class Registry:
         return tuple(self.listing)
 
     def scene_class(self, name: str) -> type[Scene]:
-        """Return the class of a scene. An unknown name raises UsageError naming the valid ones."""
+        """Return the class of a scene. Raises UsageError, which names the valid scenes, for an unknown name."""
         if name not in self.listing:
             raise unknown_name("scene", name, self.names)
         if name not in self.classes:

@@ -1,9 +1,9 @@
 """Scene: base class of the scenes, one subclass per file in scenes/. The same scene is played, tested headless, and
 measured.
 
-update() is one fixed step of 1/60 s: rules, world.step(), events. It is deterministic, uses no display and reads no
-clock. draw() changes neither the state nor the random numbers. Purely visual data (particles, curves, camera shake) is
-outside state() and uses its own random numbers.
+update() is one fixed step of 1/60 s: rules, world.step(), events. update() is deterministic, uses no display and reads
+no clock. draw() changes neither the state nor the random numbers. Purely visual data (particles, curves, camera shake)
+is outside state() and uses its own random numbers.
 """
 
 import gc
@@ -203,8 +203,9 @@ class Scene:
     ) -> WatchedWorld:
         """Make a world with the scene's effects, broad phase, solver and seed, and append it to self.worlds.
 
-        settings: further arguments of World: gravity, drag, substeps, pixels_per_meter ... Settings of effects that the
-        world does not have are left out, so that a scene can be measured without one of its effects.
+        settings: further arguments of World: gravity, drag, substeps, pixels_per_meter ... The arguments gravity, drag
+        and wind are dropped if the world does not have the effect of that name, so that a scene can be measured without
+        one of its effects.
         """
         effects = (effects or self.effects).with_(narrowphase=self.narrowphase)
         for name, acts in (
@@ -247,7 +248,9 @@ class Scene:
             self.monitor.note(self.frame, self.worlds)
 
     def watch_invariants(self, on: bool = True, strict: bool = False) -> None:
-        """Start or stop checking the invariants of all worlds after every step. strict: see InvariantMonitor."""
+        """Start checking the invariants of all worlds after every step, or stop it if `on` is False. strict: see
+        InvariantMonitor.
+        """
         self.monitor = InvariantMonitor(strict) if on else None
         for world in self.worlds:
             world.watch = None
@@ -313,13 +316,17 @@ class Scene:
         return (cls.level_suffix,) if cls.level_suffix else (".tmj", ".json")
 
     def set_solver(self, name: str) -> None:
-        """Switch the solver of every world during a game."""
+        """Switch the broad phase of every world during a game. If switches_broadphase is False, the worlds keep their
+        own broad phases.
+        """
         self.solver = name
         for world in self.worlds:
             world.solver = name
 
     def set_substeps(self, count: Any) -> None:
-        """Set the number of substeps of every world during a game; "auto" adapts it to the loads."""
+        """Set the number of substeps of every world during a game. count: a number, or "auto", which adapts the number
+        to the loads.
+        """
         self.substeps = count
         for slider in self.sliders:
             if slider.name == "substeps" and count != "auto" and slider.low <= count <= slider.high:
@@ -355,7 +362,7 @@ class Scene:
         self.camera.shake_share = accessibility.shake
 
     def play(self, sound: str, x: float | None = None, volume: float = 1.0) -> None:
-        """Queue a sound effect. x: canvas position for the pan; None: the middle."""
+        """Queue a sound effect. x: canvas position for the pan; None: the middle. volume: 0..1."""
         self.cues.append((sound, x, volume))
 
     @property
@@ -374,8 +381,8 @@ class Scene:
 
     @property
     def chosen(self) -> tuple:
-        """Return the values of all sliders and switches. A measured run that depends on them has this tuple in its
-        name.
+        """Return the values of all sliders and switches. A measured run that depends on these values has this tuple in
+        its name.
         """
         return *self.values.values(), self.broadphase, self.solver, self.substeps, self.narrowphase
 

@@ -89,9 +89,9 @@ def end_quietly_on_interrupt() -> "object":
     """Make Ctrl-C end the program at once, with exit code 130 and without a traceback, until take_interrupts() is
     called.
 
-    Return the previous handler, the argument of take_interrupts(). This is for the time of the imports: they need no
-    cleanup, and an exception during an import prints many lines or is swallowed. A handler other than Python's default
-    is left in place.
+    Return the previous handler, the argument of take_interrupts(). Call this function before the imports: imports need
+    no cleanup, and an exception during an import prints many lines or is swallowed. A handler other than Python's
+    default is left in place.
     """
     import signal
     import threading
@@ -111,7 +111,8 @@ def take_interrupts(handler: "object") -> None:
 
 
 def say(line: str, whole: bool = False) -> None:
-    """Print one line on standard error, if the program has one, cut to errors.LONGEST characters.
+    """Print one line on standard error, cut to errors.LONGEST characters. A program without standard error prints
+    nothing.
 
     whole: do not cut the line. Use it for the program's own texts, and for bounded texts with a list of valid names.
     """

@@ -105,7 +105,7 @@ class Film:
 
 
 def film(name, seed, frames, layers=()):
-    """Run a scene. Return {frame number: picture} for the frame numbers in `frames`."""
+    """Run a scene with the overlays `layers`. Return {frame number: picture} for the frame numbers in `frames`."""
     running, wanted, taken = Film(name, seed, layers), set(frames), {}
     for number in range(1, max(wanted) + 1):
         running.step()
@@ -165,7 +165,9 @@ def write_pictures(folder):
 
 
 def write_moments(game, folder):
-    """Write the pictures of a game's moments as 00.png, 01.png, ... and their captions as the list captions.json."""
+    """Write the pictures of a game's moments into a folder as 00.png, 01.png, ..., and their captions as the list
+    captions.json.
+    """
     for number, picture in enumerate(film_moments(game, SEED, MOMENTS[game])):
         (folder / f"{number:02}.png").write_bytes(png.encode(reduced(picture)))
     captions = [moment.caption for moment in MOMENTS[game]]

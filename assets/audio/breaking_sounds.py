@@ -25,8 +25,8 @@ def splash():
 
 
 def fuse():
-    """Return the sound of a lit fuse: a spit of sparks that continues as a hiss; it is repeated while the fuse
-    burns.
+    """Return the sound of a lit fuse: a spit of sparks that continues as a hiss. The game repeats this sound while the
+    fuse burns.
     """
     spit = low_pass(voice("noise", 300, 200, envelope(0, 0.010, 0.05, 0.5), seed=115), 3_600, 2_200)
     hiss = low_pass(voice("noise", 300, 320, envelope(0.02, 0.10, 0.10), vibrato=(0.2, 31), seed=116), 3_000, 2_400)

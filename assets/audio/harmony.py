@@ -56,12 +56,12 @@ class Chord(NamedTuple):
         return frozenset((self.root + tone) % 12 for tone in self.tones) | {self.bass}
 
     def moved(self, semitones):
-        """Return the same chord, transposed."""
+        """Return the same chord, transposed by a number of semitones."""
         return Chord(self.name, (self.root + semitones) % 12, self.tones, (self.bass + semitones) % 12)
 
 
 def pitch(name):
-    """Return the MIDI number of a note such as F#4. Raises ValueError."""
+    """Return the MIDI number of a note such as F#4. Raises ValueError for any other text."""
     match = re.fullmatch(r"([A-G])([#b]?)([0-8])", name)
     if not match:
         raise ValueError(f"no note {name!r}; notes are a letter A..G, # or b if wanted, and an octave, such as F#4")
@@ -70,7 +70,7 @@ def pitch(name):
 
 
 def chord(name):
-    """Return the Chord of a symbol such as F#m7 or C/E. Raises ValueError."""
+    """Return the Chord of a symbol such as F#m7 or C/E. Raises ValueError for any other text."""
     match = re.fullmatch(r"([A-G])([#b]?)([a-z0-9]*)(?:/([A-G])([#b]?))?", name)
     if not match or match.group(3) not in QUALITIES:
         raise ValueError(
@@ -82,7 +82,7 @@ def chord(name):
 
 
 def scale(text):
-    """Return the pitch classes of a key such as "D mixolydian". Raises ValueError."""
+    """Return the pitch classes of a key such as "D mixolydian". Raises ValueError for any other text."""
     match = re.fullmatch(r"([A-G])([#b]?) (\w+)", text)
     if not match or match.group(3) not in SCALES:
         raise ValueError(f"no key {text!r}; a key is a root and one of {', '.join(SCALES)}")
@@ -91,9 +91,10 @@ def scale(text):
 
 
 def degree_pitch(at, degree, floor):
-    """Return the pitch of the chord's 1st, 3rd, 5th ... with its bass note as the first one at or above `floor`.
+    """Return the MIDI pitch of a degree (1, 3, 5 ...) of the chord `at`, counted upward from the chord's bass note.
 
-    Raises ValueError if the chord has no such tone.
+    The bass note is placed at the first pitch at or above `floor` that fits. Raises ValueError if the chord has no such
+    tone.
     """
     bass = floor + (at.bass - floor) % 12
     if degree in (1, 8):
@@ -105,30 +106,33 @@ def degree_pitch(at, degree, floor):
 
 
 def tone_pitch(at, index, floor):
-    """Return the pitch of the index-th tone of the chord counted upward from `floor`: chords change by the shortest
-    way.
+    """Return the MIDI pitch of tone number `index` of the chord `at`, counted upward from the pitch `floor`.
+
+    The count begins at the same pitch for all chords. So each tone moves only a short way when the chord changes.
     """
     ladder = sorted(floor + (tone - floor) % 12 for tone in {(at.root + tone) % 12 for tone in at.tones})
     return ladder[index % len(ladder)] + 12 * (index // len(ladder))
 
 
 def scale_over(key, at):
-    """Return the key's pitch classes, adapted to a borrowed chord: its tones replace their neighbours."""
+    """Return the pitch classes of `key`, adapted to the chord `at`: chord tones that are not in the key replace the
+    key's classes a semitone away.
+    """
     foreign = at.classes - key
     bent = {tone for tone in key if tone in at.classes or all((tone - other) % 12 not in (1, 11) for other in foreign)}
     return frozenset(bent | at.classes)
 
 
 def complaints(tune):
-    """Return the audible errors of a tune as a list of texts; [] without errors.
+    """Return the audible errors of a tune as a list of texts, one for each violation of these rules; [] without errors.
 
-    1. A note is in the key, or in the scale that the chord under it bends the key to.
-    2. A note that stands out (on a beat for a beat or more, or two beats long) is a tone of its chord, or goes on by
-       step to one that is.
-    3. A note held over a change of chord is a tone of the new chord too, or goes on by step within a beat.
-    4. A short note that is not a tone of its chord is come to or left by step.
-    5. Two voices that start together on a beat are not a semitone apart; nor with octaves between, unless the chord
-       is so.
+    1. A note is in the key, or in the key as adapted to the chord under it (scale_over).
+    2. A note that stands out (on a beat for a beat or more, or two beats long) is a tone of its chord, or is followed
+       by a step to a note that is one.
+    3. A note held over a change of chord is a tone of the new chord, too, or is followed by such a step within a beat.
+    4. A short note that is not a tone of its chord is reached or left by a step.
+    5. Two voices that start together on a beat are not a semitone apart. With octaves in between they may be, if the
+       chord contains both notes.
     """
     found = []
     for voice, notes in tune.notes.items():

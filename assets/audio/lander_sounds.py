@@ -4,8 +4,8 @@ from assets.craft.synth import envelope, low_pass, mixed, soft_clip, voice
 
 
 def thrust():
-    """Return a breath of the engine, repeated every eighth of a second: it swells and sinks, so that the breaths
-    join.
+    """Return a breath of the engine, which swells and sinks. The game repeats it every eighth of a second, so that the
+    breaths join.
     """
     roar = low_pass(voice("noise", 26, 22, envelope(0.07, 0.06, 0.12), seed=91), 900, 620)
     hiss = low_pass(voice("noise", 160, 140, envelope(0.06, 0.05, 0.11), seed=92), 3_200, 2_400)
@@ -37,7 +37,7 @@ def clank():
 
 
 def alarm():
-    """Return the alarm of a fast descent: one short call, a fourth down."""
+    """Return the alarm of a fast descent: one short call of two tones, the second a fourth lower."""
     body = voice("pulse", 784, 784, envelope(0.004, 0.11, 0.05), duty=(0.3, 0.3), steps=((0.07, 0.749),))
     return low_pass(body, 4_200, 2_600)
 

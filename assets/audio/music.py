@@ -3,8 +3,8 @@
 Everything is added to a ring of the tune's length: sound past the end continues at the start, and so do filters and
 echoes. The level follows from the loudness of the whole, so that all tunes are equally loud.
 
-Bass, kick and snare are in the middle, the other voices at their `pan` and `spread`, echoes on both sides in turn. Left
-gains what right loses, so their sum is the same mono sound wherever a voice is.
+Bass, kick and snare are in the middle, the other voices at their `pan` and `spread`, echoes on both sides in turn. The
+gains of the left and the right side always have the same sum, so that a mono mix is the same wherever a voice is.
 """
 
 import hashlib
@@ -55,7 +55,7 @@ def render(tune):
 
 
 def _sing(tune, notes, voice):
-    """Add the notes of a pulse or triangle to its ring."""
+    """Add the notes of a pulse or triangle voice of a tune to `voice`, the voice's ring of samples (2, length)."""
     made, before = {}, None
     for note in notes:
         instrument = note.instrument
@@ -73,7 +73,9 @@ def _sing(tune, notes, voice):
 
 
 def _drums(tune, notes, voice):
-    """Add the strokes of the drums to their ring, each with the next of its takes."""
+    """Add the strokes of the drums of a tune to `voice`, their ring of samples (2, length). Each drum has TAKES
+    variants, used in turn.
+    """
     takes, struck = {}, {}
     for note in notes:
         for name in note.drums:
@@ -85,18 +87,22 @@ def _drums(tune, notes, voice):
 
 
 def _gain(note):
-    """Return the gain of a note: its own volume, and its position in the beat."""
+    """Return the gain of a note, which depends on its volume and on its position in the beat."""
     return note.volume * STRESS[note.start % STEPS_PER_BEAT]
 
 
 def _sides(place):
-    """Return the gains of left and right, (2, 1). place: -1 left .. 1 right."""
+    """Return the gains of the left and the right side, (2, 1). place: -1 left .. 1 right."""
     place = max(-1.0, min(1.0, place))
     return np.array([[1 - place], [1 + place]])
 
 
 def _add(ring, start, samples, gain, place):
-    """Add mono samples to a ring of two sides, continuing at its start past its end."""
+    """Add mono samples, times `gain`, to a ring (2, length), from index `start` on; samples past its end continue at
+    its start.
+
+    place: -1 left .. 1 right.
+    """
     length, gains = ring.shape[1], gain * _sides(place)
     start %= length
     room = length - start
@@ -106,7 +112,11 @@ def _add(ring, start, samples, gain, place):
 
 
 def _echo(tune, voice, instrument):
-    """Add repeats, duller than the voice and softer each time, to both sides in turn, first away from the voice."""
+    """Add the echoes of an instrument to `voice`, the ring of samples (2, length) of its voice.
+
+    Each echo is duller than the voice and softer than the echo before. The echoes change sides; the first is on the
+    side away from the voice.
+    """
     shift = round(instrument.delay * (60.0 / STEPS_PER_BEAT) / tune.tempo * FINE)
     dull, gain, number = low_pass(voice.mean(axis=0), ECHO_CORNER, around=True), instrument.echo, 1
     place = ECHO_PLACE if instrument.pan < 0 else -ECHO_PLACE
@@ -116,7 +126,9 @@ def _echo(tune, voice, instrument):
 
 
 def _mastered(samples, loop):
-    """Set the loudness, round the peaks, and give a jingle clean ends."""
+    """Return samples (2, n) as int16 (n, 2) at the standard loudness, with high peaks rounded off. A jingle (not
+    `loop`) is faded at both ends.
+    """
     heard = samples - low_pass(samples, HEARD, RATE, around=True)
     samples = samples * round(10 ** (LOUDNESS / 20) / _level(heard), 4)
     size = np.abs(samples)
@@ -131,8 +143,9 @@ def _mastered(samples, loop):
 
 
 def _level(samples):
-    """Return the root mean square of the parts that are not rests, (2, n); from integers, so that the order of summing
-    has no effect.
+    """Return the root mean square of samples (2, n), without the parts that are rests.
+
+    The sum is over integers, so that the order of summing has no effect.
     """
     block = int(0.4 * RATE)
     whole = np.round(samples * 65536).astype(np.int64) ** 2
@@ -143,7 +156,8 @@ def _level(samples):
 
 
 def music_files(name):
-    """Return {relative path: bytes or Recording} of one tune: its samples' hash, and the file to be made from them.
+    """Return {relative path: bytes or Recording} of one tune: a file with the hash of its samples, and the Recording of
+    the samples.
 
     Raises ValueError if a note does not fit its chord.
     """

@@ -47,7 +47,7 @@ class TuneError(ValueError):
 
 @dataclass
 class Section:
-    """One page: the contents of its lines, with the number of each line."""
+    """One section of a tune: the contents of its lines, with the number of each line."""
 
     line: int
     chords: list = field(default_factory=list)  # a list of Chord per bar
@@ -213,7 +213,7 @@ class _Reader:
         self.section.changes.setdefault(name, {}).update(changes)
 
     def _bars(self, text):
-        """Return [(text of one bar, line)], with phrases and repeats expanded."""
+        """Return [(text of one bar, line number)] of a line, with phrases and repeats expanded."""
         bars = []
         for bar in _split(text):
             repeated = re.search(r"\s\*(\d+)$", bar)
@@ -240,7 +240,9 @@ class _Reader:
             self.order.append((name, int(move or 0), resting, self.line))
 
     def _append(self, name, move, mutes, line):
-        """Append a section to the tune."""
+        """Append the section `name` to the tune, transposed by `move` semitones and without the voices `mutes`. line:
+        number of the line, for errors.
+        """
         section, tune = self.sections[name], self.tune
         bar_steps = tune.beats * STEPS_PER_BEAT
         if not section.chords:
@@ -261,7 +263,12 @@ class _Reader:
                 tune.notes[voice] += self._notes(voice, bars, instrument, first, move)
 
     def _notes(self, voice, bars, instrument, first, move):
-        """Return the notes of one voice in one section, resolved against the chords."""
+        """Return the notes of one voice in one section, with degrees and tones resolved against the chords.
+
+        bars: [(text of a bar, line number)]; instrument: the voice's instrument in this section; first: step at which
+        the
+        section begins; move: transposition in semitones.
+        """
         notes, bar_steps, sounding = [], self.tune.beats * STEPS_PER_BEAT, False
         for index, (bar, line) in enumerate(bars):
             tokens = bar.split()

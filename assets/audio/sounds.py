@@ -1,4 +1,4 @@
-"""The sound effects: each a function that returns samples, written to assets/sounds/<name>.wav.
+"""The sound effects: each is a function that returns samples, which are written to assets/sounds/<name>.wav.
 
 They are short and share one mood: pulse waves for the player and rewards, noise for damage, sine and saw for enemies.
 """
@@ -15,7 +15,7 @@ def laser():
 
 
 def enemy_shot():
-    """Return an enemy's shot, rounder and lower than the player's: a sine drop with a little growl."""
+    """Return an enemy's shot, rounder and lower than the player's: a falling sine with a little growl."""
     body = voice("sine", 820, 230, envelope(0.002, 0.04, 0.14, 0.3))
     growl = voice("saw", 410, 115, envelope(0.002, 0.02, 0.10))
     return mixed((0, 1.0, body), (0, 0.22, growl))
@@ -29,7 +29,7 @@ def hit():
 
 
 def explosion():
-    """Return an explosion: noise that falls and darkens, with a sub drop under it."""
+    """Return an explosion: noise that falls and darkens, with a falling deep tone under it."""
     roar = low_pass(voice("noise", 55, 7, envelope(0, 0.10, 0.72, 0.7, 1.6), seed=11), 6_000, 400)
     boom = voice("sine", 95, 32, envelope(0.002, 0.08, 0.40, 0.2))
     crack = voice("noise", 300, 120, envelope(0, 0.010, 0.05), seed=12)
@@ -45,7 +45,7 @@ def big_explosion():
 
 
 def coin():
-    """Return the sound of a coin: two notes, a fourth apart, ringing out."""
+    """Return the sound of a coin: two notes, a fourth apart, which ring out."""
     lead = voice("pulse", 988, 988, envelope(0.001, 0.03, 0.34, 0.3), duty=(0.5, 0.5), steps=((0.07, 1.335),))
     glint = voice("triangle", 1976, 1976, envelope(0.001, 0.02, 0.22), steps=((0.07, 1.335),))
     return low_pass(mixed((0, 0.8, lead), (0, 0.4, glint)), 8_000, 3_500)
@@ -112,7 +112,7 @@ def goal():
 
 
 def heavy_laser():
-    """Return the player's strongest shot, and a boss's beam: a saw that sinks, with weight under it."""
+    """Return the player's strongest shot, and a boss's beam: a saw tone that falls, with a lower tone under it."""
     body = voice("saw", 620, 90, envelope(0.001, 0.05, 0.20, 0.3))
     under = voice("pulse", 310, 45, envelope(0.001, 0.05, 0.18), duty=(0.5, 0.3))
     spit = voice("noise", 300, 90, envelope(0, 0.006, 0.04), seed=5)
@@ -120,8 +120,8 @@ def heavy_laser():
 
 
 def bomb():
-    """Return the player's bomb: a drawn breath, a blast deeper than any other, and a tone that sinks through its
-    wind.
+    """Return the sound of the player's bomb: a drawn breath, a blast deeper than any other, and wind with a tone that
+    sinks.
     """
     swell = low_pass(voice("noise", 14, 70, envelope(0.12, 0.01, 0.03), seed=51), 700, 4_500)
     roar = low_pass(voice("noise", 58, 6, envelope(0, 0.18, 1.05, 0.8, 1.5), seed=52), 2_400, 140)
@@ -141,7 +141,7 @@ def graze():
 
 
 def warning():
-    """Return the warning of a boss: a horn of two tones, three times, each call under a lid that opens."""
+    """Return the warning of a boss: a horn of two tones, three times; each call is muffled at first, then brightens."""
     call = voice("pulse", 220, 220, envelope(0.02, 0.22, 0.14), duty=(0.5, 0.25), steps=((0.17, 1.4142),))
     low = voice("saw", 110, 110, envelope(0.02, 0.22, 0.14), steps=((0.17, 1.4142),))
     horn = low_pass(mixed((0, 0.8, call), (0, 0.6, low)), 900, 3_200)
@@ -186,7 +186,7 @@ def crate():
 
 
 def ladder():
-    """Return one rung: a small wooden tap, unobtrusive every quarter second."""
+    """Return the sound of one rung of a ladder: a small wooden tap, soft enough to be heard four times a second."""
     tap = voice("triangle", 430, 360, envelope(0, 0.004, 0.045))
     scuff = low_pass(voice("noise", 60, 40, envelope(0.002, 0.006, 0.03), seed=83), 2_600, 1_000)
     return mixed((0, 0.8, tap), (0, 0.5, scuff))
@@ -206,7 +206,7 @@ def chain_break():
 
 
 def life():
-    """Return one more life: a rising run that lands on the octave."""
+    """Return the sound of an extra life: a rising run of notes that ends on the octave."""
     steps = ((0.08, 1.2599), (0.16, 1.18921), (0.24, 1.33484), (0.32, 1.2599), (0.40, 0.89090), (0.48, 1.33484))
     lead = voice("pulse", 330, 330, envelope(0.002, 0.50, 0.36), duty=(0.5, 0.25), vibrato=(0.006, 7), steps=steps)
     under = voice("triangle", 165, 165, envelope(0.002, 0.50, 0.36), steps=steps)

@@ -46,7 +46,7 @@ RANGES: dict[str, tuple[float, float]] = {
 
 @dataclass(frozen=True)
 class Note:
-    """One note: pitches (several: a rapid arpeggio) or drums, from step `start` for `steps`."""
+    """One note, from step `start` on for `steps` steps: its pitches (several: a rapid arpeggio), or drums."""
 
     start: int
     steps: int
@@ -63,7 +63,9 @@ class Note:
 
     @property
     def place(self):
-        """Position, -1 left .. 1 right. The middle of an instrument is an octave above its `floor`."""
+        """Position, -1 left .. 1 right. The pitch that is an octave above the instrument's `floor` is at the
+        instrument's `pan`.
+        """
         octaves = (self.pitches[0] - self.instrument.floor) / 12 - 1
         return self.instrument.pan + self.instrument.spread * max(-1.0, min(1.0, octaves))
 

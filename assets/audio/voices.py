@@ -1,6 +1,6 @@
 """The instruments of the tunes, at four times the rate of the file: pulses, triangles and drums.
 
-Edges are averaged over one sample, and the sum is filtered before every fourth sample is kept, which prevents aliases.
+Edges are averaged over one sample, and the sum is filtered before every fourth sample is kept; both prevent aliases.
 Only elementwise arithmetic and rounded tables are used, as in synth.py: the bytes are the same on every machine.
 """
 
@@ -29,14 +29,19 @@ def hertz(midi):
 
 
 def falling(seconds, constant):
-    """Return exp(-t / constant) from the table; 0 beyond it."""
+    """Return exp(-seconds / constant) from a table, for an array of times; 0 beyond the table."""
     place = np.minimum(seconds * (FALL_STEPS / FALL_REACH / constant), FALL_STEPS - 1)
     left = place.astype(np.int64)
     return (FALL[left] + (FALL[left + 1] - FALL[left]) * (place - left)) * (place < FALL_STEPS - 1)
 
 
 def tone(instrument, pitches, seconds, slide_from=None, vibrato=None):
-    """Return samples at FINE of one note of `seconds`, followed by its release. slide_from: the pitch before."""
+    """Return samples at the rate FINE of one note of `seconds`, followed by its release. pitches: MIDI numbers;
+    several: an arpeggio.
+
+    slide_from: MIDI pitch from which the note slides to its own, or None. vibrato: depth [cents]; None: the
+    instrument's.
+    """
     count = int((seconds + instrument.release) * FINE)
     time = np.arange(count) / FINE
     phase = np.cumsum(_pitch_curve(instrument, pitches, time, slide_from, vibrato)) / FINE
@@ -74,10 +79,11 @@ def _oscillate(wave, phase, time):
 
 
 def low_pass(samples, corner, rate=FINE, around=False):
-    """Filter by a one-pole low-pass, exact to a millionth, in a few whole-array steps: (1 + az)(1 + a^2 z^2)(1 + a^4
-    z^4) ...
+    """Return samples after a one-pole low-pass with its corner at `corner` [Hz], exact to a millionth. It filters along
+    the last axis.
 
-    around: the samples are a loop, whose end precedes its start. It filters along the last axis.
+    The filter takes a few whole-array steps: (1 + az)(1 + a^2 z^2)(1 + a^4 z^4) ... rate: samples per second. around:
+    the samples are a loop, whose end precedes its start.
     """
     share = round(math.exp(-2 * math.pi * corner / rate), 9)
     out, shift = samples * (1 - share), 1
@@ -118,7 +124,7 @@ def _time(seconds):
 
 
 def _noise(seed, time, rate):
-    """Return random levels held for 1 / rate [s]: the rate is the noise's pitch."""
+    """Return random levels at the times `time` [s], each held for 1 / rate [s]: the rate is the noise's pitch."""
     place = (time * rate).astype(np.int64)
     return np.random.default_rng(seed).random(int(place[-1]) + 1)[place] * 2 - 1
 
@@ -131,7 +137,9 @@ def _faded(samples):
 
 
 def _drop(time, start, end, constant):
-    """Return a sine that falls from `start` to `end` [Hz]."""
+    """Return a sine at the times `time` [s] whose frequency falls from `start` to `end` [Hz] with the time constant
+    `constant` [s].
+    """
     return sine(np.cumsum(end + (start - end) * falling(time, constant)) / FINE)
 
 

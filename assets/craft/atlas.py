@@ -39,7 +39,10 @@ class Sheet:
         self.animations[name] = {"frames": list(frames), "fps": fps}
 
     def add_sequence(self, name, pictures, fps):
-        """Add frames name_0, name_1, ... and the animation `name` over them."""
+        """Add the pictures as frames name_0, name_1, ...
+
+        and the animation `name` over them, at `fps` frames per second.
+        """
         names = [f"{name}_{i}" for i in range(len(pictures))]
         for frame, picture in zip(names, pictures, strict=True):
             self.add(frame, picture)
@@ -63,7 +66,9 @@ class Sheet:
 
 
 def _shelves(frames, gap):
-    """Place frames left to right on shelves, tallest first. Return ({name: (x, y)}, (width, height))."""
+    """Place frames left to right on shelves, tallest first, with `gap` px between them. Return ({name: (x, y)}, (width,
+    height)).
+    """
     width = max([WIDTH] + [frame.shape[1] + 2 * gap for frame in frames.values()])
     order = sorted(frames, key=lambda name: -frames[name].shape[0])  # stable: equal heights keep their order
     places, x, y, shelf = {}, gap, gap, 0
@@ -78,7 +83,7 @@ def _shelves(frames, gap):
 
 
 def to_json(table):
-    """Return JSON bytes with one entry per line at depth two: small, and with readable diffs."""
+    """Return a dict as JSON bytes with one entry per line at depth two: small, and with readable diffs."""
     lines = []
     for key, value in table.items():
         if isinstance(value, dict) and value:

@@ -4,10 +4,10 @@ import numpy as np
 
 
 def read_parts(text, letters, source):
-    """Return {name: (h, w, 4) uint8} of every part of a drawing.
+    """Return {name: (h, w, 4) uint8} of every part of a drawing. letters: {letter: (r, g, b)}; "." is clear.
 
-    letters: {letter: (r, g, b)}; "." is clear. Raises ValueError naming the source, the part and the row for an
-    unknown letter, an uneven row, a name used twice or a part without rows.
+    Raises ValueError for an unknown letter, an uneven row, a name used twice or a part without rows. The error names
+    the source, the part and the row.
     """
     parts, rows, name = {}, [], None
     for line in text.splitlines() + ["= "]:
@@ -45,7 +45,9 @@ def _picture(rows, letters, where):
 
 
 def lay(target, picture, x, y):
-    """Copy a picture's solid pixels to target at (x, y), clipped; both (h, w, 4) uint8."""
+    """Copy the solid pixels of a picture onto target, with its top left at (x, y), clipped to the target; both (h, w,
+    4) uint8.
+    """
     left, top = max(0, x), max(0, y)
     right, bottom = min(target.shape[1], x + picture.shape[1]), min(target.shape[0], y + picture.shape[0])
     if right <= left or bottom <= top:

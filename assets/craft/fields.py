@@ -16,7 +16,7 @@ def grid(width, height):
 
 
 def length(x, y):
-    """Return the Euclidean length from exactly rounded steps (hypot differs between C libraries)."""
+    """Return the Euclidean length of (x, y) by exactly rounded steps, since hypot differs between C libraries."""
     return np.sqrt(x * x + y * y)
 
 
@@ -26,12 +26,14 @@ def dither(height, width):
 
 
 def circle(x, y, center_x, center_y, radius):
-    """Return the field of a disc."""
+    """Return the field of a disc around (center_x, center_y)."""
     return length(x - center_x, y - center_y) - radius
 
 
 def ellipse(x, y, center_x, center_y, radius_x, radius_y):
-    """Return the field of an ellipse; exact on its edge, accurate enough elsewhere for shading."""
+    """Return the field of an ellipse around (center_x, center_y); exact on its edge, accurate enough elsewhere for
+    shading.
+    """
     return (length((x - center_x) / radius_x, (y - center_y) / radius_y) - 1) * min(radius_x, radius_y)
 
 
@@ -45,14 +47,14 @@ def capsule(x, y, start, end, start_radius, end_radius=None):
 
 
 def box(x, y, left, top, right, bottom, corner=0.0):
-    """Return the field of an axis-aligned box with rounded corners."""
+    """Return the field of the box from (left, top) to (right, bottom), with corners rounded by the radius `corner`."""
     dx = np.abs(x - (left + right) / 2) - (right - left) / 2 + corner
     dy = np.abs(y - (top + bottom) / 2) - (bottom - top) / 2 + corner
     return length(np.maximum(dx, 0), np.maximum(dy, 0)) + np.minimum(np.maximum(dx, dy), 0) - corner
 
 
 def polygon(x, y, points):
-    """Return the field of any simple polygon (crossing rule for the sign)."""
+    """Return the field of any simple polygon with corners `points` (crossing rule for the sign)."""
     nearest = np.full(x.shape, 1e9)
     inside = np.zeros(x.shape, bool)
     for i, (ax, ay) in enumerate(points):
@@ -67,7 +69,7 @@ def polygon(x, y, points):
 
 
 def noise(width, height, cells_x, cells_y, seed):
-    """Return smooth value noise 0..1, (height, width), seamless in both directions, with that many cells across."""
+    """Return smooth value noise 0..1, (height, width), seamless in both directions, from cells_x x cells_y cells."""
     lattice = np.random.default_rng(seed).random((cells_y, cells_x))
     x, y = grid(width, height)
     x, y = x * cells_x / width, y * cells_y / height
@@ -82,7 +84,10 @@ def noise(width, height, cells_x, cells_y, seed):
 
 
 def layered_noise(width, height, cells_x, cells_y, octaves, seed, gain=0.5):
-    """Return the sum of octaves of seamless noise, each twice as fine and `gain` as strong; scaled to 0..1."""
+    """Return the sum of octaves of seamless noise, scaled to 0..1. The first octave has cells_x x cells_y cells.
+
+    Each further octave is twice as fine and `gain` times as strong as the octave before.
+    """
     total, weight, strength = np.zeros((height, width)), 0.0, 1.0
     for octave in range(octaves):
         total += strength * noise(width, height, cells_x << octave, cells_y << octave, seed + octave)

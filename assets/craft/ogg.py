@@ -1,4 +1,4 @@
-"""Ogg Vorbis files of int16 samples, (frames, channels): writing, reading, and comparison with their source.
+"""Ogg Vorbis files of int16 samples, (frames, channels): writing, reading, and comparison with the samples.
 
 The encoder comes with soundfile, of the extra "assets"; the game reads such files without it. Vorbis is lossy, and no
 two encodings have the same bytes. A file is right if it decodes to the same number of frames and differs from the
@@ -33,7 +33,9 @@ def _needed():
 
 
 def encode(samples, rate):
-    """Return the bytes of a file. samples: (frames, channels) int16; rate: Hz. RuntimeError without the encoder."""
+    """Return the bytes of an Ogg file. samples: (frames, channels) int16; rate: Hz. Raises RuntimeError without the
+    encoder.
+    """
     buffer = io.BytesIO()
     with _needed().SoundFile(
         buffer, "w", rate, samples.shape[1], format="OGG", subtype="VORBIS", compression_level=1 - QUALITY
@@ -44,7 +46,9 @@ def encode(samples, rate):
 
 
 def decode(ogg):
-    """Return (samples as in `encode`, rate) of a file. ValueError for a damaged one, RuntimeError as `encode`."""
+    """Return (samples as in `encode`, rate) of an Ogg file. Raises ValueError for a damaged file, RuntimeError without
+    the decoder.
+    """
     try:
         return _needed().read(io.BytesIO(ogg), dtype="int16", always_2d=True)
     except _needed().LibsndfileError as error:
@@ -52,7 +56,10 @@ def decode(ogg):
 
 
 def frame_count(ogg):
-    """Return the number of frames of a file, from its last page. Raises ValueError for anything but whole pages."""
+    """Return the number of frames of an Ogg file, from its last page.
+
+    Raises ValueError for anything but whole pages.
+    """
     at, frames = 0, 0
     while at < len(ogg):
         if ogg[at : at + 4] != b"OggS" or at + 27 > len(ogg):
@@ -66,7 +73,7 @@ def frame_count(ogg):
 
 
 def loss(kept, samples):
-    """Return the root mean square of the loss, as a share of that of the samples; both int16 of one shape."""
+    """Return the root mean square of `kept` - `samples`, divided by that of `samples`; both are int16 of one shape."""
     power = float(np.mean(np.square(samples.astype(np.float64))))
     lost = float(np.mean(np.square(kept.astype(np.float64) - samples)))
     return (lost / power) ** 0.5
@@ -84,7 +91,9 @@ class Recording:
         return encode(self.samples, self.rate)
 
     def is_kept_in(self, ogg):
-        """Return whether a file has these samples. It is decoded if possible; otherwise only its length is compared."""
+        """Return whether an Ogg file has these samples. It is decoded if a decoder is available; otherwise only its
+        length is compared.
+        """
         try:
             if frame_count(ogg) != len(self.samples):
                 return False

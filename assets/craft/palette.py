@@ -46,7 +46,9 @@ def _encode(linear):
 
 
 def ramp(hue, chroma, low=DARKEST, high=LIGHTEST):
-    """Return (STEPS, 3) uint8 from shadow to light around a base hue in degrees."""
+    """Return (STEPS, 3) uint8 from shadow to light around a base hue in degrees. low, high: lightness of the first and
+    the last colour.
+    """
     colours = []
     for i in range(STEPS):
         t = i / (STEPS - 1)
@@ -103,8 +105,10 @@ def mix(first, second, share):
 
 
 def graded(ramp, level):
-    """Return the ramp's colour for each pixel's level, (..., 3): 0 up to 1 the first, 1 up to 2 the second; its ends
-    continue.
+    """Return the colour of each pixel, (..., 3), for its level: the first of the ramp for levels from 0 to 1, the
+    second from 1 to 2, and so on.
+
+    Levels outside the ramp have its first or last colour.
     """
     # Rounded first: at a whole level, the last bit of a sum must not decide the colour.
     return ramp[np.clip(np.floor(np.round(level, 6)), 0, len(ramp) - 1).astype(int)]

@@ -1,7 +1,7 @@
 """PNG files from arrays, written without an imaging library so that the bytes depend on zlib alone.
 
-`payload` removes even that dependence: two files show the same picture if their headers and their inflated rows are
-equal.
+`payload` gives parts that do not even depend on zlib: two files show the same picture if their headers and their
+inflated rows are equal.
 """
 
 import struct

@@ -15,7 +15,7 @@ SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1))
 
 
 def shifted(solid, dx, dy):
-    """Return the mask moved by (dx, dy) px, with clear pixels coming in from outside."""
+    """Return the mask `solid` moved by (dx, dy) px, with clear pixels coming in from outside."""
     height, width = solid.shape
     out = np.zeros_like(solid)
     out[max(0, dy) : height + min(0, dy), max(0, dx) : width + min(0, dx)] = solid[
@@ -52,20 +52,20 @@ class Sprite:
         return self
 
     def flat(self, field, colour):
-        """Fill a field with one colour."""
+        """Fill the inside of a field with one colour, and make it solid."""
         inside = field < 0
         self.rgb[inside] = colour
         self.solid |= inside
         return self
 
     def paint(self, field, colour, share=1.0):
-        """Tint the solid pixels inside a field: markings, stripes, panel lines."""
+        """Mix a colour by `share` into the solid pixels inside a field: markings, stripes, panel lines."""
         inside = (field < 0) & self.solid
         self.rgb[inside] = mix(self.rgb[inside], colour, share)
         return self
 
     def dot(self, x, y, colour):
-        """Set one pixel."""
+        """Set one pixel to a colour."""
         self.rgb[y, x] = colour
         self.solid[y, x] = True
         return self
@@ -84,13 +84,13 @@ class Sprite:
         return self
 
     def rim(self, colour=RIM, share=0.6):
-        """Lighten the pixels whose neighbour towards the light, above or on the left, is clear."""
+        """Mix a colour by `share` into the pixels whose neighbour towards the light, above or on the left, is clear."""
         edge = self.solid & ~(shifted(self.solid, 1, 0) & shifted(self.solid, 0, 1))
         self.rgb[edge] = mix(self.rgb[edge], colour, share)
         return self
 
     def outline(self):
-        """Put one dark pixel around the shape (4-neighbours)."""
+        """Set a dark pixel wherever a clear pixel touches the shape at one of its four sides."""
         around = np.zeros_like(self.solid)
         for dx, dy in SIDES:
             around |= shifted(self.solid, dx, dy)
@@ -105,27 +105,28 @@ class Sprite:
 
 
 def opaque(rgb):
-    """Return the picture (h, w, 3) as (h, w, 4) uint8 without clear pixels."""
+    """Return the picture `rgb` (h, w, 3) as (h, w, 4) uint8 without clear pixels."""
     return np.concatenate([rgb, np.full(rgb.shape[:2] + (1,), 255, np.uint8)], axis=2)
 
 
 def cut_out(rgb, solid):
-    """Return the picture (h, w, 3) where it is solid (h, w) bool, zeros elsewhere: (h, w, 4) uint8."""
+    """Return (h, w, 4) uint8: the picture `rgb` (h, w, 3) where `solid` (h, w) is True, zeros elsewhere."""
     out = opaque(rgb)
     out[~solid] = 0
     return out
 
 
 def flashed(pixels):
-    """Return the same frame as a flat white silhouette, for a hit."""
+    """Return a frame (h, w, 4) as a flat white silhouette, for a hit."""
     out = pixels.copy()
     out[..., :3][out[..., 3] > 0] = WHITE
     return out
 
 
 def glow(size, ramp, brightest=0.70):
-    """Return a disc of light for additive blending: opaque, black outside, dithered falloff; brightest 0..1 in its
-    middle.
+    """Return a disc of light for additive blending: opaque, black outside, with a dithered falloff.
+
+    ramp: name of its colours; brightest: brightness of its middle, 0..1.
     """
     x, y = grid(size, size)
     fall = np.clip(1 - length(x - size / 2, y - size / 2) / (size / 2), 0, 1)

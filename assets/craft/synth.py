@@ -27,22 +27,21 @@ def sine(phase):
 
 
 def triangle(phase):
-    """Return a triangle in 15 steps, like the sound chip of an 8-bit console."""
+    """Return a triangle wave in 15 steps, like the sound chip of an 8-bit console, at a phase in turns."""
     return np.round((1 - 4 * np.abs(phase % 1.0 - 0.5)) * 7.5) / 7.5
 
 
 def sweep(start, end, count):
-    """Return an exponential glide from start to end, both > 0, in `count` samples."""
+    """Return a pitch that glides exponentially from `start` to `end`, both > 0, in `count` samples."""
     ratio = end / start
     knots = [start * math.pow(ratio, i / KNOTS) for i in range(KNOTS + 1)]
     return np.interp(np.linspace(0, KNOTS, count), np.arange(KNOTS + 1), np.round(knots, 6))
 
 
 def envelope(attack, sustain, decay, punch=0.0, curve=2.0):
-    """Return an envelope: rise, hold (starting `punch` above 1 and falling back) and decay, each in seconds; values at
-    RATE.
+    """Return an envelope, values at RATE: it rises for `attack`, holds for `sustain` and decays for `decay` seconds.
 
-    curve: power of the decay, 1 for a straight line.
+    punch: the hold starts this much above 1 and falls back to 1. curve: power of the decay, 1 for a straight line.
     """
     rise, hold, fall = (max(1, int(seconds * RATE)) for seconds in (attack, sustain, decay))
     tail = np.linspace(1, 0, fall)
@@ -53,8 +52,9 @@ def envelope(attack, sustain, decay, punch=0.0, curve=2.0):
 def voice(kind, start, end, shape, duty=(0.5, 0.5), vibrato=(0.0, 0.0), steps=(), seed=0):
     """Return one note of sound at RATE.
 
-    kind: pulse, saw, triangle, sine or noise; start, end: pitch in Hz; shape: an envelope; duty: of a pulse, from..to;
-    vibrato: (depth as a share of the pitch, Hz); steps: ((seconds, factor), ...) jumps of the pitch.
+    kind: pulse, saw, triangle, sine or noise; start, end: pitch in Hz; shape: an envelope; duty: duty cycle of a pulse
+    at the start and at the end; vibrato: (depth as a share of the pitch, Hz); steps: ((seconds, factor), ...) jumps of
+    the pitch.
     """
     count = len(shape) * OVERSAMPLING
     time = np.arange(count) / (RATE * OVERSAMPLING)
@@ -85,7 +85,7 @@ def _oscillate(kind, phase, duty, seed):
 
 
 def low_pass(samples, start, end):
-    """Filter by a one-pole low-pass whose corner glides from start to end in Hz."""
+    """Return samples after a one-pole low-pass whose corner glides from start to end in Hz."""
     corners = sweep(start, end, KNOTS + 1)
     shares = [1 - math.exp(-2 * math.pi * hertz / RATE) for hertz in corners]
     share = np.interp(np.linspace(0, KNOTS, len(samples)), np.arange(KNOTS + 1), np.round(shares, 9))
@@ -97,7 +97,7 @@ def low_pass(samples, start, end):
 
 
 def remove_dc(samples, corner=30.0):
-    """Filter by a one-pole high-pass, which removes the DC of a one-sided pulse. corner in Hz."""
+    """Return samples after a one-pole high-pass, which removes the DC of a one-sided pulse. corner in Hz."""
     share = round(1 - math.exp(-2 * math.pi * corner / RATE), 9)
     out, level = np.empty_like(samples), 0.0
     for i, value in enumerate(samples.tolist()):
@@ -117,7 +117,7 @@ def mixed(*layers):
 
 
 def soft_clip(samples, drive):
-    """Limit samples by x / (1 + |x|), with the input multiplied by `drive`."""
+    """Return samples limited by x / (1 + |x|), with the input multiplied by `drive`."""
     pushed = samples * drive
     return pushed / (1 + np.abs(pushed))
 
@@ -135,7 +135,7 @@ def finish(samples):
 
 
 def to_wav(samples, rate=RATE):
-    """Return the bytes of a mono WAV file of int16 samples."""
+    """Return the bytes of a mono WAV file of int16 samples. rate: samples per second."""
     buffer = io.BytesIO()
     with wave.open(buffer, "wb") as file:
         file.setnchannels(1)

@@ -1,1 +1,1 @@
-"""Bodies of the lab's scenes."""
+"""Pictures of the bodies in the lab's scenes."""

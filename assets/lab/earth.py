@@ -35,7 +35,10 @@ def solid():
 
 
 def depth_of(earth):
-    """Return the distance from the nearest open pixel [px], up to DEEPEST; the picture's sides are continued."""
+    """Return the distance of each pixel of earth from the nearest open pixel [px], up to DEEPEST.
+
+    Beyond the sides of the picture, the pixels of its edge are repeated.
+    """
     left, found = np.pad(earth, 1, mode="edge"), np.zeros(earth.shape, int)
     for _ in range(DEEPEST):
         found += left[1:-1, 1:-1]
@@ -67,7 +70,7 @@ def painted():
 
 
 def _grow_turf(rgb, earth):
-    """Draw grass under open sky, with blades of several lengths."""
+    """Draw grass on the earth (h, w) bool under open sky, with blades of several lengths, into the picture `rgb`."""
     height, width = earth.shape
     open_above = np.logical_and.accumulate(~earth, axis=0)
     top = np.argmax(~open_above, axis=0)

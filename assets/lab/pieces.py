@@ -1,6 +1,6 @@
 """The sheet "lab": pictures of the lab's bodies: crates, blocks, balls, dominoes, and the billiard table.
 
-A piece fills its picture to the last pixel, outline included, so that picture and collision shape have one size.
+A piece fills its picture to the last pixel, outline included, so that picture and collision shape have the same size.
 """
 
 import math
@@ -18,7 +18,7 @@ POCKET = 9.0  # [px] radius of a hole
 
 
 def crate(size, look):
-    """Return a wooden crate, look 0 braced, 1 planked, 2 dark with a cross."""
+    """Return a wooden crate of size x size px. look: 0 braced, 1 planked, 2 dark with a cross."""
     sprite = Sprite(size, size)
     x, y, edge = sprite.x, sprite.y, max(2, size // 7)
     wood = RAMPS["wood"] if look < 2 else RAMPS["dirt"]
@@ -41,7 +41,7 @@ def crate(size, look):
 
 
 def block(width, height, ramp):
-    """Return a painted toy block with a bevelled rim."""
+    """Return a painted toy block with a bevelled rim. ramp: name of its colours."""
     sprite = Sprite(width, height)
     x, y = sprite.x, sprite.y
     sprite.part(box(x, y, 1, 1, width - 1, height - 1), RAMPS[ramp], bulge=2, base=0.5, gain=0.3, grain=0.3)
@@ -51,7 +51,7 @@ def block(width, height, ramp):
 
 
 def disc(radius, ramp):
-    """Return a disc with a bright spoke, which shows its rotation."""
+    """Return a disc with a bright spoke, which shows its rotation. ramp: name of its colours."""
     size = 2 * radius
     sprite = Sprite(size, size)
     x, y = sprite.x, sprite.y
@@ -62,7 +62,7 @@ def disc(radius, ramp):
 
 
 def pill(length, radius, ramp):
-    """Return a capsule lying along x: `length` between the centres of its ends."""
+    """Return a capsule lying along x: `length` between the centres of its ends. ramp: name of its colours."""
     sprite = Sprite(length + 2 * radius, 2 * radius)
     x, y, end = sprite.x, sprite.y, length + radius
     sprite.part(
@@ -78,21 +78,23 @@ def pill(length, radius, ramp):
 
 
 def gem(points, size, ramp):
-    """Return a convex piece from its corners in px, in a picture of size x size."""
+    """Return a convex piece with the corners `points` [px], in a picture of size x size. ramp: name of its colours."""
     sprite = Sprite(size, size)
     sprite.part(polygon(sprite.x, sprite.y, points) + 0.8, RAMPS[ramp], bulge=3, base=0.5, gain=0.35, grain=0.3)
     return sprite.outline().pixels()
 
 
 def corners(count, size, start):
-    """Return the corners of a regular polygon that fills size x size; start: angle of the first one in degrees."""
+    """Return the corners of a regular polygon with `count` corners that fills size x size; start: angle of the first
+    one in degrees.
+    """
     angles = [math.radians(start + i * 360 / count) for i in range(count)]
     # Rounded, as in synth.py: the last bits of sines differ between machines.
     return [(size / 2 * (1 + round(math.cos(a), 9)), size / 2 * (1 + round(math.sin(a), 9))) for a in angles]
 
 
 def metal_ball(radius, ramp):
-    """Return a polished ball lit from above left, with a hard highlight."""
+    """Return a polished ball lit from above left, with a hard highlight. ramp: name of its colours."""
     size = 2 * radius
     sprite = Sprite(size, size)
     x, y = sprite.x, sprite.y
@@ -116,7 +118,7 @@ def iron_ball(radius):
 
 
 def billiard_ball(number):
-    """Return ball 0 (the cue ball) to 15: 10 x 10 px, stripes from 9."""
+    """Return billiard ball `number`, 10 x 10 px: 0 is the cue ball, 9 to 15 have stripes."""
     sprite = Sprite(10, 10)
     x, y = sprite.x, sprite.y
     ramp = "steel" if number == 0 or number > 8 else "gunmetal" if number == 8 else BALLS[number - 1]
@@ -131,7 +133,9 @@ def billiard_ball(number):
 
 
 def domino(width, height, pips):
-    """Return an ivory domino standing upright, with a line and pips."""
+    """Return an ivory domino standing upright, with a line across its middle. pips: number of pips in the upper and the
+    lower half.
+    """
     sprite = Sprite(width, height)
     x, y = sprite.x, sprite.y
     sprite.part(box(x, y, 1, 1, width - 1, height - 1), RAMPS["steel"], bulge=2, base=0.82, gain=0.25, grain=0.3)
@@ -145,7 +149,7 @@ def domino(width, height, pips):
 
 
 def card(length, thickness, ramp):
-    """Return a playing card seen from its edge, lying along x."""
+    """Return a playing card seen from its edge, lying along x, length x thickness px. ramp: name of its colours."""
     sprite = Sprite(length, thickness)
     sprite.flat(box(sprite.x, sprite.y, 0, 0, length, thickness), RAMPS["steel"][5])
     sprite.paint(box(sprite.x, sprite.y, 0, thickness - 2, length, thickness), RAMPS[ramp][3])
@@ -223,7 +227,7 @@ def shot():
 
 
 def bracket(ramp):
-    """Return an L of iron: concave, so that its hull contains air."""
+    """Return an L of iron: concave, so that its hull contains air. ramp: name of its colours."""
     sprite = Sprite(32, 24)
     x, y = sprite.x, sprite.y
     corner = polygon(x, y, ((1, 1), (10, 1), (10, 14), (31, 14), (31, 23), (1, 23)))
@@ -235,7 +239,7 @@ def bracket(ramp):
 
 
 def star(ramp):
-    """Return a five-pointed star with blunt points."""
+    """Return a five-pointed star with blunt points. ramp: name of its colours."""
     sprite = Sprite(26, 26)
     angles = [math.radians(-90 + i * 36) for i in range(10)]
     points = [

@@ -10,7 +10,7 @@ FLAME = (12, 22)  # [px]
 
 
 def ship():
-    """Return a round cabin on a tank, a bell under it, two legs with broad feet; (32, 30, 4) uint8."""
+    """Return the lander, (32, 30, 4) uint8: a round cabin on a tank, an engine bell under it, two broad-footed legs."""
     sprite = Sprite(WIDTH, HEIGHT)
     for side in (-1, 1):
         _leg(sprite, side)

@@ -43,8 +43,8 @@ GEMS, CLUSTER = 62, 9  # clusters of crystals, and the extent of each [px]
 
 
 def boulders(seed, count):
-    """Return (edge, facing): px to the nearest crack between boulders, and how far a boulder's side faces the light;
-    CELL².
+    """Return (edge, facing) for `count` boulders, arrays (CELL, CELL): distance to the nearest crack between boulders
+    [px], and how far the boulder's side faces the light.
     """
     random = np.random.default_rng(seed)
     middles = random.random((count, 2)) * CELL
@@ -67,8 +67,8 @@ def tiled(pattern, height, width):
 
 
 def depths(solid):
-    """Return the depth in px of each solid pixel below its surface, up to DEEPEST, by removing layers one after
-    another.
+    """Return the depth [px] of each solid pixel below its surface, up to DEEPEST. Layers of pixels are removed one
+    after another.
     """
     depth, left = np.zeros(solid.shape, np.int16), solid.copy()
     for layer in range(DEEPEST):
@@ -85,7 +85,9 @@ def depths(solid):
 
 
 def facings(solid, reach=4):
-    """Return (towards the light, upwards), each -1..1, from the slope of the blurred ground."""
+    """Return (towards the light, upwards), each -1..1: how far the ground at each pixel faces there. It is the slope of
+    `solid`, blurred by `reach` px.
+    """
     total = np.zeros(solid.shape, np.int32)
     for axis in (1, 0):
         source = solid.astype(np.int32) if axis else total
@@ -100,7 +102,7 @@ def facings(solid, reach=4):
 
 
 def painted(moon):
-    """Return the ground, (height, width, 4) uint8."""
+    """Return the picture of the moon's ground, (height, width, 4) uint8."""
     solid = moon.solid
     height, width = solid.shape
     depth = depths(solid)
@@ -124,7 +126,9 @@ def painted(moon):
 
 
 def _edges(picture, moon, depth, light):
-    """Draw the outermost pixels: bright towards the light, dark away from it."""
+    """Draw the outermost pixels of the moon's ground: bright towards the light, dark away from it. depth: depths();
+    light: facings()[0].
+    """
     rim = moon.solid & (depth == 1)
     ramp = np.where(moon.ice[..., None], ICE[7], ROCK[6])
     picture[rim & (light > 0.15)] = ramp[rim & (light > 0.15)]
@@ -135,7 +139,7 @@ def _edges(picture, moon, depth, light):
 
 
 def _snow(picture, moon, up, light):
-    """Draw snow on all ground under open sky that is not too steep."""
+    """Draw snow on all ground under open sky that is not too steep. up, light: results of facings()."""
     height, width = moon.solid.shape
     top = np.argmax(moon.solid, axis=0)  # first solid row of each column
     y = np.mgrid[0:height, 0:width][0]
@@ -152,7 +156,7 @@ def _snow(picture, moon, up, light):
 
 
 def _gems(picture, moon, depth):
-    """Draw crystals in the walls of the caves."""
+    """Draw crystals in the walls of the moon's caves. depth: result of depths()."""
     random = np.random.default_rng(77)
     cave = moon.massif & ~moon.solid
     near = cave.copy()
@@ -172,7 +176,7 @@ def _gems(picture, moon, depth):
 
 
 def _gem(picture, solid, row, column, size):
-    """Draw one cut stone, lit from the upper left."""
+    """Draw one cut stone of `size` [px] around (column, row), lit from the upper left, only where `solid` is True."""
     height, width = solid.shape
     for dy in range(-size - 1, size + 2):
         half = size - abs(dy) * size // (size + 1) - (abs(dy) == size + 1)
@@ -183,7 +187,7 @@ def _gem(picture, solid, row, column, size):
 
 
 def wall(moon):
-    """Return the wall behind removed rock, (height, width, 4) uint8: the same boulders, far back in the dark."""
+    """Return the wall behind the moon's removed rock, (height, width, 4) uint8: the same boulders, in the dark."""
     height, width = moon.solid.shape
     edge, boulder = (tiled(pattern, height, width) for pattern in boulders(57, 60))
     rough = layered_noise(width, height, 32, 8, 3, 520) - 0.5

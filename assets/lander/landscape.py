@@ -1,6 +1,6 @@
 """The shape of the lander's moon: the pixels of rock, of ice that a shell breaks, and of the wall behind holes.
 
-The plan in assets/levels/lander.json has straight lines; noise bends them, so that edges look natural.
+The plan in assets/levels/lander.json has straight lines; noise bends these lines, so that edges look natural.
 """
 
 import json
@@ -24,7 +24,9 @@ ACROSS, DOWN = ((1, 0), (-1, 0)), ((0, 1), (0, -1))
 
 @dataclass
 class Landscape:
-    """The moon, all (height, width): solid and ice bool; `massif`: rock before caves were hollowed out."""
+    """The moon, as (height, width) bool arrays. `solid`: rock and ice; `ice`: ice; `massif`: rock before caves were
+    hollowed out.
+    """
 
     solid: np.ndarray
     ice: np.ndarray
@@ -32,7 +34,7 @@ class Landscape:
 
 
 def plan():
-    """Return the plan from its file."""
+    """Return the plan of the moon, read from assets/levels/lander.json."""
     return json.loads((FOLDER / "levels" / "lander.json").read_text(encoding="utf-8"))
 
 
@@ -71,7 +73,9 @@ def _bend(width, height, seed):
 
 
 def _inside(x, y, points):
-    """Return the pixels inside a polygon by the crossing rule, each edge in the rows that it can reach."""
+    """Return the pixels (x, y) inside the polygon `points`, by the crossing rule. Each edge is applied only to the rows
+    that it can reach.
+    """
     inside = np.zeros(x.shape, bool)
     for i, (ax, ay) in enumerate(points):
         bx, by = points[i - 1]
@@ -84,7 +88,7 @@ def _inside(x, y, points):
 
 
 def _near(solid, x, y, points, reach, change):
-    """Apply a change to the part of the picture that contains the points and `reach` px around them."""
+    """Call change(solid, x, y) with the part of each array that contains the points and `reach` px around them."""
     reach += MARGIN
     left, right = (max(0, int(f(p[0] for p in points) + s * reach)) for f, s in ((min, -1), (max, 1)))
     top, bottom = (max(0, int(f(p[1] for p in points) + s * reach)) for f, s in ((min, -1), (max, 1)))
@@ -107,7 +111,7 @@ def _filled(points):
 
 
 def _around(pixels, far=1, ways=(*ACROSS, *DOWN)):
-    """Return these pixels and those at that distance [px] from them, in these directions."""
+    """Return the given pixels and those at the distance `far` [px] from them in the directions `ways`."""
     out = pixels.copy()
     for dx, dy in ways:
         out |= shifted(pixels, far * dx, far * dy)
@@ -115,7 +119,8 @@ def _around(pixels, far=1, ways=(*ACROSS, *DOWN)):
 
 
 def _crack(rock, ice):
-    """Return the crack between a mountain over a cave and the ground, where ice joins them: halfway, a pixel wide.
+    """Return the crack between a mountain over a cave and the ground, where ice joins the two: in the middle of the
+    ice, a pixel wide.
 
     So the mountain is a separate piece from the start, and stays in place when all the ice is shot away.
     """
@@ -144,7 +149,9 @@ def _hanging(rock):
 
 
 def _level(solid, ice, massif, pad):
-    """Level the ground for a pad's feet, and clear the air over it; under open sky no mountain is behind that air."""
+    """Level the ground for a pad's feet, and clear rock and ice from the air over it. If the pad is under open sky,
+    remove that air from `massif`, too.
+    """
     left, right = pad["x"] - pad["width"] // 2 - SHOULDER, pad["x"] + pad["width"] // 2 + SHOULDER
     floor = pad["floor"]
     solid[floor : floor + 40, left:right] = True

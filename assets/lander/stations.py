@@ -40,7 +40,9 @@ def pad(width):
 
 
 def mast(lit):
-    """Return a mast beside a pad, its lamp off or on, a dish half way up; its foot is its lower edge."""
+    """Return a mast beside a pad, with a dish half way up and its lamp on (`lit`) or off. Its foot is at the picture's
+    lower edge.
+    """
     sprite = Sprite(*MAST)
     x, y = sprite.x, sprite.y
     for side in (-1, 1):
@@ -66,7 +68,9 @@ def mast(lit):
 
 
 def crate():
-    """Return cargo in a steel box with orange corners, 18 x 18 px: a full square, so that it slides and tips as one."""
+    """Return cargo in a steel box with orange corners, 18 x 18 px. It is a full square, so that it slides and tips like
+    a box.
+    """
     sprite = Sprite(18, 18)
     x, y = sprite.x, sprite.y
     sprite.flat(box(x, y, 0, 0, 18, 18), OUTLINE)

@@ -1,7 +1,8 @@
 """Background of the platformer's level, 480 px wide; scrolling layers are seamless in x.
 
-Drawn along the bottom of the screen: mountains_far, _mid, _near and keep_far. sky_dusk is the fixed screen behind them,
-clouds a bank for the upper half. Underground cave_far (opaque) and cave_near fill the screen.
+mountains_far, mountains_mid, mountains_near and keep_far are drawn along the bottom of the screen. sky_dusk is the
+fixed sky behind them, and clouds a bank for the upper half. Underground, cave_far (opaque) and cave_near fill the
+screen.
 """
 
 from assets.craft import png

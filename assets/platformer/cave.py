@@ -17,8 +17,8 @@ WALL_DARK = (18, 17, 38)
 
 
 def _cells(seeds):
-    """Return (own, next, slope): distance to the nearest and second nearest middle, and how far a pixel faces the
-    light.
+    """Return (own, next, slope), each (TILE, TILE): distance of a pixel to the nearest and the second nearest point of
+    `seeds` [px], and how far the pixel faces the light.
     """
     y, x = np.mgrid[0:TILE, 0:TILE] + 0.5
     nearest, second, facing = np.full(x.shape, 99.0), np.full(x.shape, 99.0), np.zeros(x.shape)
@@ -34,8 +34,8 @@ def _cells(seeds):
 
 
 def boulders(variant):
-    """Return the inside of the rock, (16, 16, 3) uint8: wedged boulders, variant 0..3; all share one layout, so all
-    join.
+    """Return the inside of the rock, (16, 16, 3) uint8: wedged boulders. variant: 0..3; the variants share one layout,
+    so they fit together.
     """
     ramp = RAMPS["rock"]
     nearest, second, facing = _cells(SEEDS)
@@ -61,7 +61,9 @@ def boulders(variant):
 
 
 def clods(ramp, seed):
-    """Return packed earth, (16, 16, 3) uint8: the same wedged pieces as rock, but soft and of little contrast."""
+    """Return packed earth, (16, 16, 3) uint8: wedged pieces like those of rock, but soft and of little contrast. ramp:
+    array of its colours.
+    """
     nearest, second, facing = _cells(CLODS)
     grain = noise(TILE, TILE, 8, 8, seed) - 0.5
     level = 1.0 + facing * 0.10 + grain * 1.5
@@ -85,7 +87,7 @@ def back_cave(variant):
 
 
 def dripstone(hanging):
-    """Return a stalactite, or a stalagmite with hanging False; its broad end touches the tile's edge."""
+    """Return a stalactite, or a stalagmite if `hanging` is False. Its broad end touches the tile's edge."""
     sprite = Sprite(TILE, TILE)
     ways = ([(2.6, -2), (7.6, -2), (5.4, 13.6)], [(8.4, -2), (13.4, -2), (11.2, 8.6)])
     for points in ways[::-1]:

@@ -44,7 +44,7 @@ LEAVES = {"tree_green": "olive", "tree_autumn": "orange", "tree_small": "pink", 
 
 
 def scenery(name):
-    """Return a tree or bush in one piece, (16 h, 16 w, 4) uint8."""
+    """Return a tree or bush in one piece, (16 * rows, 16 * columns, 4) uint8. name: key of SCENERY."""
     columns, rows = SCENERY[name]
     width, height = columns * TILE, rows * TILE
     sprite = Sprite(width, height)

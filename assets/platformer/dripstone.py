@@ -63,7 +63,7 @@ def far_wall():
 
 
 def _cluster(picture, middle_x, middle_y, size):
-    """Draw a few crystals in a fan, with their light on the wall."""
+    """Draw a few crystals of `size` [px] in a fan around (middle_x, middle_y), with their light on the wall."""
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH] + 0.5
     dx = (x - middle_x + WIDTH / 2) % WIDTH - WIDTH / 2
     dy = y - middle_y

@@ -50,7 +50,9 @@ def _put(out, x, y, colour):
 
 
 def _part(out, stone, left, width, height, kind):
-    """Draw a wall or a tower from its top down to the picture's edge."""
+    """Draw a wall or a tower into `out`, from its top down to the picture's edge. left, width, height [px]; kind:
+    "spire", ...; stone: noise (HEIGHT, WIDTH).
+    """
     top = HEIGHT - height
     for column in range(width):
         x = left + column
@@ -77,7 +79,9 @@ def _part(out, stone, left, width, height, kind):
 
 
 def _roof(out, left, width, top):
-    """Draw a steep roof that overhangs by two pixels, its left side lit."""
+    """Draw a steep roof into `out`, on a tower whose top is at y = top. It overhangs by two pixels; its left side is
+    lit.
+    """
     reach = width + 4
     for i in range(reach + 6):
         half = (width / 2 + 2) * i / (reach + 6)
@@ -92,7 +96,7 @@ def _roof(out, left, width, top):
 
 
 def _fog(out):
-    """Fade the foot into the valley's haze, dithered."""
+    """Fade the foot of the picture `out` into the valley's haze, dithered."""
     y = np.mgrid[0:HEIGHT, 0:WIDTH][0]
     share = (y - HEIGHT * 0.62) / (HEIGHT * 0.38) + dither(HEIGHT, WIDTH) * 0.45
     for limit, strength in ((0.35, 0.3), (0.6, 0.55), (0.85, 0.8)):

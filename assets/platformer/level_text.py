@@ -36,15 +36,15 @@ class Map:
         }  # open tiles under covers
 
     def at(self, x, y):
-        """Return the letter at a tile; outside counts as ground, so that the map's edges look like its inside."""
+        """Return the letter at a tile. Outside the map it is GROUND, so that the map's edges look like its inside."""
         return self.rows[y][x] if 0 <= x < self.width and 0 <= y < self.height else GROUND
 
     def buried(self, x, y):
-        """Return the letter at a tile, with covered rooms filled."""
+        """Return the letter at a tile of the level in which all covered rooms are filled."""
         return Filled(self, self.rooms).at(x, y)
 
     def places(self, letter):
-        """Return the tiles (x, y) of a letter, left to right, top to bottom within a column."""
+        """Return the tiles (x, y) of a letter, column by column from the left, each from top to bottom."""
         return [(x, y) for x in range(self.width) for y in range(self.height) if self.rows[y][x] == letter]
 
 
@@ -63,7 +63,7 @@ def _sections(text, source):
 
 
 def _numbers(line, count, source, rule):
-    """Return that many whole numbers of a line, as a tuple."""
+    """Return `count` whole numbers of a line, as a tuple. Raises ValueError, with the text `rule`, otherwise."""
     try:
         values = [int(word) for word in line.split()]
     except ValueError:
@@ -82,7 +82,10 @@ def _platform(line, source):
 
 
 def _zone(line, source):
-    """Return (act, rectangle, rows that the camera may show or None), tiles."""
+    """Return (act, rectangle, rows) of a zone, in tiles. rectangle: (x, y, width, height).
+
+    rows: (top, bottom) that the camera may show, () if not given. source: name of the file, for errors.
+    """
     act, _, rest = line.partition(" ")
     if act not in ACTS:
         raise ValueError(f"{source}: a zone is one of {', '.join(ACTS)} (got {line!r})")
@@ -98,7 +101,7 @@ def _hint(line, source):
 
 
 class Filled:
-    """A level with its rooms filled by the letter above them."""
+    """A level whose covered rooms are filled. A filled tile has the letter of the nearest tile above the room."""
 
     def __init__(self, level, rooms):
         self.level, self.rooms = level, rooms

@@ -1,6 +1,7 @@
-"""The objects of a level: its letters and sections besides tiles, as rows for Tiled's object layers.
+"""The objects of a level, as rows for Tiled's object layers. They come from the letters and sections that are not
+tiles.
 
-A row is (type, x, y, width, height, properties), px, x and y the top left corner.
+A row is (type, x, y, width, height, properties) in px; (x, y) is the top left corner.
 """
 
 from assets.platformer import rope_bridge
@@ -29,7 +30,7 @@ SPIKES_INSET = (3, 7)  # [px] smaller than drawn: the points' outer pixels do no
 
 
 def objects(level):
-    """Return the rows of the level's things, left to right, top to bottom within a column."""
+    """Return the rows of the level's things, column by column from the left, each from top to bottom."""
     out, signs, platforms = [], iter(level.signs), iter(level.platforms)
     for x in range(level.width):
         for y in range(level.height):
@@ -85,7 +86,7 @@ def _standing(level, letter, x, y, signs):
 
 
 def _extent(level, x, y):
-    """Return (columns, rows) of the block of one letter whose top left is at a tile."""
+    """Return (columns, rows) of the block of equal letters whose top left tile is at (x, y)."""
     letter = level.at(x, y)
     width = next(i for i in range(1, level.width + 1) if level.at(x + i, y) != letter)
     return width, next(i for i in range(1, level.height + 1) if level.at(x, y + i) != letter)
@@ -105,8 +106,9 @@ def _pixels(rect):
 
 
 def walking_range(level, x, y, most=4):
-    """Return how far a walker may go to either side [px], at most so many tiles: flat free ground, or the deck under
-    it.
+    """Return how far a walker at a tile may go to either side [px], at most `most` tiles.
+
+    It may go as far as the ground is flat and free; on a platform, to the ends of the deck.
     """
     deck = _deck(level, x, y + 1)
     for step in range(1, most + 1):

@@ -77,8 +77,8 @@ def cover_names(level):
 
 
 def _depth(level, x, y):
-    """Return the number of tiles to the nearest open one, at most DEEP. A covered room is not open, so that the tiles
-    do not reveal it.
+    """Return the number of tiles to the nearest open tile, at most DEEP. A covered room does not count as open, so that
+    the tiles do not reveal it.
     """
     for reach in range(1, DEEP + 1):
         ring = [
@@ -102,7 +102,7 @@ def _scatter(x, y):
 
 
 def decor_names(level):
-    """Return ({(x, y): tile name} of the decoration layer, the same of the walls behind it)."""
+    """Return (decor, walls), each {(x, y): tile name}: the decoration layer, and the layer of the walls behind it."""
     out, walls = {}, {}
     for y in range(level.height):
         for x in range(level.width):
@@ -131,8 +131,10 @@ def decor_names(level):
 
 
 def _wall_behind(level, x, y):
-    """Return the wall behind a tile: its own letter's, else that of the nearest tile in its row that is no thing, or
-    None.
+    """Return the name of the wall behind a tile, or None.
+
+    A letter for a wall names it. Behind a thing, the wall is that of the nearest tile in the row that is no thing;
+    behind a plank, it may also be that of the tile below.
     """
     if level.at(x, y) in WALLS:
         return WALLS[level.at(x, y)]

@@ -34,7 +34,7 @@ def boards():
 
 
 def ropes():
-    """Return handrails, hangers and posts, 128 x 30 px; the boards' ends are 12 px below its top."""
+    """Return handrails, hangers and posts, 128 x 30 px; the ends of boards are at 12 px from the top."""
     wood, rope = RAMPS["wood"], RAMPS["gold"]
     picture = np.zeros((RAIL + SAG + 4, WIDTH, 4), np.uint8)
     levels = tops().tolist()
@@ -54,6 +54,6 @@ def ropes():
 
 
 def add_rope_bridge(sheet):
-    """Put both pictures on a sheet."""
+    """Add the pictures of this module to a sheet."""
     sheet.add("bridge", boards())
     sheet.add("bridge_ropes", ropes())

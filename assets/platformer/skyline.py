@@ -63,7 +63,9 @@ def _stars(picture):
 
 
 def ridge_line(cells, octaves, seed, sharp):
-    """Return heights 0..1 of a seamless ridge; sharp 0..1 blends from rolling hills to peaks."""
+    """Return heights 0..1 of a ridge, seamless in x, from `octaves` of noise with `cells` cells. sharp 0..1: from
+    rolling hills to peaks.
+    """
     rolling = layered_noise(WIDTH, 4, cells, 1, octaves, seed)[0]
     peaks = 1 - abs(layered_noise(WIDTH, 4, cells, 1, octaves, seed + 50)[0] * 2 - 1)
     line = rolling * (1 - sharp) + peaks * sharp
@@ -73,8 +75,8 @@ def ridge_line(cells, octaves, seed, sharp):
 def mountains(height, low, high, cells, seed, tones, snow=None, haze=None):
     """Return one range, (height, 480, 4) uint8.
 
-    low, high: px of rock at the lowest and highest point; tones: (shade, body, light, edge); snow: two colours for the
-    caps; haze: colour of the fading foot.
+    low, high: px of rock at the lowest and highest point; cells: see ridge_line(); tones: (shade, body, light, edge);
+    snow: two colours for the caps; haze: colour of the fading foot.
     """
     line = ridge_line(cells, 6, seed, 0.75)
     top = height - (low + (high - low) * line)
@@ -133,7 +135,11 @@ def pines(height, seed):
 
 
 def _pine(out, column, foot, size, tones):
-    """Draw one fir: jagged tiers that widen downwards, lit along its left edge."""
+    """Draw one fir into `out`, `size` px high, with its foot at (column, foot): jagged tiers that widen downwards, lit
+    along its left edge.
+
+    tones: (body, light, edge).
+    """
     body, light, edge = tones
     for i in range(size):
         row = foot - size + i

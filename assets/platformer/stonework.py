@@ -25,7 +25,9 @@ GAPS = ((), ((8, 0, 11, 3),), ((0, 13, 4, 16), (21, 0, 24, 3)), ((14, 12, 18, 16
 
 
 def crumble(look):
-    """Return a crumbling stone slab, look 0..3: more cracks, then missing bits; one piece throughout."""
+    """Return a crumbling stone slab. look: 0..3, with more cracks and then missing bits; the slab is in one piece in
+    all looks.
+    """
     sprite = Sprite(*CRUMBLE)
     x, y = sprite.x, sprite.y
     stone = RAMPS["stone"]
@@ -48,7 +50,7 @@ def crumble(look):
 
 
 def crumble_bit(kind):
-    """Return a fallen bit of it, kind 0..2: 8 x 8 px."""
+    """Return a fallen bit of the crumbling stone, kind 0..2: 8 x 8 px."""
     sprite = Sprite(8, 8)
     points = (
         ((1.4, 2), (4.4, 1.2), (6.6, 3.4), (5.6, 6.4), (2.2, 6.4)),
@@ -89,7 +91,7 @@ def belt(part, phase):
 
 
 def _wheel(sprite, middle, radius, phase):
-    """Draw a wheel of the belt, whose spoke rotates with it."""
+    """Draw a wheel of the belt around x = middle, whose spoke rotates with the phase 0..3."""
     x, y = sprite.x, sprite.y
     sprite.part(circle(x, y, middle, 7, radius), RAMPS["steel"], bulge=2.4, base=0.50, gain=0.5, grain=0)
     turn = ((1.0, 0.0), (0.7, 0.7), (0.0, 1.0), (-0.7, 0.7))[phase]
@@ -104,7 +106,7 @@ def _wheel(sprite, middle, radius, phase):
 
 
 def _open(sprite, column):
-    """Open the side towards the next piece: the outline continues above and below the belt."""
+    """Open the side of the belt at `column` towards the next piece: draw the outline only above and below the belt."""
     for row in (0, 13):
         sprite.dot(column, row, OUTLINE)
 
@@ -135,7 +137,7 @@ def gem(frame):
 
 
 def add_stonework(sheet):
-    """Put all of it on a sheet."""
+    """Add the pictures of this module to a sheet."""
     for look in range(4):
         sheet.add(f"crumble_{look}", crumble(look))
     for kind in range(3):

@@ -148,7 +148,7 @@ def platform(width):
 
 
 def checkpoint(lit, frame):
-    """Return a lamp post, 16 x 32 px; lit ones glow, frame 0..1."""
+    """Return a lamp post, 16 x 32 px. lit: whether the lamp glows; frame: 0..1."""
     sprite = Sprite(16, 32)
     x, y = sprite.x, sprite.y
     sprite.part(capsule(x, y, (8, 13), (8, 30), 1.4), RAMPS["wood"], bulge=1.5, base=0.5)
@@ -162,7 +162,7 @@ def checkpoint(lit, frame):
 
 
 def goal(frame):
-    """Return a tall pole with a waving flag, frame 0..3: 32 x 48 px; the pole stands at x 5..8."""
+    """Return a tall pole with a waving flag, frame 0..3: 32 x 48 px. The pole is at x 5 to 8 of the picture."""
     sprite = Sprite(32, 48)
     x, y = sprite.x, sprite.y
     cloth = FLAG_WAVE[frame]

@@ -1,9 +1,9 @@
 """Conversion of assets/levels/platformer.txt, one letter per tile, to a Tiled map (.tmj) with the tileset embedded.
 
 Layers, back to front: "decor" and "solid" (tiles), "cover" (tiles that hide rooms until the hero is inside), "things"
-and "bot hints" (objects). Objects are rectangles in px, x and y the top left corner; moving platforms have to_x, to_y
-(px, of that corner at the far end) and period (s, there and back), belts speed (px/s), zones the act that sets their
-look.
+and "bot hints" (objects). Objects are rectangles in px, given by their top left corner (x, y). Moving platforms have
+to_x, to_y (that corner at the far end [px]) and period (there and back [s]); belts have speed [px/s]; zones have the
+act that sets their look.
 """
 
 import itertools
@@ -25,7 +25,7 @@ def _properties(values):
 
 
 def tileset(table):
-    """Return the embedded tileset: the place of each tile in images/tiles.png, and its kind."""
+    """Return the embedded tileset of a tile_table(): the place of each tile in images/tiles.png, and its kind."""
     columns = SHEET_WIDTH // TILE
     rows = -(-len(table) // columns)
     return {
@@ -124,7 +124,7 @@ def _object_layers(level):
 
 
 def to_tmj(structure):
-    """Return the map's bytes with a line per map row, tile and object, so that changes give small diffs."""
+    """Return the bytes of a tiled_map(), with a line per map row, tile and object, so that changes give small diffs."""
     text = json.dumps(structure, ensure_ascii=False)
     for layer in structure["layers"]:
         if "data" in layer:

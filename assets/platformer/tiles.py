@@ -1,8 +1,9 @@
 """The sheet "tiles": 16 px ground, stone, rock, slopes, planks, ladders and decoration, each with its collision kind.
 
-Ground, stone and rock are drawn from which of the eight neighbours are of the same kind, so a map made of one letter
-gets its grass, edges and corners by itself. A blob name is `ground_<mask>`, the mask being the sum of the neighbours
-present: N 1, NE 2, E 4, SE 8, S 16, SW 32, W 64, NW 128, where a corner counts only if both its sides do (47 cases).
+The picture of ground, stone and rock depends on which of the eight neighbours are of the same kind, so a map made of
+one letter gets its grass, edges and corners by itself. Such a tile is named `ground_<mask>`. The mask is the sum of the
+neighbours present: N 1, NE 2, E 4, SE 8, S 16, SW 32, W 64, NW 128, where a corner counts only if both its sides do (47
+cases).
 """
 
 import numpy as np
@@ -44,7 +45,7 @@ FRINGE = np.array([3, 4, 3, 5, 4, 3, 3, 4, 5, 4, 3, 4, 3, 3, 5, 4])  # [px] dept
 
 
 def reduced(mask):
-    """Drop the invisible corner bits: those without both of their sides."""
+    """Return a mask without its invisible corner bits: those without both of their sides."""
     for corner, first, second in CORNERS:
         if not (mask & first and mask & second):
             mask &= ~corner
@@ -55,8 +56,8 @@ BLOBS = sorted({reduced(mask) for mask in range(256)})
 
 
 def texture(material, variant=0):
-    """Return the inside of a material, (16, 16, 3) uint8: quiet, with a few clods, stones or cracks; any variants
-    join.
+    """Return the inside of a material, (16, 16, 3) uint8: quiet, with a few clods, stones or cracks. All variants fit
+    together.
     """
     body, _, seed = MATERIALS[material]
     ramp = RAMPS[body]
@@ -78,7 +79,9 @@ def texture(material, variant=0):
 
 
 def deep(variant):
-    """Return ground far below the surface, (16, 16, 4) uint8: darker and quieter; 0..2 plain, 3 a bone, 4 a crystal."""
+    """Return ground far below the surface, (16, 16, 4) uint8: darker and quieter. variant: 0..2 plain, 3 a bone, 4 a
+    crystal.
+    """
     dark = mix(RAMPS["dirt"][1], OUTLINE, 0.42)
     light = mix(RAMPS["dirt"][1], OUTLINE, 0.18)
     grain = noise(TILE, TILE, 4, 4, 340) * 0.7 + noise(TILE, TILE, 8, 8, 341 + variant) * 0.3
@@ -95,15 +98,19 @@ def deep(variant):
 
 
 def fading(variant):
-    """Return the transition from ground to deep ground: one dithered into the other, (16, 16, 4) uint8, variant
-    0..1.
+    """Return the transition from ground to deep ground, (16, 16, 4) uint8: pixels of the two in a dither pattern.
+    variant: 0..1.
     """
     upper, lower = texture("ground", variant), deep(variant)[..., :3]
     return opaque(np.where((dither(TILE, TILE) > 0)[..., None], upper, lower))
 
 
 def _bricks(picture, ramp, variant):
-    """Draw two courses of blocks, offset by half, with lit upper and dark lower edges."""
+    """Draw two courses of blocks in the colours of `ramp`, offset by half, with lit upper and dark lower edges; return
+    the picture.
+
+    variant: 0 plain, 1 and 3 with a crack, 2 worn.
+    """
     picture[:] = mix(picture, ramp[2], 0.6)
     for row, offset in ((0, 4), (8, 12)):
         picture[row] = ramp[3]
@@ -125,7 +132,10 @@ def _bricks(picture, ramp, variant):
 
 
 def blob(material, mask, variant=0):
-    """Return one ground tile for the neighbours in mask, (16, 16, 4) uint8, fully solid."""
+    """Return one tile of a material for the neighbours in mask, (16, 16, 4) uint8, fully solid.
+
+    variant: see texture().
+    """
     ramp, cap = RAMPS[MATERIALS[material][0]], RAMPS[MATERIALS[material][1]]
     picture = texture(material, variant)
     grass = material == "ground"
@@ -154,7 +164,9 @@ def _side(picture, ramp, column, inward, light):
 
 
 def _top(picture, cap, material):
-    """Draw outline, lit blades and a ragged fringe of grass, or a worn lip of stone or rock."""
+    """Draw the top of a tile in the colours of `cap`: lit blades and a ragged fringe of grass on ground, a worn lip on
+    stone or rock.
+    """
     picture[0] = OUTLINE
     if material != "ground":
         picture[1] = cap[5]
@@ -174,7 +186,9 @@ def _top(picture, cap, material):
 
 
 def _inner_corner(picture, corner, cap, grass):
-    """Draw the outline, and the end of the neighbour's grass, at a missing diagonal neighbour."""
+    """Draw the outline, and the end of the neighbour's grass, in a corner (NE, SE, SW or NW) where the diagonal
+    neighbour is missing.
+    """
     column = 0 if corner in (NW, SW) else 15
     row = 0 if corner in (NW, NE) else 15
     picture[row, column] = OUTLINE
@@ -236,7 +250,9 @@ def plank(part):
 
 
 def _bracket(picture, column, inward):
-    """Draw a short strut under an end of a plank."""
+    """Draw a short strut under an end of a plank. column: of the strut; inward: 1 or -1, direction of the plank's
+    middle.
+    """
     for i in range(5):
         for dx, colour in ((0, RAMPS["wood"][2]), (inward, RAMPS["wood"][1])):
             picture[6 + i, column + dx] = (*colour, 255)
@@ -245,7 +261,9 @@ def _bracket(picture, column, inward):
 
 
 def ladder(top):
-    """Return a wooden ladder, 16 x 16, repeating downwards; its top piece has a landing of planks to stand on."""
+    """Return a wooden ladder, 16 x 16, repeating downwards. top: the top piece, which has a landing of planks to stand
+    on.
+    """
     wood = RAMPS["wood"]
     picture = np.zeros((TILE, TILE, 4), np.uint8)
     for left in (2, 11):
@@ -268,7 +286,9 @@ def ladder(top):
 
 
 def material_tiles(material):
-    """Return {name: (pixels, properties)} of one material: every blob, then the variations of its inside."""
+    """Return {name: (pixels, properties)} of one material: a tile for every mask of neighbours, then the variants of
+    its inside.
+    """
     table = {f"{material}_{mask}": (blob(material, mask), {"kind": "solid"}) for mask in BLOBS}
     for variant in range(1, DEPTHS):
         table[f"{material}_255_{variant}"] = (blob(material, 255, variant), {"kind": "solid"})

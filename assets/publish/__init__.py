@@ -1,1 +1,1 @@
-"""Pictures of the finished work: the menu's, and those of docs/."""
+"""Pictures of the finished work: the pictures of the menu and of docs/."""

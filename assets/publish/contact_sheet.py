@@ -1,7 +1,7 @@
 """Writes docs/sprites.png, every sprite and backdrop on one picture, and docs/moments.png, moments of the games.
 
-python -m assets.publish.contact_sheet            both; the bots play some minutes of game time
-python -m assets.publish.contact_sheet sprites    only that one
+python -m assets.publish.contact_sheet            both pictures; the bots play some minutes of game time
+python -m assets.publish.contact_sheet sprites    only docs/sprites.png
 """
 
 import json
@@ -84,7 +84,7 @@ def section(name, frames):
 
 
 def shrunk(name):
-    """Return a backdrop at a third of its size, (h, w, 4) uint8: every third pixel, clear where it is half clear."""
+    """Return every third pixel of a backdrop along x and along y, (h, w, 4) uint8."""
     picture = png.decode((FOLDER / "images" / f"{name}.png").read_bytes())[::SHRUNK, ::SHRUNK]
     return picture if picture.shape[2] == 4 else opaque(picture)
 

@@ -1,6 +1,6 @@
 """Pictures of the games, filmed while their bots play: the menu's small pictures of all scenes.
 
-Art does not import the games: the program scenes/filming.py films them, and is run here.
+The scripts of assets/ do not import the games: the program scenes/filming.py films the games, and is run here.
 """
 
 import os
@@ -17,7 +17,8 @@ ROOT = FOLDER.parents[len(ABOVE)]  # where the names are looked up
 
 
 def filmed(what, *names):
-    """Run `python -m scenes.filming` with these arguments; return {file name: bytes} in the order of their names.
+    """Run `python -m scenes.filming` with the arguments `what` and `names`; return {file name: bytes} in the order of
+    the file names.
 
     Raises RuntimeError with the program's output when it fails.
     """

@@ -22,15 +22,16 @@ def sheet():
 
 
 def game_moments(name):
-    """Return one game's moments under its name."""
+    """Return the picture of one game's moments, under the game's name, (h, w, 3) uint8."""
     files = filmed("moments", name)
     captions = json.loads(files.pop("captions.json"))
     return laid_out(name, captions, [png.decode(content) for content in files.values()])
 
 
 def laid_out(name, captions, pictures):
-    """Return pictures of FRAME's size in rows under a heading, each over its caption. Raises ValueError unless they
-    fit.
+    """Return a picture of a heading and the pictures in rows, each of FRAME's size and over its caption.
+
+    Raises ValueError unless there are COLUMNS * ROWS captions and as many pictures.
     """
     if not len(captions) == len(pictures) == COLUMNS * ROWS:
         raise ValueError(f"{name}: {COLUMNS * ROWS} moments must be there (got {len(captions)}, {len(pictures)})")

@@ -1,6 +1,6 @@
 """Grounds of the shooter, 480 x 540, seamless in both directions, to be scrolled downwards.
 
-The grounds sea, coast and storm; clouds_low with cloud_shadows, clouds_high and clouds_storm.
+The grounds are sea, coast and storm. Over them lie clouds_low with cloud_shadows, clouds_high and clouds_storm.
 """
 
 from assets.craft import png

@@ -15,7 +15,7 @@ WAKE = (0.95, 0.58, 0.38, 0.28, 0.21, 0.15)  # width of the wake behind the fron
 
 
 def bomb_ring(frame):
-    """Return the shock ring, frame 0..5."""
+    """Return frame 0..5 of the shock ring."""
     size = RING_SIZES[frame]
     sprite = Sprite(size, size)
     radius = size / 2 - 1.5
@@ -79,7 +79,7 @@ def graze_spark(frame):
 
 
 def add_blasts(sheet):
-    """Put them on a sheet."""
+    """Add the pictures of this module to a sheet."""
     sheet.add_sequence("bomb_ring", [bomb_ring(i) for i in range(len(RING_SIZES))], 20)
     sheet.add("heavy_shot", heavy_shot())
     sheet.add_sequence("graze_spark", [graze_spark(i) for i in range(3)], 24)

@@ -1,7 +1,7 @@
-"""The shooter's two leaders, flying down: the heavy bomber half way and the fortress at the end.
+"""The shooter's two leaders, flying down: the heavy bomber of the middle of the stage and the fortress of its end.
 
 The fortress has three looks of one family: whole with its eye half shut, armour torn open, and burning with a wing tip
-gone. Each look has two frames of one silhouette (engines and eye pulse), so that both have one mask.
+gone. Each look has two frames (engines and eye pulse) with the same silhouette, so that both frames have one mask.
 """
 
 from assets.craft.fields import box, capsule, ellipse, polygon
@@ -121,7 +121,7 @@ def boss(look, frame):
 
 
 def _wing(sprite, side, frame):
-    """Draw an armoured wing with engines, plates, stripes and two turrets of one side."""
+    """Draw the armoured wing of one side, with engines, plates, stripes and two turrets. side: -1 left, 1 right."""
     x, y = sprite.x, sprite.y
     lit = -side * 0.06
 
@@ -188,7 +188,7 @@ def _wing(sprite, side, frame):
 
 
 def _prong(sprite, side):
-    """Draw the claw at a wing's end with its heavy gun."""
+    """Draw the claw at a wing's end with its heavy gun. side: -1 left, 1 right."""
     x, y = sprite.x, sprite.y
     lit = -side * 0.06
 
@@ -252,7 +252,9 @@ def _hull(sprite, frame):
 
 
 def _eye(sprite, hurt, hot):
-    """Draw the core: a lens behind an iris of armour that is shut in the first look and gone in the last."""
+    """Draw the core: a lens behind an iris of armour. hurt: number of the look, 0..2; the iris is shut in look 0 and
+    gone in look 2. hot: glow, 0..1.
+    """
     x, y = sprite.x, sprite.y
     sprite.part(ellipse(x, y, 66, 42, 14.2, 14.2), RAMPS["gold"], bulge=3, base=0.44, grain=0.4)
     sprite.part(ellipse(x, y, 66, 42, 12, 12), RAMPS["armour"], bulge=3, base=0.3)
@@ -277,7 +279,9 @@ def _eye(sprite, hurt, hot):
 
 
 def _damage(sprite, hurt, hot):
-    """Draw holes, soot and glowing cracks; in the last look the right claw is shot off and the wings are open."""
+    """Draw holes, soot and glowing cracks of look `hurt`, 1 or 2. In look 2 the right claw is shot off and the wings
+    are open. hot: glow, 0..1.
+    """
     wound(sprite, 34, 21, 4.6, 3, hot)
     wound(sprite, 95, 44, 4.0, 5, hot)
     scorch(sprite, 22, 30, 6, 7)

@@ -39,7 +39,9 @@ VILLAGES = ((96, 150), (352, 64), (238, 402), (420, 300))  # [px] middles; those
 
 
 def patchwork(count, seed):
-    """Return (number, edge): the field of each pixel, and its distance in px to the next field. Seamless."""
+    """Return (number, edge) for a seamless patchwork of `count` fields: number of the field at each pixel, and distance
+    to the next field [px].
+    """
     random = np.random.default_rng(seed)
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH] + 0.5
     bend = (layered_noise(WIDTH, HEIGHT, 8, 9, 2, seed + 1) - 0.5) * 12
@@ -95,7 +97,9 @@ def countryside():
 
 
 def _fields(picture, where, light):
-    """Draw crops in their own tones and furrows, with hedges between them."""
+    """Draw crops where `where` (h, w) is True: each field in its own tone and furrows, with hedges between the fields.
+    light: see hill_light().
+    """
     number, edge = patchwork(LAND_CELLS, 301)
     random = np.random.default_rng(302)
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH]
@@ -115,7 +119,9 @@ def _fields(picture, where, light):
 
 
 def _villages(picture, where, road):
-    """Draw groups of small houses, each with a lit and a shaded side of its roof and a shadow."""
+    """Draw groups of small houses where `where` is True and no `road` is, each with a lit and a shaded side of its roof
+    and a shadow.
+    """
     random = np.random.default_rng(731)
     for middle_x, middle_y in VILLAGES:
         for _ in range(16):

@@ -1,7 +1,8 @@
 """The player's bullets, flashes, sparks, smoke, debris and light: the small pictures of hits.
 
-The player's bullets are cool and long, the enemies' (enemy_bullets.py) round with a dark ring. So they stand out on any
-background and differ from each other without colour. Light discs are opaque on black: they are drawn by adding.
+The player's bullets are cool and long; the enemies' bullets (enemy_bullets.py) are round with a dark ring. So they
+stand out on any background and differ from each other without colour. Discs of light are opaque on black, because they
+are drawn by addition.
 """
 
 import numpy as np

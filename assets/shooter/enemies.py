@@ -56,7 +56,7 @@ def dart(frame):
 
 
 def saucer(frame):
-    """Return the weaver, frame 0..3: its lights run around the rim."""
+    """Return the weaver, frame 0..3. From frame to frame its lights move around the rim."""
     sprite = Sprite(*SAUCER)
     x, y = sprite.x, sprite.y
     for side in (-1, 1):

@@ -1,7 +1,8 @@
 """Enemy bullets: dark ring, saturated ring, white core, so that a bullet stands out on any ground.
 
-Each kind comes twice with the same silhouette: as NAME_0..1 and as safe_NAME_0..1 in colours of the Okabe-Ito set,
-which stay distinct under colour blindness; there the shape of the core differs, too. The second frame of a pair pulses.
+Each kind comes twice with the same silhouette: as NAME_0..1, and as safe_NAME_0..1 in colours of the Okabe-Ito set,
+which stay distinct under colour blindness. The cores of the safe kinds also differ in shape. The second frame of a pair
+pulses.
 """
 
 import numpy as np
@@ -34,7 +35,10 @@ RING_DARK = mix(OUTLINE, RAMPS["purple"][0], 0.3)
 
 
 def tones_of(name, safe):
-    """Return (edge, body, light) of a bullet's saturated ring, dark to light."""
+    """Return (edge, body, light) of a bullet's saturated ring, dark to light.
+
+    safe: in the colours for colour blindness.
+    """
     if safe:
         colour = np.array(SAFE[name][0], np.uint8)
         return mix(colour, OUTLINE, 0.20), colour, mix(colour, WHITE, 0.35)
@@ -43,7 +47,7 @@ def tones_of(name, safe):
 
 
 def round_bullet(name, safe, frame):
-    """Return one round bullet, frame 0..1."""
+    """Return one round bullet, frame 0..1. name: key of ROUND; safe: in the colours for colour blindness."""
     radius, size, _ = ROUND[name]
     sprite = Sprite(size, size)
     dx, dy = sprite.x - size / 2, sprite.y - size / 2
@@ -74,7 +78,7 @@ def round_bullet(name, safe, frame):
 
 
 def needle(safe):
-    """Return the aimed shot, drawn pointing down: 7 x 14 px."""
+    """Return the aimed shot, drawn pointing down: 7 x 14 px. safe: in the colours for colour blindness."""
     sprite = Sprite(7, 14)
     x, y = sprite.x, sprite.y
     edge, body, light = tones_of("bullet_needle", safe)

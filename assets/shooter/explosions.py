@@ -16,7 +16,9 @@ RING_FRAMES = range(1, 5)  # frames with the shock ring
 
 
 def directions(count):
-    """Return unit vectors around the circle from rational points ((1-t²)/(1+t²), 2t/(1+t²)): exact on every machine."""
+    """Return `count` unit vectors around the circle, from rational points ((1-t²)/(1+t²), 2t/(1+t²)): exact on every
+    machine.
+    """
     quarter = []
     for i in range(count // 4):
         t = i / (count // 4)
@@ -78,7 +80,7 @@ def _frame(t, index, size, balls, grain, compass):
 
 
 def _ring(sprite, radius, index):
-    """Draw the shock ring behind the fire."""
+    """Draw the shock ring of `radius` [px] behind the fire. index: 1..4, later rings are thinner."""
     centre = sprite.solid.shape[0] / 2
     distance = abs(length(sprite.x - centre, sprite.y - centre) - min(radius, centre - 1.5))
     ring = (distance < (0.9, 0.75, 0.6, 0.5)[index - 1]) & ~sprite.solid
@@ -89,7 +91,9 @@ def _ring(sprite, radius, index):
 
 
 def _sparks(sprite, t, compass):
-    """Draw ten glowing specks that overtake the fire."""
+    """Draw ten glowing specks that overtake the fire. t: time 0..1 of the explosion; compass: unit vectors from
+    directions().
+    """
     size = sprite.solid.shape[0]
     if t > 0.62:
         return

@@ -16,7 +16,7 @@ BANKS = {
 
 
 def player(bank):
-    """Draw one frame of the player's plane. bank: a key of BANKS."""
+    """Return one frame of the player's plane. bank: a key of BANKS."""
     left, right, spine, light_left, light_right = BANKS[bank]
     sprite = Sprite(SIZE, SIZE)
     centre = SIZE / 2
@@ -28,7 +28,9 @@ def player(bank):
 
 
 def _wing(sprite, centre, side, reach, light):
-    """Draw one swept wing with its stripe, gun pod and tail plane. side: -1 left, 1 right; reach: 1 = level flight."""
+    """Draw one swept wing with its stripe, gun pod and tail plane. centre: x of the plane's middle; side: -1 left, 1
+    right; reach: 1 = level flight.
+    """
     x, y = sprite.x, sprite.y
 
     def at(offset, down):
@@ -55,7 +57,7 @@ def _wing(sprite, centre, side, reach, light):
 
 
 def _body(sprite, centre, spine):
-    """Draw fuselage, nose, canopy and engine; spine: lean of the canopy [px]."""
+    """Draw fuselage, nose, canopy and engine. centre: x of the plane's middle; spine: lean of the canopy [px]."""
     x, y = sprite.x, sprite.y
     sprite.part(capsule(x, y, (centre, 3.5), (centre, 23.5), 1.5, 3.5), RAMPS["steel"], bulge=3.4, base=0.6)
     sprite.part(box(x, y, centre - 2.2, 26.5, centre + 2.2, 30, 1), RAMPS["gunmetal"], bulge=2.4, base=0.45)

@@ -20,7 +20,11 @@ GLOWS = {
 
 
 def seam(sprite, ramp, left, top, right, bottom):
-    """Draw a panel line one pixel wide, level or upright, with the lit edge of the next plate beside it."""
+    """Draw a panel line one pixel wide, level or upright, from (left, top) to (right, bottom), with the lit edge of the
+    next plate beside it.
+
+    ramp: name of the plates' colours.
+    """
     x, y = sprite.x, sprite.y
     level = right - left >= bottom - top
     sprite.paint(box(x, y, left, top, right, bottom), RAMPS[ramp][1], 0.75)
@@ -29,7 +33,9 @@ def seam(sprite, ramp, left, top, right, bottom):
 
 
 def rivets(sprite, ramp, places):
-    """Draw rivets: one dark pixel each, with a light one at its upper left."""
+    """Draw rivets at the places (x, y): one dark pixel each, with a light one at its upper left. ramp: name of the
+    colours.
+    """
     for x, y in places:
         if sprite.solid[int(y), int(x)]:
             sprite.dot(int(x), int(y), RAMPS[ramp][1])
@@ -38,7 +44,7 @@ def rivets(sprite, ramp, places):
 
 
 def vent(sprite, left, top, right, bottom):
-    """Draw a sunken grille of dark slits."""
+    """Draw a sunken grille of dark slits into the box from (left, top) to (right, bottom)."""
     x, y = sprite.x, sprite.y
     sprite.paint(box(x, y, left, top, right, bottom), RAMPS["gunmetal"][1])
     for row in range(int(top) + 1, int(bottom), 2):
@@ -47,7 +53,7 @@ def vent(sprite, left, top, right, bottom):
 
 
 def stripes(sprite, left, top, right, bottom):
-    """Draw warning stripes of gold and iron that lean to the right."""
+    """Draw warning stripes of gold and iron, which lean to the right, in the box (left, top) to (right, bottom)."""
     inside = box(sprite.x, sprite.y, left, top, right, bottom) < 0
     gold = ((sprite.x + sprite.y) // STRIPE).astype(int) % 2 == 0
     inside &= sprite.solid
@@ -56,7 +62,9 @@ def stripes(sprite, left, top, right, bottom):
 
 
 def turret(sprite, x, y, radius, ramp, reach):
-    """Draw a round gun turret on its ring, whose two barrels point down; reach: px from its middle to the muzzles."""
+    """Draw a round gun turret on its ring, whose two barrels point down; reach: px from its middle to the muzzles.
+    ramp: name of its colours.
+    """
     px, py = sprite.x, sprite.y
     sprite.part(circle(px, py, x, y, radius + 1.5), RAMPS["gunmetal"], bulge=1.5, base=0.26, gain=0.3)
     for side in (-1, 1):
@@ -86,7 +94,9 @@ def lens(sprite, x, y, radius, glow, strength):
 
 
 def nozzle(sprite, left, right, top, bottom, hot):
-    """Draw an engine's rear end seen from above, its mouth at the top. hot 0..1."""
+    """Draw an engine's rear end, seen from above, into the box from (left, top) to (right, bottom), with its mouth at
+    the top. hot: glow, 0..1.
+    """
     x, y = sprite.x, sprite.y
     sprite.part(box(x, y, left, top, right, bottom, 1.5), RAMPS["gunmetal"], bulge=3, base=0.46)
     sprite.paint(box(x, y, left + 1, top, right - 1, top + 3.2), RAMPS["orange"][2 + round(hot)])
@@ -104,7 +114,10 @@ def scorch(sprite, x, y, radius, seed):
 
 
 def wound(sprite, x, y, radius, seed, hot):
-    """Draw a torn hole in the plating: soot, bright torn edge, glowing inside. hot 0..1: its brightness."""
+    """Draw a torn hole in the plating: soot, a bright torn edge, and a glow inside.
+
+    hot: brightness of the glow, 0..1.
+    """
     scorch(sprite, x, y, radius * 1.9, seed)
     height, width = sprite.solid.shape
     rough = (noise(width, height, max(2, width // 3), max(2, height // 3), seed + 1) - 0.5) * radius * 1.5
@@ -117,7 +130,7 @@ def wound(sprite, x, y, radius, seed, hot):
 
 
 def cracks(sprite, lines, hot):
-    """Draw glowing fissures: each line a list of points, drawn one pixel wide with a dark rim."""
+    """Draw glowing fissures: each line a list of points, drawn one pixel wide with a dark rim. hot: brightness 0..1."""
     tone = mix(RAMPS["orange"][3], RAMPS["gold"][5], hot)
     for points in lines:
         for start, end in pairwise(points):

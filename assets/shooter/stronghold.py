@@ -1,6 +1,7 @@
 """The shooter's last stretch: a fortress of concrete and steel on black rocks in a night sea, 480 x 540, seamless.
 
-It is darker than the stretches before it, so that the boss's bullets stand out more. Buildings are listed by hand.
+It is darker than the stretches before it, so that the boss's bullets stand out more. Pads, blocks and tanks are placed
+at random on the paving, with a fixed seed.
 """
 
 import numpy as np
@@ -49,7 +50,7 @@ def stronghold():
 
 
 def _build(picture, paved, random):
-    """Draw pads, tanks and buildings on free paving, on a grid of 6 px."""
+    """Draw pads, tanks and buildings on free paving, on a grid of 6 px. paved: (h, w) bool."""
 
     def place(margin):
         x, y = random.integers(0, ((WIDTH - margin) // 6, (HEIGHT - margin) // 6))
@@ -68,7 +69,7 @@ def _build(picture, paved, random):
 
 
 def _paving(picture, height):
-    """Draw slabs over the middle of the land and a wall with lamps around them. Return the paved pixels."""
+    """Draw slabs over the middle of the land, and around the slabs a wall with lamps. Return the paved pixels."""
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH]
     # The yard's edge follows a grid, like a real building's.
     coarse = height[(y // GRID * GRID + GRID // 2) % HEIGHT, (x // GRID * GRID + GRID // 2) % WIDTH]
@@ -113,14 +114,18 @@ def _lamp(picture, x, y):
 
 
 def _free(paved, left, top, width, depth):
-    """Return whether a rectangle lies wholly on paving."""
+    """Return whether a rectangle lies wholly on paving, the pixels `paved`. The picture wraps around."""
     rows = np.arange(top, top + depth) % HEIGHT
     columns = np.arange(left, left + width) % WIDTH
     return bool(paved[np.ix_(rows, columns)].all())
 
 
 def _block(picture, paved, left, top, width, depth, high, roof):
-    """Draw a building seen from above and slightly from the south: roof, lit rim, side with lit windows, shadow."""
+    """Draw a building seen from above and slightly from the south: roof, lit rim, side with lit windows, shadow.
+
+    It is drawn only if all of its place is `paved`. left, top, width, depth: rectangle of the roof [px]; high: height
+    of the visible side [px]; roof: index in ROOF.
+    """
     if not _free(paved, left - 1, top - 1, width + 4, depth + high + 3):
         return
     shade = (slice(top + 5, top + depth + high + 3), slice(left + 3, left + width + 4))
@@ -143,7 +148,7 @@ def _block(picture, paved, left, top, width, depth, high, roof):
 
 
 def _tank(picture, paved, x, y, radius):
-    """Draw a round fuel tank with a lit cap."""
+    """Draw a round fuel tank with a lit cap, if all of its place is `paved`."""
     if not _free(paved, x - radius - 1, y - radius - 1, 2 * radius + 5, 2 * radius + 7):
         return
     rows, columns = np.mgrid[y - radius - 1 : y + radius + 8, x - radius - 1 : x + radius + 6]
@@ -164,7 +169,7 @@ def _tank(picture, paved, x, y, radius):
 
 
 def _pad(picture, paved, x, y, radius):
-    """Draw a landing pad: painted ring and H, lamps at its rim."""
+    """Draw a landing pad, painted ring and H, lamps at its rim, if all of its place is `paved`."""
     if not _free(paved, x - radius, y - radius, 2 * radius, 2 * radius):
         return
     rows, columns = np.mgrid[y - radius : y + radius, x - radius : x + radius]

@@ -47,7 +47,7 @@ def hill_light(height):
 
 
 def border(land):
-    """Return the pixels just outside of an area that wraps around."""
+    """Return the pixels just outside of the area `land`, in a picture that wraps around."""
     around = np.zeros_like(land)
     for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
         around |= np.roll(land, (dy, dx), (0, 1))
@@ -55,7 +55,7 @@ def border(land):
 
 
 def pick(ramp, level, grain=0.8):
-    """Return ramp colours for a level 0..1 per pixel, dithered."""
+    """Return the ramp's colours for a level 0..1 per pixel, dithered with the strength `grain`."""
     return graded(ramp, level * (len(ramp) - 1) + 0.5 + dither(*level.shape) * grain)
 
 
@@ -84,7 +84,9 @@ def ground():
 
 
 def glints(picture, water, seed=31, cut=GLINT_CUT):
-    """Draw short horizontal wave crests in patches of the water (h, w) bool."""
+    """Draw short horizontal wave crests in patches of the water (h, w) bool. cut: level of noise 0..1 above which a
+    crest is drawn.
+    """
     crest = noise(WIDTH, HEIGHT, 40, 270, seed)
     group = layered_noise(WIDTH, HEIGHT, 8, 9, 2, seed + 10)
     glint = (crest > cut) & (group > 0.5) & water
@@ -94,7 +96,10 @@ def glints(picture, water, seed=31, cut=GLINT_CUT):
 
 
 def plant(picture, where, seed, spacing=(5, 4)):
-    """Draw tree crowns on a jittered grid, back to front, each with its shadow, wherever `where` (h, w) bool allows."""
+    """Draw tree crowns on a jittered grid, back to front, each with its shadow, wherever `where` (h, w) bool allows.
+
+    spacing: distance between trees along x and along y [px].
+    """
     random = np.random.default_rng(seed)
     across, down = spacing
     for row in range(0, HEIGHT, down):
@@ -107,7 +112,7 @@ def plant(picture, where, seed, spacing=(5, 4)):
 
 
 def _crown(picture, x, y, radius, lean):
-    """Draw one tree: a lit disc, wrapped around the edges of the picture."""
+    """Draw one tree: a lit disc, wrapped around the edges of the picture. lean: 0..1, brightness."""
     reach = int(radius) + 2
     columns = np.arange(x - reach, x + reach + 1)
     rows = np.arange(y - reach, y + reach + 1)

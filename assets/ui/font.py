@@ -1,8 +1,9 @@
 """Two bitmap fonts of this project, drawn as text in assets/drawings/*.txt.
 
-A drawing consists of bands: a line "= A B C" names the glyphs, the lines under it show them side by side, # for ink. A
-glyph has its drawn width, so text is proportional; digits share one width, so numbers in a column stay aligned. The
-JSON: {"height", "baseline", "glyphs": {character: {"x", "y", "w"}}}; w is the advance, one clear column included.
+A drawing consists of bands: a line "= A B C" names the glyphs, and the lines under it show these glyphs side by side, #
+for ink. A glyph has its drawn width, so text is proportional; digits share one width, so numbers in a column stay
+aligned. The JSON: {"height", "baseline", "glyphs": {character: {"x", "y", "w"}}}; w is the advance, one clear column
+included.
 """
 
 import numpy as np
@@ -56,7 +57,7 @@ def load_glyphs(name):
 
 
 def write(target, text, x, y, colour):
-    """Write one line of the larger font on target (h, w, 3) uint8, its top left at (x, y)."""
+    """Write one line of the larger font in a colour on target (h, w, 3) uint8, its top left at (x, y)."""
     glyphs = load_glyphs("font5x7")
     for character in text:
         ink = glyphs[character]

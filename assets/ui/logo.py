@@ -1,6 +1,6 @@
 """The title's logo, a picture of the game's subject.
 
-It shows letters with their bounding boxes, and one hit where the X's box overlaps the O's.
+It shows letters with their bounding boxes, and one hit where the box of the X overlaps the box of the O.
 """
 
 import numpy as np
@@ -17,7 +17,7 @@ BOX_COLOUR, HIT_COLOUR = oklch(0.86, 0.14, 195), oklch(0.72, 0.20, 20)
 
 
 def letter_field(letter, x, y):
-    """Return the distance field of one logo letter at its place."""
+    """Return the distance field of one logo letter at its place in the logo. x, y: pixel centres."""
     left = LETTER_X[letter]
     right, middle = left + LETTER_WIDTH[letter], (TOP + BOTTOM) / 2
     if letter == "H":
@@ -87,7 +87,9 @@ def logo():
 
 
 def _boxes(sprite, face):
-    """Draw the thin bounding boxes with their corners, and the pixels of the one true hit."""
+    """Draw the thin bounding boxes with their corners, and the pixels of the one true hit. face: the pixels of the
+    letters.
+    """
     for letter, colour in (("O", BOX_COLOUR), ("X", BOX_COLOUR)):
         left, right = LETTER_X[letter] - 4, LETTER_X[letter] + LETTER_WIDTH[letter] + 3
         top, bottom = TOP - 5, BOTTOM + 4

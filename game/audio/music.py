@@ -1,7 +1,7 @@
-"""Music: one tune at a time, streamed from its file, with fades from one to the next, and jingles in between.
+"""Music: one tune at a time, streamed from its file, with fades between tunes, and jingles in between.
 
-A file is read when it is wanted. The old tune fades out before the new one fades in: two tunes in different keys over
-each other are noise. The volume is set once per drawn frame (step), so that a slider is heard while it moves.
+A file is read when its tune is wanted. The old tune fades out before the new one fades in: two tunes in different keys
+over each other are noise. The volume is set once per drawn frame (step), so that a slider is heard while it moves.
 """
 
 from collections.abc import Callable
@@ -18,8 +18,9 @@ DUCK_DOWN, DUCK_UP = 0.05, 0.35  # [s] to lower the volume, and to raise it agai
 
 
 class Music:
-    """Player of tunes and jingles. `playing`: the name of the one that is heard, None in silence. report(line) is
-    called once per unusable file.
+    """Player of tunes and jingles. `playing`: name of the tune or jingle that is heard; None in silence.
+
+    report(line) is called once for each file that cannot be played.
     """
 
     def __init__(self, report: Callable[[str], object], folder: Path = MUSIC) -> None:
@@ -35,7 +36,7 @@ class Music:
         self.unusable = set()
 
     def tune(self, name: str | None) -> None:
-        """Choose the tune to play, or None for silence. It starts when a jingle that plays has ended."""
+        """Choose the tune to play, or None for silence. If a jingle is playing, the tune starts after the jingle."""
         if name != self.wanted:
             self.wanted = name
             self.resume()
@@ -82,7 +83,9 @@ class Music:
         self.duck = min(1.0, max(DUCKED, self.duck + way * (1.0 - DUCKED)))
 
     def _leave_for(self, name, share):
-        """Lower the volume by `share` of the full volume. When it reaches 0, start `name`."""
+        """Fade out before the tune or jingle `name`: lower the volume by `share` (0..1) of the full volume, and start
+        `name` once the volume is 0.
+        """
         self.level = max(0.0, self.level - share)
         if self.level == 0.0 or self.playing is None:
             self._start(name)

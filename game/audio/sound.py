@@ -50,7 +50,10 @@ RANKS = {
 
 @dataclass
 class Voice:
-    """One channel of the mixer and its last sound. `started`: number of sounds started up to this one."""
+    """One channel of the mixer and its last sound.
+
+    `started`: number of that sound, counting all sounds started so far.
+    """
 
     channel: "pygame.mixer.Channel"  # in quotes: a pygame without its mixer has no such name
     name: str = ""
@@ -131,7 +134,11 @@ class Sounds:
         return True
 
     def _start(self, name, sides, loudness):
-        """Return the voice that a sound was started on; None for an unusable file or if no channel is free."""
+        """Start the sound `name` on a voice, with the (left, right) volumes `sides` times `loudness`, and return the
+        voice.
+
+        Return None if the file is unusable or no voice is free.
+        """
         sound = self._variant(name)
         voice = self._voice_for(name, RANKS.get(name, 1)) if sound else None
         if sound is None or voice is None:
@@ -141,15 +148,16 @@ class Sounds:
         return voice
 
     def _lose(self, error):
-        """Switch to silence after the device was removed, and report that in one line."""
+        """Switch to silence after the sound device was removed, and report that in one line with the `error`."""
         self.silent_because = f"the sound device is gone ({error})"
         self.report(f"{self.silent_because}; the game goes on in silence")
 
     def _voice_for(self, name, rank):
-        """Return the voice to start a sound on; None if all voices are busy with sounds of higher ranks.
+        """Return the voice for a sound `name` of importance `rank`; None if all voices are busy with sounds of higher
+        ranks.
 
-        It is the oldest voice of this sound if VOICES of them play, else a free voice, else the oldest of the lowest
-        rank.
+        The first of these that exists: the oldest voice of the same sound, if VOICES of them play; a free voice; the
+        oldest voice of the lowest rank.
         """
         busy = [voice for voice in self.voices if voice.channel.get_busy()]
         same = [voice for voice in busy if voice.name == name]
@@ -161,7 +169,7 @@ class Sounds:
         return least if least.rank <= rank else None
 
     def _variant(self, name):
-        """Return the sound at one of its pitches, never at the same pitch twice in a row; None for an unusable file."""
+        """Return the sound `name` at a random pitch, other than its last one; None if its file is unusable."""
         if name not in self.samples:
             self.samples[name] = self._read(name)
         samples = self.samples[name]

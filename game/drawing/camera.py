@@ -92,7 +92,7 @@ class Camera:
         return (x - left) * self.zoom + self.viewport.x, (y - top) * self.zoom + self.viewport.y
 
     def to_world(self, x: float, y: float) -> tuple[float, float]:
-        """Return the world position of a canvas point, without interpolation."""
+        """Return the world position of a canvas point, by the camera's position in the last step."""
         left, top = self.view()
         return (x - self.viewport.x) / self.zoom + left, (y - self.viewport.y) / self.zoom + top
 

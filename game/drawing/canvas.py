@@ -132,16 +132,16 @@ class Canvas:
         self.fixed.append(pygame.Rect(rect))
 
     def lift(self) -> list[tuple[pygame.Surface, tuple[int, int]]]:
-        """Return copies of the text and of the fixed rects, as (picture, top left) each.
+        """Return copies of the text and of the fixed rects, each as (picture, top left).
 
-        put_back() draws them again, over anything that was drawn after the call of lift().
+        put_back() draws these copies again, over anything that was drawn after the call of lift().
         """
         rects = [box.inflate(2 * self.edge, 2 * self.edge) for box, _ in self.boxes] + self.fixed
         inside = [rect.clip(self.rect) for rect in rects]
         return [(self.surface.subsurface(rect).copy(), rect.topleft) for rect in inside if rect.width and rect.height]
 
     def put_back(self, lifted: list[tuple[pygame.Surface, tuple[int, int]]]) -> None:
-        """Draw the copies from lift() on top."""
+        """Draw the copies returned by lift() over the canvas. lifted: the result of lift()."""
         for picture, place in lifted:
             self.surface.blit(picture, place)
 

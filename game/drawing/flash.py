@@ -1,7 +1,7 @@
-"""Flashes of the whole picture, in one module, so that they can be limited and switched off.
+"""Flashes of the whole picture. They are all in this module, so that they can be limited and switched off.
 
-At most two flashes begin within a second, and none adds more than a third of white: half of the limit of WCAG 2.3.1
-(three general flashes a second).
+At most two flashes begin within a second, and none adds more than a third of white. The limit of WCAG 2.3.1 is three
+general flashes a second.
 """
 
 import pygame
@@ -25,7 +25,9 @@ class Flash:
         self.begun = []
 
     def start(self, strength: float = 1.0, color: Color = (255, 255, 255)) -> bool:
-        """Start a flash, unless MOST began within SPAN. Return whether it started."""
+        """Start a flash of `strength` 0..1, unless MOST flashes began within the last SPAN steps. Return whether it
+        started.
+        """
         self.begun = [step for step in self.begun if self.now - step < SPAN]
         if len(self.begun) >= MOST:
             return False

@@ -55,12 +55,12 @@ class FragmentPicture:
         return self.kept[number]
 
     def middle(self, x: float, y: float, angle: float) -> tuple[float, float]:
-        """Return the centre of the picture for a body at a position and an angle."""
+        """Return the world position of the picture's centre for a body at position (x, y), rotated by `angle` [rad]."""
         c, s = cos(angle), sin(angle)
         return x + c * self.off[0] - s * self.off[1], y + s * self.off[0] + c * self.off[1]
 
     def draw(self, surface: pygame.Surface, x: float, y: float, angle: float) -> None:
-        """Draw the fragment with its body's origin at the point (x, y) of the surface."""
+        """Draw the fragment, rotated by `angle` [rad], with its body's origin at the point (x, y) of the surface."""
         image = self.at(angle)
         across, down = self.middle(x, y, angle)
         width, height = image.get_size()

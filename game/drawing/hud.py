@@ -14,7 +14,7 @@ BANNER_GROUND = (20, 16, 32, 150)
 def label(
     canvas: Canvas, text: str, x: float, y: float, value: str = "", align: str = "left", color: Color = PAPER
 ) -> pygame.Rect:
-    """Draw a word in gold and a value beside it in `color`. Return the rect of both."""
+    """Draw `text` in gold and `value` beside it in `color`. Return the rect of both."""
     if align == "right":
         right = canvas.text(value, x, y, color, TEXT, align="right", outline=True)
         left = canvas.text(text, right.left - 4, y, GOLD, TEXT, align="right", outline=True)
@@ -27,8 +27,8 @@ def label(
 def icons(
     canvas: Canvas, image: pygame.Surface, count: int, x: int, y: int, gap: int = 2, most: int = 8
 ) -> pygame.Rect:
-    """Draw a row of pictures, one per life, and return its rect. `most` pictures are drawn at most, then also the
-    count.
+    """Draw a row of `count` pictures, for example one per life, and return its rect. If `count` exceeds `most`, only
+    `most` pictures are drawn, with the count as text beside them.
     """
     width, height = image.get_size()
     shown = min(count, most)
@@ -43,7 +43,7 @@ def icons(
 
 
 def bar(canvas: Canvas, rect: Box, share: float, color: Color, ground: Color = INK) -> pygame.Rect:
-    """Draw a bar filled to `share` 0..1 and return its rect."""
+    """Draw a bar filled to `share` 0..1, over the colour `ground`, and return its rect."""
     rect = pygame.Rect(rect)
     canvas.surface.fill(ground, rect)
     canvas.surface.fill(

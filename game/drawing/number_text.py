@@ -2,7 +2,7 @@
 
 
 def clock(seconds: float) -> str:
-    """Return a time as text: 1:05.32 for 65.32 s; with hours if there are any."""
+    """Return a time [s] as text: 1:05.32 for 65.32 s. Hours are shown only if there are any."""
     hundredths = round(seconds * 100)
     minutes, rest = divmod(hundredths, 6000)
     hours, minutes = divmod(minutes, 60)
@@ -18,7 +18,7 @@ def short_clock(seconds: float) -> str:
 
 
 def points_text(points: int) -> str:
-    """Return a number in groups of three: 12 345 678."""
+    """Return a number of points in groups of three digits: 12 345 678."""
     return f"{points:,}".replace(",", " ")
 
 
@@ -28,5 +28,5 @@ def plain_name(name: str) -> str:
 
 
 def count_text(number: int, what: str) -> str:
-    """Return a count with its noun: "1 plane", "2 planes"."""
+    """Return a number with its noun, `what`, in the singular or plural: "1 plane", "2 planes"."""
     return f"{number} {what}{'s' if number != 1 else ''}"

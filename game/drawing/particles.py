@@ -1,5 +1,5 @@
-"""Particles: columns moved with NumPy. They are decoration: no game rule reads them, and they have their own random
-numbers.
+"""Particles, stored as columns and moved with NumPy. They are decoration: no game rule reads them, and they have their
+own random numbers.
 """
 
 import numpy as np
@@ -61,7 +61,8 @@ class Particles:
         """Throw `count` particles from (x, y) [world px].
 
         ramp: colours from hot to cold. speed [px/s], life [s] and size [px] are (low, high) ranges. angle and spread
-        [rad] aim the cone. carry: velocity [px/s] that is added to all, such as the velocity of a wreck.
+        [rad] aim the cone. drag [1/s] slows the particles, gravity [px/s2] pulls them down. carry: velocity [px/s] that
+        is added to all, such as the velocity of a wreck.
         """
         if ramp not in self.colors:
             self.colors.append(ramp)
@@ -95,7 +96,9 @@ class Particles:
         age += dt
 
     def draw(self, canvas: Canvas, camera: Camera, alpha: float = 1.0) -> None:
-        """Draw the particles in view. One array write per pixel of the largest size replaces a loop over particles."""
+        """Draw the particles in view. The loop is over the pixels of the largest size, with one array write each, not
+        over particles.
+        """
         x, y, _, _, age, life, size, _, _ = self.rows
         alive = np.flatnonzero(age < life)
         if len(alive) == 0:
@@ -114,7 +117,10 @@ class Particles:
         del pixels  # unlocks the surface
 
     def _mapped(self, surface, alive, age, life):
-        """Return each particle's colour as the surface's pixel value."""
+        """Return the pixel value of the surface for the colour of each living particle.
+
+        `alive`: rows of the living particles; `age`, `life`: age and lifetime of every row [s].
+        """
         heat = age[alive] / life[alive]
         out = np.zeros(len(alive), dtype=np.uint32)
         for index, ramp in enumerate(self.colors):

@@ -1,6 +1,7 @@
 """Presentation of the 480 x 270 canvas in the window: integer scale, letterbox, and the frame that overlays draw on.
 
-It replaces pygame.SCALED: SCALED and OpenGL fail under SDL's dummy driver, and SCALED fullscreen has no integer scale.
+This replaces pygame.SCALED, which fails under SDL's dummy driver (as OpenGL does), and has no integer scale in
+fullscreen.
 """
 
 import numpy as np
@@ -49,7 +50,7 @@ class Frame(Canvas):
 
     @property
     def edge(self) -> int:
-        """Width of a text outline around its box: the larger of those on the canvas and on the frame [frame px]."""
+        """Greatest width of a text outline outside the text's box, on the canvas or on the frame [frame px]."""
         return max(self.scale, self.text_scale)
 
     @property

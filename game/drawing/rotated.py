@@ -1,4 +1,5 @@
-"""Pictures of rotating bodies: small pixel art at any angle, with sharp edges, and the picture of each body (Cast).
+"""Pictures of rotating bodies: small pixel art at any angle with sharp edges, and Cast, which draws each body of a
+world with its picture.
 
 A picture is enlarged eight times by Scale2x, which keeps edges sharp, and then sampled at each pixel of the rotated
 picture (the idea of RotSprite). Rotated pictures are cached.
@@ -72,7 +73,9 @@ class RotatedPicture:
 
 
 def poses_between(bodies: np.ndarray, alpha: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return x, y [px] and angle [rad] of BODY rows, interpolated between the last two steps by alpha, 0 to 1."""
+    """Return x, y [px] and angle [rad] of the BODY rows `bodies`, interpolated between the last two steps by alpha, 0
+    to 1.
+    """
     x, y, angle = (
         bodies["previous_" + name] + (bodies[name] - bodies["previous_" + name]) * alpha for name in ("x", "y", "angle")
     )

@@ -31,7 +31,7 @@ class Animation:
         return number % len(self.images) if loop else min(number, len(self.images) - 1)
 
     def at(self, seconds: float, loop: bool = True) -> pygame.Surface:
-        """Return the image that is shown `seconds` after the start."""
+        """Return the image that is shown `seconds` after the start. Without `loop` the last image stays."""
         return self.images[self.index_at(seconds, loop)]
 
     @property
@@ -48,13 +48,15 @@ class Atlas:
         self.masks = {}
 
     def __getitem__(self, name):
-        """Return the image of a frame. Raises ValueError naming the sheet for an unknown frame."""
+        """Return the image `name`. If the sheet has no image of that name, raises ValueError, which names the sheet."""
         if name not in self.images:
             raise ValueError(f"{self.path} has no frame {name!r}; it has {', '.join(self.images)}")
         return self.images[name]
 
     def animation(self, name: str) -> Animation:
-        """Return an animation. Raises ValueError naming the sheet for an unknown one."""
+        """Return the animation `name`. If the sheet has no animation of that name, raises ValueError, which names the
+        sheet.
+        """
         if name not in self.animations:
             raise ValueError(f"{self.path} has no animation {name!r}; it has {', '.join(self.animations)}")
         return self.animations[name]
@@ -83,7 +85,7 @@ def load_backdrop(name: str) -> pygame.Surface:
 
 @cache
 def load_atlas(name: str) -> Atlas:
-    """Return the sheet assets/images/<name>.png with its .json. Raises FileError for a damaged one."""
+    """Return the sheet assets/images/<name>.png with its .json. Raises FileError if either file is damaged."""
     path = IMAGES / f"{name}.json"
     sheet = load_image(IMAGES / f"{name}.png")
     try:
@@ -113,7 +115,9 @@ class RotatedSprites:
         return self
 
     def draw(self, canvas: Canvas, camera: Camera, x: float, y: float, angle: float, alpha: float = 1.0) -> None:
-        """Draw the sprite with its mask's origin at world (x, y), as the physics places the mask on the pixel grid."""
+        """Draw the sprite, rotated by `angle` [rad], with its mask's origin at world (x, y), rounded as the physics
+        places the mask on the pixel grid.
+        """
         image, origin = self.at(angle)
         left, top = camera.view(alpha)
         place_x = floor(x - origin[0] + 0.5) - left + camera.viewport.x
@@ -130,8 +134,9 @@ class RotatedSprites:
 
 
 def pick_pixels(image: pygame.Surface, turned: Any) -> pygame.Surface:
-    """Return the picture of a rotated mask: each solid pixel has the colour of the pixel of `image` that it comes
-    from.
+    """Return the picture of a rotated mask: each solid pixel has the colour of the pixel of `image` that it comes from.
+
+    turned: the rotated mask; source_x and source_y are the places in `image` of its pixels.
     """
     height, width = turned.solid.shape
     out = pygame.Surface((max(width, 1), max(height, 1)), pygame.SRCALPHA)

@@ -39,7 +39,9 @@ class TilePicture:
         return self.chunks[column, row]
 
     def _paint(self, first_column, first_row):
-        """Return the picture of the chunk that begins at this column and row, or None if it has no tile."""
+        """Return the picture of the chunk whose first tile is at (first_column, first_row), or None if the chunk has no
+        tile.
+        """
         numbers, flips = self.map.layers[self.layer], self.map.flips[self.layer]
         if first_column < 0 or first_row < 0:
             return None

@@ -70,7 +70,7 @@ class TileMap:
         return self.columns * self.tile_size, self.rows * self.tile_size
 
     def kind_of(self, number: int) -> str:
-        """Return the kind of a tile, one of KINDS; a tile without the property is decor."""
+        """Return the kind of the tile `number`, one of KINDS; "decor" if the tileset gives it none."""
         return self.tiles.get(int(number), {}).get("kind", "decor")
 
     def grid(self, layer: str = "solid") -> TileGrid:
@@ -93,7 +93,7 @@ class TileMap:
         return TileGrid(solid, self.tile_size, one_way, slopes)
 
     def cells(self, kind: str, layer: str = "solid") -> list[tuple[int, int]]:
-        """Return (column, row) of every tile of a kind that is not solid, such as spikes."""
+        """Return (column, row) of every tile of one kind in a layer, for example of all spikes."""
         numbers = self._layer(layer)
         matching = [number for number in np.unique(numbers).tolist() if number >= 0 and self.kind_of(number) == kind]
         return [(int(c), int(r)) for r, c in np.argwhere(np.isin(numbers, matching))]
@@ -113,7 +113,7 @@ class TileMap:
         return self.flips.get(layer, np.zeros((self.rows, self.columns), int))
 
     def _refuse_turned(self, layer, turned):
-        """Raise FileError for a rotated or upside-down slope.
+        """Raise FileError if a slope is rotated or upside down. turned: (rows, columns) bool, flags of such slopes.
 
         Slopes may be mirrored left and right only. The collision shape of any other slope would not match its picture.
         """
@@ -138,7 +138,9 @@ def load_tilemap(path: Path, largest: tuple[int, int] = (LARGEST, LARGEST)) -> T
 
 
 def map_picture(tilemap: TileMap) -> Path:
-    """Return the path of the tileset's picture, beside the map or among the game's own. Raises FileError."""
+    """Return the path of the tileset's picture: a file beside the map, or one of the game's own pictures. Raises
+    FileError.
+    """
     path = picture_of(tilemap.path, "tilesets[0].image", tilemap.image, IMAGES)
     width, height = png_size(path, LARGEST_PICTURE)
     most = max((int(layer.max()) for layer in tilemap.layers.values() if layer.size), default=-1)
@@ -208,7 +210,11 @@ class _Reader:
         )
 
     def flat_layers(self, data, place, prefix, offset, depth=0):
-        """Yield (place, name, layer, offset [px]) of all tile and object layers in order, also of those in groups."""
+        """Yield (place, name, layer, offset [px]) of all tile and object layers in order, also of those in groups.
+
+        `data`: the map, or a group of layers. `place`, `offset` [px]: place of `data` in the file, and its offset;
+        `prefix`: text before "layers" in the place of a layer.
+        """
         for index, layer in enumerate(self.listing(data, place, "layers")):
             here = f"{prefix}layers[{index}]"
             if not isinstance(layer, dict):
@@ -226,7 +232,9 @@ class _Reader:
                 yield from self.flat_layers(layer, here, f"{here}.", (x, y), depth + 1)
 
     def refuse(self, data, place, defaults):
-        """Raise FileError if a key that moves, turns or hides what is drawn has another value than its default."""
+        """Raise FileError if a key that moves, turns or hides drawn objects does not have its default value. defaults:
+        {key: value}.
+        """
         for name, default in defaults.items():
             value = data.get(name, default)
             if type(value) not in (type(default), int, float) or value != default:
@@ -234,7 +242,10 @@ class _Reader:
                 self.fail(f"{place}.{name}", f"is not supported: must be {usual} (got {value!r:.60})")
 
     def shifted(self, found, place, offset, size):
-        """Return (tiles, flips) moved by the offset [px] of their layer, which must be a number of whole tiles."""
+        """Return `found`, the (tiles, flips) of a layer, moved by the layer's `offset` [px].
+
+        `size`: side of a tile [px]. Raises FileError if the offset is not a whole number of tiles.
+        """
         if offset == (0.0, 0.0):
             return found
         for name, each in zip(OFFSETS, offset, strict=True):
@@ -348,7 +359,9 @@ class _Reader:
         return found
 
     def things(self, layer, place, offset, tileset):
-        """Return the objects of a layer. A tile object's origin is its bottom left corner, any other's its top left."""
+        """Return the objects of a layer, with the top left corner as position. In the file, a tile object has the
+        position of its bottom left corner.
+        """
         found = []
         for index, entry in enumerate(self.listing(layer, place, "objects")):
             here = f"{place}.objects[{index}]"

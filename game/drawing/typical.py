@@ -20,5 +20,7 @@ class Typical:
 
     @property
     def value(self) -> float:
-        """Median of the stored values (of two middle ones the upper); 0 before the first value."""
+        """Median of the stored values (with an even number of values, the upper of the two middle values); 0 before the
+        first value.
+        """
         return sorted(self.last)[len(self.last) // 2] if self.last else 0.0

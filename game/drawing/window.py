@@ -1,4 +1,4 @@
-"""The window: opening it, and changing it to the settings."""
+"""Functions that open the window, and change it when the settings change."""
 
 import os
 import sys
@@ -35,15 +35,15 @@ def open_window(settings: Settings) -> pygame.Surface:
 def has_screen(platform: str, environment: Mapping[str, str]) -> bool:
     """Return whether SDL can find a display.
 
-    On Linux, that takes X, Wayland or a video driver named in the environment: without them SDL would print errors of
-    its own.
+    On Linux, the environment must name an X or Wayland display or a video driver. Without any of these, SDL would print
+    errors of its own.
     """
     names = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")
     return not platform.startswith("linux") or any(environment.get(name) for name in names)
 
 
 def mode_of(settings: Settings) -> tuple[bool, int, bool]:
-    """Return the settings that the window depends on; it is opened again only when one of these changes."""
+    """Return the settings that the window depends on. The window is opened again only when one of these changes."""
     return settings.fullscreen, settings.window_scale, settings.vsync
 
 
@@ -58,7 +58,11 @@ def set_mode(settings: Settings) -> pygame.Surface:
 
 
 def _open(size, flags, vsync):
-    """Open the window, without vsync if the system has none: the game loop's own timing then sets the rate."""
+    """Open the window with vsync if wanted, and without vsync if the system has none: the game loop's own timing then
+    sets the rate.
+
+    flags: pygame's flags of the display mode.
+    """
     if vsync and pygame.display.get_driver() not in ("dummy", "offscreen"):
         try:
             with warnings.catch_warnings():

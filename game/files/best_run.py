@@ -1,7 +1,7 @@
 """Ghost of a scene: the player's positions in the fastest won run, kept in a file, and drawn beside later runs.
 
-A trail is a list of (x, y, frame name, way) rows, one per step. An unusable ghost file is kept and not shown: it never
-stops a game.
+A trail is a list of (x, y, frame name, way) rows, one per step; way: -1 or 1, the direction that the player faces. An
+unusable ghost file is kept and not shown: it never stops a game.
 """
 
 import json
@@ -23,7 +23,8 @@ def ghost_path(table: str) -> Path:
 
 
 def load_ghost(table: str) -> tuple[list[tuple] | None, float | None, str]:
-    """Return (trail, seconds, message) of the best run so far. Trail and seconds are None if there is no usable file.
+    """Return (trail, seconds, message) of the best run so far in a high-score table. Trail and seconds are None if
+    there is no usable file.
 
     The message reports an unusable file; it is "" otherwise.
     """
@@ -40,7 +41,11 @@ def load_ghost(table: str) -> tuple[list[tuple] | None, float | None, str]:
 
 
 def keep_ghost(table: str, trail: Sequence[tuple], seconds: float) -> bool:
-    """Save the trail of a run if it was faster than the saved one. Return whether it was. Raises OSError."""
+    """Save the trail of a run that took `seconds`, if the run was faster than the saved one. Return whether it was
+    saved.
+
+    Raises OSError.
+    """
     best = load_ghost(table)[1]
     if not trail or (best is not None and best <= seconds):
         return False

@@ -17,7 +17,10 @@ OVERRIDE = "HITBOX_DATA"  # variable with a folder; set by tests, or by a player
 
 
 def data_folder(environment: Mapping[str, str] | None = None, platform: str | None = None) -> Path:
-    """Return the folder of this user's files. It is not created here (see write_atomically)."""
+    """Return the folder of this user's files. The folder is not created here (see write_atomically).
+
+    environment, platform: for tests; None: os.environ and sys.platform.
+    """
     environment = os.environ if environment is None else environment
     platform = sys.platform if platform is None else platform
     if environment.get(OVERRIDE):
@@ -52,7 +55,9 @@ def is_there(path: Path) -> bool:
 
 
 def free_name(folder: Path, scene_name: str, suffix: str = ".json") -> Path:
-    """Return the path of a new file, named after the scene and the time. No file of this name exists yet."""
+    """Return the path of a new file in `folder`, named after the scene and the time, with this suffix. No file of that
+    name exists yet.
+    """
     name = f"{scene_name.replace('/', '-')}-{strftime('%Y%m%d-%H%M%S')}"
     path, number = folder / f"{name}{suffix}", 2
     while path.exists():
@@ -63,9 +68,9 @@ def free_name(folder: Path, scene_name: str, suffix: str = ".json") -> Path:
 def write_atomically(path: str | Path, content: str | bytes, makes_folder: bool = True) -> None:
     """Write a file, text or bytes, so that a reader sees the old file or the new one, never a part of one.
 
-    A device or a pipe is written to, not replaced. makes_folder: whether a missing folder is created. Partial files of
-    this file, left by an earlier process, are removed. Raises OSError if the folder cannot be written; the old file is
-    then unchanged.
+    A device or a pipe is written to, not replaced. makes_folder: whether a missing folder is created. Partial versions
+    of this file that an earlier process left are removed. Raises OSError if the folder cannot be written; the old file
+    is then unchanged.
     """
     path, content = Path(path), content.encode() if isinstance(content, str) else content
     if not path.name:
@@ -101,8 +106,8 @@ def keep_beside(path: str | Path, why: str = "damaged") -> Path:
     """Copy an unusable file to the first free name of the form `name.damaged-N`, and return the path of the copy.
 
     why: the word in place of "damaged". The name is claimed with exclusive creation, so an earlier copy is never
-    overwritten. A copy with the same content is reused, or every start would add another. An unreadable file is renamed
-    instead, because the next save would overwrite it. Raises OSError if that fails, too.
+    overwritten. If a copy with the same content exists, its path is returned, so that repeated starts add no copies. An
+    unreadable file is renamed instead, because the next save would overwrite it. Raises OSError if that fails, too.
     """
     path = Path(path)
     names = (path.with_name(f"{path.name}.{why}-{number}") for number in count(1))
@@ -124,7 +129,8 @@ def keep_beside(path: str | Path, why: str = "damaged") -> Path:
 
 
 def refusal(path: Path, place: str, reason: str, instead: str, why: str = "damaged") -> str:
-    """Keep a copy of an unusable file. Return one line with the error, with `instead`, and with the name of the copy.
+    """Keep a copy of an unusable file. Return one line with the error (path, place in the file, reason), with
+    `instead`, and with the name of the copy.
 
     instead: what the game uses in place of the file's content. why: word in the name of the copy, see keep_beside.
     """

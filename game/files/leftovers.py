@@ -1,7 +1,7 @@
 """Partial files that killed processes left beside the files that they were writing.
 
-A partial file is named <file>.<process>.part (see data_folder.part_of). It is removed once it is old. Its age decides,
-not its process id, because the process may run on another machine that shares the folder.
+A partial file is named <file>.<process>.part (see data_folder.part_of). A partial file is removed once it is old,
+whatever its process id, because the process may run on another machine that shares the folder.
 """
 
 import contextlib
@@ -18,7 +18,7 @@ FOLDERS = ("", "ghosts", "replays", "replays/recent", "screenshots")  # of the d
 
 
 def remove_leftovers(folder: Path, inside: Iterable[str] = FOLDERS) -> None:
-    """Remove the old partial files in these subfolders of a folder; ignore folders that cannot be read."""
+    """Remove the old partial files in the subfolders `inside` of a folder; ignore folders that cannot be read."""
     for name in inside:
         place = folder / name
         with contextlib.suppress(OSError, ValueError):
@@ -28,9 +28,8 @@ def remove_leftovers(folder: Path, inside: Iterable[str] = FOLDERS) -> None:
 
 
 def remove_parts_of(part: Path) -> None:
-    """Remove the old partial files that earlier processes left of one file.
-
-    part: path of the partial file that this process writes.
+    """Remove the old partial files of one file, which earlier processes left. part: path of this process's partial file
+    of that file.
     """
     file = _file_of(part.name)
     with contextlib.suppress(OSError, ValueError):

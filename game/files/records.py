@@ -48,12 +48,16 @@ class Records:
         return found[0] if found else None
 
     def place(self, key: str, ranked_by: str | None, entry: Entry) -> int | None:
-        """Return the place 1..10 that an entry would take, or None. Of equal entries, the earlier one comes first."""
+        """Return the place 1..10 that an entry would take in a table, or None. Of equal entries, the earlier one comes
+        first. ranked_by: as in Scene.
+        """
         better = sum(1 for each in self.entries(key) if order(each, ranked_by) <= order(entry, ranked_by))
         return better + 1 if better < PLACES else None
 
     def add(self, key: str, ranked_by: str | None, entry: Entry) -> int | None:
-        """Insert an entry at its place and drop the entry after the last place. Return the place or None."""
+        """Insert an entry into a table at its place, and drop the entry after the last place. Return the place or None.
+        ranked_by: as in Scene.
+        """
         place = self.place(key, ranked_by, entry)
         if place is not None:
             table = self.tables.setdefault(key, [])
@@ -81,7 +85,9 @@ class Records:
 
 
 def order(entry: Entry, ranked_by: str | None) -> tuple[float, float]:
-    """Return the sort key of an entry: most points, then least time; or least time, then most points."""
+    """Return the sort key of an entry. ranked_by "seconds": least time first, then most points; otherwise most points
+    first, then least time.
+    """
     if ranked_by == "seconds":
         return entry.seconds, -entry.points
     return -entry.points, entry.seconds

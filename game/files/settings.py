@@ -93,7 +93,9 @@ def save_settings(settings: Settings, path: Path | None = None) -> None:
 
 
 def _upgraded(path, data):
-    """Return the content of a settings file of version 1 or 2 in the form of version 2. Raises FileError for others."""
+    """Return `data`, the content of a settings file of version 1 or 2, in the form of version 2. Raises FileError for
+    other versions.
+    """
     version = data.get("version") if isinstance(data, dict) else None
     if version not in (1, VERSION) or isinstance(version, bool):
         raise FileError(path, "version", f"{version!r:.40} cannot be read here; this program reads 1 to {VERSION}")

@@ -110,17 +110,21 @@ _NAMES = {}  # key code -> name, filled at the first call
 
 
 def rivals(action: str, other: str) -> bool:
-    """Return whether one game uses both actions, so that they cannot share a key."""
+    """Return whether some game uses both actions, so that they cannot share a key."""
     return action != other and any(action in game and other in game for game in USED_TOGETHER)
 
 
 def key_codes(names: Table) -> dict[int, tuple[str, ...]]:
-    """Return {key code: actions} of {action: names}, with the fixed keys. Raises ValueError naming the error."""
+    """Return {key code: actions} for the bindings `names`, {action: names of keys}, and the fixed keys. Raises
+    ValueError for an unknown name.
+    """
     return _turned({**names, **FIXED_KEYS}, _code)
 
 
 def button_actions(names: Table) -> dict[str, tuple[str, ...]]:
-    """Return {button name: actions} of {action: names}, with the fixed buttons. Raises ValueError naming the error."""
+    """Return {button name: actions} for the bindings `names`, {action: names of buttons}, and the fixed buttons. Raises
+    ValueError for an unknown name.
+    """
     return _turned({**names, **FIXED_BUTTONS}, _button)
 
 
@@ -135,7 +139,7 @@ def _turned(names, read):
 
 
 def _code(key: str) -> int:
-    """Return the key code of a key name. It is read from pygame's constants, so no display is needed."""
+    """Return the key code of a key name. The codes are constants of pygame, so no display is needed."""
     name = SPELLED.get(key, key)
     for spelling in (name.upper(), name.lower()):
         code = getattr(pygame, f"K_{spelling}", None)
@@ -161,7 +165,7 @@ def key_name(code: int) -> str | None:
 
 
 def shown(control: str) -> str:
-    """Return the text that stands for a key or button on screen."""
+    """Return the text that stands for a control, a key or button, on screen."""
     return PICTURED.get(control, control.capitalize())
 
 

@@ -54,7 +54,7 @@ class DeviceSource:
         self.lost_pad = False  # a pad was pulled out; the app pauses and resets this
 
     def bind(self, keys: Table, buttons: Table) -> None:
-        """Replace the bindings: {action: names} each."""
+        """Replace the bindings of the keys and of the buttons; each is a table {action: names}."""
         self.keys, self.buttons = key_codes(keys), button_actions(buttons)
         self.menu_keys = {**self.keys, **key_codes(DEFAULT_KEYS)}
         self.menu_buttons = {**self.buttons, **button_actions(DEFAULT_BUTTONS)}
@@ -64,7 +64,9 @@ class DeviceSource:
         self.changes.append((name, value))
 
     def next(self, scene: object | None = None) -> InputFrame:
-        """Return the input of the next step. A tap between two steps counts as held for one."""
+        """Return the input of the next step. An action that is pressed and released between two steps counts as held in
+        one step.
+        """
         actions = frozenset(self.tapped.union(*self.held.values()) if self.held else self.tapped)
         down = self.pointer_down or self.pointer_tapped
         frame = InputFrame(actions, self.pointer, down, self.wheel, tuple(self.changes))
@@ -124,7 +126,9 @@ class DeviceSource:
         return found[1]
 
     def _is_mapped(self, instance_id):
-        """Return whether SDL maps this pad. It then sends joystick events, too, which are ignored."""
+        """Return whether SDL has a mapping of this pad's buttons. For such a pad, SDL also sends joystick events, which
+        are ignored.
+        """
         return self.pads is not None and self.pads.is_controller(instance_id)
 
     def _feed_pad(self, event):

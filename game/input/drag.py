@@ -1,8 +1,8 @@
 """Dragging a body with the mouse: a critically damped spring from the grabbed point to the pointer.
 
-The pointer is part of the step's input like every key, so a recording contains the drag. The force is that of the
-implicit spring over one step (Catto, "Soft Constraints", GDC 2011): it is stable at any stiffness and for any mass, and
-it is capped in proportion to the mass.
+The pointer is part of the step's input like every key, so a recording contains the drag. The spring is integrated
+implicitly over one step (Catto, "Soft Constraints", GDC 2011), so it is stable at any stiffness and for any mass. Its
+force is capped in proportion to the mass.
 """
 
 from collections.abc import Sequence
@@ -64,7 +64,7 @@ class Hold:
 
 
 class Drag:
-    """One pointer's hold on at most one body of a scene; `hold` is None if nothing is held."""
+    """The drag of a scene's bodies by one pointer: at most one body is held. `hold`: its Hold, or None."""
 
     def __init__(self) -> None:
         self.hold: Hold | None = None
@@ -119,8 +119,8 @@ class Drag:
 
 
 def _goes_on(hold, views):
-    """Return whether the hold can continue. It ends if the scene was rebuilt, or if the body is gone or cannot be
-    held.
+    """Return whether the hold can continue. It cannot if its world is not in `views` (the scene was rebuilt), or if its
+    body is gone or can no longer be held.
     """
     return any(world is hold.world for world, _ in views) and hold.is_there() and can_be_held(hold.body)
 
@@ -144,7 +144,9 @@ def _pull(hold, target):
 
 
 def to_world(camera: View, pointer: tuple[float, float]) -> tuple[float, float]:
-    """Return the world point under a canvas point, without the shake, which the settings may switch off."""
+    """Return the world point under the canvas point `pointer`, as if the camera did not shake: the settings may switch
+    the shake off.
+    """
     view = camera.viewport
     return (pointer[0] - view.x) / camera.zoom + camera.x, (pointer[1] - view.y) / camera.zoom + camera.y
 
@@ -161,8 +163,8 @@ def can_be_held(body: Body) -> bool:
 
 
 def body_at(world: World, point: tuple[float, float], reach: float) -> Body | None:
-    """Return the body to grab at a world point: the uppermost body there, else the nearest within `reach` [px], or
-    None.
+    """Return the body to grab at a world point: the uppermost body there, else the body nearest within `reach` [px],
+    else None.
     """
     held = [body for body in world.query_point(point) if can_be_held(body)]
     if held:

@@ -52,8 +52,8 @@ class Pads:
         return instance_id in self.controllers
 
     def rumble(self, low: float, high: float, milliseconds: int) -> None:
-        """Run the motors of every pad with an SDL mapping. low, high: strength 0..1 of the motors of low and high
-        pitch.
+        """Run the motors of every pad with an SDL mapping for `milliseconds`. low, high: strength 0..1 of the motors of
+        low and high pitch.
         """
         for controller in self.controllers.values():
             controller.rumble(low, high, milliseconds)

@@ -48,9 +48,11 @@ def rebind(table: dict[str, list[str]], device: str, action: str, control: str |
 
 
 def _make_room(table, device, other, control, given_up):
-    """Take `control` away from the action `other`, and give it another one if possible.
+    """Take `control` away from the action `other` in a table {action: controls}, and give `other` another control if
+    possible.
 
-    Return the line for the player; None if `other` would be left without a control.
+    device: "keys" or "buttons". given_up: the control to try first, which the new owner of `control` gives up. Return
+    the line for the player; None if `other` would be left without a control.
     """
     place = table[other].index(control)
     rest = [each for each in table[other] if each != control]
@@ -66,17 +68,18 @@ def _make_room(table, device, other, control, given_up):
 
 
 def _is_free(table, device, action, control):
-    """Return whether a control is free for an action.
+    """Return whether a control is free for an action in a table {action: controls}. device: "keys" or "buttons".
 
-    It must not be fixed, belong to the action already, or belong to an action that cannot share it (bindings.rivals).
+    The control must not be fixed, belong to the action already, or belong to an action that cannot share it
+    (bindings.rivals).
     """
     taken = FIXED[device].union(*(controls for name, controls in table.items() if rivals(action, name)), table[action])
     return control not in taken
 
 
 def clash(table: Table) -> tuple[str, str, str] | None:
-    """Return (action, other, control) of the first two actions with a common control that one game uses together; else
-    None.
+    """Return (action, other, control) of the first two actions that share a control although one game uses both; None
+    if there are none.
     """
     for action in table:
         for other in table:
@@ -93,7 +96,9 @@ def default_table(device: str) -> dict[str, list[str]]:
 
 
 def completed(table: Table, device: str) -> dict[str, list[str]]:
-    """Return the table with actions added that an older file lacks, without default controls that would clash."""
+    """Return a copy of the table with the actions that an older file lacks. They get their default controls, except
+    those that clash with another action. device: "keys" or "buttons".
+    """
     full = {}
     for action in DEFAULTS[device]:
         full[action] = list(table[action]) if action in table else []

@@ -1,6 +1,6 @@
 """Copies of several float64 columns of a structured array at once.
 
-Ten columns of a thousand rows take the time of two columns that are copied singly.
+Copying ten columns of a thousand rows in this way takes as long as copying two columns one by one.
 """
 
 from functools import cache

@@ -1,7 +1,7 @@
 """Invariants U3, U4 and U5: without outside influence, bodies keep momentum and angular momentum and gain no energy.
 
-They are checked only where the tables of the world prove that nothing acts from outside. A change by the game between
-two steps starts a new comparison.
+The invariants are checked only where the tables of the world prove that nothing acts from outside. A change by the game
+between two steps starts a new comparison.
 """
 
 import math
@@ -50,13 +50,20 @@ class OfTheAlone(Invariant):
         return self.broken(step, most(step, np.where(alone, change, 0.0)), drift, allowed, self.gained)
 
     def why_not(self, step: Step, alone: np.ndarray) -> str:
-        """Return the reason why the invariant cannot be checked in this step; "" if it can."""
+        """Return the reason why the invariant cannot be checked in this step; "" if it can.
+
+        alone: (n,) bool, the bodies on which nothing acted from outside.
+        """
         if not alone.any():
             return "all that is dynamic touches what stands, sleeps or is driven"
         return "drag acts" if step.world.effects.drag and step.world.drag > 0.0 else ""
 
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
-        """Return (gain of the quantity in this step [2], its allowance in LONG steps, change of each body)."""
+        """Return (gain, allowance, change): the gain of the quantity in this step (2,), the gain that is allowed in
+        LONG steps, and the change of each body (n,).
+
+        alone: (n,) bool, the bodies over which the gain is summed.
+        """
         raise TypeError(f"{type(self).__name__} must define gain")
 
 
@@ -67,7 +74,11 @@ class Momentum(OfTheAlone):
     gained = "momentum drifted though nothing pushes from outside"
 
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
-        """Return (gain of momentum in this step [2], its allowance in LONG steps, change of each body)."""
+        """Return (gain, allowance, change): the gain of momentum in this step (2,), the gain that is allowed in LONG
+        steps, and the change of each body (n,).
+
+        alone: (n,) bool, the bodies over which the gain is summed.
+        """
         now, before = step.now, step.before
         mass = now.mass * alone
         fall = mass * now.felt * step.dt
@@ -94,7 +105,10 @@ class Spin(OfTheAlone):
     gained = "angular momentum drifted though nothing turns from outside"
 
     def why_not(self, step: Step, alone: np.ndarray) -> str:
-        """Return the reason why the invariant cannot be checked in this step; "" if it can."""
+        """Return the reason why the invariant cannot be checked in this step; "" if it can.
+
+        alone: (n,) bool, the bodies on which nothing acted from outside.
+        """
         why = super().why_not(step, alone)
         if why:
             return why
@@ -110,7 +124,11 @@ class Spin(OfTheAlone):
         return ""
 
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
-        """Return ([gain of angular momentum in this step, 0], its allowance in LONG steps, change of each body)."""
+        """Return (gain, allowance, change): [gain of angular momentum in this step, 0], the gain that is allowed in
+        LONG steps, and the change of each body (n,).
+
+        alone: (n,) bool, the bodies over which the gain is summed.
+        """
         now, before = step.now, step.before
         mass, inertia = now.mass * alone, now.inertia * alone
         total = float(mass.sum())
@@ -128,10 +146,11 @@ class Spin(OfTheAlone):
 
 
 def slip(step: Step, among: np.ndarray) -> float:
-    """Return the error of angular momentum that the contacts of a step may cause.
+    """Return the error of angular momentum that the contacts of a step may cause. among: (n,) bool, the bodies to
+    consider.
 
-    It is Σ impulse · (relative path of the two bodies in the step + gap or overlap), over contacts between bodies in
-    `among`.
+    The error is Σ impulse · (relative path of the two bodies in the step + gap or overlap), over contacts between these
+    bodies.
     """
     rows, (a, b) = step.contacts, step.sides
     pushed = np.flatnonzero(among[a] & among[b])
@@ -150,7 +169,7 @@ def slip(step: Step, among: np.ndarray) -> float:
 
 
 def most(step: Step, change: np.ndarray) -> tuple[int, ...]:
-    """Return (id of the body with the greatest change,), or () if there are no bodies."""
+    """Return (id,) of the body with the greatest `change`, which has one value per body; () if there are no bodies."""
     return (int(step.now.ids[int(np.argmax(change))]),) if len(change) else ()
 
 
@@ -169,11 +188,11 @@ class Account:
             self.low, self.high = min(self.low, float(heights.min())), max(self.high, float(heights.max()))
 
     def gain(self, world: World, now: Bodies) -> tuple[float, float]:
-        """Return (energy above the start, its allowance).
+        """Return (energy above the start, the allowed value of it).
 
-        The allowance is the sum of four terms: 1 % of the energy in play; m g (slop + overlap at the start) of each
-        body; the rounding error of bodies that come to rest; and m g v dt of each body that was stopped at its time of
-        impact.
+        The allowed value is the sum of four terms: 1 % of the energy in play (kinetic energy, plus the potential energy
+        between the lowest and the highest position so far); m g (slop + overlap at the start) of each body; the
+        rounding error of bodies that come to rest; and m g v dt of each body that was stopped at its time of impact.
         """
         self._span(now)
         energy = now.energy
@@ -187,7 +206,8 @@ class Account:
 
 
 class Energy(Invariant):
-    """Invariant U5: without a drive, the energy of bodies never rises above the start by more than Account.gain allows.
+    """Invariant U5: without a drive, the energy of bodies never exceeds the energy at the start by more than
+    Account.gain allows.
 
     The comparison starts after the last change by the game, as soon as no overlap is deeper than two slops: bodies that
     were placed into each other are pushed apart, some of them upwards.
@@ -225,7 +245,7 @@ class Energy(Invariant):
 
 
 def driven(step: Step) -> str:
-    """Return a phrase that names the drive that adds energy to bodies; "" if there is none."""
+    """Return a phrase that names the drive that adds energy to bodies in this step; "" if there is none."""
     world, effects = step.world, step.world.effects
     if step.forced.any():
         return "forces act"

@@ -8,7 +8,9 @@ from game.invariants.step import Step
 
 @dataclass(frozen=True)
 class Broken:
-    """An invariant that does not hold. `bodies`: ids of the bodies concerned; `value`: measured, `allowed` at most."""
+    """An invariant that does not hold. `bodies`: ids of the bodies concerned; `value`: the measured value; `allowed`:
+    the largest allowed value.
+    """
 
     invariant: str  # U1 ... U11
     word: str
@@ -42,7 +44,9 @@ Answer = Broken | NotAsked | None  # None: checked, and it holds
 
 
 class Invariant:
-    """Base class of the invariants; `id` and `word` label one. look() is called once after every step."""
+    """Base class of the invariants. `id`, `word`: label of the invariant, such as "U1" and "finite". look() is called
+    once after every step.
+    """
 
     id: str
     word: str
@@ -52,7 +56,9 @@ class Invariant:
         raise TypeError(f"{type(self).__name__} must define look")
 
     def broken(self, step: Step, bodies: Iterable[int], value: float, allowed: float, sentence: str) -> Broken:
-        """Return the answer of look() for a broken invariant."""
+        """Return the answer of look() for a broken invariant: a Broken with these values. bodies: ids; allowed: the
+        greatest allowed value.
+        """
         return Broken(
             self.id, self.word, step.number, tuple(int(b) for b in bodies), float(value), float(allowed), sentence
         )

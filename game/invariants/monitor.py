@@ -1,6 +1,6 @@
 """Invariant monitor of a scene: the state of each invariant over all worlds of the scene.
 
-No state is kept for good: AFTERGLOW frames after a break, it follows the checks again.
+A broken invariant stays red for AFTERGLOW frames. After that, its state follows the checks again.
 """
 
 from collections.abc import Iterable
@@ -64,7 +64,7 @@ class InvariantMonitor:
         world.watch = Watch(concave=self.strict)
 
     def note(self, frame: int, worlds: Iterable[WatchedWorld]) -> None:
-        """Update the states after frame number `frame`."""
+        """Update the states after frame number `frame` from the checks of these worlds."""
         self.frame, self.seconds = frame, 0.0
         answers = []
         for number, world in enumerate(worlds):

@@ -48,8 +48,8 @@ def ids_of(row: np.void) -> tuple[int, ...]:
 def not_finite(world: World, sleeping: bool = False) -> Bad | None:
     """Return the first reported number that is not finite, as (ids of bodies, value, quantity); None if all are finite.
 
-    sleeping: check sleeping contacts, too, which must be listed for this. A shape without a solid part has an AABB from
-    +inf to -inf, which is allowed.
+    sleeping: check sleeping contacts, too; the world has to list them for this check. A shape without a solid part has
+    an AABB from +inf to -inf, which is allowed.
     """
     for name, rows, columns in tables(world, sleeping):
         if not len(rows):

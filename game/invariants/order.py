@@ -11,7 +11,8 @@ COMPARED = ("x", "y", "angle", "vx", "vy", "angular_velocity")
 
 
 class Order(Invariant):
-    """Invariant U9. It cannot be checked in one running world, which has one order only, so its state is never green.
+    """Invariant U9. One running world has only one order of bodies, so U9 cannot be checked in it, and its state is
+    never green.
 
     Tests compare two worlds with `furthest_apart` (tests/game/test_invariants.py). U9 holds for bodies that do not
     press on each other. Loaded contacts are solved one after the other, in an order that begins with the ids, and the
@@ -27,10 +28,10 @@ class Order(Invariant):
 
 
 def furthest_apart(one: World, other: World, ids: np.ndarray) -> float:
-    """Return the greatest difference between two worlds in a number of a body (COMPARED).
+    """Return the greatest relative difference between the bodies of two worlds, over the columns COMPARED.
 
-    A difference is divided by the greatest such number in `one`, or by 1 if that is less. ids[k]: id in `other` of the
-    k-th body of `one`.
+    Each difference is divided by the greatest absolute value of its column in `one`, or by 1 if that value is less.
+    ids[k]: id in `other` of the k-th body of `one`.
     """
     rows, twins = one.bodies, other.bodies[other.rows(ids)]
     worst = 0.0

@@ -1,4 +1,5 @@
-"""Invariants U7, U8 and U10: collision queries about two shapes agree in either order, at any place, among each other.
+"""Invariants U7, U8 and U10: collision queries about two shapes give the same result for swapped shapes (U7) and at any
+place (U8), and different queries agree with each other (U10).
 
 A sample of the pairs is checked: a few pairs in a step, other pairs in the next step. Each step checks one of the three
 invariants, in turn.
@@ -109,7 +110,9 @@ def moved(pose: tuple[float, float, float], quarters: int) -> tuple[float, float
 
 
 def rounding(pair: Pair) -> float:
-    """Return the rounding error of the poses [px]: an ulp of the coordinates, and of the angles times the size."""
+    """Return the rounding error of the poses [px]: one ulp of the coordinates, plus one ulp of the angles times the
+    size of the pair.
+    """
     size = pair.size + max(map(abs, SHIFT))
     angle = max(abs(pair.pose_a[2]), abs(pair.pose_b[2])) + 2.0 * math.pi
     return math.ulp(size) + pair.size * math.ulp(angle)
@@ -118,8 +121,8 @@ def rounding(pair: Pair) -> float:
 class Agree(OfPairs):
     """Invariant U10: all queries agree whether two shapes overlap (negative distance, positive depth, contact points).
 
-    In a world without response, the contacts of the world are compared, too. With response, those contacts belong to
-    poses that the solver has changed since, and begin a little before touching.
+    In a world without response, the contacts of the world are compared, too. With response they cannot be compared:
+    they were found before the solver moved the bodies, and include shapes that are about to touch.
     """
 
     id, word, turn = "U10", "agree", 2
@@ -133,7 +136,8 @@ class Agree(OfPairs):
 def disagreement(world: World, pair: Pair) -> tuple[float, float, str] | None:
     """Return (value, allowed, sentence) if the queries about a pair disagree; None if they agree.
 
-    Distance, depth and contact points are compared, and the reported contacts in a world without response.
+    Distance, depth and contact points are compared; in a world without response, also the contacts that the world
+    reports.
     """
     gap = distance(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b).distance
     if math.isinf(gap) or abs(gap) <= BAND * (abs(gap) + pair.size):

@@ -1,4 +1,4 @@
-"""Sample of the candidate pairs of a step, another one in each step, as shapes at poses for collision queries."""
+"""Samples of the candidate pairs of a step, as shapes at poses for collision queries. Each step has another sample."""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -18,7 +18,9 @@ Pose = tuple[float, float, float]
 
 
 class Pair(NamedTuple):
-    """Two shapes that may touch. `size` [px]: their distance from the origin plus extents, for rounding errors."""
+    """Two shapes that may touch. `size` [px]: their distance from the origin plus their extents; rounding errors are
+    proportional to it.
+    """
 
     body_a: int
     body_b: int
@@ -96,7 +98,10 @@ def extent_of(shape: Shape) -> int:
 
 
 def placed(world: World, shape_id: int) -> tuple[int, Shape, Pose, float] | None:
-    """Return (body id, shape, pose, reach [px] from the pose) of a shape; None if its body is disabled."""
+    """Return (body id, shape, pose, reach) of a shape; None if its body is disabled.
+
+    reach: greatest distance of a point of the body from the position of its pose, or more [px].
+    """
     shapes, bodies = world.shapes, world.bodies
     at = int(np.searchsorted(shapes["id"], shape_id))
     row = int(shapes["body_row"][at])

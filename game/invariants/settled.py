@@ -15,7 +15,8 @@ CALM_TIME = 0.5  # [s] a pile has settled once all of it has been slower than th
 
 
 class Settled(Invariant):
-    """Invariant U6: bodies that have been slow for half a second, with all that they touch, hardly overlap.
+    """Invariant U6: bodies that have been slow for half a second, and so have all bodies that they touch, hardly
+    overlap.
 
     Two slops are allowed, five where masses differ by more than 100 : 1.
 
@@ -68,9 +69,11 @@ class Settled(Invariant):
 
 
 def sag(step: Step, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Return the overlap [px] by which each contact, a spring, yields to its normal force of the step.
+    """Return the overlap [px] by which each contact, a spring, yields to its normal force of the step. a, b: body rows
+    of the contacts.
 
-    It is F / (m ω²), with m the effective mass of the contact; 0 if the number of substeps follows from the loads.
+    The overlap is F / (m ω²), with m the effective mass of the contact; 0 if the number of substeps follows from the
+    loads.
     """
     world, rows, now = step.world, step.contacts, step.now
     substeps = world.substeps

@@ -31,15 +31,15 @@ class Step:
 
     @cached_property
     def overlap(self) -> float:
-        """Overlap of the deepest contact [px]; 0 without one."""
+        """Overlap of the deepest contact [px]; 0 if no contact overlaps."""
         depths = self.contacts["separation"]
         return max(0.0, -float(depths.min())) if len(depths) else 0.0
 
     @cached_property
     def max_speed(self) -> np.ndarray:
-        """Speed of each body [px/s]: the greater of its velocity and its displacement in the step divided by dt.
+        """Speed of each body [px/s]: the magnitude of its velocity, or its displacement in the step over dt if greater.
 
-        They differ because push-out moves a body without changing its velocity.
+        The two differ because push-out moves a body without changing its velocity.
         """
         if self.dt == 0.0 or len(self.before) != len(self.now):
             return self.now.speed
@@ -65,9 +65,9 @@ class Step:
         return np.searchsorted(self.now.ids, ids)
 
     def spread(self, rows: np.ndarray, through: np.ndarray) -> np.ndarray:
-        """Return (n,) bool: the bodies flagged in `rows`, and all that contacts and joints connect to them.
+        """Return (n,) bool: the bodies flagged in `rows`, and all bodies that contacts and joints connect to them.
 
-        Only those between two bodies flagged in `through` count.
+        A contact or joint counts only if both its bodies are flagged in `through`.
         """
         joined = (self.linked[0] >= 0) & (self.linked[1] >= 0)
         a, b = (np.concatenate([one, other[joined]]) for one, other in zip(self.sides, self.linked, strict=True))
@@ -80,7 +80,7 @@ class Step:
 
     @cached_property
     def moved_by_hand(self) -> np.ndarray:
-        """Flags of the kinematic bodies that moved."""
+        """(n,) bool: whether a body is kinematic, and has a velocity or changed its pose in this step."""
         now = self.now
         moves = (now.vx != 0.0) | (now.vy != 0.0) | (now.turn != 0.0)
         moves |= (now.numbers[:3] != self.before.numbers[:3]).any(axis=0)

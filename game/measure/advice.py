@@ -23,7 +23,7 @@ PARTS = (("broadphase",), ("tier",), ("solver", "substeps"), ("narrowphase",))
 class Advice(NamedTuple):
     """The result of `advise`.
 
-    here: the present setting. best: the setting to use; it is `here` if no setting is certainly faster, and None if no
+    here: the present setting. best: the setting to use; equal to `here` if no setting is certainly faster; None if no
     setting is within the error.
     """
 
@@ -99,8 +99,9 @@ def advised(survey: Survey, here: Setting, error: float = VISIBLE) -> Setting | 
 
 
 def share(survey: Survey, setting: Setting, here: Setting) -> float:
-    """Return the time of `setting` divided by the time of `here`. Raises KeyError or ValueError for a setting without
-    times.
+    """Return the time of `setting` divided by the time of `here`, both as measured in the survey.
+
+    Raises KeyError or ValueError for a setting without times.
     """
     cost, now = survey.dots[setting].cost, survey.dots[here].cost
     if cost is None or now is None:
@@ -109,7 +110,9 @@ def share(survey: Survey, setting: Setting, here: Setting) -> float:
 
 
 def settings_within(survey: Survey, error: float) -> list[Setting]:
-    """Return the settings without failures whose error of every kind is at most `error` [px], the fastest first."""
+    """Return the settings of the survey without failures whose error of every kind is at most `error` [px], the fastest
+    first.
+    """
     found = {}
     for setting, dot in survey.dots.items():
         errors = [dot.error(kind) for kind in survey.kinds]
@@ -119,16 +122,18 @@ def settings_within(survey: Survey, error: float) -> list[Setting]:
 
 
 def is_cheaper(survey: Survey, one: Setting, other: Setting) -> bool:
-    """Return whether `one` is certainly faster than `other`.
+    """Return whether `one` is certainly faster than `other`, by the times in the survey.
 
-    The upper quartile of its times must be below all times of `other`, and more than 10 % below the median of `other`.
+    The upper quartile of the times of `one` must be below all times of `other`, and more than 10 % below the median of
+    `other`.
     """
     a, b = survey.dots[one].cost, survey.dots[other].cost
     return a is not None and b is not None and cheaper((a.least, a.upper), b[:2])
 
 
 def _together(survey, here, error):
-    """Return `here` with several changes combined: the fastest setting of each group of fields in PARTS.
+    """Return `here` with several changes combined: for each group of fields in PARTS, those of the fastest setting that
+    differs in this group alone.
 
     A group is changed only if that is certainly faster by itself, or if `here` is not within the error.
     """

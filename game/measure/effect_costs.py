@@ -51,7 +51,7 @@ class EffectCost(NamedTuple):
 
 
 def sides_of(effects: Effects) -> dict[str, tuple[Side, Side]]:
-    """Return {effect: (Side with the effect, Side without it)} of all effects, for a world with these effects."""
+    """Return {effect: (Side with the effect, Side without it)} of all effects, for a world that declares `effects`."""
     found = {}
     for name in EFFECTS:
         if getattr(effects, name):
@@ -88,10 +88,10 @@ def time_side(moment: Moment, side: Side, steps: int = STEPS) -> float:
 def measure_effects(
     moment: Moment, report: Callable[[str, Cost, Cost], object], goes_on: Callable[[], bool], seed: int = 0
 ) -> None:
-    """Time a step with and without every effect, in several rounds of random order.
+    """Time a step from `moment` with and without every effect, in several rounds of random order.
 
-    report(effect, cost with it, cost without it) is called after each round. Nothing is reported for an effect that the
-    world cannot be without (characters need response). Ends early when goes_on() is False.
+    report(effect, cost with the effect, cost without it) is called after each round. Nothing is reported for an effect
+    that the world cannot be without (characters need response). Ends early when goes_on() is False.
     """
     sides = {
         name: pair for name, pair in sides_of(moment.effects).items() if all(can_be(moment, each) for each in pair)

@@ -4,11 +4,12 @@ There are three kinds of error, in pixels. `way`: distance of the bodies from th
 `overlap`: how deep rigid bodies overlap, which is 0 in an exact solution. `verdict`: by how much a false hit misses, or
 a missed hit overlaps.
 
-The reference run of `way` has 64 times the 4 plain substeps, with contacts as stiff as in any run with a fixed number
-of substeps. Erez, Tassa and Todorov (ICRA 2015) compare engines with themselves at smaller steps in this way. The
-reference is valid for the steps in which a run with 32 times the substeps agrees with it to a tenth of a pixel, so not
-for chaotic motion. Errors below a floor are not significant. The floor is the larger of ten times the difference of
-these two runs, and the difference of a third run with the stiffest contacts.
+The reference run of `way` has 64 times the 4 substeps of a plain run, and the contact stiffness of runs with a fixed
+number of substeps. Erez, Tassa and Todorov (ICRA 2015) compare engines with themselves at smaller steps in this way.
+The reference is valid for the steps in which a second run, with 32 times the substeps, differs from it by at most a
+tenth of a pixel; this excludes chaotic motion. Errors below a floor are not significant. The floor is the larger of two
+numbers: ten times the difference of these two runs, and the difference between the reference and a third run, which has
+the stiffest contacts.
 """
 
 from collections import Counter
@@ -101,7 +102,8 @@ class References:
         }
 
     def _verdict(self, setting) -> Error:
-        """Return the "verdict" error: compare touching pairs with those of an exact world, in LOOKS steps.
+        """Return the "verdict" error of a setting: in LOOKS of the steps, the touching pairs are compared with those of
+        an exact world.
 
         Bodies move alike in both worlds, because there is no collision response.
         """
@@ -126,7 +128,8 @@ class References:
 def pairs_of(world: World) -> set[tuple[int, int]]:
     """Return the pairs of ids of touching bodies, the smaller id first.
 
-    So pairs of worlds at different tiers can be compared: which body of a contact is A depends on the shapes.
+    With this order, pairs of worlds at different tiers can be compared: which body of a contact is A depends on the
+    shapes.
     """
     contacts = world.contacts[world.contacts["separation"] <= 0.0]  # contacts include pairs about to meet
     ids = np.sort(np.stack([contacts["body_a"], contacts["body_b"]], axis=1), axis=1)
@@ -134,7 +137,9 @@ def pairs_of(world: World) -> set[tuple[int, int]]:
 
 
 def gap(world: World, first: int, second: int) -> float:
-    """Return the separation [px] of two bodies, given by id: the least over their shapes, negative if they overlap."""
+    """Return the separation [px] of the bodies with the ids `first` and `second`: the least over their shapes, negative
+    if they overlap.
+    """
     a, b = world.body(first), world.body(second)
     poses = [(body.position.x, body.position.y, body.angle) for body in (a, b)]
     return min(distance(s, poses[0], t, poses[1]).distance for s in a.shapes for t in b.shapes)

@@ -3,8 +3,8 @@
 Kernels run as plain Python and record the types of their arguments; nothing is compiled.
 
 Standard input takes one line: {"effects": names, "broadphase": name, "pieces": shape pairs and queries as in
-physics.warmup}. Standard output gets one line per effect: [name, number of kernels called with it and not without it].
-Without a compiler there is no output.
+physics.warmup}. Standard output gets one line per effect: [name, number of kernels that are called only with this
+effect]. Without a compiler there is no output.
 """
 
 import json
@@ -20,14 +20,18 @@ from physics.warmup import run_warmup
 
 
 def called(effects: Effects, broadphase: str, pieces: tuple[str, ...] | None) -> frozenset:
-    """Return the (kernel, argument types) of all kernel calls that a world with these effects can make."""
+    """Return the (kernel, argument types) of all kernel calls that a world with these effects and this broad phase can
+    make. pieces: as in physics.warmup.
+    """
     with tiers.collecting(all_calls=True) as found:
         run_warmup(effects, broadphase, pieces=pieces)
     return frozenset(found)
 
 
 def counts(effects: Effects, broadphase: str, pieces: Iterable[str] | None) -> Iterable[tuple[str, int]]:
-    """Yield (effect, number of kernels that are compiled for this effect alone) for every effect."""
+    """Yield (effect, number of kernels that are compiled for this effect alone) for every effect. broadphase, pieces:
+    as for called().
+    """
     wanted = None if pieces is None else tuple(pieces)
     known = cache(lambda each: called(each, broadphase, wanted))
     for name, (one, other) in sides_of(effects).items():

@@ -29,7 +29,9 @@ NEVER_NEUTRAL = ("narrowphase", "response", "stacking", "rotation", "sleeping")
 
 
 class Entry(NamedTuple):
-    """Result for one effect of one scene. Frames count from 1; None: the copies never differ in this respect."""
+    """Result for one effect of one scene. Frames count from 1. A frame is None if the two copies never differ in that
+    respect.
+    """
 
     effect: str
     declared: bool
@@ -47,7 +49,10 @@ class Entry(NamedTuple):
 
     @property
     def matters(self) -> bool:
-        """True if the effect changes the run, or if the scene cannot run without it; for sleeping, if it saves work."""
+        """True if the effect changes the run, or if the scene cannot run without it.
+
+        Sleeping matters if it saves work.
+        """
         if self.refused:
             return True
         if self.effect == "sleeping":
@@ -79,7 +84,11 @@ def entry(scene_class: type[Scene], effect: str, frames: int, after: int = AFTER
 
 
 def _compared(one, other_class, found, frames, after):
-    """Run both copies frame by frame. Return `found`, an Entry, with the measured fields filled in."""
+    """Run both copies frame by frame. Return `found`, an Entry, with the measured fields filled in.
+
+    one: the first copy, already built; other_class: scene class of the second copy; after: frames to continue once they
+    differ.
+    """
     try:
         other = Side(other_class, one.scene.seed)
     except ValueError as error:
@@ -123,7 +132,7 @@ class Side:
         return played if isinstance(played, InputFrame) else InputFrame(frozenset(played))
 
     def step(self, keys: InputFrame) -> None:
-        """Run one step. Raises ValueError if the scene uses an effect that is not declared."""
+        """Run one step with the input `keys`. Raises ValueError if the scene uses an effect that is not declared."""
         self.inputs.set(keys)
         self.scene.step(self.inputs)
         self.seconds = sum(sum(world.profile.stages.values()) for world in self.scene.worlds)
@@ -155,7 +164,9 @@ class Side:
 
 
 def root_mean_square(one: Scene, other: Scene) -> float:
-    """Return the root mean square distance [px] of equal bodies (by world and id) in both scenes; 0 without any."""
+    """Return the root mean square distance [px] of the bodies that both scenes have (same world and id); 0 if there are
+    none.
+    """
     squares = []
     for ours, theirs in zip(one.worlds, other.worlds, strict=False):
         a, b = ours.bodies, theirs.bodies

@@ -1,7 +1,7 @@
 """One moment of a world, stepped under other settings: the cost of a step and the resulting motion.
 
 The scene's rules do not run: bodies keep their velocities. So every setting does the same work, and only the physics is
-timed. Times and motions are never taken in the same run.
+timed. Times and motions are always taken in separate runs.
 """
 
 from collections import Counter
@@ -50,7 +50,8 @@ class Moment:
         count it.
 
         stage: time this stage only, 0 if the step has no stage of that name; None: time the whole step. act: time this
-        action instead of steps. It runs after one step, which fills the broad phase, and one untimed call.
+        action instead of steps; before it, one step is made, which fills the broad phase, and the action is called once
+        untimed.
         """
         world = self.world(setting)
         if stage is not None:
@@ -63,7 +64,9 @@ class Moment:
         return seconds_a_step(do, steps)
 
     def way(self, setting: Setting, steps: int = STEPS, divided: int = 1) -> "Way":
-        """Return the motion of the bodies from this moment. divided: number of shorter steps that replace each step."""
+        """Return the motion of the bodies from this moment under a setting. divided: number of shorter steps that
+        replace each step.
+        """
         world = self.world(setting)
         return follow(world, steps, divided)
 
@@ -116,6 +119,6 @@ def here_of(world: World, tier: str | None) -> Setting:
 
 
 def setting_of(effects: Effects, broadphase: str, solver: str, substeps: int | str, tier: str | None) -> Setting:
-    """Return a Setting. Solver and substeps are None if the effects do not use them."""
+    """Return the Setting of a world. The fields `solver` and `substeps` are None if the effects do not use them."""
     used = solver if effects.response else None
     return Setting(broadphase, effects.narrowphase, used, substeps if used in SUBSTEPPED else None, tier)

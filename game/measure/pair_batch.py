@@ -69,8 +69,9 @@ class PairBatch:
         self.bodies["id"][who] = who
 
     def _near(self, rows_a, rows_b, rng):
-        """Return the pairs of shapes whose AABBs overlap, in random order: (m, 2) SHAPE rows, and (m,) pairs of
-        bodies.
+        """Return the pairs of shapes whose AABBs overlap, in random order: (m, 2) SHAPE rows, and (m,) pairs of bodies.
+
+        rows_a, rows_b: for each shape of A and of B, its SHAPE rows in all pairs of bodies.
         """
         candidates, pairs = [], []
         for a in rows_a:

@@ -36,9 +36,10 @@ class ReferenceTier:
         self._hits: dict[str, Pairs] = {}
 
     def ask(self, world: World) -> bool:
-        """Test one more tier, at a new snapshot of the world if all tiers were tested.
+        """Find the colliding pairs of one more tier, all tiers by turns at the same snapshot of the world.
 
-        Return whether this was the last tier of the snapshot.
+        The first call takes the snapshot. Return whether this was the last tier; then the next call takes a new
+        snapshot.
         """
         if self._moment is None:
             self._moment, self._hits = Moment(world.snapshot(), world.broadphase.name), {}

@@ -81,7 +81,9 @@ def sat_axes(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> np.n
 
 
 def _core(name, shape, pose_name, pose):
-    """Return (world corners (n, 2), radius) of a convex shape at a pose [px]."""
+    """Return (world corners (n, 2), radius) of a convex shape at a pose [px]. name, pose_name: names of these
+    arguments, for error messages.
+    """
     if not isinstance(shape.shape if isinstance(shape, Bounds) else shape, Convex):
         hulls = sorted((each for each in SHAPES if issubclass(each, Convex)), key=lambda each: each is Polygon)
         names = ", ".join(each.__name__ for each in hulls)

@@ -22,8 +22,8 @@ def stages_of(world: World, *instead: Stage) -> tuple[Stage, ...]:
 
 
 def advance(world: World, stages: Sequence[Stage], dt: float, spent: dict[str, Any] | None = None) -> None:
-    """Run one step with these stages, as `world.step(dt)` does. spent: {name of the stage: seconds}, to which the times
-    are added.
+    """Run one step with these stages, as `world.step(dt)` does. spent: {name of a stage: seconds}; the times of this
+    step are added.
     """
     world.profile.begin([stage.stage for stage in stages])
     state = begin(world, dt)

@@ -1,6 +1,7 @@
 """Variants of the stacking solvers with a part repeated or left out, to measure the effect of each part.
 
-A variant is a stage for staged.stages_of(), where it replaces the stage of the solver. It has no name for World.solver.
+A variant is a stage for staged.stages_of(), where it replaces the stage of the solver. A variant cannot be chosen by
+name as World.solver.
 """
 
 from collections.abc import Mapping
@@ -28,8 +29,8 @@ def soft_step(iterations: int = 1, warm: bool = True, relaxed: bool = True) -> S
     """Return the solver's stage with `iterations` solve passes per substep.
 
     warm=False: each substep starts from zero impulses. relaxed=False: without the relax pass, so the velocity that
-    separates overlaps is kept, and friction is solved in the solve pass. Raises ValueError for several passes without
-    relaxing.
+    separates overlaps is kept, and friction is solved in the solve pass. Raises ValueError for relaxed=False with
+    several iterations.
     """
     if iterations > 1 and not relaxed:
         raise ValueError(f"impulses are counted once: without relaxing there is one iteration (got {iterations})")

@@ -1,4 +1,6 @@
-"""Survey: the measured costs and errors of a scene's settings, a dot of the plot each, collected run by run."""
+"""Survey: the measured costs and errors of a scene's settings, collected run by run. Each setting is one dot of the
+plot.
+"""
 
 from collections import Counter
 from dataclasses import dataclass, field
@@ -117,7 +119,9 @@ class Survey:
         return pareto_front({s: (cost.median, reported_error(error)) for s, (cost, error) in self.known(kind).items()})
 
     def finding(self, kind: str, here: Setting) -> str:
-        """Return one sentence that compares the setting `here` with the others; "" if too few are measured."""
+        """Return one sentence that compares the setting `here` with the others by cost and by this kind of error; "" if
+        too few are measured.
+        """
         known = {s: each for s, each in self.known(kind).items() if self.dots[s].sure}
         if here not in known or len(known) < 2:
             return ""

@@ -53,8 +53,10 @@ class Surveyor:
         self.process: subprocess.Popen[str] | None = None
 
     def measure(self, snapshot: Snapshot, broadphase: str) -> None:
-        """Order measurements of all settings at this moment, which go to `survey`. The order replaces an unfinished
-        earlier one.
+        """Order measurements of all settings, starting from `snapshot`; the results go to `survey`. The order replaces
+        an unfinished earlier one.
+
+        broadphase: name of the broad phase of the snapshot's world.
         """
         if not self._started():
             return
@@ -64,7 +66,7 @@ class Surveyor:
         self._hand_on_beside(order, partial(snapshot.save, order["snapshot"]))
 
     def measure_sprites(self, first: PixelMask, second: PixelMask) -> None:
-        """Measure every tier of two sprites; the results go to `figures`."""
+        """Order measurements of every tier for a pair of sprites, `first` and `second`; the results go to `figures`."""
         if not self._started():
             return
         self.figures, self.latest = {}, "sprites"
@@ -97,9 +99,11 @@ class Surveyor:
         self._hand_on_beside(order, lambda: [each.save(paths[id(each)]) for each in snapshots])
 
     def measure_effects(self, snapshot: Snapshot, broadphase: str, pieces: tuple[str, ...] | None) -> None:
-        """Measure the cost of each effect at this moment and count its compiled kernels; the results go to `effects`.
+        """Order measurements of the cost of each effect from `snapshot`, and of the number of its compiled kernels; the
+        results go to `effects`.
 
-        pieces: the parts of the physics that the scene uses, as physics.warmup takes them.
+        broadphase: name of the broad phase of the snapshot's world. pieces: the parts of the physics that the scene
+        uses, as physics.warmup takes them.
         """
         if not self._started():
             return
@@ -137,8 +141,9 @@ class Surveyor:
         return True
 
     def _hand_on_beside(self, order, save):
-        """Save the files of an order and send it, in a thread: compressing a level's pixels takes longer than a
-        frame.
+        """Start a thread that calls save() and then sends the order. save() writes the files that the order names.
+
+        This takes a thread because compressing the pixels of a level takes longer than a frame.
         """
         args = self.process, order, save, self.found
         threading.Thread(target=_hand_on, args=args, name="hand on", daemon=True).start()
@@ -211,7 +216,11 @@ class Surveyor:
 
 
 def _hand_on(process, order, save, found):
-    """Save the files of an order, then send it. The listening thread reports a process that has ended."""
+    """Call save(), which writes the files that `order` names, then send the order to the measuring process `process`.
+
+    If save() fails while the process runs, the failure is put into the queue `found`, as a result. If the process has
+    ended, nothing is reported here: the thread that reads its results reports that.
+    """
     try:
         save()
     except (OSError, ValueError) as error:

@@ -36,7 +36,10 @@ class TierFigures(NamedTuple):
 
 
 class Poses(NamedTuple):
-    """(n, 3) poses x, y [px], angle [rad] of two sprites; `met`: (n,) bool, whether the pixels of each pair touch."""
+    """Poses of pairs of two sprites. `first`, `second`: (n, 3) rows of x, y [px], angle [rad] for each sprite.
+
+    `met`: (n,) bool, whether the pixels of the two sprites touch.
+    """
 
     first: np.ndarray
     second: np.ndarray
@@ -44,7 +47,9 @@ class Poses(NamedTuple):
 
 
 def poses_around(first: PixelMask, second: PixelMask, count: int = POSES, seed: int = 0) -> Poses:
-    """Return random poses, of which about half are hits. Raises ValueError for a sprite without pixels."""
+    """Return `count` random poses of two sprites, of which about half are hits. Raises ValueError for a sprite without
+    pixels.
+    """
     exact = [fit(mask, "mask") for mask in (first, second)]
     for name, mask in (("first", first), ("second", second)):
         if not mask.area:
@@ -78,7 +83,7 @@ def measure_tiers(
     tiers: Sequence[str] = TIERS,
     seed: int = 0,
 ) -> None:
-    """Measure the tiers over random relative poses, and call report(figures) for each tier.
+    """Measure the tiers for two sprites over random relative poses, and call report(figures) for each tier.
 
     Raises ValueError for a sprite without pixels.
     """
@@ -93,7 +98,9 @@ def measure_at(
     tiers: Sequence[str] = TIERS,
     seed: int = 0,
 ) -> None:
-    """Measure the tiers at given poses, which must include hits and misses. report(figures) is called for each tier."""
+    """Measure the tiers for two sprites at given poses, which must include hits and misses. report(figures) is called
+    for each tier.
+    """
     shapes = {tier: (fit(first, tier), fit(second, tier)) for tier in tiers}
     verdicts, batches = {tier: np.zeros(len(poses.met), bool) for tier in tiers}, {}
     for tier, (a, b) in shapes.items():

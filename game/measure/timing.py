@@ -1,7 +1,7 @@
 """Times of named functions: warmed up, called in random order, given as the least and the median of several runs.
 
-Other load on the machine only ever adds time. So the least time is the cost of the function, and the distance of the
-median from the least time is the noise. All functions run in every round, so that load affects them alike.
+Other load on the machine only ever adds time. So the least time is the cost of the function, and the difference between
+the median and the least time is the noise. All functions run in every round, so that load affects them alike.
 """
 
 import gc
@@ -69,7 +69,10 @@ def seconds_a_step(step: Callable[[], object], steps: int) -> float:
 
 
 def timed_steps(steps: Mapping[Name, Callable[[], object]], count: int = 60, runs: int = RUNS) -> dict[Name, Cost]:
-    """Return {name: Cost} of a step. Each run times `count` steps of every entry in turn: 300 steps each by default."""
+    """Return {name: Cost} of one call of each function in `steps`.
+
+    There are `runs` runs, each of which times `count` calls of every function in turn: 300 calls of each by default.
+    """
     spent: dict[Name, list[float]] = {name: [] for name in steps}
     for _ in range(runs):
         for name, step in steps.items():
@@ -80,7 +83,7 @@ def timed_steps(steps: Mapping[Name, Callable[[], object]], count: int = 60, run
 def timed_in_turns(
     works: Mapping[str, Callable[[], object]], pieces: Mapping[str, int], runs: int = RUNS, seed: int = 0
 ) -> dict[str, Cost]:
-    """Return {name: Cost} of functions, called in random order.
+    """Return {name: Cost} of functions, each called `runs` times in random order.
 
     A call of works[name] does pieces[name] pieces of work. The first call is not counted.
     """

@@ -23,7 +23,7 @@ class Decision(NamedTuple):
 
 
 class Tuner:
-    """Applies the advice of a survey; off at first.
+    """Automatic use of the advice of a survey. `on`: whether it is in use; False at first.
 
     apply(setting) applies a setting. It returns the reason for a refusal, or "" if the setting was applied.
     """

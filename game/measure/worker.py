@@ -59,9 +59,10 @@ class Orders:
 
 
 def measure(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure every setting at a moment, which is a snapshot of a world.
+    """Measure every setting at the moment of an order, which names a snapshot of a world.
 
-    First, the errors and one timed run of each setting are reported, then further timed runs in random order.
+    First, the errors and one timed run of each setting are reported, then further timed runs in random order while
+    goes_on() is True.
     """
     number = order["moment"]
     moment = Moment(Snapshot.load(order["snapshot"]), order["broadphase"])
@@ -99,8 +100,8 @@ def measure_sprites(order: dict[str, Any], report: Callable[[str], object]) -> N
 def measure_stored_runs(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
     """Measure the runs of an order.
 
-    Each is a dict of the fields of MeasuredRun, with file names in place of snapshots, and lists in place of Recipe and
-    Act.
+    order["runs"]: a dict of the fields of MeasuredRun for each run, with file names in place of snapshots, and lists in
+    place of Recipe and Act.
     """
     loaded = cache(Snapshot.load)  # a snapshot that several runs share is read once
 
@@ -163,7 +164,7 @@ def measure_costs(order: dict[str, Any], report: Callable[[str], object], goes_o
 
 
 def _listen(lines, heard):
-    """Put each line into a queue, and None after the last line."""
+    """Put each line into the queue `heard`, and None after the last line."""
     for line in lines:
         heard.put(line)
     heard.put(None)

@@ -21,7 +21,7 @@ class Layer:
     under: bool = False  # drawn before the other layers, since it fills areas
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture in which the layer is drawn in this number of views. They share the layer's budget of drawn
+        """Start a picture in which the layer is drawn in `views` views. The views share the layer's budget of drawn
         objects evenly.
         """
 

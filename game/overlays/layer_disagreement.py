@@ -21,10 +21,11 @@ OWN = "your box would have died here"
 
 
 def false_hits(world: World) -> tuple[np.ndarray, np.ndarray]:
-    """Return two arrays of shape-row pairs, (n, 2) and (m, 2): all candidate pairs with a sprite whose boxes overlap,
-    and those of them without a contact.
+    """Return (hits, lies): the candidate pairs with a sprite whose bounding boxes overlap, and those of them without a
+    contact.
 
-    Candidates are the pairs that the broad phase found in the last step. Pairs with a sensor are left out.
+    Both are (n, 2) arrays of SHAPE rows. Candidates are the pairs that the broad phase found in the last step. Pairs
+    with a sensor are left out.
     """
     ids, pairs = np.ascontiguousarray(world.shapes["id"]), world.candidates.astype(np.int64)
     none = np.zeros((0, 2), np.int64)
@@ -74,8 +75,10 @@ class Disagreement(Layer):
             self._mark_own(scene, *reported[0])
 
     def _mark_own(self, scene, hits, lies):
-        """Add a mark at the player's box when another body's box leaves it without ever having hit it. hits, lies:
-        results of false_hits().
+        """Add a mark at the player's box when the box of another body, which overlapped it without a hit, no longer
+        overlaps it.
+
+        hits, lies: results of false_hits().
         """
         own, world = scene.own_body, scene.world
         now = {}

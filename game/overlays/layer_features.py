@@ -14,7 +14,10 @@ PER_LINK = 4096  # feature id on a chain or grid: PER_LINK times the number of t
 
 
 class Features(Layer):
-    """The feature id of each contact point, with a colour for each id. Both stay the same while a body slides."""
+    """The feature id of each contact point, with a colour for each id.
+
+    Id and colour stay the same while a body slides.
+    """
 
     name, title, key, color = "features", "Feature ids", "f", PAPER
 
@@ -48,7 +51,9 @@ class Features(Layer):
                     break
 
     def notes(self) -> list[LegendLine]:
-        """Return (color, text) lines for the legend. They count points, because ids are written after the legend."""
+        """Return (color, text) lines for the legend. The lines count points, because the ids are written after the
+        legend.
+        """
         return [(self.color, f"feature ids {len(self.labels)} of {self.total}, where room")]
 
 

@@ -52,8 +52,8 @@ class Filters(Layer):
         draw_boxes(frame, lens, inner, colors, which[seen])
 
     def _who(self, word, written=32):
-        """Return the scene's names of the bits in a mask, at most `written` of them: "a, b", or "all but c" where that
-        is shorter.
+        """Return the names of the bits set in `word`, a filter mask: at most `written` of them, as "a, b", or "all but
+        c" where that is shorter.
         """
         if word in EVERYBODY:
             return "all"

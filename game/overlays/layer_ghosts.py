@@ -18,8 +18,8 @@ KEPT = 45  # steps for which an impact stays visible, fading
 
 
 class Ghosts(Layer):
-    """Each body at its time of impact, in white, with the time as a share of the step; in blue the pose that it would
-    have reached.
+    """Each body at its time of impact, in white, with the time as a share of the step; in blue, the pose that the body
+    would have reached without the impact.
     """
 
     name, title, key, color = "ghosts", "Times of impact", "h", WHITE
@@ -54,8 +54,8 @@ class Ghosts(Layer):
                 self.labels.append((f"{fraction:.2f}", place[0], place[1], faded(WHITE, fading)))
 
     def _note(self, world):
-        """Return the kept impacts of a world, after adding those of a step that is new since the last picture; older
-        ones age.
+        """Return the kept impacts of a world. If the world has stepped since the last picture, first add one to their
+        ages, drop the old ones, and add the impacts of that step.
         """
         kept, step, last = self.kept.get(id(world), ([], None, None))
         now = world.events  # a new object in every step
@@ -70,7 +70,9 @@ class Ghosts(Layer):
         return kept
 
     def _fresh(self, world):
-        """Return the impacts of the last step: the body's outlines at the impact and at the pose without it."""
+        """Return the impacts of the last step, with the body's outlines at its time of impact and at the pose that it
+        would have reached without the impact.
+        """
         ghosts = debug.impact_ghosts(world)[:GHOST_BUDGET]
         bodies, shapes = world.bodies, world.shapes
         ids = np.ascontiguousarray(bodies["id"])

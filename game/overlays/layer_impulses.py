@@ -71,7 +71,9 @@ def can_move(bodies: np.ndarray, ids: np.ndarray) -> np.ndarray:
 
 
 def arrow(frame: Frame, x: float, y: float, dx: float, dy: float, color: Color) -> None:
-    """Draw an arrow from (x, y) by (dx, dy) [frame px], at most LONGEST long. Below a canvas pixel it is not drawn."""
+    """Draw an arrow from (x, y) by (dx, dy) [frame px], at most LONGEST long. An arrow shorter than a canvas pixel is
+    not drawn.
+    """
     length = hypot(dx, dy)
     if length < frame.scale:
         return
@@ -88,7 +90,9 @@ def arrow(frame: Frame, x: float, y: float, dx: float, dy: float, color: Color) 
 
 
 def step_of(value: float) -> float:
-    """Return the smallest of ..., 1, 2, 5, 10, ... that is not below a positive value; 0 for 0. It changes seldom."""
+    """Return the smallest of ..., 1, 2, 5, 10, ... that is not below a positive value; 0 for 0. Used as a scale,
+    because it changes seldom.
+    """
     if not 0.0 < value < float("inf"):
         return 0.0
     power = 10.0 ** int(np.floor(log10(value)))
@@ -96,7 +100,7 @@ def step_of(value: float) -> float:
 
 
 def short(value: float) -> str:
-    """Return a number that is 1, 2 or 5 times a power of ten as short text, such as "20k"."""
+    """Return a value that is 1, 2 or 5 times a power of ten as short text, such as "20k"."""
     for limit, divisor, letter in ((1e3, 1, ""), (1e6, 1e3, "k"), (1e9, 1e6, "M")):
         if value < limit:
             return f"{value / divisor:g}{letter}"

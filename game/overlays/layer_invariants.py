@@ -81,8 +81,8 @@ class Invariants(Layer):
         frame.text(label_of(status), lamp.right + 2 * scale, top, tone, SMALL, scale)
 
     def message_at(self, pointer: tuple[int, int]) -> tuple[Color, str]:
-        """Return (colour, text) of the message: about the indicator under the pointer, or the invariant broken last, or
-        else a summary.
+        """Return (colour, text) of the message: about the indicator under the pointer; else about the invariant broken
+        last; else a summary.
         """
         for place, status in self.places:
             if place.collidepoint(pointer):

@@ -59,7 +59,11 @@ class Islands(Layer):
             self.labels.append(("z", x, y - 2 * frame.text_scale, FOG))
 
     def _draw_hulls(self, frame, lens, boxes, islands, asleep):
-        """Draw the translucent hulls, each on its own small surface; one of the picture's size costs 2 ms."""
+        """Draw the translucent hulls of the islands, each on a surface of its own size. A surface as large as the
+        picture would cost 2 ms.
+
+        boxes, islands, asleep: AABB, number of the island (-1: none) and sleep flag of each shape.
+        """
         members = np.flatnonzero(islands >= 0)
         if len(members) == 0:
             return
@@ -97,7 +101,10 @@ def hull_of(points: np.ndarray) -> list[list[float]]:
 def draw_hull(
     surface: pygame.Surface, clip: pygame.Rect, hull: Sequence[Sequence[float]], color: Color, fill: int, width: int
 ) -> None:
-    """Draw a polygon filled with opacity `fill` (0..255), and its edge. The part outside the clip costs no time."""
+    """Draw the polygon `hull`, filled with opacity `fill` (0..255), and its edge.
+
+    The part outside `clip` costs no time.
+    """
     x, y = zip(*hull, strict=True)
     left, top = floor(min(x)) - width, floor(min(y)) - width
     place = pygame.Rect(left, top, ceil(max(x)) + width + 1 - left, ceil(max(y)) + width + 1 - top).clip(clip)

@@ -61,7 +61,7 @@ class Masks(Layer):
         draw_lines(frame.surface, lens, edges.outer, WHITE, max(1, frame.scale - 1))
 
     def draw_on_canvas(self, canvas: Canvas, camera: Camera, world: World) -> None:
-        """Draw the masks of a world on the canvas. A zoomed view is skipped: its pixels are not mask pixels."""
+        """Draw the masks of a world on the canvas. A zoomed view is skipped, because its pixels are not mask pixels."""
         if camera.zoom != 1.0:
             return
         left, top = camera.view()
@@ -95,8 +95,8 @@ class Masks(Layer):
         del pixels  # unlocks the surface
 
     def _images(self, solid, place, view, palette):
-        """Yield the (image, place) pairs that show a mask at a place on the canvas; for a large mask, one pair per
-        visible block.
+        """Yield the (image, place) pairs that show the mask `solid` at a place on the canvas: one pair, or for a large
+        mask one per visible block.
         """
         (height, width), (x, y) = solid.shape, place
         if height <= BLOCK and width <= BLOCK:
@@ -109,8 +109,10 @@ class Masks(Layer):
                     yield image, (x + left, y + top)
 
     def _block(self, solid, left, top, palette):
-        """Return the image of a block of a large mask; None if the block is empty. Images are cached by place and
-        pixels, since carving changes few blocks.
+        """Return the image of the block of a large mask whose first pixel is solid[top, left]; None if the block is
+        empty.
+
+        Images are cached by place and pixels, since carving changes few blocks.
         """
         # With a margin of one pixel, so that no edge is drawn at the border of the block.
         part = solid[max(top - 1, 0) : top + BLOCK + 1, max(left - 1, 0) : left + BLOCK + 1]
@@ -125,8 +127,8 @@ class Masks(Layer):
         return image
 
     def _tinted(self, solid, palette):
-        """Return the image of a mask, cached by the id of its array, which the cache keeps so that the id stays
-        valid.
+        """Return the image of a mask. Images are cached by the id of the array `solid`; the cache also holds the array
+        itself, so that no other array gets the same id.
         """
         kept, image = self.tinted.get((id(solid), palette), (None, None))
         if kept is not solid:

@@ -71,7 +71,9 @@ class Outlines(Layer):
             draw_lines(frame.surface, lens, edges.outer, color, width)
 
     def _draw_tiles(self, frame, lens, world, shape_id, color, width):
-        """Draw the edges of a tile grid's solid cells, and in orange the tops of its one-way cells."""
+        """Draw the edges of the solid cells of a tile grid, the shape `shape_id`, and in orange the tops of its one-way
+        cells.
+        """
         row = world.shapes[np.searchsorted(world.shapes["id"], shape_id)]
         body = world.body(int(row["body"]))
         number = int(np.count_nonzero(world.shapes["id"][world.shapes["body"] == row["body"]] < shape_id))

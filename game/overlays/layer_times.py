@@ -99,7 +99,8 @@ class Times(Layer):
     def draw_graph(self, frame: Frame, rect: pygame.Rect) -> None:
         """Draw into a frame rect: the graph at the left, the table of stages in the middle, the counters at the right.
 
-        If not both tables fit, the counters are left out; in a narrow rect the stages are drawn below the graph.
+        If there is no room for both tables, the counters are left out; in a narrow rect the stages are drawn below the
+        graph.
         """
         scale, self.rect = frame.text_scale, pygame.Rect(rect)
         frame.surface.fill(faded(NIGHT, 0.3), rect)
@@ -158,8 +159,8 @@ class Times(Layer):
             pygame.draw.line(frame.surface, SLATE, (plot.left, y), (plot.right - 1, y))
 
     def _scroll(self, size, top, palette):
-        """Update the image of the bars: scroll it and paint the new steps, or paint all if its size or scale
-        changed.
+        """Update the image of the bars, of `size` and with `top` [ms] at its upper edge: scroll it and paint the new
+        steps. If size, top or palette have changed, paint all.
         """
         column = max(1, size[0] // HISTORY)
         new = self.noted - self.painted

@@ -18,7 +18,7 @@ class MaskEdges(NamedTuple):
 
 
 def mask_edges(world: World, rows: np.ndarray, scale: float = 1.0) -> MaskEdges:
-    """Return the lines of mask outlines. rows: rows of world.shapes; those that are no part of an outline are ignored.
+    """Return the lines of mask outlines. rows: rows of world.shapes; rows that are no part of an outline are ignored.
 
     The edges of a rounded part lie `radius` outside its polygon, with arcs around the corners. scale: [frame px per
     px], sets the fineness of the arcs.

@@ -132,7 +132,9 @@ def draw_lines(surface: pygame.Surface, lens: Lens, lines: np.ndarray, color: Co
 
 
 def _draw_ticks(surface, clip, points, color, scale):
-    """Draw hatching on the solid side of a chain, which is opposite to its normals. points: its corners [frame px]."""
+    """Draw hatching on the solid side of a chain, which is opposite to its normals. points: corners of the chain [frame
+    px].
+    """
     room = clip.inflate(8 * scale, 8 * scale)
     left = TICK_BUDGET
     for (ax, ay), (bx, by) in pairwise(points):

@@ -69,7 +69,7 @@ class Overlays:
         self.on = set(on)
 
     def _only(self, kind: type[Kind]) -> Kind:
-        """Return the layer of this class."""
+        """Return the only layer of the class `kind`."""
         return next(each for each in self.layers if isinstance(each, kind))
 
     def toggle(self, name: str) -> None:
@@ -81,7 +81,9 @@ class Overlays:
         self.on = set() if self.on else {layer.name for layer in self.layers}
 
     def note(self, scene: Scene) -> None:
-        """Record a step; call it after every step. Invariants are monitored from one step after they are shown."""
+        """Record a step; call it after every step. Monitoring of the invariants begins one step after their layer is
+        shown.
+        """
         self.times.note(scene)
         self.invariants.note(scene.monitor)
         if "disagreement" in self.on:
@@ -89,7 +91,9 @@ class Overlays:
         self.watch(scene)
 
     def watch(self, scene: Scene) -> None:
-        """Start monitoring the invariants of the scene if they are shown; stop it if not, unless the run is strict."""
+        """Start monitoring the invariants of the scene if their layer is on. If the layer is off, stop monitoring,
+        unless the run is strict.
+        """
         shown = "invariants" in self.on
         if shown and scene.monitor is None:
             scene.watch_invariants()
@@ -225,7 +229,9 @@ def draw_legend(frame: Frame, lines: Sequence[LegendLine], x: int, y: int, scale
 
 
 def _corners(area, size, margin):
-    """Return the places to try for a box in an area: corners, middles of sides, then down the left and right edges."""
+    """Return the places to try for a box of `size` in an area, `margin` from its border: corners, middles of the sides,
+    then down the left and right edges.
+    """
     left, right = area.left + margin, area.right - size[0] - margin
     top, bottom = area.top + margin, area.bottom - size[1] - margin
     middle_x, middle_y = (left + right) // 2, (top + bottom) // 2

@@ -34,9 +34,11 @@ class Curve(NamedTuple):
 
 
 class Panel(NamedTuple):
-    """One plot of a chart; each row is a dot. line: "front" joins the Pareto front of the dots, "medians" the Pareto
-    front of the series' medians, "series" the dots of each series in the order of x; "" none. shows(row): whether
-    the row is shown; series(row): name of its series.
+    """One plot of a chart; each row is a dot.
+
+    line: the line to draw. "front": the Pareto front of the dots; "medians": the Pareto front of the series' medians;
+    "series": through the dots of each series in the order of x; "": none. shows(row): whether the row is shown;
+    series(row): name of its series.
     """
 
     title: str
@@ -50,7 +52,7 @@ class Panel(NamedTuple):
 
 class Chart(NamedTuple):
     """One chart. Its rows have the keys "series" and "label". key: first part of the names of its jobs; truth: sentence
-    on the reference that errors are measured against.
+    on the reference for errors.
     """
 
     number: int

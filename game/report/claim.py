@@ -22,8 +22,8 @@ class Claim(NamedTuple):
 
 
 def ordering(what: str, costs: Mapping[str, tuple[float, float]], unit: float = 1e6, word: str = "us") -> Claim:
-    """Return the claim that one of several methods is the cheapest: HOLDS if that is certain, otherwise TIE with all
-    that may be.
+    """Return the claim that one of several methods is the cheapest: HOLDS if that is certain, otherwise TIE, with the
+    names of all methods that may be the cheapest.
 
     what: subject of the sentence. costs: {name: (least, median) seconds}. Two costs tie if their intervals overlap or
     they differ by less than 10 %. unit, word: factor and name of the printed unit. Raises ValueError for fewer than two
@@ -41,8 +41,11 @@ def ordering(what: str, costs: Mapping[str, tuple[float, float]], unit: float = 
 
 
 def at_least(text: str, ratio: tuple[float, float, float], limit: float, source: str = "", unit: str = "x") -> Claim:
-    """Return the claim that a measured ratio (low, middle, high) is at least `limit`: HOLDS or FAILS if the whole
-    interval agrees, otherwise TIE.
+    """Return the claim that a measured ratio is at least `limit`. text: the claim as a sentence; ratio: (low, middle,
+    high).
+
+    HOLDS if the whole interval is at least `limit`, FAILS if the whole interval is below `limit`, otherwise TIE.
+    source: paper that claims it, or ""; unit: printed after the ratio.
     """
     low, middle, high = ratio
     verdict = HOLDS if low >= limit else FAILS if high < limit else TIE
@@ -50,8 +53,11 @@ def at_least(text: str, ratio: tuple[float, float, float], limit: float, source:
 
 
 def at_most(text: str, ratio: tuple[float, float, float], limit: float, source: str = "", unit: str = "x") -> Claim:
-    """Return the claim that a measured ratio (low, middle, high) is at most `limit`: HOLDS or FAILS if the whole
-    interval agrees, otherwise TIE.
+    """Return the claim that a measured ratio is at most `limit`. text: the claim as a sentence; ratio: (low, middle,
+    high).
+
+    HOLDS if the whole interval is at most `limit`, FAILS if the whole interval is above `limit`, otherwise TIE. source:
+    paper that claims it, or ""; unit: printed after the ratio.
     """
     low, middle, high = ratio
     verdict = HOLDS if high <= limit else FAILS if low > limit else TIE

@@ -25,7 +25,9 @@ class ReportScope(NamedTuple):
 
 
 class Job(NamedTuple):
-    """One job. name: the chart's key, a slash, and its subject; work: "module:function", which returns rows."""
+    """One job. name: the chart's key, a slash, and the subject of the job; work: "module:function"; this function
+    returns rows.
+    """
 
     name: str
     work: str
@@ -34,7 +36,8 @@ class Job(NamedTuple):
 
 
 def run_job(name: str, work: str, params: Mapping[str, Any]) -> Row:
-    """Run a job. Return {name, rows, spent, compiled}, or {name, failed, spent} with the text of the error.
+    """Run a job: the function `work` ("module:function") with the arguments `params`. Return {name, rows, spent,
+    compiled}, or {name, failed, spent} with the text of the error.
 
     spent: duration [s]; compiled: the part of it that went into compiling kernels, which no cost includes.
     """

@@ -31,8 +31,11 @@ class Measured(NamedTuple):
 
 
 def write_page(measured: Sequence[Measured], manifest: Mapping[str, Any], folder: str, spent: float) -> str:
-    """Return the text of the page. folder: the report's folder as on the command line, for the commands that measure a
-    dot again; spent: duration of all jobs [s].
+    """Return the text of the page. measured: the charts with their results; manifest: description of the report, see
+    Store.
+
+    folder: the report's folder as on the command line, for the commands that measure a dot again; spent: duration of
+    all jobs [s].
     """
     reported: dict[str, Any] = {}
     charts = "\n".join(_chart(each, reported, folder, bool(manifest["quick"])) for each in measured)
@@ -86,7 +89,7 @@ def _chart(measured, reported, folder, quick):
 
 
 def command(row: Row, folder: str, quick: bool) -> str:
-    """Return the shell command that repeats the job of a row."""
+    """Return the shell command that repeats the job of a row. folder, quick: values of --report and --quick."""
     report = [f"--report={folder}"] if folder.startswith("-") else ["--report", folder]
     return quoted([*START, *report, *(["--quick"] if quick else []), "--only", row["job"]])
 

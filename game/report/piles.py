@@ -32,7 +32,9 @@ class Pile(NamedTuple):
 
 
 def boxes(places: list[tuple[float, float]], density: Sequence[float] = (), size: float = BOX) -> Pile:
-    """Return a pile of upright boxes of one size [px]. density: one for each box; empty: all of density 1."""
+    """Return a pile of upright boxes of one size [px] at these places. density: one for each box; empty: all of density
+    1.
+    """
     count = len(places)
     return Pile(places, list(density) or [1.0] * count, [Polygon.box(size, size)] * count, [0.0] * count)
 
@@ -56,18 +58,22 @@ def pyramid(rows: int, across: float = 1.1, up: float = 1.0) -> Pile:
 
 
 def heavy(ratio: float) -> Pile:
-    """Return a light box with a box on it of `ratio` times its density."""
+    """Return a light box, and on it a box of `ratio` times the density of the light box."""
     return boxes(stack(2).places, [1.0, ratio])
 
 
 def crooked(count: int, seed: int = 1, aside: float = 0.64) -> Pile:
-    """Return a column of boxes, each shifted sideways at random by at most `aside` [px]; the default is 2 cm."""
+    """Return a column of `count` boxes, each shifted sideways at random by at most `aside` [px]; the default
+    corresponds to 2 cm.
+    """
     shifts = np.random.default_rng(seed).uniform(-aside, aside, count)
     return boxes([(float(shifts[k]), -BOX / 2 - BOX * k) for k in range(count)])
 
 
 def card_house(storeys: int) -> Pile:
-    """Return a card house: pairs of cards that lean on each other, with planks on them, as in lab/card_house."""
+    """Return a card house of so many storeys: pairs of cards that lean on each other, with planks on them, as in
+    lab/card_house.
+    """
     reach, rise = CARD * sin(LEAN), CARD * cos(LEAN)
     apart, storey = 2.0 * (reach + 2.0 * THICK) + 1.0, rise + 2.0 * THICK + PLANK
     card, plank = Capsule((-CARD / 2, 0), (CARD / 2, 0), THICK), Polygon.box(apart - 0.5, PLANK)
@@ -98,7 +104,9 @@ PILES: dict[str, Callable[[], Pile]] = {
 
 
 def world_of(pile: Pile, solver: str, substeps: int | str, effects: Effects = EFFECTS, away: float = 0.0) -> World:
-    """Return a world with the pile on wide ground. away: distance of the pile from the origin, in x and in y [px]."""
+    """Return a world with the pile on wide ground. solver, substeps, effects: of the world. away: distance of the pile
+    from the origin, in x and in y [px].
+    """
     world = World(effects, solver=solver, gravity=(0.0, GRAVITY), substeps=substeps)
     places = np.array(pile.places) + away
     width = float(np.ptp(places[:, 0])) + 40.0 * BOX

@@ -128,7 +128,8 @@ def _curves(axes, panel, dots):
 
 
 def _scale(axes, which, axis: Axis, values: Sequence[Interval]):
-    """Make an axis logarithmic if it asks for that and the values span a decade; with less, tick labels would overlap.
+    """Make the x or y axis (`which`) logarithmic, if `axis.log` is set and `values` span at least a decade. Over a
+    shorter span, tick labels would overlap.
 
     Values more than axis.decades below the largest one are drawn at the lower end, together with zero. Call it after
     all dots are drawn.
@@ -187,8 +188,8 @@ def _page_colors(figure) -> str:
 
 
 def shown(dot: Dot, panel: Panel) -> Mapping[str, str]:
-    """Return {label: text} of the box that appears when the pointer is over a dot: both figures with their intervals,
-    failures, and ignored effects.
+    """Return {label: text} of the box that appears when the pointer is over a dot of a panel: the figures of both axes
+    with their intervals, failures, and ignored effects.
     """
     reported = {
         "": f"{dot.row['series']}: {dot.row['label']}" if dot.row["label"] != dot.row["series"] else dot.row["label"]

@@ -12,7 +12,7 @@ ITERATIONS = 10  # pymunk's default
 
 
 def space_of(pile: Pile, iterations: int = ITERATIONS) -> Any:
-    """Return a pymunk space with the pile's boxes, of equal density, on wide ground."""
+    """Return a pymunk space with the pile's boxes, of equal density, on wide ground. iterations: of pymunk's solver."""
     try:
         import pymunk
     except ModuleNotFoundError as error:

@@ -56,7 +56,11 @@ def run_in_processes(jobs: Sequence[Job], workers: int) -> Iterator[Row]:
 
 
 def _serve(waiting, found, running, stopped):
-    """Run jobs of the queue `waiting` in a worker process; put results into `found`. A dead process is replaced."""
+    """Run jobs from the queue `waiting` in a worker process, and put their results into the queue `found`. A dead
+    process is replaced.
+
+    running: list to which each started process is added. stopped: event that ends the loop.
+    """
     process: Any = None
     while not stopped.is_set():
         try:

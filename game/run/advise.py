@@ -65,7 +65,7 @@ class Progress:
 
 
 def lines_of(options: Options, error: float, advice: Advice, survey: Survey) -> list[str]:
-    """Return the measured settings and the advice as lines of text."""
+    """Return the measured settings of the survey and the advice as lines of text. error: the allowed error [px]."""
     here, best = advice.here, advice.best
     lines = [
         f"{options.scene}: {len(survey.dots)} settings at {survey.moments} moments of {STEPS} steps, {RUNS} runs each",
@@ -83,8 +83,10 @@ def lines_of(options: Options, error: float, advice: Advice, survey: Survey) -> 
 
 
 def interval(survey: Survey, setting: Setting, here: Setting) -> tuple[float, float]:
-    """Return (least, most) time of `setting` as a share of the time of `here`, from the fastest runs and the upper
-    quartiles of both.
+    """Return (least, most) time of `setting` as a share of the time of `here`, by the survey.
+
+    least: from the fastest run of `setting` and the upper quartile of `here`; most: from the upper quartile of
+    `setting` and the fastest run of `here`.
     """
     cost, now = survey.dots[setting].cost, survey.dots[here].cost
     assert cost is not None and now is not None
@@ -92,7 +94,7 @@ def interval(survey: Survey, setting: Setting, here: Setting) -> tuple[float, fl
 
 
 def as_json(options: Options, error: float, advice: Advice, survey: Survey) -> dict:
-    """Return all results as a dict for JSON."""
+    """Return the allowed error [px], the advice and the survey as a dict for JSON."""
     best, here = advice.best, advice.here
     return {
         "scene": options.scene,

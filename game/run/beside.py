@@ -41,7 +41,7 @@ class Beside:
     def turn(self, plays: bool) -> None:
         """Continue compilation; call it once per turn of the program's loop.
 
-        plays: a scene is on the screen. One core is then left to it, and no other scene is imported.
+        plays: whether a scene is on the screen. If so, one core is left to the scene, and no other scene is imported.
         """
         self.start(plays)
         if self.background is not None and not plays and (scene_class := next(self.scenes, None)) is not None:

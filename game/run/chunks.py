@@ -137,7 +137,9 @@ class Chunks:
 
 
 def bytes_of(many: Iterable[Chunks]) -> int:
-    """Return the memory of several Chunks together [bytes], Python's overhead included. Shared chunks count once."""
+    """Return the memory of several Chunks together [bytes], Python's overhead included. Chunks that several of them
+    share count once.
+    """
     parts = {id(part): part for chunks in many for part in chunks.parts}
     layouts = {id(chunks.layout): chunks.layout for chunks in many}
     each = {id(chunk): chunk for part in parts.values() for chunk in part}
@@ -149,7 +151,10 @@ def bytes_of(many: Iterable[Chunks]) -> int:
 
 
 def _row(size, width):
-    """Return the row size of a buffer that is stored by columns [bytes]; 1 for other arrays, 0 for no array."""
+    """Return the row size [bytes] of a buffer that is stored by columns; 1 for other arrays, 0 for no array.
+
+    size: size of the buffer [bytes]; width: size of its array items [bytes], 0 for no array.
+    """
     return width if width % WORD == 0 and size > width else min(width, 1)
 
 

@@ -7,8 +7,10 @@ from game.scene import Scene
 
 
 def scene_digest(scene: Scene) -> str:
-    """Return the digest as 32 hex digits. Floats are hashed by their bits, with -0.0 as 0.0. Raises TypeError if
-    Scene.state() holds a type that cannot be hashed.
+    """Return the digest of the scene's worlds, state() and random numbers, as 32 hex digits.
+
+    Floats are hashed by their bits, with -0.0 as 0.0. Raises TypeError if Scene.state() holds a type that cannot be
+    hashed.
     """
     digest = blake2b(digest_size=16)
     for world in scene.worlds:

@@ -99,7 +99,9 @@ def finish(scene: Scene, report: RunReport, options: Options, broken: str = "") 
 
 
 def summary_line(scene: Scene, report: RunReport, check: Check, played: bool) -> str:
-    """Return one line of text that summarizes the run."""
+    """Return one line of text that summarizes the run. check: result of judge() or not_judged(); played: whether the
+    bot played.
+    """
     verdict = ("check ok" if check["ok"] else "check FAILED") if played else "nobody played, so nothing was checked"
     pending = f", {len(check['pending'])} goals pending" if played and check["pending"] else ""
     return f"{scene.name}: {report.steps} frames, seed {scene.seed}, {scene.broadphase}: {verdict}{pending}"

@@ -50,7 +50,7 @@ def draw_ignored(frame: Frame, scene: Scene) -> None:
     """Write the sentences into a free corner of the game's part of a frame, below its top line, in the largest text
     that fits.
 
-    If no place is free, write them at the bottom left, over the text there.
+    If no place is free, write the sentences at the bottom left, over any text there.
     """
     shown_ignored = sentences(scene)
     if not shown_ignored:

@@ -1,8 +1,8 @@
 """Key frame: a compact copy of the complete state of a scene, which can be restored into the same scene.
 
-Restoring changes the contents of the scene and its worlds and keeps the objects, so that references to them stay valid.
-The contents are pickled, with arrays outside the pickle. Constant objects are stored by reference only: pictures,
-shapes, code, and objects whose deep copy is the object itself.
+Restoring changes the contents of the scene's objects and keeps the objects themselves, so that references to them stay
+valid. The contents are pickled, with arrays outside the pickle. Constant objects are stored by reference only:
+pictures, shapes, code, and objects whose deep copy is the object itself.
 """
 
 import io
@@ -72,8 +72,8 @@ def table_of(rows: np.ndarray, capacity: int) -> Table:
 
 
 def shared(number: int) -> object:
-    """Stand, in the pickle, for the object with this index in the key frame's `kept`. Raises LookupError if called,
-    since a key frame's own reader replaces it.
+    """Represent, in the pickle, the object `kept[number]` of the key frame. A key frame's own reader replaces this
+    function, so a call raises LookupError.
     """
     raise LookupError(f"object {number} is not in this pickle: a key frame holds it")
 
@@ -126,7 +126,9 @@ class _Reader(pickle.Unpickler):
 
 
 def _same(new, old):
-    """Return `old` if it holds the same objects as `new`, otherwise `new`, so that equal tuples are stored once."""
+    """Return `old` if it holds the same objects as `new`, otherwise `new`. Tuples with the same objects are then stored
+    once.
+    """
     if old is not None and len(new) == len(old) and all(map(is_, new, old)):
         return old
     return new

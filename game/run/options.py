@@ -44,7 +44,10 @@ class Options:
 
     @property
     def is_a_run(self) -> bool:
-        """True if the run of one scene is measured, saved or limited in length; the program ends when that run ends."""
+        """True if the run of one scene is measured, saved or limited in length.
+
+        The program then ends when the run ends.
+        """
         return bool(self.frames or self.record or self.json or self.profile or self.screenshot or self.strict)
 
     @property

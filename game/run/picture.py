@@ -36,7 +36,7 @@ class Docked(Protocol):
 
 
 class Picture:
-    """Drawing of finished pictures onto `surface`: that of the window, or for None a new one of screenshot size."""
+    """Drawing of finished pictures onto `surface`, for example the window's; None: a new surface of screenshot size."""
 
     def __init__(self, surface: pygame.Surface | None = None) -> None:
         if surface is None:
@@ -88,7 +88,9 @@ class Picture:
         return frame
 
     def draw_without(self, draw: Callable[[Frame], None], overlays: Overlays, panel: Docked | None = None) -> Frame:
-        """Draw by draw(frame) instead of drawing a scene, with an optional panel beside it. Return the frame."""
+        """Make a picture with draw(frame) in place of a scene, with an optional panel beside it. Return the frame.
+        overlays: for the strip beside the panel.
+        """
         self.canvas.begin(INK)
         self.presenter.docked = panel is not None
         frame = self.presenter.present(self.canvas)
@@ -113,7 +115,7 @@ class Picture:
 
 def draw_strip(frame: Frame, rect: pygame.Rect, overlays: Overlays) -> None:
     """Draw the strip below a game that is shown beside a panel: legend at the left, stage times at the right,
-    invariants above, each if it is on.
+    invariants above; each only if its overlay is on.
     """
     scale = frame.text_scale
     if rect.height < 40 * scale:
@@ -131,7 +133,9 @@ def draw_strip(frame: Frame, rect: pygame.Rect, overlays: Overlays) -> None:
 
 
 def _invariants_above(frame, rect, overlays, scale):
-    """Draw the table of invariants in the widest form that fits, if it is on. Return the remaining rect below it."""
+    """Draw the table of invariants in the widest form that fits, if their overlay is on. Return the remaining rect
+    below it.
+    """
     if "invariants" in overlays.on:
         for width, height in overlays.invariants.sizes(frame):
             if width <= rect.width - 8 * scale and height <= rect.height - 4 * scale:

@@ -147,10 +147,10 @@ class Replay:
         return self.inputs[self.index - 1] if self.index <= len(self.inputs) else NOTHING
 
     def verify(self, scene: Scene) -> None:
-        """Compare the scene's state after a step with the recorded digest, if this frame has one.
+        """Compare the scene's state after a step with the recorded digest, if there is one for this frame.
 
-        Raises ReplayDiverged, which names the frame. Under another physics version, the first difference is noted in
-        `parted` instead.
+        Raises ReplayDiverged, which names the frame, if they differ. If the recording is of another physics version,
+        the first difference is noted in `parted` instead.
         """
         frame = self.index
         if frame % self.every or frame // self.every > len(self.digests):

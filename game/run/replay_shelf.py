@@ -55,7 +55,9 @@ def files_of(folder: Path) -> list[tuple[float, Path]]:
 
 
 def put_recent(recorder: Recorder, result: Result | None = None) -> Path | None:
-    """Save a run in recent/ and delete the oldest runs there. Return the path; None if the run is too short to keep.
+    """Save a run, with the result of its game if any, in recent/, and delete the oldest runs there. Return the path;
+    None if the run is too short to keep.
+
     Raises OSError.
     """
     if recorder.frames < SHORTEST:
@@ -72,8 +74,8 @@ def put_recent(recorder: Recorder, result: Result | None = None) -> Path | None:
 def keep(path: Path) -> Path:
     """Copy a replay from recent/ to replays/, so that it is not deleted, and return the copy's path. Raises OSError.
 
-    An existing file of the same name is kept: if it has the same content it serves as the copy, otherwise the copy gets
-    another name.
+    If replays/ has a file of that name with the same content, that file serves as the copy. If its content differs, the
+    copy gets another name.
     """
     content = path.read_bytes()
     names = chain((path.name,), (f"{path.stem}-{number}{path.suffix}" for number in count(2)))

@@ -1,4 +1,4 @@
-"""Rewind: the last ten seconds of a running scene, of which every step can be restored.
+"""Rewind: store the last ten seconds of a running scene, so that the state after any step in them can be restored.
 
 Key frames (stored states) are taken at intervals, and between them the inputs of the steps are stored. A seek restores
 the last key frame before the wanted step and makes the steps from there again. A key frame is due once the steps since
@@ -34,8 +34,9 @@ MOST_RAW = 2048  # chunks that wait for compression (16 MB); if there are more, 
 
 
 class Stretch:
-    """A key frame and the inputs of the steps from it to the next key frame. `before`: input of the step that led to
-    the key frame.
+    """A key frame and the inputs of the steps from it to the next key frame.
+
+    `start`: number of the step at the key frame. `before`: input of the step that led to the key frame.
     """
 
     def __init__(self, start: int, key: KeyFrame, before: InputFrame) -> None:
@@ -107,11 +108,13 @@ class Rewind:
 
     @property
     def since_result(self) -> int:
-        """Number of steps since the game ended, counted at the current state; 0 if it has not ended."""
+        """Number of steps from the end of the game to the current state; 0 if the game has not ended in this state."""
         return 0 if self.session.scene.result is None else self.position - self.ended_at + 1
 
     def note(self) -> None:
-        """Record a step of the session. Raises ValueError after a seek into the past without drop_future()."""
+        """Record a step of the session. After a seek into the past, call drop_future() before the step, otherwise
+        note() raises ValueError.
+        """
         if not self.live:
             raise ValueError(f"step {self.position} of {self.end} is not the last: drop_future() before it is made")
         session, last = self.session, self.stretches[-1]
@@ -135,8 +138,11 @@ class Rewind:
                 self.raw.pop().pack()
 
     def _is_due(self, last):
-        """Return whether to take a key frame now. Its cost may be at most half the time of the steps that it saves, and
-        at most DEAREST, so that restoring takes at most a tenth of a second.
+        """Return whether to take a key frame now: the steps since the last one, in `last`, are enough, and a key frame
+        is cheap.
+
+        Enough: they took KEY_SECONDS (PLAIN times that while kernels run uncompiled), or there are MOST_STEPS of them.
+        Cheap: a key frame takes at most DEAREST [s], and at most half the time of these steps.
         """
         enough = KEY_SECONDS * (PLAIN if tiers.wanted else 1)
         if last.spent < enough and len(last.open) < MOST_STEPS:
@@ -144,7 +150,7 @@ class Rewind:
         return self._cost() <= min(DEAREST, 0.5 * max(last.spent, enough))
 
     def _cost(self):
-        """Return the expected time of taking a key frame [s], from the fastest of the last ones."""
+        """Return the expected time of taking a key frame [s], from the least time per byte of the last ones."""
         return min(self.rates) * _weight(self.session.scene)
 
     def _begin_stretch(self):
@@ -187,8 +193,8 @@ class Rewind:
         session.scene.cues.clear()
 
     def _put_back(self, stretch, inputs, step):
-        """Restore the last stored state at or before a step: the stretch's key frame, or one of the extra ones
-        (`stones`) from earlier seeks.
+        """Restore the last stored state at or before `step`: the key frame of `stretch`, or one of the extra key frames
+        (`stones`) from earlier seeks. inputs: those of the stretch.
         """
         last = stretch.start + len(inputs)
         self.stones = {at: stone for at, stone in self.stones.items() if stretch.start < at <= last}
@@ -216,6 +222,8 @@ class Rewind:
 
 
 def _weight(scene):
-    """Return the size of the scene's largest tables plus FIXED [bytes]; a key frame costs time in proportion."""
+    """Return the size of the scene's largest tables plus FIXED [bytes]; the time of a key frame is proportional to this
+    size.
+    """
     tables = ((world.bodies, world.shapes, world.contact_rows) for world in scene.worlds)
     return FIXED + sum(table.nbytes for each in tables for table in each)

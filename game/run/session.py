@@ -33,10 +33,10 @@ class Session:
             scene.watch_invariants(strict=True)
 
     def step(self) -> None:
-        """Make one fixed step. Raises ReplayDiverged if the state differs from the replay's digest, and StrictFailure
-        for a broken invariant if strict.
+        """Make one fixed step.
 
-        The time for checking invariants is not counted as time of the scene.
+        Raises ReplayDiverged if the state differs from the replay's digest. If `strict`, raises StrictFailure for a
+        broken invariant. The time for checking invariants is not counted as time of the scene.
         """
         frame = self.source.next(self.scene)
         self.inputs.set(frame)

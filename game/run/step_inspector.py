@@ -120,8 +120,10 @@ class StepInspector:
 
 
 def next_input(session: Session, rewind: Rewind) -> tuple[Callable[[], InputFrame], str]:
-    """Return (function that returns the next step's input, called in the state before that step; sentence on where this
-    input comes from).
+    """Return (function, sentence) for the next step of a session. The function returns the step's input; call it in the
+    state before that step.
+
+    The sentence tells where the input comes from: the recorded steps of `rewind`, the bot, or the keys held now.
     """
     recorded, held = rewind.following, replace(session.inputs.now, wheel=0, changes=())
     if recorded is not None:
@@ -161,7 +163,7 @@ def compared(stage: Stage, before: dict[str, np.ndarray], after: dict[str, np.nd
 
 
 def _differing(old, new):
-    """Return the number of rows in which two columns of the same length differ."""
+    """Return the number of rows in which two columns `old` and `new`, of the same length, differ."""
     if not len(new):
         return 0
     old, new = (np.ascontiguousarray(each).view(np.uint8).reshape(len(each), -1) for each in (old, new))

@@ -21,7 +21,8 @@ def jobs_of(
 ) -> list[Job]:
     """Return the kernels that the worlds of one scene need at their start, as jobs: arguments of physics.warmup().
 
-    everything: all optional parts of physics and all broad phases, not only those that the scene declares.
+    broadphase, solver: the user's choices, or None. everything: all optional parts of physics and all broad phases, not
+    only those that the scene declares.
     """
     return [
         {
@@ -37,6 +38,8 @@ def jobs_of(
 def warm_up_scene(scene_class: type[Scene], broadphase: str | None = None, solver: str | None = None) -> None:
     """Compile, with all cores, the kernels that one scene needs at its start, and load them. Progress is written to
     standard error.
+
+    broadphase, solver: the user's choices, or None.
     """
     progress = StderrProgress()
     with tiers.collecting() as found:
@@ -79,7 +82,9 @@ def pieces_of(scene_class: type[Scene]) -> tuple[str, ...] | None:
 
 
 def warm_up_all(registry: Registry, out: TextIO | None = None) -> int:
-    """Run --warmup: compile the kernels of all scenes and broad phases, with all cores. Return the exit code."""
+    """Run --warmup: compile the kernels of all scenes and broad phases, with all cores. Return the exit code. out:
+    stream for the progress; None: standard output.
+    """
     stream: TextIO = sys.stdout if out is None else out
     started = perf_counter()
     classes = registry.all_classes()
@@ -96,7 +101,9 @@ def warm_up_all(registry: Registry, out: TextIO | None = None) -> int:
 
 
 def draw_bar(out: TextIO, share: float, name: str) -> None:
-    """Draw a progress line that overwrites the previous one on a terminal. Nothing is written to a file or pipe."""
+    """Draw a progress line, a bar filled to `share` 0..1 and a name, over the previous one. Nothing is written if `out`
+    is not a terminal.
+    """
     if not out.isatty():
         return
     filled = int(share * BAR)

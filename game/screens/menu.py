@@ -113,8 +113,8 @@ class Menu(CanvasScreen):
             y += height
 
     def _table(self, scene_class, level):
-        """Return the key of a scene's high-score table. None: the level file is unreadable; its error is shown when it
-        is played.
+        """Return the key of a scene's high-score table. None if the level file is unreadable; the error is shown when
+        the player starts the level.
         """
         if (scene_class, level) not in self.tables:
             try:

@@ -121,7 +121,7 @@ class Play(SceneScreen):
         return working or self.scene.draggable or not self.scene.hides_pointer
 
     def apply_settings(self) -> None:
-        """Apply the player's settings. Those that change the game are input of the next step, so that a recording
+        """Apply the player's settings. Settings that change the game become input of the next step, so that a recording
         contains them.
         """
         if self.settings is None:
@@ -242,8 +242,8 @@ class Play(SceneScreen):
     def restart(self) -> None:
         """Restart the scene from its first frame. A person's attempt becomes a run with its own recording.
 
-        The first input of that recording contains the settings chosen before, so that it is independent of earlier
-        runs.
+        The first input of that recording contains the settings chosen before, so that the recording does not depend on
+        earlier runs.
         """
         self.step_inspector.leave()
         self.table = table_of(self.scene.name, self.scene.level_file)
@@ -282,7 +282,10 @@ class Play(SceneScreen):
         self.clock.request_step()
 
     def toggle_step_inspector(self) -> None:
-        """Freeze the game and inspect its next step stage by stage; if one is inspected, end the inspection."""
+        """Freeze the game and inspect its next step stage by stage.
+
+        If a step is inspected already, end the inspection.
+        """
         if self.step_inspector.open:
             self.step_inspector.leave()
         else:
@@ -354,7 +357,7 @@ class Play(SceneScreen):
         self.switches.report(self.measuring.apply(setting))
 
     def start_race(self, setting: Setting) -> None:
-        """Restart the scene in a race against a copy of it under this setting."""
+        """Restart the scene in a race against a copy of the scene under this setting."""
         self.switches.report(self.measuring.start_race(setting))
         if self.measuring.race is not None:
             self.restart()

@@ -1,4 +1,4 @@
-"""The screen of the user's replays: lists, describes, plays and keeps them, and shows where their files are."""
+"""The screen of the user's replays. It lists, describes, plays and keeps replays, and shows where their files are."""
 
 from collections.abc import Callable
 from functools import partial

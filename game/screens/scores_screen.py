@@ -26,9 +26,7 @@ HEADS = ("", "NAME", "POINTS", "TIME", "DATE", "")
 
 
 class Page(NamedTuple):
-    """A page of high scores: its heading, the key of its table in the records, and the result that orders it ("points"
-    or "seconds").
-    """
+    """A page of high scores: its heading, the key of its table in the records, its order ("points" or "seconds")."""
 
     title: str
     table: str
@@ -36,8 +34,8 @@ class Page(NamedTuple):
 
 
 def pages_of(registry: Registry, records: Records, played: tuple[str, Path | None] | None = None) -> list[Page]:
-    """Return the pages in menu order. played: (scene name, level file) of the current game; its level gets a page even
-    if the file is not in the level folder.
+    """Return the pages in menu order. played: (scene name, level file) of the current game, or None. Its level gets a
+    page even if the file is not in the level folder.
     """
     found = []
     for scene_class in registry.all_classes():

@@ -87,7 +87,9 @@ class CanvasScreen(Screen, ABC):
         """Draw the screen. alpha: interpolation between the last two steps, 0..1."""
 
     def turn(self, now: float, steps: Iterable[InputState], picture: Picture) -> Frame | None:
-        """Make the due steps, each with its input; then draw the screen. Stop early if the screen is left."""
+        """Make the due steps, each with its input from `steps`; then draw the screen. Stop early if a step leaves the
+        screen.
+        """
         for inputs in steps:
             self.step(inputs, STEP_SECONDS)
             if self.outcome is not None:

@@ -92,7 +92,7 @@ class Screens:
             self.complain(error, name not in ("watch", "file"))
 
     def complain(self, error: UsageError, ends_scene: bool = True) -> None:
-        """Show a message about an unusable file, over the screen to return to.
+        """Show a message about an unusable file, the `error`, over the screen to return to.
 
         ends_scene: whether the file belongs to the scene on top, which is then closed.
         """
@@ -111,7 +111,7 @@ class Screens:
         return SceneBackground(self.played.scene) if self.played else None
 
     def title(self, message: str = "") -> None:
-        """Show the title as the only screen."""
+        """Show the title as the only screen. message: a line to show on it, or ""."""
         self._leave_play()
         self.stack = [Title(message)]
 
@@ -226,7 +226,9 @@ class Screens:
         self.played = play
 
     def _bring_best(self, play):
-        """Pass the best run so far to the scene: its points and, in scenes ranked by time, its path as a ghost."""
+        """Pass the best run so far to the scene of `play`: its points and, in scenes ranked by time, its path as a
+        ghost.
+        """
         scene = play.scene
         best = self.arcade.records.best(play.table)
         if best is not None:
@@ -254,8 +256,8 @@ class Screens:
         return self.played
 
     def pause(self, message: str = "") -> None:
-        """Open the pause menu; if the game has ended, open its result instead, so that its place in the high scores is
-        not lost.
+        """Open the pause menu, with a message or "". If the game has ended, open its result instead, so that its place
+        in the high scores is not lost.
         """
         play = self._game()
         if play.scene.result is not None:

@@ -30,8 +30,8 @@ ENTRIES = (
 
 
 class Title(CanvasScreen):
-    """The first screen. `outcome` becomes that of the chosen entry in ENTRIES, or ("attract",) after IDLE seconds
-    without input.
+    """The first screen. `outcome` becomes the outcome of the chosen entry in ENTRIES, or ("attract",) after IDLE
+    seconds without input.
     """
 
     tune = "title"

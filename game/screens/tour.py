@@ -275,7 +275,7 @@ class Tour(SceneScreen):
         return frame.from_canvas(self.subject.inflate(2 * MARGIN, 2 * MARGIN))
 
     def _reserve(self, frame):
-        """Place the card beside the ring where it covers the least text, and reserve both places."""
+        """Place the card beside the ring, where the card covers the least text, and reserve the places of both."""
         ring = self._ring_on(frame)
         beside_panel = self.stops[self.at][1] == "panel"
         self.card = docked(frame, frame.area.clip(frame.rect) if beside_panel else frame.rect, ring)
@@ -322,8 +322,9 @@ class Tour(SceneScreen):
 
 
 def docked(frame: Frame, area: pygame.Rect, ring: pygame.Rect | None) -> pygame.Rect:
-    """Return the card's place in an area: at a corner or the middle of the top or bottom border, clear of the ring if
-    possible, where it covers the least text.
+    """Return the card's place in an area: at a corner or at the middle of the top or bottom border.
+
+    Of the places that are clear of the ring, if there are any, the one is chosen where the card covers the least text.
     """
     scale = frame.scale_for(CARD[0])
     size = (min(CARD[0] * scale, area.width), CARD[1] * scale)
@@ -337,7 +338,7 @@ def docked(frame: Frame, area: pygame.Rect, ring: pygame.Rect | None) -> pygame.
 
 
 def draw_ring(frame: Frame, ring: pygame.Rect) -> None:
-    """Draw a golden rectangle between two dark lines, visible on any background."""
+    """Draw a golden rectangle around `ring` between two dark lines, so that it is visible on any background."""
     thick = max(2, frame.scale)
     outer = ring.inflate(2 * thick, 2 * thick).clip(frame.rect)
     corner = 5 * frame.scale

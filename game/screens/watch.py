@@ -107,7 +107,7 @@ class Watch(SceneScreen):
             self.clock.paused = True
 
     def step(self) -> None:
-        """Play one recorded step. Its sounds are played only at normal speed."""
+        """Play one recorded step. The sounds of the step are played only at normal speed."""
         if not self.tape.ended:
             self.tape.step()
             self.overlays.note(self.tape.scene)
@@ -136,7 +136,9 @@ class Watch(SceneScreen):
 
     @property
     def shows_controls(self) -> bool:
-        """True while the controls are visible. They hide during undisturbed playback, not to cover the game."""
+        """True while the controls are visible. During undisturbed playback they are hidden, so that they do not cover
+        the game.
+        """
         return self.clock.paused or self.alone < HIDE_SECONDS or self.tape.goal is not None or self.dragging
 
     def feed(self, event: pygame.event.Event) -> bool:
@@ -171,7 +173,7 @@ class Watch(SceneScreen):
         self.tape.begin_seek(round(max(0.0, min(1.0, share)) * self.tape.length))
 
     def single(self, way: int) -> None:
-        """Freeze, and move one frame forward or back."""
+        """Freeze, and move one frame forward (`way` 1) or back (-1)."""
         self.clock.paused = True
         self.leap(way)
 
@@ -281,7 +283,7 @@ class Watch(SceneScreen):
 
 
 def _draw_button(surface, rect, paused, scale):
-    """Draw the button: two bars during playback, a triangle while frozen."""
+    """Draw the button: a triangle while `paused`, two bars during playback."""
     x, y, high = rect.x + 3 * scale, rect.y, rect.height
     if paused:
         pygame.draw.polygon(surface, GOLD, ((x, y), (x, y + high), (x + high, y + high // 2)))

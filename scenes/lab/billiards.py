@@ -188,7 +188,9 @@ class Billiards(Scene):
         self.budget = (px, py, steps)
 
     def _three_met(self):
-        """Return whether a body had two contacts in this step. Physics then does not determine the result alone."""
+        """Return whether a body had two contacts in this step. The laws of impact alone do not determine the result
+        then.
+        """
         contacts = self.world.contacts
         both = np.concatenate((contacts["body_a"], contacts["body_b"]))
         return len(np.unique(both)) < len(both)
@@ -304,7 +306,8 @@ class Billiards(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        Momentum to nine digits until the first cushion, energy never grows, the rack scatters, balls are potted.
+        Momentum is kept to nine digits until the first cushion, energy never grows, the rack scatters, and balls are
+        potted.
         """
         places = {identity: self.world.body(identity).position for identity in self.ball_names}
         moved = len(self.potted) + sum(
@@ -331,8 +334,8 @@ class Billiards(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the loss of a break's momentum before its first cushion, and the gain of energy in
-        collisions of two.
+        """Return a sentence with the error of the momentum of a break before its first cushion, and the gain of energy
+        in collisions of two balls.
         """
         if not self.compared:
             return "not yet: a ball has to be hit and to run a step before it meets a cushion"

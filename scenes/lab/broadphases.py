@@ -47,7 +47,7 @@ FITTED = 5  # of the largest sizes, a decade: below it the fixed cost of a step 
 
 
 class Broadphases(Scene):
-    """Four worlds fed the same motion, one per strategy."""
+    """Four worlds with the same bodies and motions, one per broad phase."""
 
     name = "lab/broadphases"
     title = "Broad phases"
@@ -85,7 +85,9 @@ class Broadphases(Scene):
         return LAYOUTS[int(self.values["layout"])]
 
     def fill(self):
-        """Make four new worlds with the same bodies, from a seed per layout and number."""
+        """Make four new worlds with the same bodies, which follow from the layout, the number of bodies and the scene's
+        seed.
+        """
         self.worlds = []
         for strategy in STRATEGIES:
             populate(self.add_world(broadphase=strategy), self.layout, int(self.values["bodies"]), self.seed)
@@ -93,7 +95,8 @@ class Broadphases(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        They are: a step of each broad phase in this layout, for every size and for the current number.
+        A run is a step of one broad phase in the current layout. There is one for every size in SIZES, and one for the
+        current number of bodies.
         """
         sizes = sorted({*SIZES, min(int(self.values["bodies"]), LARGEST)})
         names = [(self.layout, size, strategy) for size in sizes for strategy in STRATEGIES]
@@ -105,7 +108,9 @@ class Broadphases(Scene):
         return MeasuredRun([made], strategy, stage="broad_phase")
 
     def growth(self, strategy):
-        """Return the measured points (number, cost) of a broad phase in this layout, and the fitted power law."""
+        """Return the Series of the broad phase `strategy` in this layout: the measured points (number, cost), and the
+        fitted power law.
+        """
         known = [(size, self.figures.get((self.layout, size, strategy))) for size in SIZES]
         points = [(size, figures.cost) for size, figures in known if figures is not None]
         done = all(figures is not None and figures.sure for _, figures in known)
@@ -120,7 +125,7 @@ class Broadphases(Scene):
         self.fill()
 
     def update(self, inputs):
-        """Let keys turn the sliders and bodies bounce at the edges; step all four worlds and compare them."""
+        """Process keys, reflect bodies at the edges, step all four worlds, and compare their pairs."""
         layout, bodies = self.values["layout"], self.values["bodies"]
         if inputs.pressed("left") or inputs.pressed("right"):
             way = 1 if inputs.pressed("right") else -1
@@ -139,7 +144,7 @@ class Broadphases(Scene):
             self.tests[strategy] += tests_of(world)
 
     def observe(self):
-        """Update the curves."""
+        """Add this step's counts of candidates and of tests to the curves."""
         by_name = dict(zip(STRATEGIES, self.worlds, strict=True))
         self.curves[0].note({"all four": len(self.worlds[0].candidates)})
         self.curves[1].note({name: tests_of(w) for name, w in by_name.items()})
@@ -149,7 +154,9 @@ class Broadphases(Scene):
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Draw heads, grounds and bodies as dots; curves and structures are drawn at window resolution."""
+        """Draw the headings and the background of each view, and the bodies as dots. Curves and structures are drawn at
+        window resolution.
+        """
         canvas.surface.fill(NIGHT)
         canvas.text("BROAD PHASES", 4, 4, GOLD)
         canvas.text(f"{len(self.world.bodies):,} bodies", 474, 4, PAPER, align="right")
@@ -165,7 +172,7 @@ class Broadphases(Scene):
             draw_dots(canvas.surface, world, camera, color)
 
     def draw_on_frame(self, frame):
-        """Draw the curves, and cost over number."""
+        """Draw the curves, and the plot of cost over number of bodies."""
         for curves, (_, y) in zip(self.curves, PLOTS, strict=True):
             curves.draw(frame, (PLOT_X, y, PLOT_WIDTH, PLOT_HEIGHT))
         series = {name: self.growth(name) for name in STRATEGIES}
@@ -183,7 +190,7 @@ class Broadphases(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        The same pairs from all, and fewer tests than brute force from the three others.
+        All four broad phases find the same pairs, and three of them make fewer tests than brute force.
         """
         cheaper = all(self.tests[name] < self.tests["brute"] for name in STRATEGIES[1:])
         return [

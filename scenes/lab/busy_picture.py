@@ -60,7 +60,9 @@ class BusyPicture:
         return turning(shape, "steel" if asleep else ramp)
 
     def _draw_rods(self, surface, yard, poses):
-        """Draw the rods of the pendulum: without the effect joints there are none."""
+        """Draw the rods of the pendulum. Without the effect joints there are none. poses: {body id: (x, y, angle) on
+        the surface}.
+        """
         if yard.world.effects.joints:
             at = HOOK
             for number, kind in yard.kinds.items():

@@ -101,7 +101,9 @@ class BusyYard:
         self.ids[number], self.kinds[number] = body.id, name
 
     def _renew_rock(self):
-        """Replace the carved rock by a whole rock. Bodies in its place are removed; the star moves to its start."""
+        """Replace the carved rock by a whole rock. Bodies in its place are removed, except the star, which moves to its
+        start.
+        """
         x, y, width, height = ROCK
         star, numbers = PLACED, {identity: number for number, identity in self.ids.items()}
         for body in self.world.query_aabb((x, y - ROOM), (x + width, y + height)):
@@ -121,7 +123,7 @@ class BusyYard:
         self.rock = self.world.add_body(mask, position=(x, y), kind="static", material=GRIP).id
 
     def beside(self, world):
-        """Return a copy of this yard for another world, which must have the same bodies with the same ids."""
+        """Return a copy of this yard for `world`, which must have the same bodies with the same ids."""
         other = BusyYard(world)
         other.ids, other.kinds, other.ends = dict(self.ids), dict(self.kinds), dict(self.ends)
         other.rock = self.rock
@@ -173,7 +175,9 @@ class BusyYard:
 
 
 def apart(one, other):
-    """Return (numbers of the bodies that both yards have, array of the distances between their positions [px])."""
+    """Return (numbers, distances): the numbers of the bodies that both yards have, and an array of the distances
+    between their positions in the two yards [px].
+    """
     numbers = sorted(one.ids.keys() & other.ids.keys())
     return numbers, np.hypot(*(one.places(numbers) - other.places(numbers)).T) if numbers else np.zeros(0)
 

@@ -63,7 +63,7 @@ class CardHouse(Scene):
     legend_at = (342, 88)
 
     def build(self):
-        """Build the table; fill() builds the house."""
+        """Build the table; fill() builds the house on it."""
         self.yard = Yard(FLOOR, 60, table=True)
         self.held = None  # [px] motion of its cards in the ten seconds, or None
         self.slipped = False  # the house fell once with too little friction
@@ -164,7 +164,7 @@ class CardHouse(Scene):
         return hypot(card.center[0] - x, card.center[1] - y)
 
     def stands(self, cards):
-        """Return whether no card has sunk or slid by half its reach."""
+        """Return whether every card is nearer to its start than half of REACH."""
         return all(self.moved(card) < REACH / 2 for card in cards)
 
     @property
@@ -173,7 +173,7 @@ class CardHouse(Scene):
         return "" if self.stands(self.cards) else "builds it again"
 
     def draw(self, canvas, alpha):
-        """Draw the table with its cloths, the cards, the words."""
+        """Draw the table with its cloths, the cards, and the text."""
         self.yard.draw(canvas, "HOUSE OF CARDS", "how much friction does it need to stand?")
         for x, _, color in PAIRS:
             left = round(x - CLOTH / 2)
@@ -218,7 +218,8 @@ class CardHouse(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        It stands for ten seconds, the pairs follow theory, and at a low friction it falls.
+        The house stands for ten seconds, the pairs of cards stand or slide as theory predicts, and the house falls at a
+        low friction.
         """
         slid, stood = (self.stands(cards) for cards in self.pairs)
         moved = self.wandered if self.held is None else self.held
@@ -235,8 +236,8 @@ class CardHouse(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the time that the house stands at its friction, and the two frictions that bracket a
-        pair's need.
+        """Return a sentence with the time for which the house stands at its friction, and with two frictions: a pair of
+        cards stands at one and slides at the other.
         """
         if self.since < 60:
             return "not yet: the cards have to stand, or slide, for a second"

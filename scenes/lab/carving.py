@@ -54,7 +54,7 @@ FEWEST = 6  # places of the ground at which a carve is timed
 
 
 class Carving(Scene):
-    """One world: the ground, things on it, and fragments of both."""
+    """One world: the ground, things on it, and fragments of the ground and of the things."""
 
     name = "lab/carving"
     title = "Carving"
@@ -121,7 +121,7 @@ class Carving(Scene):
         self._take_tool()
 
     def solid(self):
-        """Return the pixels of all masks, counted one by one."""
+        """Return the number of solid pixels in all masks, counted one by one."""
         masks = (shape for each in self.prints.of for shape in self.world.body(each).shapes)
         return sum(int(np.count_nonzero(mask.solid)) for mask in masks if isinstance(mask, PixelMask))
 
@@ -173,10 +173,7 @@ class Carving(Scene):
         return carved.removed
 
     def measured(self):
-        """Return the runs to time beside the game.
-
-        They are: this tool in this size, at up to sixty places of the current ground.
-        """
+        """Return the runs to time beside the game: the current tool carves at up to sixty places of the ground."""
         if self.tool.name == "hand" or self.ground not in self.world:
             return None
         masks = self.world.body(self.ground).shapes

@@ -58,7 +58,7 @@ DUST = ((250, 230, 190), (190, 150, 120), (110, 90, 100))
 
 
 class Conveyor(Scene):
-    """Two worlds, with the effect and without."""
+    """Two worlds: one with the effect conveyor, one without it."""
 
     name = "lab/conveyor"
     title = "Conveyor"
@@ -79,7 +79,7 @@ class Conveyor(Scene):
     legend_at = (8, 34)
 
     def build(self):
-        """Build the belts, twice; crates come with time."""
+        """Build the belts in both worlds; crates are added over time."""
         self.add_world()
         self.add_world(effects=self.effects.with_(conveyor=False))
         self.cameras = [Camera(view) for view in VIEWS]
@@ -178,7 +178,7 @@ class Conveyor(Scene):
                     self.seen[kind].add(name)
 
     def _rest(self):
-        """Record how far a crate in the world without the effect has moved since one second after its fall."""
+        """Record how far a crate in the world without the effect has moved since one second after it was added."""
         for identity in self.kinds[1]:
             x, y = self.worlds[1].body(identity).position
             age, start = self.fallen.get(identity, (0, None))
@@ -319,14 +319,17 @@ class Conveyor(Scene):
 
 
 def direction(start, end):
-    """Return the unit vector along a belt."""
+    """Return the unit vector along a belt from `start` to `end`."""
     dx, dy = end[0] - start[0], end[1] - start[1]
     length = hypot(dx, dy)
     return dx / length, dy / length
 
 
 def on_belt(point, start, end):
-    """Return (share of the belt's length, distance aside [px], negative above it, length) of a point."""
+    """Return (along, aside, length): place of a point along a belt, distance from the belt, and the belt's length.
+
+    along: share of the length, 0 at `start`, 1 at `end`; aside [px]: negative above the belt; length [px].
+    """
     tx, ty = direction(start, end)
     length = hypot(end[0] - start[0], end[1] - start[1])
     dx, dy = point[0] - start[0], point[1] - start[1]
@@ -334,7 +337,11 @@ def on_belt(point, start, end):
 
 
 def draw_belt(surface, view, start, end, way, running):
-    """Draw a belt around two rollers, with ribs that show its motion."""
+    """Draw a belt around two rollers, with ribs that show its motion.
+
+    `start`, `end`: middles of the rollers in the view; `way`: distance that the belt has moved [px]; `running`: False
+    draws it dim.
+    """
     (ax, ay), (bx, by) = ((p[0] + view.x, p[1] + view.y) for p in (start, end))
     tx, ty = direction(start, end)
     length = hypot(bx - ax, by - ay)

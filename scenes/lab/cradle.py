@@ -136,7 +136,8 @@ class Cradle(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        They are: a step of each channel, over one trip of a ball to its wall and back, with every chain of collisions.
+        A run is a step of one channel. It is timed over one trip of a ball to its wall and back, which includes every
+        chain of collisions.
         """
         worlds = dict(zip(SOLVERS, self.worlds, strict=True))
         return RunRequest(
@@ -165,7 +166,9 @@ class Cradle(Scene):
 
     @property
     def offer(self):
-        """Text that offers a new run if balls of the row move that should rest (they stay disordered); "" otherwise."""
+        """Text that offers a new run once balls of the row that should rest are moving, since they stay in disorder; ""
+        otherwise.
+        """
         return "lays them in anew" if any(self.others(index) > SCATTERED for index in range(len(SOLVERS))) else ""
 
     def views(self):
@@ -240,7 +243,10 @@ class Cradle(Scene):
                     )
 
     def check(self):
-        """Return the goals of the self-check: one in, one out; two in, two out; nothing lost."""
+        """Return the goals of the self-check.
+
+        As many balls leave as strike, one or two, and no momentum or energy is lost.
+        """
         goals = []
         for name in SOLVERS:
             for strikers, due in ((1, 200), (2, SWITCH_AT + 200)):

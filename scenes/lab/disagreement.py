@@ -64,7 +64,7 @@ class Disagreement(Shooter):
     hides_pointer = False
 
     def build(self):
-        """Build the shooter's sky without losses, and empty counts."""
+        """Build the shooter with an invincible plane, and empty counts."""
         self.assist = {"invincible": True, "hit_stop": False}
         super().build()
         self.plane.right = SIDE.x - MARGIN
@@ -187,7 +187,7 @@ class Disagreement(Shooter):
         return f"{sentence} (95 %: {low:.0f} to {high:.0f} %); of {missed.total:,} true hits it missed {missed.count:,}"
 
     def bot(self):
-        """Return the shooter's own pilot."""
+        """Return the input of the shooter's bot for the next step."""
         return super().bot()
 
     def state(self):
@@ -196,7 +196,9 @@ class Disagreement(Shooter):
 
 
 def rehearse(effects):
-    """Evaluate every tier once on two planes and a disc, so that all kernels are compiled before the game begins."""
+    """Evaluate every tier once on two planes and a disc in a world with these effects, so that all kernels are compiled
+    before the game begins.
+    """
     world, reference = World(effects, BROADPHASES["sweep"]()), ReferenceTier(FIRST)
     masks = [load_atlas("planes").mask(name) for name in ("player", "gunship_0")]
     for x, mask in zip((0.0, 9.0), masks, strict=True):

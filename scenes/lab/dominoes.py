@@ -122,7 +122,9 @@ class Dominoes(Scene):
             self._time(index)
 
     def _push(self):
-        """Push both rows, scaled by Froude's rule; a second push rebuilds the rows first."""
+        """Push both rows at speeds in proportion to the root of their size (Froude). A second push rebuilds the rows
+        first.
+        """
         if self.pushed is not None:
             self.fill()
         self.pushed = self.since
@@ -155,7 +157,9 @@ class Dominoes(Scene):
         return (last - STEADY) * spacing / ((passed[last] - passed[STEADY]) * self.worlds[index].dt)
 
     def ratio(self):
-        """Return the ratio of the speeds of both waves, or None before both are known."""
+        """Return the speed of the large row's wave divided by that of the small row's wave, or None before both are
+        known.
+        """
         small, large = self.speed(0), self.speed(1)
         return None if small is None or large is None else large / small
 
@@ -214,7 +218,7 @@ class Dominoes(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        All fall, none falls by itself, and the speeds have the ratio two to one.
+        All dominoes fall, none falls before the push, and the speeds of the waves have the ratio two to one.
         """
         ratio = self.ratio()
         angles = [[body.angle for body in row] for row in self.rows]

@@ -52,7 +52,10 @@ class Outcome(NamedTuple):
     work: int  # further bodies moved, pairs tested and rows solved with it; below 0: fewer
 
     def shows(self, name):
-        """Return whether the effect matters. Sleeping moves nothing and reports less, so it has to save work."""
+        """Return whether the effect `name` makes a difference.
+
+        Sleeping is not to change positions or to report more, so it must save work.
+        """
         return self.work < 0 if name == "sleeping" else self.apart > VISIBLE or self.kinds > 0
 
 
@@ -83,7 +86,7 @@ class EffectsLab(Scene):
     legend_at = (198, 60)
 
     def build(self):
-        """Build the yard with all effects; its ghost begins with the first step."""
+        """Build the yard with all effects, and its copy without the selected effect."""
         self.picture = BusyPicture()
         self.real = BusyYard(self._new_world())
         self.real.furnish()
@@ -135,14 +138,16 @@ class EffectsLab(Scene):
             self._show()
 
     def change_slider(self, name, value):
-        """Select another effect, at first on."""
+        """Apply a change of a slider. If another effect is selected, copy the yard anew, and show the yard with that
+        effect.
+        """
         super().change_slider(name, value)
         if name == "effect":
             self.values["it is"] = 1
             self._part()
 
     def update(self, inputs):
-        """Process keys and the pointer, step both yards, and compare them once."""
+        """Process keys and the pointer, step both yards, and after two seconds compare them."""
         way = inputs.pressed("down") - inputs.pressed("up") - inputs.wheel
         row = (inputs.pointer[1] - TOP) // ROW
         points = inputs.pointer_pressed and inputs.pointer[0] < SIDE and 0 <= row < len(NAMES)
@@ -173,7 +178,8 @@ class EffectsLab(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        They are: a step of the yard at the first look at an effect, all awake, with the effect and without it.
+        A run is a step of the yard with all bodies awake, from its state when an effect was first selected. There are
+        two for each effect: with it and without it.
         """
         return RunRequest([self._run_name(name, on) for name in self.looked for on in (True, False)], self._make)
 
@@ -187,7 +193,10 @@ class EffectsLab(Scene):
         return MeasuredRun([made], self.broadphase, WINDOW)
 
     def stages(self):
-        """Return (stages of the step that only the selected effect needs, stages that replace them without it)."""
+        """Return (own, replaced). own: names of the stages that a step has only because of the selected effect.
+
+        replaced: names of the stages that a step has only without the effect.
+        """
         real, other = self.real.world.stages, self.other.world.stages
         return [name for name in real if name not in other], [name for name in other if name not in real]
 
@@ -248,7 +257,7 @@ class EffectsLab(Scene):
             canvas.text(UNKNOWN if price is None else price.text(), SIDE - 6, y, PAPER, SMALL, align="right")
 
     def _draw_words(self, canvas):
-        """Draw the stage of the marked effect and the finding on a plate over the sky."""
+        """Draw a plate over the sky with two texts: the stages that only the selected effect needs, and the finding."""
         ours, theirs = self.stages()
         if ours:
             words = f"{plain_name(self.marked)} calls for {', '.join(map(plain_name, ours))}"
@@ -287,7 +296,8 @@ class EffectsLab(Scene):
     def bot(self):
         """Return the bot's input for the next step.
 
-        Its plan: one effect after the other, two seconds beside its ghost, then off for a moment.
+        Its plan: select one effect after the other; show the yard for two seconds with the effect, then for a moment
+        without it.
         """
         turn, step = divmod(self.frame, BOT_NEXT)
         if step == 0:
@@ -295,7 +305,7 @@ class EffectsLab(Scene):
         return frozenset({"fire"} if step == BOT_OFF else ())
 
     def state(self):
-        """Return both clocks, the other world, and the results."""
+        """Return both clocks, the digest of the world that is not shown, and the results."""
         hidden = (self.other if self.is_on else self.real).world
         found = (value for name in NAMES if name in self.found for value in self.found[name])
         reported = (*self.real.reported.tolist(), *self.other.reported.tolist())

@@ -60,7 +60,7 @@ class Filters(Scene):
     hides_pointer = False
 
     def build(self):
-        """Set the masks, then add two discs per cell."""
+        """Set the masks of the kinds, then add two discs to each cell."""
         self.masks = [sum(1 << KINDS.index(other) for other in MEETS[kind]) for kind in KINDS]
         self.marked = (0, 1)
         self.clock = 0.0
@@ -89,7 +89,7 @@ class Filters(Scene):
             bodies["y"][2 * number : 2 * number + 2] = y
 
     def update(self, inputs):
-        """Let clicks and keys switch a cell; swing the discs; compare contacts with the table."""
+        """Process clicks and keys, which toggle a cell; move the discs; compare the contacts with the table."""
         cell = cell_at(*inputs.pointer)
         if inputs.pointer_pressed and cell is not None:
             self.marked = cell
@@ -120,7 +120,7 @@ class Filters(Scene):
         return bool(self.masks[row] >> column & 1)
 
     def _judge(self):
-        """Check that overlapping discs are in contact if both masks allow it, and that no other discs are."""
+        """Check that overlapping discs are in contact exactly if both masks allow it."""
         self.touching[:] = False
         for a, b in zip(self.world.contacts["body_a"].tolist(), self.world.contacts["body_b"].tolist(), strict=True):
             self.wrong += self.cell_of[a] != self.cell_of[b]
@@ -137,7 +137,7 @@ class Filters(Scene):
         self.filtered += self.world.profile.counters["filtered"]
 
     def draw(self, canvas, alpha):
-        """Draw the grid with its heads, and the words beside it."""
+        """Draw the grid with its headings, and the text beside it."""
         canvas.surface.fill(NIGHT)
         canvas.text("FILTERS", 4, 4, GOLD)
         canvas.text("row says yes to column?", LEFT + 240, 6, FOG, SMALL, align="right")
@@ -214,8 +214,8 @@ class Filters(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the number of box pairs that the filter dropped in the last step, and whether contacts
-        are those allowed.
+        """Return a sentence with the number of box pairs that the filter dropped in the last step, and whether all
+        contacts were allowed.
         """
         if not self.steps:
             return "not yet: the discs have to swing"
@@ -231,7 +231,7 @@ class Filters(Scene):
     def bot(self):
         """Return the bot's input for the next step.
 
-        Its plan: three clicks, one yes taken, one given, the first given back.
+        Its plan: three clicks: one removes a kind from a mask, one adds a kind, and one restores the first.
         """
         cell = BOT_CLICKS.get(self.frame)
         if cell is None:
@@ -245,12 +245,12 @@ class Filters(Scene):
 
 
 def cell_rect(row, column):
-    """Return the canvas rectangle of a cell of the grid."""
+    """Return the canvas rectangle of the cell (row, column) of the grid."""
     return pygame.Rect(LEFT + column * CELL_WIDTH, TOP + row * CELL_HEIGHT, CELL_WIDTH - 2, CELL_HEIGHT - 2)
 
 
 def cell_center(row, column):
-    """Return the point of a cell [px] about which its discs swing: the middle, slightly above its marks."""
+    """Return the point [px] about which the discs of the cell (row, column) swing: slightly above its middle."""
     return LEFT + (column + 0.5) * CELL_WIDTH - 1.0, TOP + (row + 0.5) * CELL_HEIGHT - 3.0
 
 

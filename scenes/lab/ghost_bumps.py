@@ -159,7 +159,7 @@ class GhostBumps(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        They are: a step of each floor, from a state with at least another second of floor ahead.
+        A run is a step of one floor, from a state in which the sliders have at least one more second of floor ahead.
         """
         ahead = (LENGTH - 4) * TILE - START_X["box"] - self.nominal
         if self.run == 0 or ahead < self.values["speed"]:
@@ -260,7 +260,7 @@ class GhostBumps(Scene):
             frame.fix(rect)
 
     def check(self):
-        """Return the goals of the self-check: no seam is felt, of any floor."""
+        """Return the goals of the self-check: on no floor do the seams change the motion of a slider."""
         goals = []
         for floor in FLOORS:
             worst = max(self.slowed[floor, kind] for kind in KINDS)
@@ -321,14 +321,16 @@ def lay_floor(world, floor):
 
 
 def share(number, value):
-    """Return the height of a value in a curve, 0 (bottom) .. 1 (top)."""
+    """Return the height of a value in a curve, 0 (bottom) .. 1 (top). `number`: 1 for the linear curve, else the
+    logarithmic one.
+    """
     if number == 1:
         return min(max(value / HEIGHT_TOP, 0.0), 1.0)
     return (log10(min(max(value, LEAST), 1.0)) - log10(LEAST)) / -log10(LEAST)
 
 
 def amount(error):
-    """Return a share as short text: 0, 1e-12, 3 %."""
+    """Return an error, a share, as short text: 0, 1e-12, 3 %."""
     if error <= 0.0:
         return "0"
     return f"{error:.0%}" if error >= 0.01 else f"{error:.0e}".replace("e-0", "e-")

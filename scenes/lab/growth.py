@@ -30,7 +30,9 @@ class Series(NamedTuple):
 
 
 def draw_growth(frame: Frame, canvas_rect: Box, title: str, series: Mapping[str, Series], here: int) -> None:
-    """Draw the plot into a rectangle of the canvas. `here`: the current number, marked on the lower axis."""
+    """Draw the plot of the series {name: Series} into a rectangle of the canvas. `here`: the current number, marked on
+    the lower axis.
+    """
     rect, scale, surface = frame.from_canvas(canvas_rect), frame.plot_scale, frame.surface
     surface.fill(INK, rect)
     pygame.draw.rect(surface, SLATE, rect, 1)
@@ -93,7 +95,9 @@ def _draw_series(surface, axes, series, frame):
 
 
 def _write_laws(frame, axes, series, rect, scale):
-    """Write the exponents of the power laws at the ends of their lines, without overlap, and label the decades."""
+    """Write the exponents of the power laws of {name: Series} at the ends of their lines, without overlap, and label
+    the decades.
+    """
     ends = sorted((axes.y(each.points[-1][1].least), name) for name, each in series.items() if each.points)
     step, top = LINE * scale, axes.plot.top
     last = rect.bottom - 10 * scale - step * len(ends)
@@ -110,6 +114,6 @@ def _write_laws(frame, axes, series, rect, scale):
 
 
 def in_units(seconds: float) -> str:
-    """Return a power of ten of a time [s] as short text: "10 us", "1 ms"."""
+    """Return a time [s] that is a power of ten as short text: "10 us", "1 ms"."""
     size, unit = next(((size, unit) for size, unit in UNITS if seconds >= 0.999 * size), UNITS[-1])
     return f"{seconds / size:.0f} {unit}"

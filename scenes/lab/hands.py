@@ -8,8 +8,9 @@ MOVE_SPEED = 70.0  # [px/s] with the keys
 
 
 class Hands:
-    """The poses of two objects under the player's control. `poses`: [x, y, angle] of both; `chosen`: index of the one
-    that wheel and keys move, which stays inside the Rect `room`.
+    """The poses of two objects under the player's control. `poses`: [x, y, angle] of both.
+
+    `chosen`: index of the object that wheel and keys move; this object stays inside the Rect `room`.
     """
 
     def __init__(self, poses, chosen, room):

@@ -262,8 +262,9 @@ def _times(hit, miss):
 
 @cache
 def own_picture(path):
-    """Return (image, mask) of a PNG. Raises FileError for another file, a too large one, or one without solid
-    pixels.
+    """Return (image, mask) of a PNG file.
+
+    Raises FileError if the file is not a PNG, has a side longer than MOST, or has no solid pixels.
     """
     png_size(path, MOST)  # checked before it is decoded
     try:

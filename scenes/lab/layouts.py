@@ -14,7 +14,7 @@ MOVING_SHARE = 0.05  # of the bodies in the "still" layout
 
 
 def populate(world, layout, count, seed):
-    """Add `count` bodies to a world, the same for the same layout, count and seed."""
+    """Add `count` bodies to a world. The bodies depend only on layout, count and seed."""
     random = Random(f"{seed} {layout} {count}")
     positions = np.array([_place(random, layout) for _ in range(count)])
     speed = SLOW if layout == "ground" else FAST
@@ -37,7 +37,9 @@ def _place(random, layout):
 
 
 def snapshot_of(effects, seed, layout, count):
-    """Return the snapshot of a world with the bodies of a layout, before its first step. `effects`: their names."""
+    """Return the snapshot of a world with `count` bodies of a layout, before its first step. `effects`: names of the
+    world's effects.
+    """
     world = World(Effects.named(effects))
     populate(world, layout, count, seed)
     return world.snapshot()

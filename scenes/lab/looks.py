@@ -88,7 +88,7 @@ class Looks:
 
 @lru_cache(maxsize=256)
 def is_piece(shape, zoom):
-    """Return whether a shape has the right size on the canvas to be drawn as a shaded picture."""
+    """Return whether a shape, drawn at `zoom`, has the right size on the canvas for a shaded picture."""
     if not isinstance(shape, Convex):
         return False
     points, radius = hull(shape)
@@ -102,7 +102,7 @@ def is_round(shape):
 
 
 def draw_ground(surface, shape, zoom, pose, sensor):
-    """Draw a static shape on the canvas; a sensor is drawn in one colour."""
+    """Draw a static shape on the canvas, scaled by `zoom`, at a pose (x, y, angle). A sensor is drawn in one colour."""
     if isinstance(shape, PixelMask):
         return
     if isinstance(shape, TileGrid):
@@ -124,7 +124,7 @@ def draw_ground(surface, shape, zoom, pose, sensor):
 
 
 def draw_tiles(surface, grid, zoom, pose):
-    """Draw the solid tiles of a grid, with a line around each tile."""
+    """Draw the solid tiles of a grid, scaled by `zoom`, with a line around each tile."""
     x, y, _ = pose
     size = grid.tile_size * zoom
     for row, column in np.argwhere(grid.solid).tolist():
@@ -135,7 +135,9 @@ def draw_tiles(surface, grid, zoom, pose):
 
 
 def draw_plain(surface, shape, zoom, pose, ramp):
-    """Draw a convex shape that is too small or too large for a shaded picture, in two colours."""
+    """Draw a convex shape that is too small or too large for a shaded picture, in two colours of `ramp`. It is scaled
+    by `zoom`.
+    """
     rim, inside, *_ = ramp
     points = placed(shape, zoom, pose)
     if len(points) == 1:
@@ -157,7 +159,10 @@ def draw_plain(surface, shape, zoom, pose, ramp):
 
 
 def draw_mask(surface, mask, zoom, place, ramp):
-    """Draw the pixels of a mask that does not rotate; static ones are darker."""
+    """Draw the pixels of a mask that does not rotate, scaled by `zoom`, with its origin at `place`.
+
+    `ramp`: name of its colours; None: the mask is static and drawn darker.
+    """
     picture = mask_picture(mask, RIM if ramp is None else RAMPS[ramp][1])
     width, height = picture.get_size()
     size = (max(1, round(width * zoom)), max(1, round(height * zoom)))

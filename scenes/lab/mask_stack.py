@@ -124,7 +124,7 @@ class MaskStack(Scene):
         self.tops.append(top)
 
     def _places(self):
-        """Return (kind, x, y) of each sprite: its box touches that of the one below."""
+        """Return (kind, x, y) of each sprite, placed so that its bounding box touches that of the sprite below."""
         kinds = list(self._kinds())
         heights, found = {}, []
         for kind, x in kinds:
@@ -168,7 +168,9 @@ class MaskStack(Scene):
             self._measure(way, world, top)
 
     def _measure_one_fit(self):
-        """Measure how well the shapes of one sprite fit. One sprite a step, because all take seconds without numba."""
+        """Measure how well the shapes of one sprite fit. Only one sprite is measured per step, because all take seconds
+        without numba.
+        """
         for way in WAYS:
             for name, mask, shapes in self.laid[way]:
                 if (name, way) not in self.fits:
@@ -177,7 +179,9 @@ class MaskStack(Scene):
                     return
 
     def share(self, way):
-        """Return (corners, pixels of air held, pixels missed) of a pile; nan until all in it are measured."""
+        """Return (corners, pixels of air held, pixels missed) of the whole pile `way`; nan until all its sprites are
+        measured.
+        """
         fits = [self.fits.get((name, way), (nan, nan, nan)) for name, _, _ in self.laid[way]]
         return tuple(float(sum(column)) for column in zip(*fits, strict=True))
 
@@ -306,7 +310,7 @@ class MaskStack(Scene):
         return "; ".join(parts)
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: watch them come to rest, nudge once, watch again."""
+        """Return the bot's input for the next step. Its plan: watch the piles come to rest, nudge once, watch again."""
         return InputFrame(frozenset(("fire",)) if self.frame == 240 else frozenset())
 
     def state(self):
@@ -327,7 +331,7 @@ def whole(value):
 
 
 def shapes_of(image, way):
-    """Return (the mask of a sprite, its convex collision shapes)."""
+    """Return (the mask of a sprite, its convex collision shapes). `way`: kind of collision shape, one of WAYS."""
     mask = PixelMask.from_surface(image, smooth=0.0 if way == "exact" else SMOOTH)
     if way == "box":
         left, top, right, bottom = bounds_of(mask)
@@ -336,5 +340,5 @@ def shapes_of(image, way):
 
 
 def bounds_of(mask):
-    """Return (left, top, right, bottom) [px] of a sprite's pixels about its middle."""
+    """Return (left, top, right, bottom) [px] of the solid pixels of a sprite's mask, relative to its origin."""
     return mask.bounds or (0.0, 0.0, 0.0, 0.0)

@@ -113,7 +113,10 @@ class MaskSweep(Scene):
             self._count(column)
 
     def _fire(self, lane):
-        """Fire the same shot in both worlds, from anywhere within the path of a step, to vary the times of impact."""
+        """Fire the same shot in both worlds, in lane number `lane`.
+
+        Its start is shifted at random by up to the path of a step, so that the times of impact vary.
+        """
         speed = float(self.values["speed"])
         chosen = SHOTS[int(self.values["shots"])]
         kind = self.random.choice(SHOTS[1:]) if chosen == "both" else chosen
@@ -134,7 +137,9 @@ class MaskSweep(Scene):
             self.fired[way, SHAPES[lane]] += 1
 
     def _count(self, column):
-        """Count the shots that met a wall in this step, and those beyond it without a contact."""
+        """Count, in world number `column`, the shots that met a wall in this step, and those that are beyond it without
+        a contact.
+        """
         world, way = self.worlds[column], WAYS[column]
         begun = world.events.begin
         met = set(begun["body_a"].tolist()) | set(begun["body_b"].tolist())
@@ -160,7 +165,10 @@ class MaskSweep(Scene):
         self.shots = left
 
     def _mark(self, column, kind, body, ghost):
-        """Record where a shot met a wall; `ghost`: its pose without the wall, see debug.impact_ghosts, or None."""
+        """Record where a shot of the given kind met a wall in world number `column`.
+
+        `ghost`: its pose without the wall, see debug.impact_ghosts, or None.
+        """
         world = self.worlds[column]
         rows = np.flatnonzero(world.shapes["body"] == body.id)
         x, y = body.position
@@ -234,7 +242,9 @@ class MaskSweep(Scene):
             canvas.text(shape, view.x + 4, y, FOG, SMALL)
 
     def draw_on_frame(self, frame):
-        """Draw each impact: white at the impact, dim at the shot's goal, with the share of the step beside it."""
+        """Draw each impact: white at its time of impact, dim where the shot would have been without the wall. Write the
+        time of impact, as a share of the step, beside it.
+        """
         for column, kind, pose, aim, fraction, age in self.marks:
             x, y, _ = pose
             lens = frame.lens(self.cameras[column])
@@ -253,7 +263,7 @@ class MaskSweep(Scene):
                 frame.text_if_free(f"{fraction:.2f}", *at, GOLD, SMALL, frame.plot_scale, "right", True)
 
     def check(self):
-        """Return the goals of the self-check: none passes if swept; many do otherwise."""
+        """Return the goals of the self-check: of the swept shots none passes a wall; of the others many do."""
         passed, fired, hit = self.passed, self.fired, self.hit
         flying = {way: sum(WAYS[of] == way for of, *_ in self.shots) for way in WAYS}
         all_accounted = all(
@@ -293,11 +303,13 @@ class MaskSweep(Scene):
         return f"{sentence}; swept, {rates['toi'].count} of {rates['toi'].total} (95 %: at most {most:.1f} %)"
 
     def _ended(self):
-        """Return (number of shots that passed the wall, number of shots that passed or hit it)."""
+        """Return two dicts with keys (way, shape): the number of shots that passed the wall, and of shots that passed
+        or hit it.
+        """
         return self.passed, {key: count + self.passed[key] for key, count in self.hit.items()}
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: watch; later only swords, faster."""
+        """Return the bot's input for the next step. Its plan: watch, and later raise the speed three times."""
         return frozenset(("right",)) if self.frame in (200, 210, 220) else frozenset()
 
     def state(self):

@@ -226,7 +226,9 @@ class Masks(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the error rate of the box, and the ratio of its time to that of the exact pixels."""
+        """Return a sentence with the error rate of the box, and the time of the box divided by the time of the exact
+        pixels.
+        """
         box, exact = self.figures.get("aabb"), self.figures.get("mask")
         if box is None or exact is None:
             return f"not yet: {POSES:,} poses of the two planes have to be tested beside the game"
@@ -251,7 +253,7 @@ class Masks(Scene):
 
 
 def share_a_pixel(masks, poses):
-    """Return whether two rotated masks share a solid pixel.
+    """Return whether two masks, placed at poses (x, y, angle), share a solid pixel.
 
     This is the slow reference: it draws both on one pixel grid and searches for a pixel that is solid in both.
     """

@@ -86,7 +86,7 @@ class OneWay(Scene):
     legend_at = (8, 28)
 
     def build(self):
-        """Build level, lift, riders and the hero; bodies are thrown with time."""
+        """Build level, lift, riders and the hero; bodies are thrown over time."""
         self.add_world()
         self.backdrop = Backdrop()
         self.tiles, self.things, self.heroes = load_atlas("tiles"), load_atlas("things"), load_atlas("hero")
@@ -118,7 +118,9 @@ class OneWay(Scene):
         self.disturbed = False  # a rider was dragged
 
     def change_slider(self, name, value):
-        """Change the lift's swing; its riders settle again."""
+        """Apply a change of a slider. If the lift's swing has changed, its riders settle again before their slip is
+        measured.
+        """
         super().change_slider(name, value)
         if name == "lift":
             self.offsets = None
@@ -314,7 +316,7 @@ class OneWay(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        Both kinds come through from below, both land, and the lift loses neither.
+        Bodies and hero both pass through planks from below, both land on planks, and both stay on the lift.
         """
         return [
             Goal("bodies come through from below", 600, self.passed["body"] >= 6, f"{self.passed['body']} times"),
@@ -364,7 +366,7 @@ class OneWay(Scene):
 
 
 def level(effects):
-    """Return the floor, the walls beside it, and the planks, which need the effect one_way."""
+    """Return a TileGrid with the floor, the walls beside it, and, if `effects` has one_way, the planks."""
     solid = [[row >= FLOOR for _ in range(COLUMNS)] for row in range(ROWS)]
     one_way = [[False] * COLUMNS for _ in range(ROWS)]
     for row, first, last in PLANKS.values() if effects.one_way else ():

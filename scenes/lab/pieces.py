@@ -28,7 +28,9 @@ RAMPS = {
 
 @lru_cache(maxsize=128)
 def turning(shape, ramp):
-    """Return the cached picture of a shape, a RotatedPicture, which draws it at any angle about the shape's origin."""
+    """Return the cached picture of a shape in the colours of `ramp`, a RotatedPicture, which draws it at any angle
+    about the shape's origin.
+    """
     return RotatedPicture(piece(shape, ramp))
 
 
@@ -87,7 +89,9 @@ def placed(shape, zoom, pose):
 
 
 def signed_distance(points, radius, x, y):
-    """Return the distance [px] from (x, y) to the edge of a rounded hull, negative inside; NumPy arrays or numbers."""
+    """Return the distance [px] from (x, y) to the edge of a hull with corners `points`, rounded by `radius`; negative
+    inside. x, y: numbers or arrays.
+    """
     x, y = np.asarray(x, float), np.asarray(y, float)
     nearest = np.full(x.shape, np.inf)
     inside = np.full(x.shape, len(points) > 2)

@@ -138,7 +138,8 @@ class Pyramid(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        They are: this pyramid under every solver and number of substeps, from its start: time of a step, and errors.
+        A run is a step of this pyramid from its start, under one solver and number of substeps. Its time and its errors
+        are measured.
         """
         names = [self._run_name(solver, substeps) for substeps in SUBSTEPS for solver in SOLVERS]
         return RunRequest(
@@ -156,7 +157,9 @@ class Pyramid(Scene):
         return MeasuredRun([world.snapshot()], self.broadphase, judged=(JUDGED_AT - 60, JUDGED_AT))
 
     def dots(self):
-        """Return {run: Dot} of this pyramid, as far as measured: microseconds and thousandths of a crate."""
+        """Return {run: Dot} of the measured runs of this pyramid, with costs in microseconds and errors in thousandths
+        of a crate.
+        """
         found = {}
         for name, figures in self.figures.items():
             rows, solver, substeps, broadphase = name
@@ -167,7 +170,9 @@ class Pyramid(Scene):
         return found
 
     def finding(self):
-        """Return cost and error of the current setting, and the cheapest setting of the same accuracy."""
+        """Return a sentence with the cost and error of the current setting, and with the cheapest setting of the same
+        accuracy.
+        """
         dots = self.dots()
         if self.run_name not in dots:
             return "not yet: this pyramid has to be stepped beside the game"
@@ -187,7 +192,7 @@ class Pyramid(Scene):
 
     @property
     def offer(self):
-        """Text that offers a new run once the top is down; "" otherwise."""
+        """Text that offers a new run once the top crate has fallen; "" otherwise."""
         down = self.top.position[1] - self._built_at()[1] > SIZE
         return "piles them up again" if down else ""
 
@@ -196,7 +201,7 @@ class Pyramid(Scene):
         return 0.0, -(int(self.values["rows"]) - 0.5) * SIZE
 
     def _drop(self):
-        """Throw a new ball from the upper left; the last one is removed."""
+        """Throw a new ball from the upper left; the previous ball is removed."""
         if self.thrown is not None:
             self.world.remove_body(self.thrown)
         radius = BALL / self.camera.zoom
@@ -257,7 +262,7 @@ class Pyramid(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        It stood without creep, sag or gain of energy; the ball then knocks it down.
+        The pyramid stands without creep, sag or gain of energy; then the ball knocks it down.
         """
         rows = int(self.values["rows"])
         sunk = abs(self.still[1] + (rows - 0.5) * SIZE) / SIZE if self.still else 1.0
@@ -293,7 +298,7 @@ class Pyramid(Scene):
         ]
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: watch it stand, then drop the ball."""
+        """Return the bot's input for the next step. Its plan: watch the pyramid stand, then drop the ball."""
         return InputFrame(frozenset(("fire",)) if self.frame == DROP_AT else frozenset())
 
     def state(self):

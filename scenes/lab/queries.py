@@ -196,7 +196,7 @@ class Queries(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        They are: this kind of query at two hundred places of the picture, by each strategy.
+        A run makes the current kind of query at two hundred places of the picture, with one broad phase.
         """
         made = []  # one snapshot for all unknown ones
 
@@ -332,7 +332,8 @@ class Queries(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        The same answers from all, to every query; and three visit less than brute force.
+        All four broad phases give the same answers to every query, and three of them visit fewer boxes and nodes than
+        brute force.
         """
         cheaper = all(self.looked[name] < self.looked["brute"] for name in STRATEGIES[:-1])
         return [

@@ -32,7 +32,9 @@ def ask(world, query, origin, target, size):
 
 
 def asking(world, query, origin, area, size):
-    """Return a function that runs the query once per call, each time elsewhere in `area` (width, height) [px]."""
+    """Return a function that runs the query once per call. Rays and casts start at `origin`; the target is elsewhere in
+    `area` (width, height) [px] each time.
+    """
     numbers = count()
 
     def ask_the_next():
@@ -43,7 +45,9 @@ def asking(world, query, origin, area, size):
 
 
 def rows_of(found):
-    """Return results as rows (body id, x, y, normal x, normal y, fraction or distance); missing values are 0."""
+    """Return the results of ask() as rows (body id, x, y, normal x, normal y, fraction or distance); missing values are
+    0.
+    """
     rows = []
     for each in found:
         if each is None:
@@ -59,6 +63,6 @@ def rows_of(found):
 
 
 def angle_of(origin, target):
-    """Return the angle [rad] of the line from `origin` to `target`, at which the box of overlap queries lies."""
+    """Return the angle [rad] of the line from `origin` to `target`. Overlap queries rotate their box by this angle."""
     dx, dy = target[0] - origin[0], target[1] - origin[1]
     return atan2(dy, dx) if hypot(dx, dy) > 0.0 else 0.0

@@ -63,7 +63,7 @@ def _spans(dots):
 
 
 def _place(plot, dots):
-    """Return {key of a dot: its place (x, y) in the frame}."""
+    """Return {key of a dot: its place (x, y) in the frame}. plot: the frame rect between the axes."""
     (left, right), (low, high) = _spans(dots)
     places = {}
     for key, dot in dots.items():
@@ -74,7 +74,9 @@ def _place(plot, dots):
 
 
 def _draw_scale(frame, plot, dots, scale):
-    """Draw grid lines at the powers of ten of the error, and label both ends of the cost axis."""
+    """Draw grid lines at the powers of ten of the error, and label both ends of the cost axis. plot: the frame rect
+    between the axes.
+    """
     (left, right), (low, high) = _spans(dots)
     for power in range(ceil(low), floor(high) + 1):
         y = plot.bottom - plot.height * (power - low) / (high - low)

@@ -167,7 +167,11 @@ class Sensors(Scene):
                     self.play("blip", 60.0, 0.12)
 
     def _compare(self, before, after):
-        """Compute by geometry which bodies met which zones in this step. After a crossing, compare with the events."""
+        """Compute by geometry which bodies met which zones in this step. After each crossing, compare with the sensor
+        events.
+
+        `before`, `after`: {body id: position} at the start and at the end of the step.
+        """
         for name, zone in self.zones.items():
             half = np.array(ZONES[name][0]) / 2.0
             for identity in [*self.flying, *self.mines]:
@@ -307,7 +311,9 @@ class Sensors(Scene):
         canvas.text(f"{self.unpaired}", 474, y, GREEN if self.unpaired == 0 else RED, SMALL, align="right")
 
     def check(self):
-        """Return the goals of the self-check: every entry is reported once, with one exit, and none is false."""
+        """Return the goals of the self-check: every entry is reported once, with one exit, and no false entry is
+        reported.
+        """
         missed, false = sum(self.missed.values()), sum(self.false.values())
         balance = all(
             self.entered[name] - self.left[name] == sum(1 for zone, _ in self.inside if zone == name) for name in ZONES
@@ -344,7 +350,9 @@ class Sensors(Scene):
         return f"{sentence}, with {self.fastest:.0f} px in a step through zones down to 1 px"
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: watch, and make both faster."""
+        """Return the bot's input for the next step. Its plan: watch, then raise the speeds of the saucers and of the
+        scanner.
+        """
         faster = 200 <= self.frame < 250 and self.frame % 4 == 0
         tap = "right" if faster else "up" if self.frame in (320, 330) else ""
         return InputFrame(frozenset((tap,))) if tap else frozenset()
@@ -364,9 +372,10 @@ class Sensors(Scene):
 
 
 def least_gap(start, end, zone_start, zone_end, half):
-    """Return the least distance [px] between a point and a box while both move on straight lines from start to end.
+    """Return the least distance [px] between a point and a box, while both move on straight lines in the step.
 
-    The motion is sampled finely. `half`: half width and half height of the box [px].
+    `start`, `end`: places of the point; `zone_start`, `zone_end`: places of the box's middle; `half`: half its width
+    and half its height [px]. The motion is sampled finely.
     """
     x = np.array([start[0] - zone_start[0], end[0] - zone_end[0]])
     y = np.array([start[1] - zone_start[1], end[1] - zone_end[1]])

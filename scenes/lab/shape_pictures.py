@@ -16,7 +16,10 @@ MARGIN = 12  # [canvas px] around the picture of the differences
 
 
 def draw_shadows(frame, lens, placed, axes, colors):
-    """Draw the tested axes as short strokes on their edges, and both projections on a ruler along the best axis."""
+    """Draw the tested axes as short strokes on their edges, and both projections on a ruler along the best axis.
+
+    `placed`: (corners, radius) of both shapes; `axes`: AXIS rows, the best first; `colors`: of both shapes.
+    """
     for row in axes[::-1]:
         points, radius = placed[int(row["owner"])]
         edge = int(row["edge"])
@@ -125,7 +128,7 @@ def placed_hull(shape, pose):
 
 
 def difference(a, b):
-    """Return the corners of the Minkowski difference of two point sets, clockwise on the screen (monotone chain)."""
+    """Return the corners of the Minkowski difference A - B of two point sets, clockwise on the screen."""
     points = sorted({(round(ax - bx, 9), round(ay - by, 9)) for ax, ay in a for bx, by in b})
     if len(points) < 3:
         return [list(point) for point in points]

@@ -156,7 +156,7 @@ class Shapes(Scene):
         self.steps = gjk_steps(a, pose_a, b, pose_b)
 
     def _compare(self):
-        """Compare three methods in both orders: overlap, distance, depth."""
+        """Compare overlap, distance and depth of the two shapes by three methods, in both orders of the shapes."""
         a, b = self.shapes
         pose_a, pose_b = (tuple(pose) for pose in self.hands.poses)
         gap, other = self.gap, distance(b, pose_b, a, pose_a)
@@ -176,7 +176,7 @@ class Shapes(Scene):
         self.worst["axis"] = max(self.worst["axis"], abs(float(self.axes[0]["separation"]) - gap.distance))
 
     def draw(self, canvas, alpha):
-        """Draw grounds, icons and numbers; the geometry is drawn at window resolution."""
+        """Draw the backgrounds, icons and numbers; the geometry is drawn at window resolution."""
         canvas.surface.fill(NIGHT)
         canvas.text("SHAPES", 4, 4, GOLD)
         canvas.text("distance, depth and how they are found", 302, 6, FOG, SMALL, align="right")

@@ -24,11 +24,12 @@ SAMPLE = 0.1  # [px] between two samples of the slow reference for rods
 
 
 def aim(kind, speed, plate, random):
-    """Choose a shot at random. Return (shots, gap).
+    """Choose a shot of a kind at random. Return (shots, gap). `speed`: of the shot [px/s]; `plate`: width of the plate
+    [px].
 
-    `shots`: list of (shape, place, velocity, angle, spin), two for bullets that meet. The start varies by the path of a
-    step, so that impacts occur at any time of a step. `gap`: least distance from the target by geometry [px], negative
-    if they must meet.
+    `shots`: list of (shape, place, velocity, angle, spin), two for bullets that fly at each other. The start varies by
+    the path of a step, so that impacts occur at any time of a step. `gap`: least distance of the shot from its target
+    by geometry [px], negative if they must meet.
     """
     start = GUN_X + random.uniform(0.0, speed / 60)
     if kind == "balls":
@@ -52,7 +53,9 @@ def _aside(kind, random):
 
 
 def shoot(world, shots, kind, lane, middle=0.0):
-    """Add shots to a world. Return their bodies. `lane`: their `continuous` mode; `middle`: y of the lane [px]."""
+    """Add shots of a kind to a world. Return their bodies. `lane`: their `continuous` mode; `middle`: y of the lane
+    [px].
+    """
     return [
         world.add_body(
             shape,
@@ -73,12 +76,15 @@ def raise_plate(world, width, middle=0.0):
 
 
 def steps_of_flight(speed):
-    """Return how many steps of 1/60 s a shot flies from the gun to the end of a lane."""
+    """Return how many steps of 1/60 s a shot of `speed` [px/s] flies from the gun to the end of a lane."""
     return ceil(60.0 * (END_X - GUN_X) / speed)
 
 
 def flights(world, kind, lane, speed, plate, count, random):
-    """Return a list of `count` snapshots, each of a world with the plate and one random shot that leaves the gun."""
+    """Return a list of `count` snapshots, each of a world with the plate and one random shot that leaves the gun.
+
+    kind, speed, plate, random: as for aim(); lane: as for shoot().
+    """
     if kind != "bullets":
         raise_plate(world, plate)
     found = []
@@ -90,7 +96,11 @@ def flights(world, kind, lane, speed, plate, count, random):
 
 
 def rod_gap(start, offset, speed, angle, spin, plate):
-    """Return the least distance of a flying, spinning rod from the plate [px], negative if they meet, by geometry."""
+    """Return the least distance of a flying, spinning rod from the plate by geometry [px], negative if they meet.
+
+    (start, offset): first place of its middle; speed [px/s], angle [rad] and spin [rad/s] of the rod; plate: width of
+    the plate [px].
+    """
     reach = ROD_HALF + ROD_RADIUS + plate
     first, last = max((PLATE_X - reach - start) / speed, 0.0), (PLATE_X + reach - start) / speed
     count = int((last - first) * (speed + abs(spin) * ROD_HALF) / SAMPLE) + 2

@@ -187,7 +187,8 @@ class Sleeping(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        They are: a step of these heaps while all sleep, and of the same heaps in a world without sleeping.
+        There are two: a step of these heaps while all bodies sleep, and a step of the same heaps in a world without
+        sleeping.
         """
         if self.awake or not self.asleep or self.thrown:
             return None
@@ -255,7 +256,7 @@ class Sleeping(Scene):
         self._draw_figures(canvas)
 
     def _draw_aim(self, surface):
-        """Draw the start of the balls, and the next one's path."""
+        """Draw the point from which the balls start, and the path of the next ball."""
         (x, y), (to_x, to_y) = (
             self.camera.to_canvas(*place) for place in (MOUTH, (self.aim, -self.values["high"] * 0.8 * METER))
         )
@@ -300,7 +301,7 @@ class Sleeping(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        All fall asleep and cost nothing; a knock wakes one island first, then others; then all sleep again.
+        All bodies fall asleep and cost nothing; a knock wakes first one island, then others; at last all sleep again.
         """
         woken = sum(count for _, count in self.waves)
         slept = f"after {self.slept_at} steps" if self.slept_at >= 0 else f"{self.awake} awake"
@@ -318,8 +319,8 @@ class Sleeping(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the cost of sleeping against that of being awake, and the number of islands that a
-        knock woke.
+        """Return a sentence with the cost of a step with and without sleep, and with the number of islands that a knock
+        woke.
         """
         parts = [f"{self.awake} of {self.awake + self.asleep} bodies are awake"]
         awake, asleep = (cost_of(self, self._run_name(how)) for how in SLEPT)
@@ -361,7 +362,7 @@ class Sleeping(Scene):
 
 @lru_cache(maxsize=64)
 def dimmed(shape, ramp):
-    """Return the picture of a sleeping shape."""
+    """Return the picture of a sleeping shape, in dimmed colours of `ramp`."""
     image = piece(shape, ramp)
     image.fill((*DIM, 255), special_flags=pygame.BLEND_RGBA_MULT)
     return RotatedPicture(image)

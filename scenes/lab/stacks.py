@@ -199,7 +199,7 @@ class Stacks(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        Warm started impulses hold the column, even after a nudge; projection does not.
+        With warm starting the column stands, even after a nudge; with projection it does not.
         """
         pushed, kept, soft = SOLVERS
         tall = self.values["crates"] * SIZE

@@ -15,7 +15,7 @@ GOLDEN = 0.6180339887498949  # its multiples, modulo 1, are never near one anoth
 
 
 class Tool:
-    """The tool in use. `name`: one of TOOLS; `radius` [px]. cut() returns the shape to carve from step to step."""
+    """The tool in use. `name`: one of TOOLS; `radius` [px]. cut() returns the shape to carve in each step."""
 
     def __init__(self):
         self.name, self.radius = TOOLS[0], 0
@@ -75,7 +75,7 @@ class Tool:
 def carving(world, name, radius, ground, crumb):
     """Return a function that carves the body `ground` once per call, each time at another solid pixel.
 
-    `name`, `radius`: the tool. Successive places are far apart.
+    `name`, `radius`: the tool; `crumb`: as for Body.carve. Successive places are far apart.
     """
     tool = Tool()
     tool.choose(name, radius)

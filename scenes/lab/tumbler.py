@@ -46,7 +46,9 @@ STEEL = ((58, 60, 82), (92, 96, 124), (138, 144, 172), (190, 196, 216))
 
 
 def ring(count, size, start):
-    """Return the corners of a regular polygon that fills size x size about its middle."""
+    """Return the corners of a regular polygon with `count` corners that fills size x size about its middle. start:
+    angle of the first corner [rad].
+    """
     angles = start + np.arange(count) * 2 * pi / count
     return [(size / 2 * cos(a), size / 2 * sin(a)) for a in angles]
 
@@ -146,7 +148,8 @@ class Tumbler(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        They are: a step of this drum once the load has settled, with the current number of substeps and another.
+        There are two: a step of this drum once the load has settled, with the current number of substeps and with
+        another number.
         """
         return RunRequest(list(self.ways().values()), self._make) if self.since > SETTLED else None
 
@@ -208,7 +211,9 @@ class Tumbler(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the number of shapes out after so many turns, and the overlap in the load."""
+        """Return a sentence with the number of shapes that got out, the turns of the drum so far, and the overlap in
+        the load.
+        """
         if self.since < SETTLED + 60:
             return "not yet: the load has to settle for two seconds, and to be looked at for one"
         turns = abs(self.drum.angle) / (2 * pi)
@@ -252,7 +257,7 @@ def drum_boxes():
 
 
 def radial(distance, angle):
-    """Return the point at a distance from the drum's middle in a direction."""
+    """Return the point (x, y) at a distance from the drum's middle in the direction `angle` [rad]."""
     return distance * cos(angle), distance * sin(angle)
 
 

@@ -61,7 +61,7 @@ COUNT_X = 392
 
 
 class Tunnelling(Scene):
-    """One world, four lanes, one gun and one plate in each, or two guns."""
+    """One world with four lanes. In each lane, a gun fires at a plate, or two guns fire at each other."""
 
     name = "lab/tunnelling"
     title = "Tunnelling"
@@ -161,7 +161,8 @@ class Tunnelling(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        They are: a step of each lane, with one shot in it from the gun to the end, over as many shots as make 60 steps.
+        A run is one lane, with one shot at a time from the gun to the end of the lane, over as many shots as make 60
+        steps.
         """
         speed, plate = float(self.values["speed"]), float(self.values["plate"])
         steps = steps_of_flight(speed)
@@ -218,7 +219,7 @@ class Tunnelling(Scene):
                 self._end(trial)
 
     def draw(self, canvas, alpha):
-        """Draw lanes, plates, shots at every step they made, and the counts."""
+        """Draw the lanes, the plates, each shot at its positions after every step so far, and the counts."""
         canvas.surface.fill(NIGHT)
         canvas.text("TUNNELLING", 4, 4, GOLD)
         step = self.values["speed"] / 60
@@ -294,7 +295,7 @@ class Tunnelling(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        The time of impact misses nothing; each other lane has the misses of its method.
+        The lane with times of impact misses nothing; each other lane has the misses that its method must have.
         """
         missed, due = self.missed, self.due
         made_up = sum(count for (kind, lane), count in self.false.items() if kind != "rods" or lane == "toi")
@@ -352,7 +353,7 @@ class Tunnelling(Scene):
         return f"{kind}: {', '.join(parts)}"
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: watch balls, rods and bullets; make it faster once."""
+        """Return the bot's input for the next step. Its plan: watch balls, rods and bullets; raise the speed once."""
         tap = {100: "right", 220: "fire", 420: "fire"}.get(self.frame)
         return InputFrame(frozenset((tap,)) if tap else frozenset())
 

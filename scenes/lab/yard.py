@@ -25,7 +25,7 @@ class Yard:
         self.picture = canvas.surface
 
     def draw(self, canvas, title, question):
-        """Draw the background and the head line."""
+        """Draw the background, and the head line with the title and the question."""
         canvas.surface.blit(self.picture, (0, 0))
         draw_head(canvas, title, question)
 
@@ -38,13 +38,13 @@ def draw_head(canvas, title, question):
 
 
 def plate(canvas, rect, ground=(20, 16, 32, 205)):
-    """Draw a dark transparent plate for text, on which overlays are not drawn."""
+    """Draw a dark transparent plate of the colour `ground` for text; overlays do not cover it."""
     darken(canvas, rect, ground)
     canvas.fix(rect)
 
 
 def darken(canvas, rect, ground=(20, 16, 32, 205)):
-    """Darken a rectangle of the canvas with a transparent colour."""
+    """Darken a rectangle of the canvas with the transparent colour `ground`."""
     shade = pygame.Surface(pygame.Rect(rect).size, pygame.SRCALPHA)
     shade.fill(ground)
     canvas.surface.blit(shade, rect[:2])

@@ -44,13 +44,18 @@ class Backdrop:
                 surface.fill(color, (0, foot, CANVAS_SIZE[0], CANVAS_SIZE[1] - foot))
 
     def _draw_clouds(self, surface, look, left, share):
-        """Draw banks of cloud, moved by the wind. `share`: how far they have come down for the storm, 0..1."""
+        """Draw banks of cloud, moved by the wind, for a view whose left edge is at x = left. `look`: Spectacle.
+
+        `share`: how far the clouds have come down for the storm, 0..1.
+        """
         for along, carried, low in CLOUDS:
             y = whole(low * share - self.clouds.get_height() * (1.0 - share))
             tile_along(surface, self.clouds, left * along - look.gusted * carried - look.time * 7.0, y)
 
     def draw_snow(self, surface, layer, look, wind, left, top):
-        """Draw one layer of snow: more with strong wind [px/s], less in a cave. `look`: Spectacle."""
+        """Draw one layer of snow for a view whose top left corner is (left, top): more with strong wind [px/s], less in
+        a cave. `look`: Spectacle.
+        """
         share, carried, fall, color, thick = SNOW[layer]
         across, down, speed = self.flakes[layer]
         shown = whole(FLAKES * (1.0 - look.shelter) * (0.45 + min(abs(wind) / 160.0, 0.55)))

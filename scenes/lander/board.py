@@ -80,7 +80,7 @@ def _draw_ships(canvas, scene):
 
 
 def _draw_site(canvas, scene, view):
-    """Draw the site's name and distance at the top, and an arrow to the site at the edge while it is out of view."""
+    """Draw the site's name and distance at the top. While the site is out of view, draw an arrow to it at the edge."""
     course, ship = scene.course, scene.ship
     if course.over or scene.spectacle.act_since < NEWS:
         if not course.over:

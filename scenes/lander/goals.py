@@ -1,4 +1,4 @@
-"""Goals that the bot must reach, with deadlines. They are part of the scene's self-check."""
+"""Goals that the bot must reach, with deadlines, for the scene's self-check."""
 
 from game.scene import Goal
 from scenes.lander.course import WON

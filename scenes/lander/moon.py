@@ -1,6 +1,6 @@
 """The moon as it is at the start: pictures, pads, winds, places of cargo and rocks, and the bot's path.
 
-It is constant; changes during a game belong to other objects.
+The Moon is constant; changes during a game are kept in other objects.
 """
 
 from dataclasses import dataclass
@@ -58,8 +58,9 @@ class Waypoint:
 
 
 class Moon:
-    """The moon. `mask`: the ground as one PixelMask, at the world's origin; `solid`: its pixels; `massif`: pixels of
-    the mountain, with its caves. Both are bool arrays [row, column].
+    """The moon. `mask`: the ground as one PixelMask, at the world's origin; `solid`: pixels of the ground.
+
+    `massif`: pixels of the mountain, its caves included. `solid` and `massif` are bool arrays [row, column].
     """
 
     def __init__(self):

@@ -1,4 +1,5 @@
-"""The lander's bot. It flies from waypoint to waypoint: a wanted velocity gives the thrust, and that the ship's angle.
+"""The lander's bot. It flies from waypoint to waypoint. The thrust follows from a wanted velocity, and the ship's angle
+from the thrust.
 
 The engine has no throttle: it is on whenever at least half of its thrust is needed. If ice blocks the path, the bot
 hovers, turns the ship's nose to the ice, and fires until the ship fits through.

@@ -18,7 +18,7 @@ class Piece:
 
 
 class Rubble:
-    """All rubble. `pieces`: Piece by body id. It begins with the loose rocks; explosions add pieces."""
+    """All rubble. `pieces`: Piece by body id: first the loose rocks; explosions add pieces of ground and of rocks."""
 
     def __init__(self, world):
         self.world = world

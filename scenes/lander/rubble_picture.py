@@ -36,7 +36,9 @@ class RubblePictures:
         surface.blit(image, (whole(x + c * u - s * v - width / 2), whole(y + s * u + c * v - height / 2)))
 
     def _cut_out(self, piece, mask):
-        """Return the picture of a piece's pixels, dark along the fracture and lit where the fracture faces up."""
+        """Return the picture of a piece's pixels, which `mask` holds: dark along the fracture, and lit where the
+        fracture faces up.
+        """
         width, height = mask.size
         source = self.moon.picture if piece.look == "ground" else load_atlas("lander")[piece.look]
         wide = pygame.Surface((width + 2, height + 2), pygame.SRCALPHA)

@@ -20,7 +20,7 @@ from scenes.lander.yard import Yard
 
 
 class Lander(Scene):
-    """The lander. Knocks of the ship and of the cargo are impulses of the solver."""
+    """The lander. Damage to the ship and to the cargo follows from the contact impulses of the solver."""
 
     name = "lander"
     title = "Lander"
@@ -145,7 +145,9 @@ class Lander(Scene):
             self._crash()
 
     def _knocks(self, hits):
-        """Process the impacts of a step on ship, cargo and rocks. Impulse / mass is the change of velocity [px/s]."""
+        """Process the impacts of a step on ship, cargo and rocks. hits: the step's hit events. Impulse / mass is the
+        change of velocity [px/s].
+        """
         columns = (hits[name].tolist() for name in ("body_a", "body_b", "point_x", "point_y", "normal_impulse"))
         for a, b, x, y, impulse in zip(*columns, strict=True):
             for identity in (a, b):

@@ -21,7 +21,8 @@ class Score:
     def land(self, number, speed, off, fuel, hull):
         """Count a landing and add its points. Return a list of (reason, points).
 
-        `number`: 1 for the first site; `speed`: at touchdown [px/s]; `off`: distance from the pad's middle [px].
+        `number`: 1 for the first site; `speed`: at touchdown [px/s]; `off`: distance from the pad's middle [px];
+        `fuel`, `hull`: what the ship has left.
         """
         self.landings += 1
         self.softest = min(self.softest, speed)
@@ -37,14 +38,14 @@ class Score:
         return found
 
     def deliver(self, whole):
-        """Count a delivered piece of cargo and add its points. Return them. `whole`: its condition, 0..100."""
+        """Count a delivered piece of cargo and add its points. Return these points. `whole`: its condition, 0..100."""
         self.delivered += 1
         worth = rounded(DELIVERY * (0.25 + 0.75 * whole / 100.0))
         self.points += worth
         return worth
 
     def take_can(self):
-        """Count a can of fuel and add its points. Return them."""
+        """Count a can of fuel and add its points. Return these points."""
         self.cans += 1
         self.points += CAN_WORTH
         return CAN_WORTH

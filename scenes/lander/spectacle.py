@@ -56,7 +56,10 @@ class Spectacle:
         self.works.step(dt)
 
     def _engine(self, ship):
-        """Emit the engine's fire, and dust from ground that the exhaust reaches. Measure the height above ground."""
+        """Measure the ship's height above ground.
+
+        Emit the engine's fire, and dust from ground that the exhaust reaches.
+        """
         scene = self.scene
         x, y = ship.nose
         self.height = scene.ground.clear_way(ship.x, ship.y + 17.0, 0.0, 1.0, WARN_HEIGHT)
@@ -100,7 +103,7 @@ class Spectacle:
                 )
 
     def _jet(self, ship, side):
-        """Emit a puff of the small jet on one `side` (-1, 1) that turns the ship."""
+        """Emit a puff of one of the small jets that turn the ship. `side`: -1 left, 1 right."""
         across, down = cos(ship.angle), sin(ship.angle)
         self.scene.particles.burst(
             ship.x + 9 * side * across + 6 * down,
@@ -140,7 +143,7 @@ class Spectacle:
         self.act_since = 0
 
     def landed(self, pad, last):
-        """Show a landing at a site."""
+        """Show a landing on a pad. `last`: whether it is the last site."""
         scene = self.scene
         self.pulse = 1.0
         for share in (-0.45, -0.2, 0.2, 0.45):
@@ -206,7 +209,7 @@ class Spectacle:
             self.works.word(f"CARGO {piece.whole:.0f}%", piece.body.center.x, piece.body.center.y - 16, TINT["bad"])
 
     def rock_knocked(self, x, y, impulse):
-        """Show an impact of a rock or of a piece of ground at (x, y) [px]."""
+        """Show an impact of a rock or of a piece of ground at (x, y) [px], in proportion to its impulse."""
         strength = min(impulse / 30000.0, 1.0)
         if strength > 0.05:
             self.scene.particles.burst(

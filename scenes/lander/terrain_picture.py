@@ -1,7 +1,7 @@
 """The picture of the ground: rock, the wall behind it, and the edges of craters. It is drawn in cached tiles.
 
-A tile is drawn from its current pixels alone, so it is also right after a restart or a rewind. Beside carved pixels the
-rock is scorched, and its edge is light or dark like the painted edges.
+A tile is drawn from its current pixels alone, so its picture is right after a restart or a rewind, too. Beside carved
+pixels the rock is scorched, and its edge is light or dark like the painted edges.
 """
 
 import numpy as np
@@ -38,7 +38,9 @@ class TerrainPicture:
         blit_many(surface, pairs)
 
     def tile(self, ground, column, row):
-        """Return the picture of a tile with its current pixels, or None if the tile is empty."""
+        """Return the picture of the tile (column, row) with its current pixels in `ground`, or None if the tile is
+        empty.
+        """
         around = ground.around(column, row, BORDER)
         version = None if around is None else around.tobytes()
         kept = self.kept.get((column, row))
@@ -63,9 +65,10 @@ class TerrainPicture:
         return out.convert() if covered == TILE * TILE and pygame.display.get_surface() else out
 
     def _holed(self, rock, column, row, around):
-        """Return the picture of the remaining rock of a tile, scorched and lit along the edges of craters.
+        """Return the picture of the remaining rock of the tile (column, row), scorched and lit along the edges of
+        craters.
 
-        `around`: remaining pixels of the tile and BORDER px around it.
+        `rock`: picture of the whole tile; `around`: remaining pixels of the tile and BORDER px around it.
         """
         before = padded(self.moon.solid, column, row)
         hole = before & ~around
@@ -95,7 +98,9 @@ class TerrainPicture:
 
 
 def padded(solid, column, row):
-    """Return the pixels of a tile and BORDER px around it. Beyond the moon's edge, the edge pixels are repeated."""
+    """Return the pixels of `solid` in the tile (column, row) and BORDER px around it. Beyond the moon's edge, the edge
+    pixels are repeated.
+    """
     rows = np.clip(np.arange(row * TILE - BORDER, (row + 1) * TILE + BORDER), 0, solid.shape[0] - 1)
     columns = np.clip(np.arange(column * TILE - BORDER, (column + 1) * TILE + BORDER), 0, solid.shape[1] - 1)
     return solid[np.ix_(rows, columns)]

@@ -83,7 +83,7 @@ class View:
         return -margin < x - self.left < CANVAS_SIZE[0] + margin and -margin < y - self.top < CANVAS_SIZE[1] + margin
 
     def centred(self, image, x, y, flags=0):
-        """Draw a picture centred on the world point (x, y)."""
+        """Draw a picture centred on the world point (x, y). flags: pygame's blend flags."""
         width, height = image.get_size()
         self.surface.blit(
             image, (whole(x - width / 2) - self.left, whole(y - height / 2) - self.top), special_flags=flags
@@ -165,7 +165,9 @@ class View:
         self.centred(self.atlas["hook"], load_x, load_y)
 
     def _mark_reach(self, scene, x, y):
-        """Draw a mark above each piece of cargo near the ship at (x, y); it is green if the line can reach it."""
+        """Draw a mark above each piece of cargo near the ship at (x, y). The mark is green if the line can reach the
+        cargo.
+        """
         near = [
             (place[0], place[1])
             for place in (self.pose(scene, identity) for identity in scene.yard.cargo)

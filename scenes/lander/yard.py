@@ -44,8 +44,9 @@ class Cargo:
 
 
 class Yard:
-    """The objects on the moon. `cargo`, `cans`: by body id; `rubble`: loose rocks and pieces; `pads`, `zones`: the Pad
-    by the body id of its deck, and of the sensor on it.
+    """The objects on the moon. `cargo`, `cans`: dictionaries by body id; `rubble`: loose rocks and pieces of ground.
+
+    `pads`: {body id of a pad's deck: Pad}; `zones`: {body id of the sensor above a pad's deck: Pad}.
     """
 
     def __init__(self, world, moon):
@@ -105,7 +106,9 @@ class Yard:
         return [*(piece.body for piece in self.cargo.values()), *self.rubble.bodies()]
 
     def meet(self, begun, ended):
-        """Update which cargo is above a pad, from the sensor events of the step (begin, end)."""
+        """Update the pad below each piece of cargo (`over`), from the sensor events of the step. `begun`, `ended`:
+        begin and end events.
+        """
         for events, came in ((ended, False), (begun, True)):
             for pair in zip(events["body_a"].tolist(), events["body_b"].tolist(), strict=True):
                 for piece, zone in (pair, pair[::-1]):
@@ -113,7 +116,8 @@ class Yard:
                         self.cargo[piece].over = self.zones[zone] if came else None
 
     def delivered(self, held):
-        """Return the ids of the cargo that is delivered in this step: it has been at rest on a pad for long enough.
+        """Return the ids of the cargo that is delivered in this step, because it has now been at rest on a pad for long
+        enough.
 
         `held`: body id of the line's load, which does not count; -1: none.
         """

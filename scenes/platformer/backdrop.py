@@ -43,7 +43,9 @@ class Backdrops:
         self.scratch = pygame.Surface(CANVAS_SIZE)
 
     def draw(self, surface, look, left, top):
-        """Draw the background for a view whose top left corner is the world point (left, top)."""
+        """Draw the background for a view whose top left corner is the world point (left, top). `look`: Look, with the
+        act and its age.
+        """
         share = min(look.act_age / FADE, 1.0)
         if share < 1.0 and look.last_act != look.act:
             self._draw_act(surface, look.last_act, look.time, left, top)

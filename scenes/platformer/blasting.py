@@ -92,9 +92,9 @@ class Bomb:
         self._begin(THROWN)
 
     def step(self, lowest):
-        """Advance the bomb by one step. Below the y `lowest` [px] it bursts at once.
+        """Advance the bomb by one step. A bomb below the y `lowest` [px] explodes at once.
 
-        Return "burst" when it explodes, "back" when a new bomb appears at the stand, else None.
+        Return "burst" when the bomb explodes, "back" when a new bomb appears at the stand, else None.
         """
         self.count += 1
         if self.phase == THROWN and self.body is not None:
@@ -123,7 +123,7 @@ class Bomb:
 
 
 def arc(place, way, speed, down):
-    """Yield the points [px] of the free flight of a bomb thrown from the hero's `place`, one for every third step.
+    """Yield points [px] of the free flight of a bomb thrown from the hero's `place`: one point for every third step.
 
     Obstacles are ignored. `way`: -1 or 1; `speed`: the hero's speed along x [px/s]; `down`: the bomb is laid down.
     """
@@ -201,7 +201,9 @@ class BlastWall:
         return Rubble(body, self, round(x - mask.origin[0]) - self.left, round(y - mask.origin[1]) - self.top)
 
     def _cracks(self, x, y):
-        """Return a mask of cracks, as large as the wall: they fan out from (x, y) [px], and others run across."""
+        """Return a mask of cracks, as large as the wall. Some cracks fan out from (x, y) [px]; others run across the
+        wall.
+        """
         random, (width, height) = self.world.random, self.size
         solid = np.zeros((height, width), bool)
         at = (min(max(x - self.left, 0.0), width), min(max(y - self.top, 0.0), height))

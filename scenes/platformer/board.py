@@ -98,7 +98,9 @@ def _empty(icon):
 
 
 def _draw_title(canvas, look):
-    """Draw the name of the act that the hero has entered; it slides in and fades out."""
+    """Draw the name of the act that the hero has entered; it slides in and fades out. `look`: Look, with the act and
+    its age.
+    """
     age = look.act_age
     if age >= TITLE_TIME:
         return
@@ -114,7 +116,9 @@ def _draw_title(canvas, look):
 
 
 def _draw_signs(canvas, scene):
-    """Draw the text of the sign that the hero stands at. It is at the bottom, where it never hides him."""
+    """Draw the text of the sign at which the hero stands. The text is at the bottom of the picture, where it never
+    hides him.
+    """
     x, y = scene.hero.character.position
     for sign in scene.level.map.things_of("sign"):
         if abs(x - sign.x - sign.width / 2) < SIGN_REACH[0] and abs(y - sign.y) < SIGN_REACH[1]:
@@ -133,7 +137,9 @@ def _draw_signs(canvas, scene):
 
 
 def _opened(scene):
-    """Return how far the iris wipe is open, 0..1. It closes at the end of a life and opens at the next."""
+    """Return how far the iris wipe is open, 0..1. The iris closes at the end of a life and opens at the start of the
+    next.
+    """
     if scene.phase == "won" or (scene.phase == "playing" and not scene.deaths):
         return 1.0  # the first life begins with the iris open: a replay may be frozen at its first frame
     left = scene.since if scene.phase == "playing" else scene.life_after - scene.since

@@ -39,6 +39,8 @@ class Bridge:
         return height is not None and abs(bottom - height) <= NEAR
 
     def holds(self, left, right, bottom, reach):
-        """Return whether feet at y = bottom, from x = left to right [px], are in the boards by at most `reach` px."""
+        """Return whether feet at y = bottom, from x = left to right [px], are in the boards, at most `reach` px below
+        their top.
+        """
         height = self.height(left, right)
         return height is not None and 0 < bottom - height <= reach

@@ -1,6 +1,6 @@
 """Particles of the platformer: dust, grit, sparks and confetti. They never influence the game rules.
 
-Every function takes the scene's Particles and a place in the world [px]. Speeds are in px/s, life times in s.
+Every function takes the scene's Particles and a place in the world [px]. Speeds are in px/s, lifetimes in s.
 """
 
 from math import pi
@@ -26,7 +26,7 @@ UP, DOWN = -pi / 2, pi / 2  # [rad] headings
 
 
 def dust(particles, x, y, count, speed):
-    """Emit dust that feet kick up from the ground."""
+    """Emit `count` particles of dust that feet kick up from the ground. speed: (low, high)."""
     particles.burst(x, y, count, DUST, speed=speed, life=(0.15, 0.4), angle=UP, spread=2.8, drag=3.0, gravity=40.0)
 
 

@@ -41,7 +41,7 @@ class Contents:
         self.coins_in_all, self.secrets_in_all = len(self.of("coin")), len(self.of("secret"))
 
     def _deck_under(self, one):
-        """Return the platform on which a crate or enemy starts, or None."""
+        """Return the platform on which `one`, a crate or an enemy, starts; None if it starts elsewhere."""
         x = one.home[0] if one.kind == "crate" else one.start[0]
         bottom = one.home[1] + one.size[1] / 2 if one.kind == "crate" else one.bottom
         for platform in self.platforms:
@@ -135,7 +135,7 @@ class Contents:
                 crumble.press()
 
     def take(self, trigger):
-        """Remove a coin or a gem from the world."""
+        """Remove a coin or a gem, given by its trigger, from the world."""
         self.world.remove_body(trigger.body)
         del self.triggers[trigger.body.id]
 

@@ -1,4 +1,4 @@
-"""The three enemies: walkers, which can be stomped; hedgehogs, which cannot; bats, which hang and dive.
+"""The three enemies: walkers, which can be stomped; hedgehogs, which cannot be stomped; bats, which hang and dive.
 
 The hero passes through enemies: his contacts with them are read after the step. A falling crate flattens an enemy.
 """
@@ -92,7 +92,7 @@ class Walker(Creature):
         self.left_at = x
 
     def place_after(self, seconds):
-        """Return the predicted x [px] after `seconds`: it turns at the ends of its range; obstacles are ignored."""
+        """Return the predicted x [px] after `seconds`. It turns at the ends of its range; obstacles are ignored."""
         if not self.range:
             return self.character.position[0]
         there = self.character.position[0] + self.way * WALK_SPEED[self.kind] * seconds
@@ -106,7 +106,7 @@ class Walker(Creature):
         self.way, self.vy, self.riding = self.first_way, 0.0, -1
 
     def remove(self):
-        """Remove it from the world."""
+        """Remove the enemy from the world."""
         self.character.remove()
 
     def state(self):
@@ -169,7 +169,7 @@ class Bat(Creature):
         """Stay in place for one step, because the hero is far away."""
 
     def _return(self, x, y):
-        """Fly back to the start for one step. After 3 FLIGHT seconds in all, move there at once (rock in the way)."""
+        """Fly back to the start for one step. After 3 FLIGHT seconds in all (rock in the way), move there at once."""
         way = HOME_SPEED * STEP_SECONDS
         dx, dy = self.start[0] - x, self.start[1] - y
         far = max(abs(dx), abs(dy), 1e-9)
@@ -191,7 +191,7 @@ class Bat(Creature):
         self._hang()
 
     def remove(self):
-        """Remove it from the world."""
+        """Remove the bat and its lair from the world."""
         self.character.remove()
         self.character.world.remove_body(self.lair)
 

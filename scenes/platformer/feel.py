@@ -1,7 +1,7 @@
 """Parameters of the hero's moves, and the two functions by which timers and speeds change.
 
-They follow the game Celeste, with lengths doubled, because its tiles are 8 px wide and these are 16 px. Half of them
-forgive inexact play: they accept input that is a few frames or pixels off.
+The parameters follow the game Celeste, with lengths doubled: its tiles are 8 px wide, and these are 16 px. Half of the
+parameters forgive inexact play: input is accepted that is a few frames or pixels off.
 """
 
 from game.scene import STEP_SECONDS

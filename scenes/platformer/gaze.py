@@ -1,6 +1,6 @@
-"""Camera control of the platformer: it looks ahead of a run and ignores small jumps.
+"""Camera control of the platformer: the camera looks ahead of a run and ignores small jumps.
 
-The camera looks up or down while that key is held, and stays in the zone of the level in which the hero is.
+While the key up or down is held, the camera looks up or down. It stays in the zone of the level in which the hero is.
 """
 
 from math import exp

@@ -210,7 +210,9 @@ class Hero:
         self.grip = steps(SLIDE_TIME)
 
     def on_boards(self):
-        """Return whether the hero stands on one-way ground (planks, bridge), through which down and jump drop him."""
+        """Return whether the hero stands on one-way ground (planks, bridge). With the keys down and jump he drops
+        through it.
+        """
         left, _, right, bottom = self.box
         return self.level.on_plank(left, bottom, WIDTH) or any(one.bears(left, right, bottom) for one in self.bridges)
 

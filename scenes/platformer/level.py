@@ -89,7 +89,7 @@ class Level:
         return world.add_body(grid, kind="static", filter=TILE_FILTER, user="tiles")
 
     def kind(self, column, row):
-        """Return the kind of a tile: EMPTY, SOLID, PLANK or SLOPE.
+        """Return the kind of the tile (column, row): EMPTY, SOLID, PLANK or SLOPE.
 
         Tiles beside the map are SOLID, tiles above and below it EMPTY.
         """
@@ -102,7 +102,7 @@ class Level:
         return self.kind(floor(x / self.tile), floor(y / self.tile))
 
     def surface(self, column, row, x):
-        """Return the y [px] of the ground in a tile, at x [px], or None if the tile has no solid ground."""
+        """Return the y [px] of the ground in the tile (column, row), at x [px], or None if it has no solid ground."""
         kind = self.kind(column, row)
         if kind == SOLID:
             return row * self.tile
@@ -114,7 +114,9 @@ class Level:
         return (row + 1 - low - (high - low) * share) * self.tile
 
     def blocks(self, left, top, width, height):
-        """Return whether a box [px] overlaps solid tiles or slopes. Planks are one-way, so they never block."""
+        """Return whether a box with its corner at (left, top) [px] overlaps solid tiles or slopes. Planks are one-way,
+        so they never block.
+        """
         bottom = top + height
         for row in range(floor(top / self.tile), floor((bottom - 1) / self.tile) + 1):
             for column in range(floor(left / self.tile), floor((left + width - 1) / self.tile) + 1):
@@ -141,7 +143,9 @@ class Level:
         return PLANK in under and under <= {PLANK, EMPTY}
 
     def plank_within(self, left, right, bottom, reach):
-        """Return whether feet at y = bottom, from x = left to right [px], are in a plank by at most `reach` px."""
+        """Return whether feet at y = bottom, from x = left to right [px], are in a plank, at most `reach` px below its
+        top.
+        """
         row = (bottom - 1) // self.tile
         if not 0 < bottom - row * self.tile <= reach:
             return False

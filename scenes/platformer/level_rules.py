@@ -14,10 +14,10 @@ FAR = 1e5  # [px] beyond any map
 
 @dataclass(frozen=True)
 class Kind:
-    """Requirements of a kind of object in a map.
+    """Requirements of a kind of object in a map. `least`, `most`: allowed number of such objects.
 
-    `least`, `most`: allowed number of such objects; `properties`: tuples (name, type, least value or allowed values,
-    greatest value, whether the property is required).
+    `properties`: tuples (name, type, least value or tuple of the allowed values, greatest value, whether it is
+    required).
     """
 
     least: int = 0

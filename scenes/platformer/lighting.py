@@ -65,7 +65,7 @@ class Lighting:
 
 
 def flickering(radius, share, speed, time, x):
-    """Return the current radius [px] of a light of radius `radius` that flickers.
+    """Return the radius [px] at `time` [s] of a flickering light whose full radius is `radius`.
 
     `share`: part of the radius that flickers; `speed` [rad/s]; `x`: place of the light, so that lights differ.
     """

@@ -59,7 +59,7 @@ WINDOW = 20.0, 72.0  # [px] distance (x, y) from a checkpoint within which the g
 
 
 class Look:
-    """The effects of the scene. The methods below hear() show one event each, with pictures and sound."""
+    """The effects of the scene. The methods from hear() on show one event each, with pictures and sound."""
 
     def __init__(self, scene):
         self.scene = scene
@@ -85,7 +85,7 @@ class Look:
 
     @property
     def foot(self):
-        """The y of the hero's feet in the picture [px], also while he falls out of it."""
+        """The y of the hero's feet in the picture [px], also while he falls out of the picture."""
         return self.scene.hero.box[3] + (self.fall if self.scene.phase == "hurt" else 0.0)
 
     def _act(self):
@@ -231,7 +231,9 @@ class Look:
                 bursts.launch(self.scene.particles, *self._feet())
 
     def show(self, word, thing):
-        """Show the event `word` of a stone ("shake", "break", "back"), a bat ("wake") or a bomb."""
+        """Show the event `word` of a stone ("shake", "break", "back"), a bat ("wake") or a bomb. thing: the stone, bat
+        or bomb.
+        """
         scene = self.scene
         if word == "wake":
             self._sound_at("blip", thing.character.position[0], 0.35)
@@ -296,7 +298,9 @@ class Look:
         bursts.launch(self.scene.particles, trigger.x, trigger.foot[1] - 8)
 
     def lit(self, trigger):
-        """Show that a checkpoint is reached: its lantern is lit, and the time is compared with that of the best run."""
+        """Show that a checkpoint is reached: its lantern is lit, and the time is compared with that of the best run at
+        this place.
+        """
         x, bottom = trigger.foot
         bursts.kindle(self.scene.particles, x, bottom - 24)
         self._sound("checkpoint", 0.8)

@@ -1,8 +1,8 @@
 """The platformer's bot: it follows hints in the map, and presses keys by rules.
 
-A hint is a place in the map and the way to reach it: run (with jumps at obstacles), jump at once, climb, kick from wall
-to wall, ride a platform, drop through a plank, push, fall, throw a bomb, or jump by a spring. The rules find the right
-moment: when a platform is at its end, where an enemy will be, whether there is ground ahead.
+A hint is a place in the map and the way to reach that place: run (with jumps at obstacles), jump at once, climb, kick
+from wall to wall, ride a platform, drop through a plank, push, fall, throw a bomb, or jump by a spring. The rules find
+the right moment: when a platform is at its end, where an enemy will be, whether there is ground ahead.
 """
 
 from math import sqrt
@@ -25,7 +25,7 @@ KICK_SPEED = -90.0  # [px/s] vy above which the bot kicks off a wall (up is nega
 
 
 class Runner:
-    """The bot. `next`: index of the hint it heads for; `kept`: the same at the last checkpoint."""
+    """The bot. `next`: index of the hint it heads for; `kept`: the value of `next` at the last checkpoint."""
 
     def __init__(self):
         self.next = self.kept = 0
@@ -39,7 +39,7 @@ class Runner:
     def start_again(self):
         """Begin a new life at the hint of the last checkpoint, after a wait.
 
-        The wait differs from life to life, because identical steps would end in the same loss.
+        The wait differs from life to life. Otherwise the same steps would end in the same loss.
         """
         self.next = self.kept
         self.lives += 1
@@ -67,7 +67,7 @@ class Runner:
         return self._press(scene.hero, set(keys), jump)
 
     def _press(self, hero, keys, jump):
-        """Return the actions, with jump added while it is held.
+        """Return the actions `keys` as a frozenset, with jump added while it is held. jump: whether a jump is wanted.
 
         Jump is held while the hero rises, and released for one step before the next press: only a new press jumps.
         """
@@ -107,7 +107,9 @@ class Runner:
         return _keys(way), self._must_jump(scene, hero, hint, way)
 
     def _needs_a_run_up(self, scene, hero, way):
-        """Return whether a hedgehog ahead is so near that a jump at the present speed would end on it."""
+        """Return whether a hedgehog ahead in the direction `way` is so near that a jump at the present speed would end
+        on it.
+        """
         x, feet = hero.character.position[0], hero.box[3]
         return (
             hero.vx * way < 120.0
@@ -121,7 +123,9 @@ class Runner:
         )
 
     def _waits_at_edge(self, scene, hero, hint, way):
-        """Return whether a hedgehog is below the edge ahead, where a step down would end."""
+        """Return whether to wait at an edge on the way to a hint: a hedgehog is below the edge, where a step down in
+        the direction `way` would end.
+        """
         x, feet = hero.character.position[0], hero.box[3]
         if _foot(hint) < feet + STEP or self._ground(scene, x + 16 * way, feet):
             return False
@@ -305,7 +309,7 @@ class Runner:
         return False
 
     def _enemy_ahead(self, scene, hero, way):
-        """Return whether to jump now, onto an enemy that can be stomped or over another enemy."""
+        """Return whether to jump now in the direction `way`: onto an enemy that can be stomped, or over another."""
         x, bottom = hero.character.position[0], hero.box[3]
         for enemy in scene.things.enemies.values():
             there = (enemy.character.position[0] - x) * way

@@ -1,4 +1,4 @@
-"""The platformer's rules: lives, pick-ups, enemies, bombs and the goal. They are read from the events of each step."""
+"""The platformer's rules for lives, pick-ups, enemies, bombs and the goal. They read the events of each step."""
 
 from math import hypot
 
@@ -145,7 +145,9 @@ class Platformer(Scene):
             self._lose()
 
     def _handle_bombs(self, inputs):
-        """Let the hero take a bomb that he reaches. If he carries one, throw it or lay it down at a press of focus."""
+        """Let the hero take a bomb that he reaches. If he carries a bomb and the key focus is pressed, throw the bomb
+        or lay it down.
+        """
         hero, bomb = self.hero, self.things.carried
         if bomb is None:
             for each in self.things.bombs:
@@ -260,7 +262,9 @@ class Platformer(Scene):
             self.look.lit(trigger)
 
     def _meet(self, enemy):
-        """Process a contact of the hero with an enemy: he stomps it if it can be stomped, else it hurts him."""
+        """Process a contact of the hero with an enemy: he stomps the enemy if it can be stomped, else the enemy hurts
+        him.
+        """
         hero = self.hero
         if self.phase != PLAYING:
             return

@@ -115,7 +115,9 @@ class Platform:
         )
 
     def aim(self, tick):
-        """Set the velocity that moves the platform to its place of the next step, so that it carries bodies."""
+        """Set the velocity that moves the platform from its place in step `tick` to its place in the next step, so that
+        it carries bodies.
+        """
         x, y = self.body.position
         next_x, next_y = self.place_at(tick + 1)
         self.body.velocity = ((next_x - x) / STEP_SECONDS, (next_y - y) / STEP_SECONDS)
@@ -189,7 +191,7 @@ class Crumble(Block):
     def step(self):
         """Advance the stone and its pieces by one step.
 
-        Return "shake" when it begins to shake, "break" when it breaks, "back" when it is whole again, else None.
+        Return "shake" when the stone begins to shake, "break" when it breaks, "back" when it is whole again, else None.
         """
         for bit in self.bits:
             bit[1] += 1
@@ -251,7 +253,7 @@ class Crate:
         return (row["x"] - row["previous_x"]) * way > SLIDES
 
     def launch(self):
-        """Throw the crate up by a spring: as high as the hero, whatever the crate's mass."""
+        """Throw the crate up by a spring: as high as a spring throws the hero, whatever the crate's mass."""
         vx, vy = self.body.velocity
         mass = self.body.mass
         self.body.apply_impulse(((SPRING_KEEPS - 1.0) * vx * mass, -(SPRING_SPEED + vy) * mass))

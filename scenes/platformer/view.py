@@ -69,7 +69,10 @@ class View:
                         self.layers[name].draw(canvas, camera)
 
     def _cover(self, thing):
-        """Return (picture, left, top) of the tiles that cover a hidden room and its walls."""
+        """Return (picture, left, top) of the tiles that cover a hidden room and its walls.
+
+        thing: the room in the map.
+        """
         tile = self.level.tile
         left, top = int(thing.x) - tile, int(thing.y) - tile
         canvas = Canvas(pygame.Surface((int(thing.width) + 2 * tile, int(thing.height) + 2 * tile), pygame.SRCALPHA))

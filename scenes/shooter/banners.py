@@ -43,14 +43,16 @@ def draw_banners(canvas, scene):
 def eased(step, whole_time):
     """Return how far a banner has slid in at `step` of `whole_time` steps: 0 is out, 1 is in place.
 
-    It eases in over the first SLIDE steps, and out over the last SLIDE steps.
+    The banner slides in over the first SLIDE steps, and out over the last SLIDE steps, with easing.
     """
     share = min(step / SLIDE, (whole_time - step) / SLIDE, 1.0)
     return 1.0 - (1.0 - max(share, 0.0)) ** 3
 
 
 def _draw_title(canvas, director):
-    """Draw the stage's title, which slides in from the left, and its name, from the right. Both slide out again."""
+    """Draw the stage's title, which slides in from the left, and its name, which slides in from the right. Both slide
+    out again.
+    """
     share = eased(director.since, READY)
     middle, width = canvas.rect.centerx, canvas.rect.width
     band(canvas, 92, whole(58 * share))
@@ -122,7 +124,7 @@ def _summary(scene):
 
 
 def band(canvas, top, high):
-    """Draw a dark band of height `high` [px] across the picture, behind a banner's text.
+    """Draw a dark band of height `high` [px] across the picture, behind a banner's text. `top`: its y when fully grown.
 
     It grows from its middle line; once two lines of text fit, it grows downwards only.
     """

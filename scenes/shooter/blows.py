@@ -1,4 +1,7 @@
-"""Strength of hits: the impulse that each hit would transfer. It scales damage, sparks, debris and sound."""
+"""Strength of hits: the impulse that each hit would transfer.
+
+Damage, sparks, debris and sound are in proportion to it.
+"""
 
 from math import hypot
 
@@ -29,7 +32,7 @@ class Blows:
     """The impulses of all hits of one step, by pair of bodies.
 
     The scene has no collision response, so each impulse is computed from the closing speed and the two masses.
-    `weights`: {body id: mass} of bodies that stand for heavier ones (the player's core stands for the whole plane).
+    `weights`: {body id: mass to use instead of the body's own}; the player's core has the mass of the whole plane.
     """
 
     def __init__(self, world, weights=None):
@@ -55,9 +58,9 @@ class Blows:
 
 
 def push(dx, dy):
-    """Return the Blow of a bomb on a plane at (dx, dy) [px] from the bomb's centre, directed away from it.
+    """Return the Blow of a bomb on a plane at (dx, dy) [px] from the bomb's centre, directed away from the centre.
 
-    It is as strong as a plain shot on a light body.
+    The blow is as strong as a plain shot on a light body.
     """
     far = max(hypot(dx, dy), 1.0)
     return Blow(Blow.USUAL * dx / far, Blow.USUAL * dy / far, Blow.USUAL / 90.0)

@@ -77,7 +77,9 @@ def _draw_stock(canvas, scene):
 
 
 def _draw_hits(canvas, scene):
-    """Draw how many hits the player's core, hull and bounding box have had; the part that is vulnerable is bright."""
+    """Draw the number of hits on the player's core, hull and bounding box. Core or hull, whichever is vulnerable, is
+    gold.
+    """
     ui, y, x = load_atlas("ui"), canvas.rect.bottom - 14, MARGIN
     counts = scene.hits.count
     for part in ("core", "hull"):

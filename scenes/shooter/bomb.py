@@ -40,7 +40,9 @@ class Bomb:
         )
 
     def step(self):
-        """Let the bomb grow for one step. Return the id of its body, to be removed, if it has burnt out, else None."""
+        """Let the bomb grow for one step. If it has burnt out, return the id of its body, which the caller must remove;
+        else None.
+        """
         if self.body is None:
             return None
         self.age += 1

@@ -21,8 +21,9 @@ ALMOST = 5.0  # [s] before the end of a phase: from then on its timer is red and
 
 
 class Leader(Enemy):
-    """A mid-boss or boss. `number`: index of the current phase; `clock`: its remaining steps; `beaten`: whether the
-    phase that ended last was won by the player (True) or ran out of time (False).
+    """A mid-boss or boss. `number`: index of the current phase; `clock`: remaining steps of this phase.
+
+    `beaten`: whether the last finished phase was won by the player (True) or ran out of time (False).
     """
 
     heavy = leads = True
@@ -63,7 +64,7 @@ class Leader(Enemy):
         self.frame = "midboss_0" if self.kind == "midboss" else f"boss_{'abc'[self.number]}_0"
 
     def think(self, sky):
-        """Choose the motion and fire of each mode: arrive, fight, change, fall, leave."""
+        """Choose motion and fire for the leader's mode: arrive, fight, change, fall or leave. sky: the scene."""
         if self.mode == "arrive":
             if self.approach(self.home_x, self.home_y, ARRIVE_SPEED) < 3.0:
                 self.begin("fight")

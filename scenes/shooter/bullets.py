@@ -29,9 +29,10 @@ BULLET = np.dtype([("id", np.int64), ("look", np.int64), ("met", np.int64)])
 
 
 class Bullets:
-    """The bullets of the player, or those of the enemies.
+    """The bullets of the player, or the bullets of the enemies.
 
-    `table.rows` holds body id, look, and the parts of the player touched so far (bits). The world has the positions.
+    `table.rows` holds the id, the look, and as bits the parts of the player that the bullet has touched. The world has
+    the positions.
     """
 
     def __init__(self, world, side):
@@ -64,7 +65,7 @@ class Bullets:
         self.table.keep(np.zeros(count, bool))
 
     def fire(self, look, x, y, headings, speed, out=0.0):
-        """Add one bullet per heading [rad] to the volley, which launch() adds to the world.
+        """Add one bullet per heading [rad] to the volley, which launch() adds to the world. look: key of LOOKS.
 
         Each starts at (x, y) [px], moved `out` [px] along its heading, and flies at `speed` [px/s].
         """
@@ -93,7 +94,7 @@ class Bullets:
         return self.world.rows(self.ids)
 
     def has(self, ids):
-        """Return a boolean array: which of the body ids `ids` belong to these bullets.
+        """Return a boolean array: whether each of the body ids `ids` belongs to one of these bullets.
 
         O(k log n) for k ids and n bullets, because the table is sorted by id.
         """

@@ -1,7 +1,8 @@
 """Collision filters of the shooter. Bodies whose filters exclude each other never become a pair in the broad phase.
 
-Shots never pair with shots, and enemy bullets never with bullets or enemy planes. After losing a life, the player's
-plane comes back as a ghost: for a while only pick-ups collide with it, so the game rules need no test for this.
+Shots never pair with shots, and enemy bullets never pair with bullets or enemy planes. After losing a life, the
+player's plane comes back as a ghost: for a while its filter lets only pick-ups collide with it, so the game rules need
+no test for this.
 """
 
 from physics import Filter

@@ -1,4 +1,7 @@
-"""Director of a stage: it launches the planes when they are due. Its clock stops while a leader is in play."""
+"""Director of a stage: it launches the planes when they are due.
+
+The director's clock stops while a leader is in play.
+"""
 
 from dataclasses import replace
 

@@ -132,7 +132,9 @@ class Saucer(Enemy):
 
     @staticmethod
     def entry(group, share):
-        """Return where the plane enters, (x, y) [px]: far enough from the sides to weave."""
+        """Return where the plane enters, (x, y) [px]: at `share` 0..1 of the upper edge, but far enough from the sides
+        to weave.
+        """
         room = abs(group.sway) + 20.0
         return min(max(WIDTH * share, room), WIDTH - room), ENTRY_Y
 

@@ -62,17 +62,19 @@ class Fireworks:
             self.scars = [scar for scar in self.scars if scar[1] < HEIGHT + 40]
 
     def burst(self, name, x, y, vx=0.0, vy=0.0, age=0.0):
-        """Add an animation that plays once. A negative `age` [s] delays it."""
+        """Add an animation that plays once at (x, y), moving by (vx, vy) [px/s]. A negative `age` [s] delays it."""
         self.bursts.append([name, x, y, vx, vy, age])
 
     def chain(self, x, y, wide, high, count, apart):
-        """Add `count` small explosions within (wide, high) [px] of (x, y), one every `apart` seconds."""
+        """Add `count` small explosions around (x, y), one every `apart` seconds, at most `wide` and `high` px away
+        along x and y.
+        """
         for number in range(count):
             dx, dy = self.random.uniform(-wide, wide), self.random.uniform(-high, high)
             self.burst("explosion_small", x + dx, y + dy, dx * 0.6, dy * 0.6 + 12, -apart * number)
 
     def sparks(self, x, y, count, ramp, speed=150):
-        """Add glowing points in all directions."""
+        """Add `count` glowing points in all directions, in the colours of `ramp`, with speeds up to `speed` [px/s]."""
         self.particles.burst(x, y, count, ramp, speed=(speed * 0.2, speed), life=(0.25, 0.8), size=(1, 2), drag=2.6)
 
     def embers(self, xs, ys):
@@ -97,7 +99,8 @@ class Fireworks:
     def pieces(self, frames, x, y, vx, vy, count, blow):
         """Add debris that flies in the direction of `blow`: the harder the blow, the more and the faster pieces.
 
-        `frames`: numbers of the two pictures of the debris; (vx, vy) [px/s]: velocity of the destroyed plane.
+        `frames`: numbers of the two pictures of the debris; (vx, vy) [px/s]: velocity of the destroyed plane; `count`:
+        number of pieces for a plain shot.
         """
         wild = 0.7 + 0.3 * blow.strength
         vx, vy = vx + blow.kick[0], vy + blow.kick[1]
@@ -112,7 +115,7 @@ class Fireworks:
             )
 
     def piece(self, kind, x, y, vx, vy, life):
-        """Add one piece of debris for `life` [s]. `kind`: number of its picture."""
+        """Add one piece of debris with velocity (vx, vy) [px/s] for `life` [s]. `kind`: number of its picture."""
         self.debris.append([f"debris_{kind}", x, y, vx, vy, 0.0, life])
 
     def ring(self, x, y, radius):

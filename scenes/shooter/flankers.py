@@ -17,7 +17,7 @@ OUT = 26.0  # [px] outside of the picture, where a hornet enters
 class Hornet(Enemy):
     """A plane that flies straight, along an arc of the group's `bend` [deg], and straight again.
 
-    It fires twice, at the place where the player will be if it keeps its velocity.
+    It fires twice, at the place where the player will be if the player keeps the present velocity.
     """
 
     kind, frame, health, points = "hornet", "hornet_0", 3, 150
@@ -67,7 +67,7 @@ class Hornet(Enemy):
 
 
 class Turret(Enemy):
-    """A gun on the ground. It fires in turn a short row of bullets straight down and a fan at the player."""
+    """A gun on the ground. Its volleys alternate: a short row of bullets straight down, and a fan at the player."""
 
     kind, frame, health, points = "turret", "turret_0", 24, 400
     side = GROUNDED

@@ -32,7 +32,7 @@ class Fleet:
         return next((plane for plane in self.planes.values() if plane.leads), None)
 
     def launch(self, group, share, carries="", difficulty=EASY, wave=0, scrolled=0.0):
-        """Launch one plane of a group. Return the plane.
+        """Launch one plane of a group with a Difficulty. Return the plane.
 
         `share` 0..1: place along the edge at which it enters; `carries`: item that it drops, or ""; `wave`: number of
         its wave; `scrolled`: distance that the ground has moved [px].
@@ -62,7 +62,7 @@ class Fleet:
         return plane
 
     def step(self, sky):
-        """Step every plane, and write its velocity into the world's columns."""
+        """Step every plane, and write its velocity into the world's columns. sky: the scene."""
         if not self.planes:
             return
         planes = list(self.planes.values())

@@ -121,9 +121,10 @@ def clouds(name, shade):
 
 @lru_cache(maxsize=1)
 def coast_line():
-    """Return a mask of the border between two kinds of ground: white for the upper, transparent for the lower.
+    """Return a mask of the border between two kinds of ground: white for the upper ground, transparent for the lower
+    ground.
 
-    It is as wide as the canvas and BORDER px high.
+    The mask is as wide as the canvas and BORDER px high.
     """
     width = CANVAS_SIZE[0]
     x, y = np.arange(width)[:, None], np.arange(BORDER)[None, :]

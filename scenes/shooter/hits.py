@@ -22,7 +22,10 @@ class Hits:
         self.now = {"core": [], "hull": []}
 
     def read(self, world, plane, incoming, fleet):
-        """Count the hits of the last step. Return the ids of bullets that enter the graze ring for the first time."""
+        """Count the hits of the player's plane by enemy bullets (`incoming`) and enemies (`fleet`) in the last step.
+
+        Return the ids of the bullets that enter the graze ring for the first time.
+        """
         events = world.events
         for part, bit in PARTS.items():
             self.now[part] = partners(events.begin, plane.bodies[part].id)
@@ -52,7 +55,7 @@ def partners(events, identity):
 
 
 def boxes_met(world, identity):
-    """Return the ids of enemies and bullets whose bounding box overlapped that of body `identity` in the last step."""
+    """Return ids of enemies and bullets whose bounding box overlapped the box of body `identity` in the last step."""
     shapes = world.shapes
     box = shapes[np.flatnonzero(shapes["body"] == identity)[0]]  # it has one shape, whatever the tier
     a, b = world.candidates[:, 0], world.candidates[:, 1]

@@ -36,7 +36,7 @@ class Loot:
         return len(self.items)
 
     def drop(self, what, x, y, now, tossed=False):
-        """Add a pick-up at (x, y) [px] in step `now`."""
+        """Add the pick-up `what` (power, bomb or life) at (x, y) [px] in step `now`. `tossed`: see Item."""
         mask = load_atlas("planes").mask(PICTURES[what] + "_0")
         body = self.world.add_body(mask, kind="kinematic", filter=LOOT, position=(min(max(x, EDGE), WIDTH - EDGE), y))
         self.items[body.id] = Item(what, now, tossed)

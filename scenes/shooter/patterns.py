@@ -1,7 +1,7 @@
 """Fire of the bosses: functions that compute headings of bullets, and a Gun that fires one Pattern of a stage file.
 
-"aimed", "lead" and "fan" target the player; "ring", "spiral" and "wall" fill the sky. The bullets of a "stream" all
-follow the heading of its first bullet.
+"aimed", "lead" and "fan" target the player; "ring", "spiral" and "wall" fill the sky. All bullets of a "stream" follow
+the heading of the first one.
 """
 
 from math import atan2, hypot, pi, radians, sin
@@ -40,7 +40,9 @@ def ring(count, turn=0.0):
 
 
 def wall(spacing, middle, gap, width=WIDTH):
-    """Return the x [px] of the bullets of a row across the sky, with a gap of width `gap` around x = `middle`."""
+    """Return the x [px] of the bullets of a row across the sky, `spacing` apart, with a gap of width `gap` around x =
+    `middle`.
+    """
     count = int(width / spacing) + 1
     edge = (width - (count - 1) * spacing) / 2
     places = [edge + spacing * number for number in range(count)]
@@ -48,7 +50,9 @@ def wall(spacing, middle, gap, width=WIDTH):
 
 
 class Gun:
-    """A gun that fires a Pattern. It keeps the time until the next shot, the number of shots, and the heading."""
+    """A gun that fires a Pattern. It records the time until the next shot, the number of shots, and the heading of a
+    stream.
+    """
 
     def __init__(self, pattern):
         self.pattern = pattern
@@ -59,7 +63,9 @@ class Gun:
         self.middle = WIDTH / 2  # x of the middle of the last wall's gap [px]
 
     def step(self, sky, x, y):
-        """Advance by one step, and fire if a shot is due. (x, y): centre of the plane [px]. Return whether it fired."""
+        """Advance by one step, and fire if a shot is due. sky: the scene; (x, y): centre of the plane [px]. Return
+        whether the gun fired.
+        """
         self.age += 1
         self.wait -= 1
         if self.wait > 0:

@@ -1,7 +1,7 @@
 """The shooter's bot: it predicts the bullets, compares several plans of flight, and takes the least dangerous plan.
 
-A plan is a direction, flown for a number of steps; then the plane stops. Distances of all plans to all threats at all
-predicted moments are one array expression. The bot drops a bomb if its best plan ends in a hit soon.
+A plan is a direction, flown for a number of steps; then the plane stops. One array expression gives the distances of
+all plans from all threats at all predicted moments. The bot drops a bomb if its best plan soon ends in a hit.
 """
 
 import numpy as np
@@ -71,14 +71,19 @@ class Pilot:
         return frozenset(actions)
 
     def _bombs(self, scene, doomed):
-        """Return whether to drop a bomb: just after a hit, before a certain hit, or once when the sky is very full."""
+        """Return whether to drop a bomb: just after a hit, before a certain hit (`doomed`), or once when the sky is
+        very full.
+        """
         if not scene.plane.bombs or scene.bomb.body is not None:
             return False
         crowded = not scene.score.bombs and len(scene.incoming) >= CROWD
         return scene.stricken > 0 or (not scene.plane.safe and doomed) or crowded
 
     def _danger(self, scene, x, y, place_x, place_y):
-        """Return two arrays over the plans: the cost of coming near to threats, and whether the plan is hit soon."""
+        """Return two arrays over the plans: the cost of coming near to threats, and whether the plan is hit soon.
+
+        (x, y): place of the plane [px]; `place_x`, `place_y`: its predicted places [px], arrays [plan, moment].
+        """
         ahead_x, ahead_y, radius = threats(scene, x, y)
         if not len(radius):
             return np.zeros(len(place_x)), np.zeros(len(place_x), bool)
@@ -100,7 +105,9 @@ class Pilot:
         return cost, doomed
 
     def _distance(self, scene, x, y, end_x, end_y):
-        """Return an array over the plans: the cost of the distance from the plan's end to a target or pick-up."""
+        """Return an array over the plans: the cost of the distance from the plan's end (`end_x`, `end_y`) to a target
+        or pick-up.
+        """
         goal_x, goal_y, pull = 240.0, LINE_Y, 0.004
         prey = [
             e for e in scene.fleet.planes.values() if -20 < e.y < y - 30 and e.mode not in ("dive", "fall", "leave")

@@ -93,7 +93,9 @@ class Plane:
         self.entering, self.safe, self.cooldown = FLY_IN, FLY_IN + SAFE, 0
 
     def step(self, inputs, shots):
-        """Move, bank and fire, or begin the next life when the wait after a loss is over."""
+        """Move, bank and fire, or begin the next life when the wait after a loss is over. `shots`: the Bullets to which
+        shots are added.
+        """
         self.fired = False
         hull = self.body
         if hull is None:

@@ -30,7 +30,9 @@ DROP_EVERY = 45  # kills between two power-ups that no enemy carried
 
 
 class Shooter(Scene):
-    """The shooter. Keys move the plane; filters define the possible contacts, masks and circles decide them."""
+    """The shooter. Keys move the plane. Filters define the possible contacts; masks and circles decide which of them
+    occur.
+    """
 
     name = "shooter"
     title = "Shooter"
@@ -123,7 +125,9 @@ class Shooter(Scene):
         self._read_events()
 
     def _last_moment(self, inputs):
-        """Process one of the steps after a hit: a bomb still saves the plane; else it is lost at the end of them."""
+        """Process one of the steps after a hit: a bomb dropped now still saves the plane. After the last of these
+        steps, the plane is lost.
+        """
         self.stricken -= 1
         if inputs.pressed("bomb") and self.plane.bombs and self.bomb.body is None:
             self.stricken, self.freeze, self.hit_by = 0, 0, []
@@ -312,7 +316,7 @@ class Shooter(Scene):
         self.spectacle.warning(event)
 
     def end_phase(self, leader, beaten):
-        """End a phase of a leader's fight. `beaten`: its health is gone; else its time ran out."""
+        """End a phase of a leader's fight. `beaten`: True if its health is gone, False if its time ran out."""
         left = leader.clock / max(steps(leader.phase.seconds), 1)
         worth = self.score.phase(leader.phase.bonus, left) if beaten else 0
         last = leader.last

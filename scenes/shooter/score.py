@@ -1,6 +1,7 @@
-"""Points of the shooter: the values of kills and grazes, and the chain that multiplies them.
+"""Points of the shooter: the values of kills and grazes, and the chain that multiplies these values.
 
-Each kill or graze adds a link to the chain. The chain breaks after a while without either, or when the player is hit.
+Each kill or graze adds a link to the chain. The chain breaks after a while without kills and grazes, or when the player
+is hit.
 """
 
 from scenes.shooter.cast import steps
@@ -48,25 +49,25 @@ class Score:
         self.hold = min(max(self.hold, 0) + hold, HOLD)
 
     def kill(self, enemy):
-        """Count a kill and add its points. Return them."""
+        """Count a kill and add its points. Return these points."""
         if enemy.kind in self.kills:
             self.kills[enemy.kind] += 1
         self._link(HOLD)
         return self._add(enemy.points * self.times)
 
     def graze(self, count):
-        """Count `count` grazes and add their points. Return them."""
+        """Count `count` grazes and add their points. Return these points."""
         for _ in range(count):
             self.grazes += 1
             self._link(GRAZE_HOLD)
         return self._add(GRAZE * count * self.times)
 
     def burn(self, count):
-        """Add the points for `count` bullets removed by a bomb or at the end of a leader's phase. Return them."""
+        """Add the points for `count` bullets removed by a bomb or at the end of a leader's phase. Return the points."""
         return self._add(BURNT * count)
 
     def whole_wave(self):
-        """Count a wave that was shot down completely, and add its points. Return them."""
+        """Count a wave that was shot down completely, and add its points. Return these points."""
         self.waves += 1
         return self._add(WHOLE_WAVE * self.times)
 
@@ -79,7 +80,9 @@ class Score:
         return self._add(round(bonus * (0.5 + 0.5 * left) / 100) * 100)
 
     def take(self, gained):
-        """Count a pick-up. If the plane gained nothing by it, add points instead. Return these points, else 0."""
+        """Count a pick-up. gained: whether the plane gained something by it; if not, points are added. Return these
+        points, else 0.
+        """
         self.taken += 1
         return 0 if gained else self._add(SPARE * self.times)
 
@@ -89,13 +92,15 @@ class Score:
         self.chain = self.hold = 0
 
     def go_on(self):
-        """Continue after the last life: points start again at the number of continues, which is their last digit."""
+        """Continue after the last life. The points start again at the number of continues, so that their last digit
+        shows this number.
+        """
         self.continues += 1
         self.points, self.next_life = self.continues, FIRST_LIFE
         self.chain = self.hold = 0
 
     def final(self, lives, bombs):
-        """Return the bonuses at the end of the stage, a list of (reason, points)."""
+        """Return the bonuses at the end of the stage for lives, bombs and grazes, a list of (reason, points)."""
         found = [("LIVES", lives * LIFE_BONUS), ("BOMBS", bombs * BOMB_BONUS), ("GRAZES", self.grazes * GRAZE_BONUS)]
         return found + [("NO CONTINUE", PURE_BONUS)] if not self.continues else found
 

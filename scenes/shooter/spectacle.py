@@ -44,7 +44,7 @@ WORDS = {"power": "POWER UP", "bomb": "BOMB", "life": "1UP"}
 class Spectacle:
     """The effects of the scene. `works`: moving decoration (explosions, debris, texts); other attributes are timers.
 
-    The methods below step() show one event each, with pictures and sound.
+    The methods from wave() on show one event each, with pictures and sound.
     """
 
     def __init__(self, scene):
@@ -118,13 +118,13 @@ class Spectacle:
     # --- the stage ---------------------------------------------------------------------------------------------------
 
     def wave(self, director):
-        """Announce a new wave: show its name, with a sound from the second wave on."""
+        """Announce the new wave of the director: show its name, with a sound from the second wave on."""
         self.news = NEWS
         if director.number > 1:
             self.scene.play("blip", volume=0.3)
 
     def wave_done(self, enemy, worth):
-        """Show the points `worth` for a wave of which all planes were shot down; `enemy` was its last one."""
+        """Show the points `worth` for a wave of which all planes were shot down; `enemy` was the last of them."""
         self.works.word(f"WAVE +{worth}", enemy.x, enemy.y - 34, PRAISE)
 
     def warning(self, event):
@@ -245,7 +245,7 @@ class Spectacle:
         self.scene.play("hurt", plane.x, 0.4)
 
     def player_lost(self, plane, blow):
-        """Show the explosion of the player's plane."""
+        """Show the explosion of the player's plane after `blow`."""
         x, y, works = plane.x, plane.y, self.works
         works.burst("explosion_large", x, y, 0.0, 12.0)
         works.chain(x, y, 16, 16, 4, 0.12)
@@ -268,7 +268,7 @@ class Spectacle:
         self.scene.play("bomb", bomb.x, 0.9)
 
     def bullets_burnt(self, xs, ys):
-        """Show sparks where bullets are removed, at (xs, ys) [px]; for at most about MOST_EMBERS of them."""
+        """Show sparks where bullets are removed, at (xs, ys) [px]. Only about MOST_EMBERS of the places get sparks."""
         each = -(-len(xs) // MOST_EMBERS)
         self.works.embers(xs[::each], ys[::each])
 
@@ -294,7 +294,9 @@ class Spectacle:
         self.works.sparks(x, y, 14, GOLD, 90)
 
     def loot_taken(self, plane, what, worth):
-        """Show that the player takes a pick-up. `worth`: points in place of a gain, or 0."""
+        """Show that the player takes the pick-up `what`. `worth`: points given because the plane had the maximum
+        already, or 0.
+        """
         self.gain = 1.0
         self.works.sparks(plane.x, plane.y, 30, GOLD, 150)
         self.works.ring(plane.x, plane.y, 30.0)
@@ -315,7 +317,9 @@ class Spectacle:
     # --- leaders -----------------------------------------------------------------------------------------------------
 
     def phase_over(self, leader, last, worth):
-        """Show the end of a phase of a leader's fight, with explosions. `worth`: bonus points, 0 if time ran out."""
+        """Show the end of a phase of a leader's fight, with explosions. `last`: whether the fight ends; `worth`: bonus
+        points, 0 if time ran out.
+        """
         x, y, works = leader.x, leader.y, self.works
         self.bonus = ["PHASE BONUS" if worth else "TIME OUT", worth, BONUS_SHOWN]
         works.ring(x, y, 220.0)
@@ -328,7 +332,7 @@ class Spectacle:
         self.scene.play("big_explosion", x, 0.9)
 
     def leader_burns(self, leader, whole):
-        """Show explosions on a falling leader. They come faster towards the end of its fall of `whole` steps."""
+        """Show explosions on a falling leader, more often in the second half of its fall, which takes `whole` steps."""
         share = leader.since / whole
         every = 10 if share < 0.5 else 5
         if leader.since % every == 0:

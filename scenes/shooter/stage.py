@@ -51,8 +51,8 @@ class Pattern:
     """The fire of one gun. `shoot`: the kind of fire ("aimed", "fan", "ring", ...), which decides the other fields.
 
     The first shot comes after `after` [s], the next ones every `every` [s]. After a burst of `shots` shots, the gun
-    rests for `rest` [s] more. Each shot of a burst is faster than the shot before by `faster` [px/s]. `muzzles`: points
-    relative to the plane's centre [px]; bullets start at distance `out` [px] from a muzzle.
+    rests for `rest` [s] more. `faster`: speed that each shot of a burst has more than the shot before [px/s].
+    `muzzles`: points relative to the plane's centre [px]; bullets start at distance `out` [px] from a muzzle.
     """
 
     shoot: str
@@ -96,7 +96,8 @@ class Move:
 
 @dataclass(frozen=True)
 class Phase:
-    """A phase of the fight against a leader. It ends when `health` (in plain shots) is shot away, or after `seconds`.
+    """A phase of the fight against a leader. It ends after `seconds`, or earlier when shots have taken its `health` (in
+    plain shots).
 
     `bonus`: points if the health was shot away; `patterns`: fire of the leader's guns.
     """

@@ -1,7 +1,7 @@
 """Validation of a JSON file: types of fields, each with a method read(reader, place, value).
 
-read() returns the value as the game uses it. It raises FileError, naming the place in the file, for an invalid value.
-`default` is the value of a missing field; REQUIRED: the field must be present.
+read() returns the value as the game uses it. For an invalid value, read() raises FileError, which names the place in
+the file. `default` is the value of a missing field; REQUIRED: the field must be present.
 """
 
 from difflib import get_close_matches
@@ -108,7 +108,7 @@ class Variant:
 
 
 class Reader:
-    """Reader of one file. Its errors name the file's path."""
+    """Reader of one file. Its errors name the path of the file."""
 
     def __init__(self, path):
         self.path = path

@@ -70,9 +70,10 @@ class View:
         self.wrecks = WreckView(self)
 
     def sprite(self, atlas, frame, angle=0.0, mask=None):
-        """Return (image, its origin) of a frame at an angle [rad].
+        """Return (image, its origin) of a frame at an angle [rad]. mask: name of the frame whose mask collides; None:
+        the frame itself.
 
-        The image covers exactly the pixels of the rotated mask of frame `mask`, the one that collides.
+        The image covers exactly the pixels of the rotated mask.
         """
         mask = mask or frame
         if angle == 0.0:
@@ -115,7 +116,10 @@ class View:
         banners.draw_banners(canvas, scene)
 
     def places(self, scene, ids):
-        """Return arrays of x, y [px] and angle [rad] of bodies. Positions are interpolated between two steps."""
+        """Return arrays of x, y [px] and angle [rad] of the bodies `ids`.
+
+        Positions are interpolated between two steps.
+        """
         rows, bodies = scene.world.rows(ids), scene.world.bodies
         x, y = bodies["x"][rows], bodies["y"][rows]
         back = 1.0 - self.alpha
@@ -169,8 +173,9 @@ class View:
         return ground, air
 
     def _frame(self, plane):
-        """Return the frame to show for a plane. A dart has one frame for each mode; other kinds have an animation whose
-        frames share one mask.
+        """Return the name of the picture to show for a plane.
+
+        A dart has one picture for each mode; other kinds have an animation whose pictures share one mask.
         """
         if plane.kind == "dart":
             return plane.frame
@@ -222,7 +227,9 @@ class View:
                 self._stamp_turned(shown, frame, x[mine], y[mine], angles[mine])
 
     def _stamp(self, image, origin, x, y, flags=0):
-        """Draw one picture at many world points (arrays x, y)."""
+        """Draw one picture at many world points (arrays x, y). origin: point of the picture that lies there; flags:
+        pygame's blend flags.
+        """
         across = (np.floor(x - origin[0] + 0.5).astype(np.int64) - self.left).tolist()
         down = (np.floor(y - origin[1] + 0.5).astype(np.int64) - self.top).tolist()
         blit_many(self.surface, list(zip(repeat(image), zip(across, down, strict=True))), flags)
@@ -308,7 +315,9 @@ def shade(image):
 
 
 def ghostly(image):
-    """Return a bright, transparent copy of a plane's picture. A plane that cannot be hit blinks with it."""
+    """Return a bright, transparent copy of a plane's picture. A plane that cannot be hit blinks: it is drawn with this
+    copy in turn.
+    """
     copy = lit(image, 90)
     copy.fill((255, 255, 255, FAINT), special_flags=pygame.BLEND_RGBA_MULT)
     return copy
@@ -317,7 +326,7 @@ def ghostly(image):
 def outline(image):
     """Return a picture of the outline of an image: the line of pixels around its solid pixels.
 
-    It is one pixel larger than the image on each side.
+    The picture is one pixel larger than the image on each side.
     """
     width, height = image.get_size()
     mask = pygame.Mask((width + 2, height + 2))

@@ -1,9 +1,10 @@
-"""Wreckage: a heavy plane that is shot down breaks along cracks, and its pieces fall, each a body of its own pixels.
+"""Wreckage: a heavy plane that is shot down breaks along cracks, and its pieces fall. Each piece is a body made of its
+own pixels.
 
 A piece is drawn with its pixels, and collides by them exactly, at any angle. It starts with a part of the plane's
-velocity and a random rotation, and is slowed by the air, which moves with the ground. The game is seen from above, so
-a falling piece shrinks instead of moving down. It damages small planes until it is well below them; it never hurts the
-player.
+velocity and a random rotation, and is slowed by the air, which moves with the ground. The game is seen from above, so a
+falling piece shrinks instead of moving down. A piece damages small planes until it is well below them; it never hurts
+the player.
 """
 
 from dataclasses import dataclass
@@ -32,9 +33,9 @@ HARMLESS = 0.55  # share of the planes' height below which pieces strike nothing
 
 @dataclass
 class Due:
-    """A plane that will break when the next step begins. Until then its hit can be inspected.
+    """A plane that will break when the next step begins, so that its last hit can be inspected before.
 
-    (x, y): place of the last hit [px]; `blow`: its impulse.
+    (x, y): place of the last hit [px]; `blow`: impulse of this hit.
     """
 
     identity: int
@@ -46,7 +47,9 @@ class Due:
 @dataclass
 class Piece:
     """A piece of a broken plane. `mask`: its pixels; `frame`: picture from which it was cut; `left`, `top`: place of
-    `mask` in that picture [px]; `life`: steps until it reaches the ground; `strikes`: whether it can hit small planes.
+    `mask` in that picture [px].
+
+    `life`: steps until the piece reaches the ground; `strikes`: whether it can still hit small planes.
     """
 
     mask: PixelMask
@@ -59,7 +62,7 @@ class Piece:
 
     @property
     def high(self):
-        """Height above the ground, 1 (height of the planes) .. 0. It decreases slowly at first, then faster."""
+        """Height above the ground, 1 (height of the planes) .. 0. The height decreases slowly at first, then faster."""
         return 1.0 - (self.age / self.life) ** 2
 
 
@@ -74,7 +77,9 @@ class Wreckage:
         return len(self.pieces)
 
     def mark(self, plane, x, y, blow):
-        """Mark a plane to break when the next step begins. (x, y): place of the last hit [px]; `blow`: its impulse."""
+        """Mark a plane to break when the next step begins. (x, y): place of the last hit [px]; `blow`: impulse of this
+        hit.
+        """
         self.due.append(Due(plane.id, x, y, blow))
 
     def is_marked(self, identity):
@@ -82,7 +87,7 @@ class Wreckage:
         return any(due.identity == identity for due in self.due)
 
     def break_due(self, fleet):
-        """Break the marked planes into pieces.
+        """Break the marked planes into pieces, and remove the planes from the fleet.
 
         Return a list of (plane, x, y), where (x, y) [px] is the point at which the cracks of the plane cross.
         """
@@ -119,7 +124,9 @@ class Wreckage:
         self.pieces[part.id] = Piece(own, frame, left, top, steps(random.uniform(*LIFE)))
 
     def step(self):
-        """Let all pieces fall for one step. Return a list of (body id, piece) of those that have reached the ground."""
+        """Let all pieces fall for one step. Return a list of (body id, piece) of the pieces that have reached the
+        ground.
+        """
         for identity, piece in self.pieces.items():
             piece.age += 1
             if piece.strikes and piece.high < HARMLESS:
@@ -128,7 +135,8 @@ class Wreckage:
         return [(identity, piece) for identity, piece in self.pieces.items() if piece.age >= piece.life]
 
     def strikes(self, begun, fleet):
-        """Yield (id of a piece, small plane, contact point [px]) for each contact between both that began in this step.
+        """Yield (id of the piece, plane, contact point [px]) for each contact of a piece with a small plane that began
+        in this step.
 
         `begun`: the step's begin events.
         """
@@ -157,8 +165,8 @@ class Wreckage:
 def cracks(mask, x, y, random):
     """Return a mask of jagged cracks, along which a plane with the given mask breaks.
 
-    Two cracks cross at (x, y) [px from the mask's origin]; a wide mask gets more. The result has the size and origin
-    of `mask`, so that it covers the same pixels at the same pose.
+    Two cracks cross at (x, y) [px from the mask's origin]; a wide mask gets further cracks. The result has the size and
+    origin of `mask`, so that it covers the same pixels at the same pose.
     """
     height, width = mask.solid.shape
     solid = np.zeros((height, width), bool)

@@ -32,8 +32,10 @@ def _world(solver, substeps, aside):
 
 
 def measure(seeds: int) -> list[Row]:
-    """Return a row for each setting: the time at which shifted runs differ from the unshifted one by a pixel (RMS), and
-    their distance at the end.
+    """Return a row for each setting: the time after which a shifted run differs by a pixel (RMS) from the unshifted
+    run, and the distance of the two at the end.
+
+    seeds: number of shifted runs.
     """
     rows, steps = {}, {}
     for solver, substeps in WAYS:

@@ -1,7 +1,7 @@
 """Chart 2: cost of a contact, and the errors of its normal and depth, for each tier of collision shape.
 
-The truth is analytic: a disc against a disc or an upright square. The tiers are fitted to pixel masks of them. The
-outline of the pixels cannot serve as truth, because its normals have four directions only.
+The truth is analytic: a disc against a disc or an upright square. The tiers are fitted to pixel masks of these shapes.
+The outline of the pixels cannot serve as truth, because its normals have four directions only.
 """
 
 from collections.abc import Callable, Sequence
@@ -58,7 +58,9 @@ BODIES = {
 
 
 def offsets(truth: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]], count: int) -> np.ndarray:
-    """Return (count, 2) random offsets [px] of touching pairs that overlap by less than DEEPEST, uniform in area."""
+    """Return (count, 2) random offsets [px] of touching pairs that overlap by less than DEEPEST, uniform in area.
+    truth: of_disc or of_square.
+    """
     chance, found = np.random.default_rng(4), np.zeros((0, 2))
     while len(found) < count:
         tried = chance.uniform(-2.0 * RADIUS, 2.0 * RADIUS, (4 * count, 2))
@@ -69,7 +71,9 @@ def offsets(truth: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]], count:
 
 
 def measure(body: str, count: int) -> list[Row]:
-    """Return a row for each tier, used for both sprites, and one for the exact shapes."""
+    """Return a row for each tier, with both sprites in this tier, and a row for the exact shapes. body: key of BODIES;
+    count: number of poses.
+    """
     make, shape, truth, turned = BODIES[body]
     first, second = make(), disc_mask()
     offset = offsets(truth, count)
@@ -90,7 +94,10 @@ def measure(body: str, count: int) -> list[Row]:
 
 
 def _row(body, name, batch, normals, depths):
-    """Return a row with the errors of the contacts found by a batch; of each pair, the deepest manifold counts."""
+    """Return a row with the errors of the contacts found by a batch; of each pair, the deepest manifold counts.
+
+    normals, depths: true normal and depth [px] of each pair.
+    """
     batch.test()
     pairs = batch.pair_of[batch.found["candidate"]]
     order = np.lexsort((batch.found["separation_1"], pairs))

@@ -27,8 +27,8 @@ EFFECTS = Effects(response=True, continuous=True)
 
 
 def name_of(way: str, divided: int) -> str:
-    """Return the name of a method in the chart: the kind of continuous collision, or the number of steps that a step is
-    divided into.
+    """Return the name of a method in the chart: `way`, the kind of continuous collision, or the number of steps that a
+    step is divided into.
     """
     return way if divided == 1 else f"{divided} steps in one"
 
@@ -36,6 +36,8 @@ def name_of(way: str, divided: int) -> str:
 def starts(lanes: int, step: float) -> np.ndarray:
     """Return (lanes, 2) start positions [px] of the discs: at all phases of a step, and aimed at the plate's face, at
     its ends or past it.
+
+    step: path of a disc in one step [px].
     """
     chance = np.random.default_rng(8)
     x = -RUN_UP * step - RADIUS - WIDTH - step * (np.arange(lanes) + 0.5) / lanes
@@ -69,7 +71,9 @@ def world_of(way: str, divided: int, lanes: int, ratio: float, plates: bool = Tr
 
 def measure(ratio: float, lanes: int) -> list[Row]:
     """Return a row for each method: missed hits, false hits, and the distance of the reported contact from the first
-    touch. ratio: disc diameters per step.
+    touch.
+
+    ratio: disc diameters per step; lanes: number of discs.
     """
     step = ratio * 2.0 * RADIUS
     begin = starts(lanes, step)
@@ -112,8 +116,8 @@ def measure(ratio: float, lanes: int) -> list[Row]:
 
 
 def measure_times(count: int) -> list[Row]:
-    """Return a row for each method: the time of 1/60 s of simulation with `count` discs that move ten diameters in it;
-    there is a plate for one in ten.
+    """Return a row for each method: the time to simulate 1/60 s with `count` discs, each of which moves ten diameters
+    in that time. There is one plate for every ten discs.
     """
     ratio, spent = 10.0, {}  # diameters per step
     rates = {row["series"]: row for row in measure(ratio, 200)}
@@ -142,7 +146,9 @@ def measure_times(count: int) -> list[Row]:
 
 
 def _traffic(way, divided, count, ratio):
-    """Return a world of discs that fly through a field of plates; most of them hit no plate."""
+    """Return a world of discs that fly through a field of plates; most of them hit no plate. Arguments: as for
+    world_of.
+    """
     step = ratio * 2.0 * RADIUS
     world = World(EFFECTS, dt=1.0 / 60.0 / divided)
     chance = np.random.default_rng(9)
@@ -207,7 +213,9 @@ def _time_claims(rows: Sequence[Row]) -> list[Claim]:
 
 
 def _expected(ratio):
-    """Return the expected share of hits that a discrete test misses, averaged over all paths that meet the plate."""
+    """Return the expected share of hits that a discrete test misses, averaged over all paths that meet the plate.
+    ratio: disc diameters per step.
+    """
     step = ratio * 2.0 * RADIUS
     aside = np.abs(np.linspace(0.0, HALF + RADIUS, 20_001))[:-1]
     beyond = np.maximum(aside - HALF, 0.0)

@@ -17,7 +17,10 @@ MICRO = 1e6
 
 
 def measure(scene: str, where: str, frames: int) -> list[Row]:
-    """Return a row for each effect of a scene. Its time is the median difference of steps with and without it."""
+    """Return a row for each effect of a scene. Its time is the median difference of steps with and without the effect.
+
+    where: "module:Class" of the scene; frames: greatest length of a run.
+    """
     start_dummy_display()
     made = scene_class(where)
     warm_up_scene(made, None, None)

@@ -52,7 +52,9 @@ DROP = 40.0  # [px]
 
 
 def _bounce(position, velocity):
-    """Return the error [px] of a ball with restitution 1: the height that its energy has gained or lost."""
+    """Return the error [px] of a ball with restitution 1 at this position and velocity: the height that its energy has
+    gained or lost.
+    """
     return abs(position.y - 0.5 * velocity.y**2 / G)
 
 
@@ -68,8 +70,8 @@ CASES = {
 
 
 def world_of(case: Case, solver: str, rate: int) -> World:
-    """Return a world of COPIES equal bodies, too far apart to meet, at the case's height over the ground. rate: steps
-    per second.
+    """Return a world of COPIES equal bodies, too far apart to meet, at the case's height over the ground. solver: of
+    the world; rate: steps per second.
     """
     gravity = (G * sin(case.slope), G * cos(case.slope))
     world = World(case.effects, solver=solver, gravity=gravity, dt=1.0 / rate, substeps=4)
@@ -81,7 +83,7 @@ def world_of(case: Case, solver: str, rate: int) -> World:
 
 
 def measure(case: str) -> list[Row]:
-    """Return a row for each solver and each length of the step."""
+    """Return a row for each solver and each length of the step. case: key of CASES."""
     made, rows, spent = CASES[case], {}, {}
     ways = [(solver, rate) for solver in made.solvers for rate in RATES]
     for solver, rate in ways:

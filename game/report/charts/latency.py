@@ -1,6 +1,6 @@
-"""Chart 12: the time of the steps of every scene, played by its bot, up to the slowest step, and the memory they need.
+"""Chart 12: the time of the steps of every scene, played by its bot, up to the slowest step, and the memory of a step.
 
-A step is that of the whole scene, as `--headless` runs it without drawing: bot, rules and physics.
+A step is a step of the whole scene, as `--headless` runs it without drawing: bot, rules and physics.
 """
 
 import tracemalloc
@@ -25,12 +25,16 @@ RUNS, TRACED = 3, 30  # runs, of which each step's least time counts; steps whos
 
 
 def scene_class(where: str) -> type[Scene]:
-    """Return the class that "module:Class" names."""
+    """Return the class that `where`, "module:Class", names."""
     return resolve_name(where)
 
 
 def measure(scene: str, where: str, frames: int) -> list[Row]:
-    """Return one row: percentiles of the scene's step times. Runs make equal steps; each step's least time counts."""
+    """Return one row: percentiles of the scene's step times. All runs make the same steps; of each step, the least time
+    over the runs counts.
+
+    where: "module:Class" of the scene; frames: length of a run.
+    """
     start_dummy_display()
     made = scene_class(where)
     warm_up_scene(made, None, None)
@@ -61,7 +65,9 @@ def measure(scene: str, where: str, frames: int) -> list[Row]:
 
 
 def _peaks(made, frames):
-    """Return, for each step, the greatest memory that it held in addition to that at its start, (frames,) [bytes]."""
+    """Return (frames,) [bytes]: greatest memory held during each step, minus the memory held at its start. made: class
+    of the scene.
+    """
     session, found = Session(made(0), BotSource()), []
     for _ in range(5):
         session.step()

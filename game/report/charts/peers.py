@@ -1,7 +1,7 @@
 """Chart 14: the same work done by common libraries: pygame's rectangles and masks, pymunk's solver.
 
 Sprites have integer positions, because pygame compares whole pixels. The truth is the set of pairs of masks that share
-a pixel; all pairs are tested for it.
+a pixel; to find it, all pairs are tested.
 """
 
 from collections.abc import Callable, Sequence
@@ -96,7 +96,7 @@ def _sprite(mask, rect):
 
 
 def measure_sprites(count: int) -> list[Row]:
-    """Return a row for each method: the time to find all hits once, and its false and missed hits."""
+    """Return a row for each method: the time to find all hits of `count` sprites, and its false and missed hits."""
     traffic = Traffic(count)
     truth = traffic.all_pairs()
     ways: dict[str, Callable[[], set]] = {

@@ -24,7 +24,7 @@ FEW = ("shooter", "lab/pyramid")
 
 
 def measure(scene: str, where: str) -> list[Row]:
-    """Return a row for each setting and each kind of error of a scene."""
+    """Return a row for each setting and each kind of error of a scene. where: "module:Class" of the scene."""
     start_dummy_display()
     made = scene_class(where)
     warm_up_scene(made, None, None)

@@ -96,7 +96,7 @@ def measure(pile: str) -> list[Row]:
 
 
 def jobs(scope: ReportScope) -> list[Job]:
-    """Return one job per pile; none in a quick report."""
+    """Return one job per pile; in a quick report, no jobs."""
     return [
         Job(
             f"solvers/parts-{pile}".replace(" ", "-").replace(":", "-to-"),
@@ -142,8 +142,10 @@ def claims(rows: Sequence[Row]) -> Iterator[Claim]:
 
 
 def beside(text: str, better: Row, worse: Row, source: str) -> Claim:
-    """Return the claim that the row `better` has an error at least a tenth below that of `worse`. Errors are the same
-    in every run, so that no interval is needed.
+    """Return the claim that the row `better` has an error at least a tenth below that of the row `worse`. text: the
+    claim; source: its paper.
+
+    Errors are the same in every run, so that no interval is needed.
     """
     a, b = better["error"], worse["error"]
     figure = ", ".join(f"{row['error']:.3g} px in {1e6 * row['cost']['seconds'][1]:.3g} us" for row in (better, worse))

@@ -25,8 +25,10 @@ WAYS = [
 
 
 def measure(pile: str, quick: bool) -> list[Row]:
-    """Return a row for each setting: the pile's accuracy over two seconds, then the cost of a step, whether the pile
-    stands or has fallen.
+    """Return a row for each setting: the pile's accuracy over two seconds, and the cost of a step after that, also if
+    the pile has fallen.
+
+    pile: key of PILES; quick: measure fewer settings.
     """
     made = PILES[pile]()
     ways = [way for way in WAYS if not quick or way[1] not in (2, 16)]

@@ -24,8 +24,9 @@ AROUND, NEAR = "poses all around", "within 2 px of touching"
 
 
 def poses_near(first: PixelMask, second: PixelMask, tried: int) -> Poses:
-    """Return those of `tried` random poses at which the exact distance of the sprites is less than BAND. Raises
-    ValueError for fewer than LEAST_EACH hits or misses.
+    """Return those of `tried` random poses of two sprites at which their exact distance is less than BAND.
+
+    Raises ValueError for fewer than LEAST_EACH hits or misses.
     """
     poses = poses_around(first, second, tried, seed=1)
     a, b = fit(first, "mask")[0], fit(second, "mask")[0]
@@ -41,7 +42,7 @@ def poses_near(first: PixelMask, second: PixelMask, tried: int) -> Poses:
 
 
 def measure(atlas: str, name: str, tried: int) -> list[Row]:
-    """Return two rows for each tier of a sprite against itself, one for each set of poses."""
+    """Return two rows for each tier of a sprite against itself, one for each set of poses. tried: see poses_near()."""
     mask, rows = mask_of(atlas, name), []
     for panel, poses in ((AROUND, poses_around(mask, mask)), (NEAR, poses_near(mask, mask, tried))):
         measure_at(mask, mask, poses, lambda figures, panel=panel: rows.append(_row(name, panel, figures)))

@@ -29,8 +29,8 @@ class AdviceRows:
         return self.tuner.on, len(self.tuner.decisions)
 
     def key(self, key: int) -> bool:
-        """Process a key: Page Up applies the advice, Page Down switches the tuner. Return whether it was one of
-        them.
+        """Process a key: Page Up applies the advice, Page Down switches the tuner. Return whether the key was Page Up
+        or Page Down.
         """
         if key == TAKE:
             self.take()
@@ -52,7 +52,7 @@ class AdviceRows:
             self.apply(best)
 
     def draw(self, frame: Frame, left: int, y: int, width: int, scale: int) -> int:
-        """Draw the lines. Return the y below them."""
+        """Draw the lines from (left, y) down, `width` wide. Return the y below them."""
         texts = ((self._advice(), GREEN), (self._tuning(), SKY if self.tuner.on else FOG))
         for row, (text, color) in enumerate(texts):
             self.rects[row] = rect = pygame.Rect(left, y + row * ROW * scale, width, (ROW - 1) * scale)

@@ -33,7 +33,9 @@ class SceneBackground:
         self.scene = scene
 
     def draw(self, canvas: Canvas, time: float) -> None:
-        """Draw the scene darkened. The areas reserved for its text are released, so that a menu may cover them."""
+        """Draw the scene darkened; `time` is not used. The areas reserved for its text are released, so that a menu may
+        cover them.
+        """
         self.scene.draw(canvas, 1.0)
         canvas.surface.fill((DIMMED,) * 3, special_flags=pygame.BLEND_RGB_MULT)
         canvas.boxes.clear()

@@ -27,8 +27,10 @@ class ContactInspectorView:
         self.reach = REACH  # [frame px]
 
     def feed(self, event: pygame.event.Event, frozen: bool) -> bool:
-        """Process a click: near a contact it opens that contact's card, elsewhere it closes the open card. Return
-        whether the click was used.
+        """Process a click while the scene is frozen: near a contact it opens that contact's card, elsewhere it closes
+        the open card.
+
+        Return whether the click was used.
         """
         if not frozen or event.type != pygame.MOUSEBUTTONDOWN or event.button != 1:
             return False
@@ -49,7 +51,7 @@ class ContactInspectorView:
         self.chosen = world, touch
 
     def draw(self, frame: Frame, frozen: bool) -> None:
-        """Draw a ring around the chosen contact, and its card."""
+        """Draw a ring around the chosen contact, and its card, while the scene is frozen."""
         self.lenses = [(world, frame.lens(camera)) for world, camera in self.scene.views()]
         self.reach = REACH * frame.scale
         if self.chosen is None:

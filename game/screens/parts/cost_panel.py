@@ -133,8 +133,8 @@ class CostPanel:
         return setting if distance < reach else None
 
     def draw(self, frame: Frame, rect: pygame.Rect) -> None:
-        """Draw the panel into a frame rect. Painting takes a tenth of a frame, so that new results are painted only
-        after LASTS pictures.
+        """Draw the panel into a frame rect. Painting takes a tenth of a frame, so the painted panel is kept: a change
+        of what is shown repaints it at once, new results only after LASTS pictures.
         """
         now = self.now()
         if not self.trail or self.trail[-1] != now:
@@ -223,7 +223,10 @@ class CostPanel:
             pygame.draw.circle(frame.surface, PAPER, place, 4 * scale, 1)
 
     def _draw_name(self, frame, rect, places, known, now, scale):
-        """Draw the name of the hovered setting beside its dot; without one, the name of the current setting."""
+        """Draw the name of the hovered setting beside its dot; without one, the name of the current setting, `now`.
+
+        places: {setting: place of its dot}; known: {setting: (cost, error)}.
+        """
         setting = self.hovered if self.hovered in places else now if now in places else None
         if setting is None:
             return
@@ -239,7 +242,9 @@ class CostPanel:
         frame.text(text, round(left), round(top), GOLD if setting == now else PAPER, SMALL, scale)
 
     def _draw_forms(self, frame, left, y, width, known, now, scale):
-        """Draw the legend: name and form of each kind of dot in the plot. Return the y below it."""
+        """Draw the legend from (left, y) on: name and form of each kind of dot in the plot. Return the y below it.
+        known: {setting: (cost, error)}.
+        """
         base = self.surveyor.here or now
         names = dict.fromkeys(kind_of(setting, base) for setting in known if setting != base)
         x = left
@@ -261,7 +266,9 @@ class CostPanel:
         return y + 2 * scale
 
     def _draw_list(self, frame, rect, known, now, scale):
-        """Draw the settings, the cheapest first, and how many do not fit above and below."""
+        """Draw the settings, the cheapest first, and how many do not fit above and below. known: {setting: (cost,
+        error)}.
+        """
         base, pareto_front = self.surveyor.here or now, set(self.survey.pareto_front(self.shown_kind()))
         ranking = self.ranking()
         frame.text("time of a step, noise, error", rect.right - 2 * scale, rect.y + scale, FOG, SMALL, scale, "right")
@@ -307,7 +314,10 @@ def look_of(setting: Setting, base: Setting) -> tuple[Color, str]:
 def draw_form(
     surface: pygame.Surface, form: str, place: tuple[float, float], size: float, color: Color, full: bool
 ) -> None:
-    """Draw a dot's form. full: filled; otherwise hollow, because the error is only an upper bound."""
+    """Draw a dot of the given form at a place.
+
+    full: filled; otherwise hollow, because the error is only an upper bound.
+    """
     x, y = place
     width = 0 if full else 1
     if form == "circle":

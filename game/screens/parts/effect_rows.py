@@ -26,8 +26,8 @@ def effect_rows(measuring: Measuring) -> list[Row]:
 
 
 def price_text(known: EffectCost, busy: bool) -> str:
-    """Return the effect's time per step [us] as text; "0" if it is not greater than the scatter of the runs, "..."
-    while it is measured, "-" if unknown.
+    """Return the time per step [us] of an effect as text: "0" if it is not greater than the scatter of the runs, "-" if
+    it is unknown, "..." while it is measured (`busy`).
     """
     price = known.price
     if price is None:
@@ -36,7 +36,9 @@ def price_text(known: EffectCost, busy: bool) -> str:
 
 
 def kernels_text(known: EffectCost, busy: bool) -> str:
-    """Return the number of kernels compiled for the effect as text; "..." while it is counted, "-" if unknown."""
+    """Return the number of kernels compiled for an effect as text: "-" if it is unknown, "..." while it is counted
+    (`busy`).
+    """
     if known.kernels is None:
         return WAITS if busy else UNKNOWN
     return f"{known.kernels}"

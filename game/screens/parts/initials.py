@@ -77,7 +77,9 @@ class Initials:
                     self._turn(number, -1 if pointer[1] < cell.centery else 1)
 
     def _turn(self, number, way):
-        """Change a letter by `way` places in LETTERS, cyclically: a press of Up (-1) goes back, as usual in arcades."""
+        """Change letter `number` by `way` places in LETTERS, cyclically: a press of Up (-1) goes back, as usual in
+        arcades.
+        """
         index = (LETTERS.index(self.letters[number]) + way) % len(LETTERS)
         self.letters[number] = LETTERS[index]
         self.cues.append("blip")

@@ -181,7 +181,8 @@ def first_card(scene: Scene, settings: Settings) -> "HintCard | LabCard | None":
 
 
 def what_to_see(scene_class: type[Scene]) -> CardText | None:
-    """Return a lab's question and sections, read from its module docstring; None if that has no "What to see:".
+    """Return a lab's question and sections, read from its module docstring; None if the docstring has no "What to
+    see:".
 
     A section is a paragraph that begins with its name and a colon; a missing section is "".
     """

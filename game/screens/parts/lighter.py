@@ -39,7 +39,9 @@ class Lighter:
         return f"{' and '.join(less)} until the physics is compiled"
 
     def note(self, busy: float) -> None:
-        """Record the duration of a frame [s], and apply or undo the changes if they are due."""
+        """Record that a frame took `busy` [s]. Reduce the load if frames are slow; restore it once all kernels are
+        compiled.
+        """
         if self.over or not self.scene.lighter:
             return
         if self.changed:

@@ -160,14 +160,17 @@ class Measuring:
         self.race = self.split = None
 
     def toggle_split(self) -> str:
-        """Change between split screen and rival drawn over the scene. Return "", or a line to show without a race."""
+        """Toggle between two ways to show a race: split screen, and the rival's outlines over the scene.
+
+        Return "", or a line to show if there is no race.
+        """
         if self.race is None:
             return "no race: the panel starts one, or Shift and a click in the plot of costs"
         self.split = None if self.split is not None else SplitScreen(self.race)
         return ""
 
     def rivals(self) -> list[Setting]:
-        """Return the settings that differ from the current one in one part and that the scene can be raced under."""
+        """Return the settings under which the scene can be raced: all that differ from the current one by one field."""
         found = settings_around(self.now(), self.world.effects)[1:]
         return [setting for setting in found if not isinstance(self._changes(setting), str)]
 

@@ -61,7 +61,7 @@ class Played(Protocol):
         ...
 
     def start_race(self, setting: Setting) -> None:
-        """Restart the scene in a race against a copy of it under this setting."""
+        """Restart the scene in a race against a copy of the scene under this setting."""
         ...
 
     def request_restart(self) -> None:

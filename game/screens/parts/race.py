@@ -29,10 +29,11 @@ KEPT = 600  # steps for which the distance of the two scenes is kept
 
 
 class Race:
-    """A race; call step(session) after each step of the session. changes: (name, value) settings that the rival alone
-    has, as for Scene.change.
+    """A race between `scene`, which is played, and `rival`, another instance of the same scene with different settings.
 
-    Raises ValueError for an invalid change. The caller restarts the scene with its next input.
+    changes: (name, value) pairs for Scene.change(), which are applied to the rival alone. Raises ValueError for an
+    invalid change. The rival begins at its first frame, so the caller must restart `scene` with its next input. Call
+    step(session) after each step of the scene.
     """
 
     def __init__(self, scene: Scene, changes: list[tuple[str, object]]) -> None:
@@ -49,7 +50,11 @@ class Race:
         self.apart: deque[float] = deque(maxlen=KEPT)  # [px] RMS distance over the common bodies, of the last steps
 
     def step(self, session: Session) -> None:
-        """Repeat the session's last step with the rival, and measure the distance between the two scenes."""
+        """Step the rival with the input of the scene's last step, and record how far the bodies of the two scenes are
+        apart.
+
+        `session`: the session of the played scene. Changes of settings named in OWN are not passed on to the rival.
+        """
         frame = session.inputs.now
         self.inputs.set(replace(frame, changes=tuple(each for each in frame.changes if each[0] not in OWN)))
         started = perf_counter()
@@ -63,8 +68,10 @@ class Race:
         self.apart.append(float(np.sqrt((gaps * gaps).mean())) if len(gaps) else 0.0)
 
     def _pair(self, frame):
-        """Find the bodies that both scenes have. Ids follow the order of creation: once the scenes differ, one id may
-        denote two different bodies. Bodies are thus paired only if they appear in the same step at the same place.
+        """Update `same`, the ids of the bodies that both scenes have. frame: input of this step.
+
+        Ids follow the order of creation: once the scenes differ, one id may denote two different bodies. Two bodies
+        with one id are therefore paired only if they appear in the same step at the same place.
         """
         if any(name == "restart" for name, _ in frame.changes):
             self.same = self.seen = np.zeros(0, np.int64)
@@ -76,7 +83,9 @@ class Race:
         self.seen = np.union1d(self.seen, np.union1d(ours["id"], theirs["id"]))
 
     def gaps(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the positions of the bodies that both scenes have [px]: (n, 2) in the scene, (n, 2) in the rival."""
+        """Return the positions [px] of the bodies that both scenes have: their positions in the scene, (n, 2), and in
+        the rival, (n, 2).
+        """
         ours, theirs = self.scene.world.bodies, self.rival.world.bodies
         mine, other = (np.flatnonzero(np.isin(rows["id"], self.same)) for rows in (ours, theirs))
         mine, other = mine[np.argsort(ours["id"][mine])], other[np.argsort(theirs["id"][other])]
@@ -88,7 +97,7 @@ class Race:
         return np.hypot(*(ours - theirs).T)
 
     def report_lines(self) -> list[str]:
-        """Return three lines: setting and time of the scene, the same of the rival, and their distance."""
+        """Return three lines: setting and time of the scene, setting and time of the rival, and distance of both."""
         now, other = (here_of(each.world, each.tier) for each in (self.scene, self.rival))
         apart = self.distances()
         rms = self.apart[-1] if self.apart else 0.0

@@ -52,7 +52,9 @@ class SplitScreen:
         self._draw_below(frame, pygame.Rect(area.x, area.y + size[1], area.width, area.height - size[1]))
 
     def _make_pictures(self, width):
-        """Make the pictures of both scenes at a whole scale that is at least as large as their part of the frame."""
+        """Make the pictures of both scenes at the smallest whole scale at which they fill their parts of the frame, of
+        this width.
+        """
         scale = -(-width // CANVAS_SIZE[0])
         wanted = CANVAS_SIZE[0] * scale, CANVAS_SIZE[1] * scale
         if not self.pictures or self.pictures[0].presenter.frame.surface.get_size() != wanted:
@@ -102,7 +104,9 @@ class SplitScreen:
 
 
 def _curve(apart: deque[float], rect: pygame.Rect) -> list[tuple[float, float]]:
-    """Return the points of a curve of distances [px], with the newest distance at the right border."""
+    """Return the points of the curve of the distances `apart` [px], with the newest distance at the right border of the
+    rect.
+    """
     width = rect.width / (apart.maxlen or len(apart))
     first = rect.right - width * len(apart)
     return [(first + width * number, _height(value, rect)) for number, value in enumerate(apart)]

@@ -45,7 +45,7 @@ class Repeat:
         self.wait = 0.0
 
     def move(self, inputs: InputState, dt: float) -> int:
-        """Return the move of this step: -1, 0 or +1. Call it in each step; dt: its length [s]."""
+        """Return the move of this step: -1, 0 or +1. Call move() in each step; dt: length of the step [s]."""
         back, forth = self.names
         for action, way in ((back, -1), (forth, 1)):
             if inputs.pressed(action):
@@ -92,7 +92,7 @@ class RowList:
         return rows[self.mark] if self.mark < len(rows) else None
 
     def place(self, number: int) -> pygame.Rect | None:
-        """Return the rect of a row, or None if it is scrolled out of view."""
+        """Return the rect of row `number`, or None if the row is scrolled out of view."""
         if not self.first <= number < self.first + self.room:
             return None
         return pygame.Rect(self.rect.x, self.rect.y + (number - self.first) * LINE, self.rect.width, LINE - 2)
@@ -183,12 +183,12 @@ class RowList:
             self.cues.append("blip")
 
     def value_place(self, place: pygame.Rect) -> pygame.Rect:
-        """Return the part of a row that shows its value."""
+        """Return the part of a row that shows its value. place: rect of the row."""
         wide = min(VALUE_WIDTH, place.width // 2)
         return pygame.Rect(place.right - wide, place.y, wide, place.height)
 
     def bar_place(self, place: pygame.Rect) -> pygame.Rect:
-        """Return the rect of a slider's bar in its row."""
+        """Return the rect of a slider's bar in its row. place: rect of the row."""
         value = self.value_place(place)
         return pygame.Rect(value.x, value.centery - 2, BAR_WIDTH, 4)
 

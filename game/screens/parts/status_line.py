@@ -84,7 +84,9 @@ def draw_line(frame: Frame, text: str, color: Color, head: int = 0) -> None:
 
 
 def _draw_in_head(frame, text, color, head):
-    """Draw a line of text in one row or more at the top, as large as fits; hide other text there except the title.
+    """Draw a line of text in the top `head` canvas pixels, in one row or more and as large as fits; hide other text
+    there except the title.
+
     Return whether it fits.
     """
     band = frame.from_canvas((0, 0, frame.area.width // frame.scale, head)).clip(frame.rect)

@@ -128,7 +128,9 @@ class StepInspectorView:
         return True
 
     def _turn_world(self, way):
-        """Inspect the next visible world (`way` 1; -1: the previous one) that makes a step in this frame."""
+        """Inspect the next visible world that makes a step in this frame. way: 1 for the next world, -1 for the
+        previous one.
+        """
         here, count = self.world, len(self.worlds())
         for number in range(1, count + 1):
             if not self.enter(here + way * number):
@@ -222,7 +224,7 @@ class StepInspectorView:
         frame.fix(rect)
 
     def _place(self, frame, area, size):
-        """Return the card's place: a top corner, chosen once per step, where it covers the least text."""
+        """Return the card's place: a top corner of the area, chosen once per step, that covers the least text."""
         corners = area.left, area.right - size[0]
         if self.corner is None:
             narrow = pygame.Rect(area.x, area.y, area.width, min(area.height, size[1]))

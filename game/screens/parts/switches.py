@@ -24,7 +24,7 @@ class Switches:
         self.reported: tuple[str, float] = ("", 0.0)  # last switch, and the end of its line [s]
 
     def solver(self, way: int) -> None:
-        """Change the solver."""
+        """Change to the next solver (`way` 1) or the previous one (-1)."""
         choices = self.scene.solver_choices()
         if choices:
             name = following(choices, solver_name(self.scene), way)
@@ -35,7 +35,7 @@ class Switches:
             self.report("nothing is pushed here: there is no solver to switch")
 
     def broadphase(self, way: int) -> None:
-        """Change the broad phase."""
+        """Change to the next broad phase (`way` 1) or the previous one (-1)."""
         if self.scene.switches_broadphase:
             name = following(tuple(BROADPHASES), self.scene.broadphase, way)
             self._switch("broadphase", "broad phase", name, self.scene.broadphase)
@@ -43,12 +43,12 @@ class Switches:
             self.report("each world here has a broad phase of its own")
 
     def substeps(self, way: int) -> None:
-        """Change the number of substeps."""
+        """Change to the next number of substeps (`way` 1) or the previous one (-1)."""
         now = self.scene.worlds[0].substeps
         self._switch("substeps", "substeps", following(SUBSTEPS, now, way), now)
 
     def tier(self, way: int) -> None:
-        """Change the tier of the sprites' shapes."""
+        """Change to the next tier of the sprites' shapes (`way` 1) or the previous one (-1)."""
         if self.scene.tiers:
             self._switch("tier", "tested as", following(self.scene.tiers, self.scene.tier, way), self.scene.tier)
         else:
@@ -65,7 +65,7 @@ class Switches:
         self.report(f"{what}: {plain_name(str(new))}, was {plain_name(str(old or 'none'))}")
 
     def report(self, line: str) -> None:
-        """Show a line of text for REPORT_SECONDS."""
+        """Show a line of text for the next REPORT_SECONDS."""
         self.reported = line, self.now + REPORT_SECONDS
 
     @property
@@ -75,5 +75,7 @@ class Switches:
 
 
 def following(names: Sequence[Any], name: Any, way: int) -> Any:
-    """Return the element `way` places after `name` in `names`, cyclically; the first one if `name` is not there."""
+    """Return the element `way` places after `name` in `names`, cyclically; the first element if `name` is not in
+    `names`.
+    """
     return names[(names.index(name) + way) % len(names)] if name in names else names[0]

@@ -44,8 +44,8 @@ class Timeline:
         self.control, self.dragging, self.asked = None, False, None
 
     def feed(self, event: pygame.event.Event, devices: DeviceSource, frozen: bool, now: float) -> bool:
-        """Process an event; return whether it was used. devices: translate pad events into button names; now: time of
-        the last turn [s].
+        """Process an event; return whether it was used. devices: translate pad events into button names; frozen:
+        whether the game is frozen; now: time of the last turn [s].
         """
         button = devices.button_of(event)
         if event.type == pygame.KEYUP:
@@ -108,8 +108,10 @@ class Timeline:
             self.went()
 
     def turn(self, now: float, frozen: bool) -> bool:
-        """Move to the step chosen by keys or mouse, at `now` [s]. Return whether Backspace is held to run back: then
-        the game must make no steps.
+        """Move to the step chosen by keys or mouse, at `now` [s]. Keys and mouse act only while the game is frozen,
+        Backspace always.
+
+        Return whether Backspace is held to run back: then the game must make no steps.
         """
         if not frozen and not self.runs:
             self.let_go()

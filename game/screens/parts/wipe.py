@@ -33,7 +33,9 @@ class Wipe:
             self._draw_strips(surface, share)
 
     def _draw_strips(self, surface, share):
-        """Draw the strips of the old picture. Each becomes narrower from the left; the left strips start first."""
+        """Draw the strips of the old picture when `share` 0..1 of the transition is over. Each becomes narrower from
+        the left; the left strips start first.
+        """
         width, height = surface.get_size()
         for number in range(STRIPS):
             late = SPREAD * number / (STRIPS - 1)

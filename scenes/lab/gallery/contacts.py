@@ -35,7 +35,9 @@ def build_gates(side, speed=GATE_SPEED):
 
 
 def move_gates(side):
-    """Lower the gates onto the crates and raise them again. Each round touches the crates at another time of a step."""
+    """Lower the gates onto the crates and raise them again. In each round, they meet the crates at another time within
+    a step.
+    """
     step, speed = side.steps % ROUND, side.kept["speed"]
     if step == 0:
         for number, (gate, crate) in enumerate(zip(side.kept["gates"], side.kept["crates"], strict=True)):

@@ -41,7 +41,9 @@ def fastest_move(side):
 
 
 def farthest_move(figures):
-    """Return the greatest distance that a body moved in a step of the run beside the game, as a speed [m/s]."""
+    """Return the greatest distance that a body moved in a step of the run beside the game, as a speed [m/s]. figures:
+    of that run.
+    """
     assert figures.farthest is not None  # set, because it was judged
     return figures.farthest * 60.0 / METER
 
@@ -82,7 +84,7 @@ def build_pyramid(side, origin):
 
 
 def apart(side):
-    """Return the greatest difference, along x or y, between the positions of a body in both worlds [mm]."""
+    """Return the greatest difference between the positions of the same body in the two worlds, along x or y [mm]."""
     b, other = dynamic(side.world), dynamic(side.other.world)
     shift = side.kept["origin"] - side.other.kept["origin"]
     return MM * max(float(np.abs(b[axis] - other[axis] - shift).max()) for axis in ("x", "y"))

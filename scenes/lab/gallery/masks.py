@@ -43,7 +43,7 @@ def swing(side):
 
 
 def wrong(side):
-    """Return the share of verdicts (touching or not) that geometry refutes, of all so far [%].
+    """Return the share of all verdicts so far (touching or not) that were wrong by geometry [%].
 
     Ring and ball touch if their middles are 6 to 30 px apart. Distances near these limits are not counted.
     """

@@ -38,10 +38,11 @@ def build_ball(side):
 
 
 def apex(side):
-    """Return the error of an apex of the bouncing ball against the height of its first fall [%], else 0.
+    """Return the error of an apex of the bouncing ball against the height of its first fall [%]; 0 in a step without an
+    apex.
 
-    The apex is that of the parabola through three steps. Only the first seventeen are measured. If the ball stops
-    bouncing too early, the error is 100 %.
+    The apex is that of the parabola through three steps. Only the first seventeen apexes are measured. If the ball
+    stops bouncing too early, the error is 100 %.
     """
     kept, found = side.kept, 0.0
     kept["heights"] = [*kept["heights"][-2:], -BALL - side.kept["ball"].position[1]]
@@ -62,7 +63,7 @@ def blows():
 
 
 def build_discs(side):
-    """Build pairs of frictionless discs: one flies at the other, which rests, off its middle."""
+    """Build pairs of frictionless discs: one disc flies at the other, which rests, and meets it off its middle."""
     side.kept["pairs"] = []
     for number, (offset, speed, further) in enumerate(blows()):
         x, y = 5.0 * METER * (number % 8), 4.0 * METER * (number // 8)
@@ -88,7 +89,10 @@ def glance(side):
 
 
 def build_slope(side, share):
-    """Build a box on a slope of 30 degrees. `share`: its friction, relative to the least that holds the box."""
+    """Build a box on a slope of 30 degrees.
+
+    `share`: friction of the box, relative to the least friction that holds it.
+    """
     material = Material(friction=share * tan(SLOPE))
     c, s = cos(SLOPE), sin(SLOPE)
     plank = Polygon.box(40.0 * METER, 2.0 * METER)
@@ -142,7 +146,10 @@ def slide(side):
 
 
 def slowed(side):
-    """Return the greatest change of a slider's speed [%]. Mark places where one trips, and record the highest hop."""
+    """Return the greatest change of a slider's speed [%].
+
+    Mark places where a slider trips, and record the highest hop.
+    """
     kept, worst = side.kept, 0.0
     for slider, (_, y), speed in kept["sliders"]:
         lost = 100.0 * abs(slider.velocity[0] - speed) / speed

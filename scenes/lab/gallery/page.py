@@ -34,9 +34,9 @@ class Way:
 
 
 def auto(accuracy):
-    """Return the Way whose world chooses as many substeps as limit the sag of contacts to `accuracy` [mm].
+    """Return the Way whose world chooses the number of substeps that limits the sag of contacts to `accuracy` [mm].
 
-    This holds as long as 32 substeps suffice.
+    The limit is kept as long as 32 substeps suffice.
     """
     name = f'substeps="auto", to {accuracy} mm'
     return Way(name, {"substeps": "auto", "accuracy": accuracy / MM})
@@ -50,7 +50,7 @@ PLAIN = Way("projection", PUSHED.world, without=("stacking",))
 
 @dataclass(frozen=True)
 class Larger:
-    """The case of a page at a size that is too large for real time. It runs beside the game.
+    """The case of a page at a size that is too large for real time, which runs beside the game.
 
     `maker`: "module:function" that returns its snapshot; the argument is a Way's `world`. `steps`: how many steps from
     the start are judged.
@@ -64,9 +64,10 @@ class Larger:
 
 @dataclass(frozen=True)
 class Page:
-    """A hard case. The expected result: the error of the naive way exceeds `limit`, and that of the other does not.
+    """A hard case. The expected result: the error in the naive way's world exceeds `limit`, the error in the engine's
+    world does not.
 
-    If `alike`, both must stay within the limit.
+    If `alike`, both errors must stay within the limit.
     """
 
     name: str

@@ -65,7 +65,7 @@ def overlap(side):
 
 
 def build_leaning(side):
-    """Build ten crates, each 8 cm further to the right than the one below: with 10 cm such a tower falls."""
+    """Build ten crates, each 8 cm further to the right than the one below. With 10 cm the tower would fall."""
     floor(side.world)
     rows = np.arange(10)
     side.world.add_bodies(CRATE, np.column_stack([0.08 * METER * rows, -(rows + 0.5) * METER]))
@@ -93,7 +93,7 @@ def build_load(side):
 
 
 def take_away(side):
-    """Remove the load after three seconds. With the way FORCES_KEPT, move it away by writing its x instead."""
+    """Remove the load after three seconds. If this side runs FORCES_KEPT, write its x instead: it is then far away."""
     if side.steps != GONE:
         return
     load = side.kept["load"]

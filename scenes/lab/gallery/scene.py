@@ -45,7 +45,7 @@ DUE = TOURED + sum(page.steps for page in PAGES) + 2400  # frames after which th
 
 
 class Gallery(Scene):
-    """The open page: two sides, stepped in the same frame."""
+    """The open page of the gallery: two sides with a world each, which are stepped in the same frame."""
 
     name = "lab/gallery"
     title = "Gallery"
@@ -243,7 +243,8 @@ class Gallery(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        On each judged page the naive way exceeds the limit and the other keeps it; or both are alike.
+        On each page, the error of the naive way exceeds the limit and that of the engine does not. On pages with
+        `alike`, neither does.
         """
         return [
             Goal(
@@ -281,7 +282,7 @@ class Gallery(Scene):
     def bot(self):
         """Return the bot's input for the next step.
 
-        Its plan: a short look at each page; then each until it is judged.
+        Its plan: open each page for a short look; then open them again, each until it is judged.
         """
         if self.frame < TOURED:
             number = GLANCES.get(self.frame)
@@ -299,7 +300,7 @@ class Gallery(Scene):
 
 
 def is_met(page, naive, ours):
-    """Return whether the errors of both ways are as the page expects."""
+    """Return whether the errors of both ways, `naive` and `ours`, are as the page expects."""
     return ours <= page.limit and (naive <= page.limit) == page.alike
 
 

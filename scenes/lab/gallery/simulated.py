@@ -38,7 +38,7 @@ def step_naively(side, bodies, substeps, share):
 
     `bodies`: the dynamic bodies, each solved by itself against static and kinematic bodies. `share`: part of the
     overlap that a step removes, by a velocity that the body keeps afterwards. All substeps use the moment arms of the
-    start of the step. Both are the errors that the gallery shows.
+    start of the step. The kept velocity and the old moment arms are the two errors that the gallery shows.
     """
     world, gravity = side.world, side.other.world.gravity
     ends = [solved_step(world, body, gravity, substeps, share) for body in bodies]
@@ -48,9 +48,10 @@ def step_naively(side, bodies, substeps, share):
 
 
 def solved_step(world, body, gravity, substeps, share):
-    """Solve the contacts of a body for a step, and give it the mean velocity of the step, by which the world moves it.
+    """Solve the contacts of a body for one step, and set its velocity to the mean over the substeps; the world then
+    moves it by this velocity.
 
-    Return its Motion at the end of the step.
+    Return its Motion at the end of the step. `share`: see step_naively().
     """
     row = world.bodies[world.rows([body.id])[0]]
     pushes = pushes_on(world, body, row, share)
@@ -72,7 +73,9 @@ def solved_step(world, body, gravity, substeps, share):
 
 
 def pushes_on(world, body, row, share):
-    """Return a Push for each contact of a body at the end of the last step. `row`: its row in world.bodies."""
+    """Return a Push for each contact of a body at the end of the last step. `row`: the body's row in world.bodies;
+    `share`: see step_naively().
+    """
     found, middle = [], (float(row["center_x"]), float(row["center_y"]))
     for contact in world.contacts:
         pair = int(contact["body_a"]), int(contact["body_b"])
@@ -93,7 +96,7 @@ def pushes_on(world, body, row, share):
 
 
 def solved(motion, push, inverse):
-    """Apply the normal and the friction impulse of a contact. Return the new Motion.
+    """Apply the normal and the friction impulse of the contact `push` to a body with `motion`. Return its new Motion.
 
     `inverse`: (1 / mass, 1 / inertia).
     """
@@ -108,7 +111,11 @@ def solved(motion, push, inverse):
 
 
 def impulse(motion, push, axis, wanted, inverse):
-    """Return (impulse, its moment arm [px]) that gives the contact the relative speed `wanted` [px/s] along an axis."""
+    """Return (impulse, its moment arm [px]) that gives the contact `push` the relative speed `wanted` [px/s] along an
+    axis.
+
+    motion: present Motion of the body; inverse: (1 / mass, 1 / inertia).
+    """
     (rx, ry), (x, y) = push.arm, axis
     arm = rx * y - ry * x
     speed = (motion.vx - motion.spin * ry - push.other[0]) * x + (motion.vy + motion.spin * rx - push.other[1]) * y
@@ -116,7 +123,9 @@ def impulse(motion, push, axis, wanted, inverse):
 
 
 def struck(motion, axis, arm, amount, inverse):
-    """Return the Motion after an impulse of size `amount` along an axis, with moment arm `arm` [px]."""
+    """Return the Motion of a body after an impulse of size `amount` along an axis, with moment arm `arm` [px]. inverse:
+    (1 / mass, 1 / inertia).
+    """
     x, y = axis
     return Motion(
         motion.vx + amount * x * inverse[0],

@@ -60,7 +60,7 @@ def count(side, place, missed):
 
 
 def through(side):
-    """Return the share of shots that missed what they had to meet, of all that have ended [%]."""
+    """Return the share of shots that missed a body that they had to meet, of all shots that have ended [%]."""
     return 100.0 * side.kept["through"] / max(1, side.kept["fired"])
 
 
@@ -78,7 +78,9 @@ def rod_place(lane):
 
 
 def spin(side):
-    """Add rods at random angles that rotate in place, and replace them after TURN steps. Count those that missed."""
+    """Add rods at random angles that rotate in place, and replace them after TURN steps. Count the rods that missed
+    their pegs.
+    """
     side.kept["met"] |= {int(row[name]) for row in side.world.events.begin for name in ("body_a", "body_b")}
     if side.steps % TURN == 0:
         for identity in list(side.kept["flying"]):
