@@ -151,15 +151,17 @@ class Body(Handle):
 
     @angular_velocity.setter
     def angular_velocity(self, value: float) -> None:
-        self.world._unstepped()
+        world, identity = self._world, self._id
+        world._unstepped()
         value = checks.number("angular_velocity", value)
-        self.world._needs("rotation", "angular_velocity", value != 0.0)
-        row, columns = self.world._row_at(self.id), self.world._bodies.columns
-        if columns["kind"][row] == STATIC and value != 0.0:
-            raise ValueError(f"angular_velocity must be 0 for static body {self.id} (got {value})")
-        edit.check_grid_stands(self.shapes, value)
+        row, columns = world._row_at(identity), world._bodies.columns
+        if value != 0.0:
+            world._needs("rotation", "angular_velocity", True)
+            if columns["kind"][row] == STATIC:
+                raise ValueError(f"angular_velocity must be 0 for static body {identity} (got {value})")
+            edit.check_grid_stands(self.shapes, value)
         columns["angular_velocity"][row] = value
-        self.world._targets.pop(self.id, None)
+        world._targets.pop(identity, None)
         self._stir(row)
 
     @property
