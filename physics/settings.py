@@ -40,6 +40,7 @@ STICKING_SHARE = 0.5  # … and while their relative motion is below this share 
 CONTACT_HERTZ = 60.0  # [1/s] stiffness of a contact where the number of substeps is given
 AUTO_SUBSTEPS = (4, 8, 16, 32, 64, 128)  # numbers of substeps of an island under "auto", which follow from …
 LOAD_SUBSTEPS = 32  # greatest number for a load alone: stiffer springs ring after an impact
+MOVING_SUBSTEPS = 16  # greatest number for a heap in motion
 ACCURACY = 0.001  # [m] … the greatest sag of its contacts under their loads. Smaller: stiffer piles at a higher cost
 EASE_TIME = 0.25  # [s] for which fewer substeps must have been enough before an island takes fewer
 LEAN = 20.0  # greatest divisor of the allowed sag where one end of a face carries more load than the other

@@ -507,7 +507,7 @@ def store_joints(rows, context, joints_inout):
 def estimate_joints(rows, joints, rate, dt, accuracy, motions_inout):
     """Raise MOTION.estimate to the square of the number of substeps that the joints of a body need. O(rows).
 
-    rows: JOINT rows; rate: see contact_lanes.estimate_rate; dt [s]: step length; accuracy [px]. In the iterative tier
+    rows: JOINT rows; rate: see substeps.estimate_rate; dt [s]: step length; accuracy [px]. In the iterative tier
     the spring of a joint has twice the frequency of the spring of a contact, so it sags by a quarter. In either tier an
     anchor on an arm r that rotates by an angle φ in a substep leaves the joint by r φ² / 2.
     """
