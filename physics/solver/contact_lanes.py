@@ -36,7 +36,16 @@ from physics.islands.substeps import (
 )
 from physics.jit import inlined, kernel, subkernel
 from physics.math2d import norm
-from physics.settings import AUTO_SUBSTEPS, COLORS, EASE_TIME, LEAN, LOAD_SUBSTEPS, MOVING_SUBSTEPS, STILL_STIFFNESS
+from physics.settings import (
+    AUTO_SUBSTEPS,
+    COLORS,
+    EASE_TIME,
+    LEAN,
+    LOAD_SUBSTEPS,
+    MOVING_SPEED,
+    MOVING_SUBSTEPS,
+    STILL_STIFFNESS,
+)
 from physics.solver import lanes as at
 from physics.solver.energy import FACING, find_squeezed
 from physics.solver.joint_direct import JointSet, Trees
@@ -468,7 +477,7 @@ def estimate_substeps(state: StepState, motions: Motions, plan: Plan, group: Gro
         state.dt,
         EASE_TIME,
         MOVING_SUBSTEPS,
-        state.tolerances.sleep_speed,
+        MOVING_SPEED * state.tolerances.sleep_speed,
     )
     if len(group.joints):
         estimate_joints(group.joints, state.joints, rate, state.dt, state.accuracy, motions.used)
