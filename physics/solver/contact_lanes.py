@@ -60,7 +60,7 @@ class Plan(NamedTuple):
     """The constraints to solve and their order.
 
     The lengths (edges), (motions) and (joints) are capacities: at least the numbers of constraints, MOTION rows and
-    JOINT rows. A node is a MOTION row, an edge a constraint.
+    JOINT rows in use. A node of the graph is a MOTION row, an edge a constraint.
     """
 
     edges: Edges  # one edge for each contact to solve, then one for each joint
@@ -88,7 +88,10 @@ class Plan(NamedTuple):
 
 
 def new_plan(edges: int, motions: int, joints: int) -> Plan:
-    """Return a Plan with capacities for contacts and joints together (edges), MOTION rows and joints."""
+    """Return a Plan with capacities.
+
+    edges: for contacts and joints together; motions: for MOTION rows; joints: for joints.
+    """
     slots = len(AUTO_SUBSTEPS) * (COLORS + 1) + 1
     return Plan(
         edges=new_edges(edges),
@@ -117,7 +120,7 @@ def new_plan(edges: int, motions: int, joints: int) -> Plan:
 
 
 class Islands(NamedTuple):
-    """The bodies of all islands, and the numbers of substeps from which an island may choose."""
+    """The island bodies, and the numbers of substeps from which each island may choose."""
 
     members: np.ndarray  # int32 rows of MOTION
     rate: float  # see estimate_rate
@@ -159,9 +162,9 @@ ALIKE = math.sqrt(0.5 + 0.5 * FACING) + 1e-6
 
 @inlined
 def traits_of(row_a, row_b, lists):
-    """Return the bits of what graph.color_edges reads of the bodies of a contact: both ranks, and both finite masses.
+    """Return the traits of the two bodies of a contact on which graph.color_edges depends, as bits of one number.
 
-    row_a, row_b: MOTION rows; lists: MotionLists.
+    The traits of a body are its rank and whether it has finite mass. row_a, row_b: MOTION rows; lists: MotionLists.
     """
     a = lists.rank[row_a] << 1 | int(lists.has_finite_mass[row_a])
     b = lists.rank[row_b] << 1 | int(lists.has_finite_mass[row_b])
@@ -173,9 +176,11 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, plan_
     """List the contacts to solve as graph edges between MOTION rows. O(contacts).
 
     Return (number of edges, whether islands may be squeezed, greatest overlap [px], whether the colours of the last
-    step are valid: same edges between bodies of the same rank). Sensors, pairs without a body of finite mass, and
-    contacts under a character's feet are left out. No island is squeezed unless the overlapped faces of bodies of
-    infinite mass point in different directions, or move.
+    step are valid). They are valid if the edges connect the same MOTION rows with the same traits, see traits_of.
+    Sensors, contacts without a body of finite mass, and contacts under a character's feet are left out. Islands may be
+    squeezed only if overlapped faces of bodies of infinite mass point in different directions, or if such a face moves.
+    limits: see settings.Limits; lists_inout: MotionLists, whose reserves of energy grow for bodies created inside
+    others.
     """
     edges_out, traits_out = plan_out.edges, plan_out.traits
     motion_of = lists_inout.motion_of
@@ -240,9 +245,9 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, plan_
 
 @subkernel
 def list_joint_edges(joints, count, edges_out):
-    """List the joints to solve as graph edges after the edges of contacts. Return the number of all edges. O(joints).
+    """Write the joints to solve as graph edges, after the edges of contacts. Return the number of all edges. O(joints).
 
-    joints: see list_joints; count: number of edges of contacts.
+    joints: result of joint_rows.list_joints; count: number of edges of contacts; edges_out: Edges of the graph.
     """
     for k in range(len(joints)):
         edge = count + k
@@ -258,7 +263,7 @@ def list_joint_edges(joints, count, edges_out):
 
 
 def estimate_rate(state: StepState) -> float:
-    """Return n² / v [s/px], where n substeps keep the sag of a contact within the accuracy.
+    """Return n² / v [s/px], where n is the number of substeps that keeps the sag of a contact within the accuracy.
 
     v [px/s] is the impulse of the contact in the step divided by its effective mass m. A contact sags under a force F
     by F / (m ω²), where HERTZ_SHARE gives ω as a fraction of the substeps per second.
@@ -270,7 +275,7 @@ def estimate_rate(state: StepState) -> float:
 def class_for(choices, square, least):
     """Return the index of the first number of substeps, from index `least` on, whose square is at least `square`.
 
-    choices: numbers of substeps, ascending. If none is large enough, the result is the last index.
+    choices: numbers of substeps, ascending. If none of them is large enough, the result is the last index.
     """
     place = least
     while place < len(choices) - 1 and choices[place] * choices[place] < square:
@@ -283,7 +288,8 @@ def class_motions(motions, degrees, islands, classes_out):
     """Write the class of each MOTION row: the index of its number of substeps in islands.choices. O(motions).
 
     Return whether there are new bodies with contacts. A body without constraints takes the fewest substeps. A new body
-    with contacts takes islands.by_load, with joints alone islands.jointed. degrees: number of contacts of each body.
+    takes islands.by_load if it has contacts, and islands.jointed if it has only joints. Every other body takes the
+    number that the last step chose (MOTION.substeps). degrees: number of contacts of each body; islands: see Islands.
     """
     unknown = False
     choices, by_load = islands.choices, islands.by_load
@@ -303,8 +309,9 @@ def class_motions(motions, degrees, islands, classes_out):
 def expect_impacts(edges, count, motions, rate, choices, classes_inout):
     """Raise the class of bodies that collide in this step to the number of substeps that the impact needs. O(count).
 
-    count: number of contacts; rate: see estimate_rate; choices: numbers of substeps; classes_inout: see class_motions.
-    The number rises with the ratio of the masses: a light body has to transmit the momentum of a heavy body.
+    The number rises with the ratio of the masses, because a light body has to transmit the momentum of a heavy body.
+    count: number of contacts, the first entries of `edges`; motions: MOTION rows; rate: see estimate_rate; choices:
+    numbers of substeps, ascending; classes_inout: see class_motions.
     """
     for i in range(count):
         speed = edges.impact_speeds[i]
@@ -331,10 +338,11 @@ def expect_impacts(edges, count, motions, rate, choices, classes_inout):
 
 @subkernel
 def expect_columns(edges, count, motions, degrees, most, classes_inout):
-    """Give new columns, whose bodies have at most two contacts, the most substeps. O(count).
+    """Give new columns the most substeps. A column consists of bodies with at most two contacts each. O(count).
 
-    count: number of contacts; most: index of the greatest number of substeps in the choices. The lean of a column is
-    unknown until the load has reached its foot, and a lean does not stop by itself.
+    The lean of a column is unknown until the load has reached its foot, and a lean does not stop by itself. count:
+    number of contacts, the first entries of `edges`; motions: MOTION rows; degrees: number of contacts of each body;
+    most: index of the greatest number of substeps in the choices; classes_inout: see class_motions.
     """
     for i in range(count):
         if not edges.resting[i]:
@@ -353,7 +361,10 @@ def expect_columns(edges, count, motions, degrees, most, classes_inout):
 
 @subkernel
 def are_mixed(motions, degrees, classes):
-    """Return whether the bodies with constraints have different substep classes. O(motions)."""
+    """Return whether the bodies with constraints are in different classes, see class_motions. O(motions).
+
+    degrees: number of contacts of each MOTION row; classes: class of each MOTION row.
+    """
     first = -1
     for i in range(len(classes)):
         if motions[i].is_dynamic and (degrees[i] > 0 or motions[i].jointed):
@@ -372,8 +383,8 @@ def list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, pla
     """List the constraints to solve as graph edges, and colour the edges of contacts. O(constraints + motions).
 
     Return (number of contacts, whether their edges and colours are those of the last step). Also find islands that are
-    squeezed between faces, see energy.find_squeezed, and clear MOTION.halves of bodies with contacts.
-    lists_inout: see MotionLists.
+    squeezed between faces (see energy.find_squeezed), and clear MOTION.halves of bodies with contacts. dt [s]: step
+    length; limits: see settings.Limits; lists_inout: see MotionLists; plan_out: see Plan.
     """
     nodes = len(motions_inout)
     count, may_squeeze, deepest, unchanged = list_contact_edges(
@@ -403,8 +414,8 @@ def list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, pla
 def order_joints(joints, classes, starts_out, rows_out):
     """Write the JOINT rows sorted by the class of their islands (stable). O(classes · joints).
 
-    joints: see list_joints; classes (motions,): int32; starts_out: index of the first joint of each class, then the
-    number of joints; rows_out: the sorted JOINT rows.
+    joints: result of joint_rows.list_joints; classes (motions,): class of each MOTION row; starts_out: index of the
+    first joint of each class, then the number of joints; rows_out: the sorted JOINT rows.
     """
     found = 0
     for group in range(len(starts_out) - 1):
@@ -420,7 +431,7 @@ def order_joints(joints, classes, starts_out, rows_out):
 def order_in_one_group(contacts, bodies, dt, limits, motions_inout, lists_inout, plan_out):
     """List the constraints to solve as one group, with contacts sorted by colour. O(constraints + motions).
 
-    Return (number of contacts to solve, number of these without a colour).
+    Return (number of contacts to solve, number of these without a colour). Arguments: see list_and_color.
     """
     count, unchanged = list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, plan_out)
     plan, starts = plan_out, plan_out.starts[: COLORS + 2]
@@ -432,9 +443,10 @@ def order_in_one_group(contacts, bodies, dt, limits, motions_inout, lists_inout,
 
 @kernel
 def order_by_load(contacts, bodies, islands, dt, limits, motions_inout, lists_inout, plan_out):
-    """List the constraints to solve, sorted by the number of substeps of their islands, then contacts by colour.
+    """List the constraints in groups by the number of substeps of their islands, with contacts sorted by colour.
 
-    Return the number of contacts to solve. islands: see Islands; limits: see settings.Limits. O(constraints + motions).
+    Return the number of contacts to solve. islands: see Islands; other arguments: see list_and_color. O(constraints +
+    motions).
     """
     plan, motions = plan_out, motions_inout
     nodes = len(motions)
@@ -530,8 +542,8 @@ class LoadRules(NamedTuple):
 def add_estimates(blocks, count, substeps, rules, motions_inout):
     """Raise MOTION.estimate to the square of the number of substeps that the contacts of a body need. O(contacts).
 
-    Also set MOTION.capped if a load needs more than the present `substeps` and more than most_by_load. count: number of
-    blocks; rules: see LoadRules.
+    Also set MOTION.capped if a load needs more substeps than both the present number and most_by_load. blocks: the
+    contacts, in `count` blocks; substeps: the present number; rules: see LoadRules.
     """
     reach = max(substeps, rules.most_by_load)
     reach_squared = float(reach * reach)
@@ -567,8 +579,9 @@ def add_estimates(blocks, count, substeps, rules, motions_inout):
 def choose_substeps(members, degrees, substeps, rules, motions_inout):
     """Write the number of substeps that each island body needs in the next step. O(members).
 
-    Return whether all bodies need the present number again, so that islands need not be determined. members: MOTION
-    rows; degrees: number of contacts of each body; substeps: number of substeps in this step; rules: see LoadRules.
+    Return whether every body needs the same number as in this step, so that islands need not be determined. members:
+    MOTION rows of the group; degrees: number of contacts of each body; substeps: number in this step; rules: see
+    LoadRules.
     """
     content = True
     for k in range(len(members)):
@@ -602,7 +615,7 @@ def share_substeps(members, parents, substeps, most_by_load, motions_inout):
     """Give each body the greatest number of substeps that a body of its island needs. O(members).
 
     Return the number of islands that are reported as capped. An island in which a body has more than two contacts is a
-    heap, and takes at most most_by_load substeps, because some body of a heap always leans. members: MOTION rows;
+    heap. A heap takes at most most_by_load substeps, because some body of a heap always leans. members: MOTION rows;
     parents (motions) int32: the lowest row of the island of each body; substeps: number of substeps in this step.
     """
     for k in range(len(members)):
@@ -627,9 +640,9 @@ def share_substeps(members, parents, substeps, most_by_load, motions_inout):
 def choose_by_load(blocks, count, group, links_islands, rules, plan_inout, motions_inout):
     """Write the number of substeps that each island of a group takes in the next step. O(members + constraints).
 
-    Return the number of islands that needed more substeps than allowed for rules.patience [s]; a short impact does not
-    count. count: number of blocks; links_islands: see find_roots; rules: see LoadRules. Islands are determined only if
-    a body needs another number than in this step.
+    Return the number of islands that have needed more substeps than allowed for at least rules.patience [s]; a short
+    impact does not count. blocks: the contacts of the group, in `count` blocks; links_islands: see MotionLists; rules:
+    see LoadRules; plan_inout: see Plan. Islands are determined only if a body needs another number than in this step.
     """
     plan = plan_inout
     substeps = group.substeps
@@ -644,7 +657,10 @@ def choose_by_load(blocks, count, group, links_islands, rules, plan_inout, motio
 
 
 def estimate_substeps(state: StepState, motions: Motions, plan: Plan, group: Group, blocks: Blocks, count: int) -> None:
-    """Estimate the substeps of the next step from the loads of a group. count: number of blocks."""
+    """Write the number of substeps of the next step to the MOTION rows of a group, from the loads in this step.
+
+    blocks: the contacts of the group, in `count` blocks.
+    """
     rate = estimate_rate(state)
     rules = LoadRules(
         rate, rate / STILL_STIFFNESS**2, AUTO_SUBSTEPS[0], LOAD_SUBSTEPS, AUTO_SUBSTEPS[-1], state.dt, EASE_TIME
@@ -663,7 +679,7 @@ def estimate_substeps(state: StepState, motions: Motions, plan: Plan, group: Gro
 def limit_friction(count, motions_inout, blocks_inout):
     """Limit the friction impulses of the step to the friction coefficient times the final normal impulse. O(lanes).
 
-    count: number of blocks.
+    The excess is taken back from the bodies. blocks_inout: the contacts, in `count` blocks.
     """
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
@@ -685,9 +701,9 @@ def limit_friction(count, motions_inout, blocks_inout):
 def store_lanes(blocks, count, inverse_h, share, contacts_inout):
     """Write the impulses of the step, and the cached forces for the next step, to the contacts. O(lanes).
 
-    count: number of blocks; inverse_h [1/s]: inverse of a substep; share: weight of this step in the cached forces. A
-    very short step has a small weight: an impulse that stops a small motion in it would count as a large force in a
-    step of usual length.
+    blocks: the contacts, in `count` blocks; inverse_h [1/s]: inverse of the length of a substep; share: weight of this
+    step's forces in the cached forces. A very short step has a small weight, because an impulse that stops a small
+    motion in it would count as a large force in a step of usual length.
     """
     rest = 1.0 - share
     for block in range(count):
@@ -714,7 +730,7 @@ def make_finish_lanes(restitution: bool, friction: bool) -> Callable:
     def finish_lanes(count, context, impacts_inout, motions_inout, blocks_inout, contacts_inout, work_inout):
         """Apply restitution, limit friction, and write the impulses back to the contacts. O(lanes).
 
-        count: number of blocks; impacts_inout: scratch, as long as the contacts.
+        count: number of blocks; context: see StepContext; impacts_inout: scratch IMPACT rows, as many as contacts.
         """
         if restitution:
             # Impact speeds are measured at the start of the step, so its normals and moment arms are used.
@@ -763,7 +779,10 @@ class ContactLanes:
         return blocks, prepare(state.bodies, motions.used, plan, group, context, contacts, blocks, state.work)
 
     def joints(self, state: StepState, motions: Motions, group: Group, h: float) -> JointSet:
-        """Begin the step of a group's joints with substeps of h [s], and find their trees. Return the JointSet."""
+        """Begin the step of a group's joints with substeps of h [s], and find their trees. Return the JointSet.
+
+        motions: Motions of the world; group: see Group.
+        """
         if len(group.joints):
             begin_joints(group.joints, state.bodies, h, state.joints)
         return self.trees.build(group.joints, state.joints, motions.used, state.joint_solver)
