@@ -435,7 +435,7 @@ def resist_rolling(lane, wa, wb, normal_impulse, c_inout):
 
 @subkernel
 def relative_speed(c, lane, second, a, b):
-    """Return the speed [px/s] of B relative to A along the normal at a contact point; negative if the sides approach."""
+    """Return the speed [px/s] of B relative to A along the normal at a contact point; negative: the sides approach."""
     speed = (b.vx - a.vx) * c[NX + lane] + (b.vy - a.vy) * c[NY + lane]
     speed += b.angular_velocity * c[(B_2 if second else B_1) + lane]
     return speed - a.angular_velocity * c[(A_2 if second else A_1) + lane]
@@ -455,7 +455,7 @@ def push_pair(c, lane, second, impulse, a_inout, b_inout):
 
 @subkernel
 def tangential_speed(c, lane, second, a, b):
-    """Return the speed [px/s] of B relative to A along the tangent at a contact point, minus the surface speed there."""
+    """Return the speed [px/s] of B relative to A along the tangent at a contact point, minus the surface speed."""
     speed = (b.vy - a.vy) * c[NX + lane] - (b.vx - a.vx) * c[NY + lane] - c[SURFACE + lane]
     speed += b.angular_velocity * c[(TANGENT_B_2 if second else TANGENT_B_1) + lane]
     return speed - a.angular_velocity * c[(TANGENT_A_2 if second else TANGENT_A_1) + lane]
@@ -596,7 +596,7 @@ def how_it_turns(contact, a, b, dt, lane, c):
 
 @inlined
 def rocks(body):
-    """Return whether rocking on a BODY row may be damped: a static body, or one that has rocked in place for ROCKING_TIME."""
+    """Return whether rocking on a BODY row may be damped: the body is static or has rocked in place for ROCKING_TIME."""
     return body.kind == STATIC or (body.kind == DYNAMIC and body.rocking_time >= ROCKING_TIME)
 
 

@@ -281,7 +281,7 @@ def list_hits(blocks, last, span, motions, impacts_inout):
 
 @inlined
 def hits_at(impact, second):
-    """Return for a point (whether it hits now, its impulse in the present moment, its wanted separation speed [px/s])."""
+    """Return for a point (whether it hits now, its impulse in the present moment, separation speed [px/s] to reach)."""
     r = impact
     if second:
         return r.bounces_2, r.blow_2, r.wanted_2
