@@ -459,7 +459,7 @@ class SpatialHashGrid:
 
     @staticmethod
     def _tuned(boxes):
-        """Return a cell size [px]: twice the median extent of the finite boxes that are not points; 1 without such boxes."""
+        """Return a cell size [px]: twice the median extent of the finite boxes that are not points; 1 without any."""
         with np.errstate(invalid="ignore", over="ignore"):
             extent = np.maximum(boxes["upper_x"] - boxes["lower_x"], boxes["upper_y"] - boxes["lower_y"])
         extent = extent[np.isfinite(extent) & (extent > 0.0)]

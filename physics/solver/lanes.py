@@ -596,7 +596,7 @@ def how_it_turns(contact, a, b, dt, lane, c):
 
 @inlined
 def rocks(body):
-    """Return whether rocking on a BODY row may be damped: the body is static or has rocked in place for ROCKING_TIME."""
+    """Return whether rocking on a BODY row may be damped: it is static, or has rocked in place for ROCKING_TIME."""
     return body.kind == STATIC or (body.kind == DYNAMIC and body.rocking_time >= ROCKING_TIME)
 
 
