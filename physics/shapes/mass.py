@@ -194,7 +194,7 @@ def _box_of(figure: Weighed) -> Box:
 
 
 def _groups(figures):
-    """Return the sets of figures connected by overlaps. Equal figures overlap, and count as one member of their set."""
+    """Return the sets of figures connected by overlaps. Of equal figures only one is listed, because they overlap."""
     groups: list[set] = [{each} for each in dict.fromkeys(figures) if figures.count(each) > 1]
     different = list(dict.fromkeys(figures))
     for i, k in _near(different):
@@ -255,7 +255,7 @@ def _outline(hulls: Sequence[Hull]) -> list[Stretch]:
 
 
 def _common(a: Box, b: Box) -> Box:
-    """Return the intersection of two boxes; if they do not overlap, right < left or bottom < top."""
+    """Return the intersection of two boxes. If they do not overlap, right < left or bottom < top in the result."""
     return max(a[0], b[0]), max(a[1], b[1]), min(a[2], b[2]), min(a[3], b[3])
 
 
@@ -279,8 +279,8 @@ def _layered(group: Sequence[Weighed], found_of: Callable[[list], Moments]) -> M
     """Return the mass of overlapping shapes, in which shared area has the density of the densest shape.
 
     The mass is a sum of layers. For each density in ascending order, the union of all shapes with at least this density
-    is weighed with the increase over the density before. found_of(shapes): function that returns the Moments of their
-    union.
+    is weighed with the increase over the previous density. group: the shapes; found_of(shapes): function that returns
+    the Moments of their union.
     """
     densities = sorted({each.density for each in group})
     layers = []
