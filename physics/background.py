@@ -73,7 +73,7 @@ class Background:
 
     @property
     def share(self) -> float:
-        """The share of the called kernels that run compiled, 0..1."""
+        """The fraction of the called kernels that run compiled, 0..1."""
         return tiers.share_taken_over()
 
     @property
@@ -246,7 +246,10 @@ class Background:
         tiers.arrived.append((kernel, keys, form))
 
     def _list(self, index, job):
-        """Compile the kernels of a job with workers, unless an earlier start of the program compiled all of them."""
+        """Compile the kernels of a job with workers, unless an earlier run of the program compiled all of them.
+
+        index: number of the job.
+        """
         mark = _mark(json.dumps(job, sort_keys=True))
         if store().has(mark) or not self.workers.alive:
             return
@@ -261,7 +264,7 @@ class Background:
 
 
 def _mark(job):
-    """Return the name of a file in the store. It exists if all kernels of a job are compiled from these sources."""
+    """Return the name of a file in the store that exists if all kernels of a job are compiled from these sources."""
     from physics.jit.content import environment
 
     digest = blake2b(f"{_sources()}{environment()}{job}".encode(), digest_size=20).hexdigest()
@@ -370,7 +373,7 @@ def _spread(found):
     """Return the kernels in an order in which each kernel adds the most code that no earlier kernel contains.
 
     Workers that take kernels in this order compile different parts of the physics and seldom wait for each other: 1 %
-    of their time, compared with 14 % if the kernel with the most code comes first (the platformer, two cores).
+    of their time, compared with 14 % if the kernel with the most code came first (the platformer, two cores).
     """
     left, order, covered = list(found), [], set()
     while left:

@@ -40,7 +40,7 @@ def new_gap_workspace() -> GapWorkspace:
 
 @subkernel
 def support(corners, count, x, y):
-    """Return the support point: the corner farthest along a direction; on ties, the first. O(count)."""
+    """Return the number of the corner that is farthest along the direction (x, y); on ties, the first. O(count)."""
     best = 0
     most = 0.0
     for k in range(1, count):
@@ -62,7 +62,7 @@ def difference_edge(a, b, i, j, k, m):
 
 @subkernel
 def write_corner(a, b, i, j, k, simplex_out):
-    """Write corner a[i] - b[j] of the Minkowski difference to row k of the simplex."""
+    """Write the corner a[i] - b[j] of the Minkowski difference to row k of the simplex. a, b (n, 2) [px]: corners."""
     simplex_out[k, 0] = float(i)
     simplex_out[k, 1] = float(j)
     simplex_out[k, 2] = a[i, 0] - b[j, 0]
@@ -84,7 +84,7 @@ def edge_of(a, b, p, q, simplex):
 
 @subkernel
 def region_of(x, y, ex, ey):
-    """Return whether the origin projects onto a line segment: -1 before its start, 0 on it, 1 beyond its end.
+    """Return where the origin projects onto a line segment: -1 before its start, 0 on it, 1 beyond its end.
 
     The segment starts at (x, y) and has the vector (ex, ey). A projection past an end by no more than rounding counts
     as on the segment, so that parallel faces with flush ends get the face normal.
@@ -140,10 +140,10 @@ def drop_corner(a, b, simplex_inout):
 
 @subkernel
 def reduce_simplex(a, b, state_inout, simplex_inout):
-    """Reduce the simplex to its corner or edge nearest to the origin. Write the direction from there to the origin.
+    """Reduce the simplex to its corner or edge nearest to the origin.
 
-    state_inout, simplex_inout: arrays of a GapWorkspace. Return TOUCHING if the origin lies in or on the simplex, else
-    SEARCHING.
+    Write the direction from this feature to the origin. a, b: corners of the hulls; state_inout, simplex_inout: arrays
+    of a GapWorkspace. Return TOUCHING if the origin lies in or on the simplex, else SEARCHING.
     """
     count = int(state_inout[COUNT])
     if count == 3:
@@ -246,7 +246,10 @@ def write_edge_gap(a, b, places, p, q, nx, ny, gap_out):
 
 @subkernel
 def write_nearest(a, b, state, simplex, gap_out):
-    """Write separation, normal and nearest points of the final simplex, which is an edge or a single corner."""
+    """Write separation, normal and nearest points of two hulls to gap_out, from the final simplex of GJK.
+
+    The simplex is an edge or a single corner. gap_out: see GapWorkspace.
+    """
     q = 1 if state[COUNT] == 2.0 else 0
     write_edge_gap(a, b, simplex, 0, q, state[NORMAL_X], state[NORMAL_Y], gap_out)
     if q == 0:
@@ -372,9 +375,9 @@ def grow_polytope(a, a_count, b, b_count, count, polytope_inout):
 
 @subkernel
 def write_depth(a, b, count, polytope, gap_out):
-    """Write separation (minus the depth), normal and points of the polytope edge nearest to the origin.
+    """Write separation (minus the depth), normal and points of the polytope edge nearest to the origin to gap_out.
 
-    For a polytope that is a single point, the normal is (1, 0).
+    count: number of corners of the polytope; for a single point, the normal is (1, 0).
     """
     if count < 2:
         write_edge_gap(a, b, polytope, 0, 0, 1.0, 0.0, gap_out)
@@ -415,9 +418,9 @@ def measure_depth(a, a_count, b, b_count, workspace):
 def shape_separation(a, a_count, a_radius, b, b_count, b_radius, first, workspace):
     """Write separation, unit normal from A to B and nearest points to workspace.gap. Return the separation [px].
 
-    a, b: world corners (n, 2) [px], 1 to 16 of them; radii [px]; first: indices of the corners of A and B at which the
-    search starts. If the hulls overlap, the separation is minus the distance that B must move along the normal to end
-    the overlap. workspace.state holds the number of rounds and of caps hit.
+    a, b: world corners (n, 2) [px], 1 to 16 of them; a_radius, b_radius [px]: roundings; first: indices of the corners
+    of A and B at which the search starts. If the hulls overlap, the separation is minus the distance that B must move
+    along the normal to end the overlap. workspace.state holds the number of rounds and of caps hit.
     """
     if walk_to_nearest(a, a_count, b, b_count, first[0], first[1], workspace) == TOUCHING:
         measure_depth(a, a_count, b, b_count, workspace)

@@ -41,7 +41,7 @@ from physics.jit.store import store
 class PartLibrary(codegen.JITCodeLibrary):
     """The code of a part (a kernel that only kernels call), to be linked into the code of its callers.
 
-    Its calls are resolved, but the code is neither optimised nor executable.
+    The calls in it are resolved, but the code is neither optimised nor executable.
     """
 
     def _optimize_final_module(self):
@@ -71,7 +71,7 @@ class PartLowering(typed_passes.NativeLowering):
     _name = "part_lowering"
 
     def run_pass(self, state: Any) -> bool:
-        """Lower the function as numba does, but without machine code, so that it has no address."""
+        """Lower the function as numba does, but without machine code, so that the function has no address."""
         state.library = PartLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
         state.flags.no_compile = True
         state.flags.noalias = getattr(state.func_id.func, "noalias", False)
@@ -298,10 +298,10 @@ def _compiled_form_of(value):
 
 
 def _take_literals_as_values(dispatcher):
-    """Make a dispatcher compile one version for all calls of the same types.
+    """Make a dispatcher compile one version for all calls with the same types.
 
-    Numba would compile a version for every literal argument. With this the kernels of the platformer compile in 80 s of
-    processor time instead of 136 s.
+    Numba would compile a version for every literal argument. With this change the kernels of the platformer compile in
+    80 s of processor time instead of 136 s.
     """
     general = dispatcher.get_call_template
 
@@ -339,9 +339,9 @@ class PartCache(caching._Cache):
         return str(store().folder)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """Return a part from the store; None: the store does not have it.
+        """Return a part from the store; None: the store does not have the part.
 
-        In this case the part is claimed, so that other processes wait until it is stored.
+        In the second case the part is claimed, so that other processes wait until it is stored.
         """
         name = self._name(sig)
         content = store().read(name)
@@ -412,7 +412,7 @@ def stable_symbols() -> Iterator[None]:
 
 
 def _symbol(function):
-    """Return a unique name for a function's symbol: the hash of its content, or if it has none, a random name."""
+    """Return a unique name for a function's symbol: the hash of its content, or a random name if there is no hash."""
     content = getattr(function, "content", None)
     if content is not None:
         return content
