@@ -145,7 +145,7 @@ class Background:
         return True
 
     def _order_early(self, kernel, keys):
-        """Let a worker compile a kernel before numba is imported in this process.
+        """Let a worker compile a kernel before numba is imported in this process. keys: types of its arguments.
 
         Without numba, the name of the kernel's file in the store is not yet known here.
         """
@@ -172,7 +172,7 @@ class Background:
                 self._load([self._came.popleft()])
 
     def _find(self, kernel, keys):
-        """Load a called kernel from the store, or let a worker compile it."""
+        """Load a called kernel from the store, or let a worker compile it. keys: types of its arguments."""
         from physics.jit import compiling
 
         if (kernel, keys) in self._seen:
@@ -194,7 +194,8 @@ class Background:
         """Let a worker compile a kernel: called kernels first, then announced kernels in the order of their jobs.
 
         Among the called kernels, the kernel with the most run time per byte of code to compile comes first (Smith's
-        rule, which minimises the sum of the waiting times: Smith 1956). index: number of the job.
+        rule, which minimises the sum of the waiting times: Smith 1956). name: name of its file in the store; spec,
+        keys: reference to the kernel and types of its arguments; index: number of the job.
         """
         if name in self._ordered:
             return

@@ -111,9 +111,10 @@ def _mask_tool(mask, frame, shape, pose) -> Tool:
 
 
 def _shrink(world: WorldState, identity: int, cuts: dict[int, Cut], given: "_Given") -> None:
-    """Replace the carved masks of a body by their remaining pixels.
+    """Replace the carved masks of a body (id) by their remaining pixels.
 
-    Empty masks are removed. The body is removed if it has no shape left, or if it is dynamic and has no mass left.
+    cuts: the Cut of each carved mask; given: the motion and density of the body before the cut. Empty masks are
+    removed. The body is removed if it has no shape left, or if it is dynamic and has no mass left.
     """
     shapes, ids = world._shapes_of[identity], edit.shape_ids(world, identity)
     empty = [at for at, each in cuts.items() if not len(each.tiles.nodes)]

@@ -33,10 +33,7 @@ LAST_SHAPE = 2**31 - 1  # greatest shape id, because candidates are reported in 
 
 
 def check_ids(world: WorldState, bodies: int, shapes: Sequence[Shape]) -> None:
-    """Raise ValueError if too few shape ids are left.
-
-    bodies: number of new bodies; shapes: the shapes of each of them.
-    """
+    """Raise ValueError if too few shape ids are left for this number of `bodies`, each with the shapes `shapes`."""
     room = LAST_SHAPE - world._next_shape
     if room < LAST_SHAPE // 2 and bodies * len(rows_of_shapes(shapes, world.effects.response)) > room:
         raise ValueError(
@@ -760,7 +757,7 @@ def set_continuous(world: WorldState, identity: int, value: str) -> None:
 
 
 def set_fixed_rotation(world: WorldState, identity: int, value: bool) -> None:
-    """Set whether impulses leave the rotation unchanged; True also stops the body. Raises TypeError if not a bool."""
+    """Set whether impulses leave the rotation unchanged; True also stops it. Raises TypeError if not a bool."""
     world._unlocked()
     value, row = checks.flag("fixed_rotation", value), world._body_row(identity)
     row["fixed_rotation"] = value

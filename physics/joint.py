@@ -207,7 +207,10 @@ def _body_ids(world, name, values) -> np.ndarray:
 
 
 def add_many(world: WorldState, kind: Any, bodies_a: Any, bodies_b: Any, settings: dict[str, Any]) -> np.ndarray:
-    """Add joints of one kind between pairs of bodies, and return their ids. See World.add_joints."""
+    """Add joints of one kind between pairs of bodies, and return their ids.
+
+    Arguments and errors as in World.add_joints.
+    """
     world._unlocked()
     if not (isinstance(kind, type) and kind in KINDS):
         raise TypeError(f"kind must be one of {_names()} (got {checks.shown(kind)})")

@@ -19,7 +19,7 @@ SMALL = 2.0**-6  # [rad] limit of the power series: there the first omitted term
 
 @subkernel
 def unit(x, y, fallback_x, fallback_y):
-    """Return the vector scaled to length 1, or the fallback vector for the zero vector."""
+    """Return the vector (x, y) scaled to length 1, or the vector (fallback_x, fallback_y) for the zero vector."""
     # Scaled first: the squares of tiny vectors would underflow, and the squares of huge vectors overflow.
     largest = max(abs(x), abs(y))
     if largest == 0.0:

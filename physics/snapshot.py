@@ -69,7 +69,10 @@ def pack_geometry(geometry: Geometries) -> tuple[dict[str, np.ndarray], dict[str
 
 
 def unpack_geometry(arrays: dict[str, np.ndarray], facts: dict[str, Any]) -> Geometries:
-    """Return the shapes from the result of pack_geometry. Raises KeyError, TypeError, ValueError for damaged data."""
+    """Return the shapes from `arrays` and `facts`, the result of pack_geometry.
+
+    Raises KeyError, TypeError, ValueError for damaged data.
+    """
     outlines, masks = [], []
     types = {each.__name__: each for each in SHAPES if issubclass(each, Convex)}
     for number, (name, given) in enumerate(facts["hulls"]):

@@ -22,7 +22,7 @@ NOT_SET = np.zeros((1, 2))
 
 
 def move_to(world: WorldState, identity: int, position: Pair | None, angle: float | None) -> None:
-    """Move a body to a position [px] and an angle [rad]; None leaves the value unchanged.
+    """Move a body (id) to a position [px] and an angle [rad]; None leaves the value unchanged.
 
     Raises ValueError for an angle of a TileGrid other than 0, RuntimeError during a step.
     """

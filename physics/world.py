@@ -465,7 +465,7 @@ class World(WorldState):
         self.profile = Profile(self._plan_now.names)
 
     def _let_sleep(self, sleeping):
-        """Set whether later steps process only the awake bodies (True), or all bodies (False)."""
+        """Set whether later steps process only the awake bodies (`sleeping` True) or all bodies (False)."""
         self.awake = Awake(sleeping)
         self.bodies["active"] = not sleeping
         self.awake.mark_dirty(self.bodies["id"][self.bodies["kind"] != DYNAMIC].tolist())

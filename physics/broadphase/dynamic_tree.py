@@ -55,7 +55,7 @@ def joined_outline(nodes, a, b):
 
 @subkernel
 def refit(index, nodes_inout):
-    """Write the box and the height of a node from the boxes and heights of its children."""
+    """Write the box and the height of the node `index` from the boxes and heights of its children."""
     n = nodes_inout[index]
     p, q = nodes_inout[n.child_a], nodes_inout[n.child_b]
     n.lower_x, n.lower_y = min(p.lower_x, q.lower_x), min(p.lower_y, q.lower_y)

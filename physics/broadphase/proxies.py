@@ -609,7 +609,10 @@ class PairList:
         self.proxies["changed"][slots] = True
 
     def let_sleep(self, sleeping: bool) -> None:
-        """Set whether new proxies are asleep until they are set awake. All present proxies become asleep or awake."""
+        """Set whether new proxies are asleep until they are set awake. All present proxies become asleep or awake.
+
+        sleeping: True for asleep.
+        """
         self.sleeping = sleeping
         self.proxies["awake"] = not sleeping
         self.start_over()
@@ -704,7 +707,10 @@ class PairList:
         self.everything = True
 
     def update(self, strategy: Strategy, shapes: np.ndarray, changed_count: int, work: np.ndarray) -> None:
-        """Update the candidates for freed slots and for the first `changed_count` slots in `self.changed`."""
+        """Update the candidates for freed slots and for the first `changed_count` slots in `self.changed`.
+
+        strategy: the broad phase that finds the pairs; shapes: SHAPE rows; work: counters.
+        """
         news = changed_count or self.freed or self.can_recycle or self.everything or self.moved or self.resting
         if news or not strategy.incremental:
             self._take_in(strategy, shapes, changed_count, work)

@@ -71,7 +71,7 @@ def bucket_at(level, cell_x, cell_y, mask):
 
 @subkernel
 def level_of(lower_x, lower_y, upper_x, upper_y, base):
-    """Return the finest level whose cells are at least as large as the box [px].
+    """Return the finest level whose cells are at least as large as the box lower_x to upper_x, lower_y to upper_y [px].
 
     base [px]: cell size on level 0. Return LEVELS if no level has such cells, or if the box is outside CELL_RANGE.
     """

@@ -136,7 +136,10 @@ def place_mover(count, workspace):
 
 @subkernel
 def depth_at_start(mover, other_count, other_radius, workspace):
-    """Return the depth [px] of the mover in the hull in workspace.advance.local_b at the start; 0 without overlap."""
+    """Return the depth [px] at the start of the mover in the hull in workspace.advance.local_b; 0 without overlap.
+
+    other_count, other_radius: number of corners and rounding radius [px] of that hull.
+    """
     place_mover(mover.count, workspace)
     return max(0.0, -separate_at(mover.count, mover.radius, other_count, other_radius, 0.0, workspace.advance))
 
@@ -145,10 +148,11 @@ def depth_at_start(mover, other_count, other_radius, workspace):
 def sweep_core(core_radius, other_count, other_radius, workspace):
     """Return the fraction of the motion at which the mover's core circle hits a hull, or MISS.
 
-    The hull is in workspace.advance.local_b. The result is MISS if the circle's centre is inside it at the start. If
-    the circle would overlap at the start, its radius is reduced to CORE_LEFT of the centre's distance, so that the
-    centre never crosses the surface. With half of the distance, 3 of 768 test rooms lost a body whose centre reached
-    the wall step by step.
+    core_radius [px]: radius of the core circle. The hull is in workspace.advance.local_b, with other_count corners and
+    the rounding radius other_radius [px]. The result is MISS if the circle's centre is inside the hull at the start. If
+    the circle would overlap the hull at the start, its radius is reduced to CORE_LEFT of the centre's distance, so that
+    the centre never crosses the surface. With half of the distance, 3 of 768 test rooms lost a body whose centre
+    reached the wall step by step.
     """
     workspace.advance.local_a[0, 0] = 0.0
     workspace.advance.local_a[0, 1] = 0.0
@@ -165,7 +169,8 @@ def back_to(mover, other_count, other_radius, depth, fraction, size, workspace):
     """Return the last fraction before `fraction` at which the mover was `depth` [px] deep (Newton's method).
 
     At `fraction` the mover is deeper. The iteration starts at `fraction`, so that it does not find an earlier contact
-    with another side of the obstacle. The obstacle is in workspace.advance.local_b; size [px]: size of both shapes.
+    with another side of the obstacle. The obstacle is in workspace.advance.local_b, with other_count corners and the
+    rounding radius other_radius [px]; size [px]: size of both shapes.
     """
     count, radius, _, _ = mover
     gap = workspace.advance.gap.gap
@@ -188,8 +193,8 @@ def back_to(mover, other_count, other_radius, depth, fraction, size, workspace):
 def sweep_part(mover, other_count, other_radius, depth, workspace):
     """Return (fraction or MISS, whether the core circle was swept) of the mover against a convex piece of an obstacle.
 
-    The piece is in workspace.advance.local_b. depth [px]: depth of the mover in the whole obstacle at the start, which
-    is allowed.
+    The piece is in workspace.advance.local_b, with other_count corners and the rounding radius other_radius [px]. depth
+    [px]: depth of the mover in the whole obstacle at the start, which is allowed.
     """
     count, radius, half, slack = mover
     reach = place_mover(count, workspace)
@@ -324,7 +329,10 @@ def place_link(link, local, workspace):
 
 @subkernel
 def ahead_of(ax, ay, bx, by, u, v):
-    """Return the signed distance of the point (u, v) from the line a to b, times |b - a|; positive in front."""
+    """Return the signed distance of the point (u, v) from the line a to b, times |b - a|; positive in front.
+
+    ax, ay, bx, by: coordinates of a and b.
+    """
     return (by - ay) * (u - ax) - (bx - ax) * (v - ay)
 
 
@@ -582,7 +590,10 @@ def keep_first(fraction, nx, ny, impact_out):
 
 @subkernel
 def gap_at_start(a_count, a_radius, b_count, b_radius, workspace):
-    """Return a lower bound [px] of the gap at the start between the hulls in workspace.advance.local_a and local_b."""
+    """Return a lower bound [px] of the gap at the start between the hulls in workspace.advance.local_a and local_b.
+
+    a_count, a_radius, b_count, b_radius: numbers of corners and rounding radii [px] of the two hulls.
+    """
     r = workspace.advance
     place_at(r.local_a, a_count, r.motion_a, 0.0, r.motion_a[CENTER_X], r.motion_a[CENTER_Y], r.a)
     place_at(r.local_b, b_count, r.motion_b, 0.0, r.motion_a[CENTER_X], r.motion_a[CENTER_Y], r.b)

@@ -222,9 +222,9 @@ def new_advance_workspace() -> AdvanceWorkspace:
 
 @subkernel
 def place_at(local, count, motion, fraction, x, y, corners_out):
-    """Write a hull's corners [px] at a fraction of its motion, relative to the world point (x, y).
+    """Write a hull's corners [px] at a fraction of its motion, relative to the world point (x, y), to corners_out.
 
-    local (16, 2) [px]: corners from the centre of rotation at angle 0; motion (6,): see AdvanceWorkspace.
+    local (16, 2) [px]: corners relative to the centre of rotation at angle 0; motion (6,): see AdvanceWorkspace.
     """
     angle = motion[ANGLE] + fraction * motion[TURN]
     cosine, sine = math.cos(angle), math.sin(angle)
@@ -240,7 +240,8 @@ def place_at(local, count, motion, fraction, x, y, corners_out):
 def separate_at(a_count, a_radius, b_count, b_radius, fraction, workspace):
     """Return the separation [px] of the two hulls of a workspace at a fraction of their motions.
 
-    The normal is written to workspace.gap.gap, the corners at this fraction to workspace.a and workspace.b.
+    a_count, a_radius, b_count, b_radius: numbers of corners and rounding radii [px]. The normal is written to
+    workspace.gap.gap, the corners at this fraction to workspace.a and workspace.b.
     """
     x, y = workspace.motion_a[CENTER_X], workspace.motion_a[CENTER_Y]
     place_at(workspace.local_a, a_count, workspace.motion_a, fraction, x, y, workspace.a)
@@ -256,7 +257,7 @@ def separate_at(a_count, a_radius, b_count, b_radius, fraction, workspace):
 
 @subkernel
 def reach_of(local, count):
-    """Return the distance [px] of the farthest corner from the centre of rotation of a hull."""
+    """Return the distance [px] of the farthest of a hull's `count` corners `local` from its centre of rotation."""
     reach = 0.0
     for k in range(count):
         reach = max(reach, norm(local[k, 0], local[k, 1]))
@@ -265,10 +266,10 @@ def reach_of(local, count):
 
 @subkernel
 def along(corners, motion, fraction, k, x, y, nx, ny):
-    """Return (position [px], velocity, bound of the acceleration) of corner k along the unit vector (nx, ny).
+    """Return (position [px], velocity, bound of the acceleration) of corner k of a hull along the unit vector (nx, ny).
 
-    The time unit is the whole motion. corners (16, 2) [px]: corners at this fraction, relative to the world point (x,
-    y).
+    The time unit is the whole motion. corners (16, 2) [px]: corners at this fraction of `motion`, relative to the world
+    point (x, y).
     """
     arm_x = corners[k, 0] - ((motion[CENTER_X] - x) + fraction * motion[MOVE_X])
     arm_y = corners[k, 1] - ((motion[CENTER_Y] - y) + fraction * motion[MOVE_Y])
@@ -365,8 +366,8 @@ def touching_span(corners, count, nx, ny, side, band):
 def approach_at(a_count, b_count, fraction, band, workspace):
     """Return the greatest approach speed [px per motion] along the normal of two touching hulls.
 
-    If two faces touch, within `band` [px], the speed is greatest at an end of their common part. workspace: with normal
-    and corners at `fraction`, as written by separate_at.
+    a_count, b_count: numbers of corners. If two faces touch, within `band` [px], the speed is greatest at an end of
+    their common part. workspace: with normal and corners at `fraction`, as written by separate_at.
     """
     nx, ny = workspace.gap.gap[NX], workspace.gap.gap[NY]
     a_low, a_high = touching_span(workspace.a, a_count, nx, ny, 1.0, band)

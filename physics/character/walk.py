@@ -111,7 +111,8 @@ def is_wedged(walk, me, rows, slope):
 def steep_below(walk, me, rows, slope):
     """Return the slope of steep ground just below a sliding character; 0: there is none.
 
-    Steep ground is too steep to walk on. It is searched within the drop of `slope` over one pixel along x.
+    Steep ground is too steep to walk on. It is searched within the drop of `slope` over one pixel along x. me:
+    CHARACTER row; rows: nearby solids, see solids.gather.
     """
     c = walk.characters[me]
     for drop in range(1, pixels_along(slope) + 1):
@@ -136,7 +137,8 @@ def slide_of(slope):
 def slide_gently(me, rows, pixels, slope, walk_inout):
     """Slide down ground that is too steep to walk on but flatter than 45 degrees, for a fall of `pixels`.
 
-    The character moves pixel by pixel along x. Return whether nothing stopped it.
+    The character moves pixel by pixel along x. me: CHARACTER row; rows: nearby solids, see solids.gather; slope: rise
+    of the ground per px to the right. Return whether nothing stopped the character.
     """
     c = walk_inout.characters[me]
     aside, down = slide_of(slope)

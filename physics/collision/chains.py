@@ -193,7 +193,10 @@ def collide_link_circle(link, points, x, y, radius):
 
 @subkernel
 def is_towards_end(points, nx, ny):
-    """Return whether the direction (nx, ny) has a positive component along a link, from its end a to its end b."""
+    """Return whether the direction (nx, ny) has a positive component along a link, from its end a to its end b.
+
+    points: see link_at.
+    """
     return dot_along(points, 0, 1, points[0, 0] + nx, points[0, 1] + ny, 0) > 0.0
 
 
@@ -250,7 +253,8 @@ def push_at_open_end(link, points, hull, face, margin, manifold_out):
     """Write a contact point that pushes a Hull out past an open end of the chain. Return the number of points, 0 or 1.
 
     The reference plane goes through the open end, perpendicular to the link. A point is written only if the Hull's
-    separation from this plane exceeds `face` [px], the Hull's separation from the link's face.
+    separation from this plane exceeds `face` [px], its separation from the link's face, and is at most `margin` [px].
+    link: LINK row; points: see link_at.
     """
     ex, ey = unit(points[1, 0] - points[0, 0], points[1, 1] - points[0, 1], 1.0, 0.0)
     manifold_out[0] = 0.0
@@ -377,7 +381,10 @@ BACKING = 2.0  # [px] thickness added behind a link when it is tested against a 
 
 @subkernel
 def box_in_body(min_x, min_y, max_x, max_y, x, y, cosine, sine):
-    """Return the AABB [px] of a world box in the local space of a body. x, y, cosine, sine: pose of the body."""
+    """Return the AABB [px], in the local space of a body, of the world box from min_x, min_y to max_x, max_y.
+
+    x, y, cosine, sine: pose of the body.
+    """
     middle_x, middle_y = rotate(0.5 * (min_x + max_x) - x, 0.5 * (min_y + max_y) - y, cosine, -sine)
     half_x, half_y = 0.5 * (max_x - min_x), 0.5 * (max_y - min_y)
     reach_x = abs(cosine) * half_x + abs(sine) * half_y

@@ -93,7 +93,8 @@ def speculative_rotation(a, b, speed, margin, lookahead):
 def collide_circles(ax, ay, a_radius, bx, by, b_radius):
     """Return (unit normal from A to B, contact point, separation) of two discs [px].
 
-    The point is midway between the surfaces. Discs with equal centres get the normal (1, 0). O(1).
+    ax, ay, a_radius, bx, by, b_radius: centres and radii. The point is midway between the surfaces. Discs with equal
+    centres get the normal (1, 0). O(1).
     """
     dx, dy = bx - ax, by - ay
     nx, ny = unit(dx, dy, 1.0, 0.0)
@@ -289,8 +290,9 @@ def advance_to_piece(travel, margin, piece, hull, corners_out):
 def move_piece_manifold_back(time, travel, sign, points_inout):
     """Convert a manifold of ground and hull, computed at their predicted contact, to the hull's present position.
 
-    time [s]: time until the contact; sign: 1.0 if the ground is A, else -1.0; points_inout (11,): see "clipping" in
-    hulls.py. Return the distance [px] that B moves along the tangent, relative to A, until the contact.
+    time [s]: time until the contact; travel: Travel of the hull; sign: 1.0 if the ground is A, else -1.0; points_inout
+    (11,): see "clipping" in hulls.py. Return the distance [px] that B moves along the tangent, relative to A, until the
+    contact.
     """
     tangential = move_manifold_back(time, travel.vx, travel.vy, points_inout)
     if sign < 0.0:
@@ -331,7 +333,10 @@ def set_tangential_offset(before, found, offset, manifolds_out):
 
 @inlined
 def time_to_piece(travel, margin, piece, x, y, radius):
-    """Return the time [s] at which a disc meets a piece of ground, or NEVER; 0 without prediction (travel.time 0)."""
+    """Return the time [s] at which a disc meets a piece of ground, or NEVER; 0 without prediction (travel.time 0).
+
+    travel: Travel; margin [px]: gap at the meeting; piece: Hull; x, y, radius [px]: centre and radius of the disc.
+    """
     if travel.time == 0.0:
         return 0.0
     return toi_hull_circle(piece, x, y, radius, travel.vx, travel.vy, margin, travel.time)
@@ -341,8 +346,8 @@ def time_to_piece(travel, margin, piece, x, y, radius):
 def add_circle_on_piece(batch, pair, meeting, disc, contact, workspace, manifolds_out, found):
     """Append the contact of a disc with a piece of ground. Return the new number of manifolds.
 
-    disc: (x, y, radius) at the predicted contact; contact: result of the collision function for this position, see
-    hulls.collide_hull_circle.
+    meeting: predicted contact (Meeting); disc: (x, y, radius) at this contact; contact: result of the collision
+    function for this position, see hulls.collide_hull_circle.
     """
     travel, sign = meeting.travel, meeting.sign
     hit, nx, ny, x, y, separation, feature = contact

@@ -73,7 +73,7 @@ def part_of(feature):
 
 @subkernel
 def pixel_feature(row, column, width):
-    """Return the feature id of a mask pixel. width [px]: width of the mask."""
+    """Return the feature id of the mask pixel at (row, column). width [px]: width of the mask."""
     return row * width + column
 
 
@@ -446,7 +446,7 @@ def collide_aabbs(a, b, margin, manifold_out):
 
 @subkernel
 def nearest_on_edge(ax, ay, bx, by, x, y):
-    """Return where the point of the line segment from a to b nearest to (x, y) lies: 0 at a, 1 at b."""
+    """Return where the point nearest to (x, y) lies on the line segment from (ax, ay) to (bx, by): 0 at a, 1 at b."""
     ex, ey = bx - ax, by - ay
     along = ex * (x - ax) + ey * (y - ay)
     square = ex * ex + ey * ey
@@ -457,7 +457,7 @@ def nearest_on_edge(ax, ay, bx, by, x, y):
 
 @subkernel
 def distance_to_edge(ax, ay, bx, by, x, y):
-    """Return the distance [px] of the point (x, y) from the line segment from a to b."""
+    """Return the distance [px] of the point (x, y) from the line segment from (ax, ay) to (bx, by)."""
     t = nearest_on_edge(ax, ay, bx, by, x, y)
     return norm(x - ax - t * (bx - ax), y - ay - t * (by - ay))
 

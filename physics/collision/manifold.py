@@ -359,8 +359,8 @@ def is_of(contact, shape_a, shape_b):
 def place_in_order(manifolds, count, candidate_count, starts_out, manifolds_out):
     """Copy manifolds to manifolds_out, sorted by candidate index (stable counting sort).
 
-    manifolds, manifolds_out: CONTACT rows; count: number of manifolds; starts_out (candidates + 1): scratch.
-    O(manifolds + candidates).
+    manifolds, manifolds_out: CONTACT rows; count: number of manifolds; candidate_count: number of candidates;
+    starts_out (candidates + 1): scratch. O(manifolds + candidates).
     """
     for i in range(candidate_count + 1):
         starts_out[i] = 0

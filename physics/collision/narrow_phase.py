@@ -83,8 +83,8 @@ def is_asked(which, bodies, a, b):
 def collide_boxes(batch, which, manifolds_out, work_inout):
     """Write the contacts of the candidates from their AABBs alone. Return the number of contacts. O(candidates).
 
-    The normal is the axis of least overlap, the point the middle of the overlap. which: ALL, NO_SENSORS, SOLIDS or
-    SENSORS.
+    The normal is the axis along which the AABBs overlap least, the point the middle of the overlap. which: ALL,
+    NO_SENSORS, SOLIDS or SENSORS.
     """
     shapes, candidates = batch.shapes, batch.candidates
     found = 0

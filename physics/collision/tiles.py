@@ -39,7 +39,10 @@ from physics.tables.step_state import MASK_TESTS
 
 @subkernel
 def is_covered(grids, cells, grid, row, column, from_row, from_column):
-    """Return whether the cell at (row, column) covers the edge that it shares with the cell (from_row, from_column)."""
+    """Return whether the cell at (row, column) covers the edge that it shares with the cell (from_row, from_column).
+
+    grids, cells: tables of the geometry; grid: row of GRID.
+    """
     g = grids[grid]
     if row < 0 or row >= g.rows or column < 0 or column >= g.columns:
         return False
@@ -62,7 +65,8 @@ def is_covered(grids, cells, grid, row, column, from_row, from_column):
 def bends_down(grids, cells, grid, row, column, side):
     """Return whether the ground bends down between a tile and the tile beside it, so that the corner is exposed.
 
-    side: -1 for the left neighbour, 1 for the right neighbour.
+    grids, cells: tables of the geometry; grid: row of GRID; row, column: the tile; side: -1 for the left neighbour, 1
+    for the right neighbour.
     """
     g = grids[grid]
     other = column + side

@@ -201,7 +201,8 @@ def write_caches(geometry, bodies, shapes, contacts_inout):
 def cores_at(a, turn_a, b, turn_b, local_ax, local_ay, local_bx, local_by):
     """Return (ax, ay, dx, dy) [px]: a contact's point on A's core in the world, the vector to the point on B's core.
 
-    a, b: BODY rows; turn_a, turn_b: (cosine, sine) of the angles; local_ax … local_by [px]: the points in body space.
+    a, b: BODY rows; turn_a, turn_b: (cosine, sine) of the angles; local_ax, local_ay, local_bx, local_by [px]: the
+    points in body space.
     """
     ax, ay = rotate(local_ax, local_ay, turn_a[0], turn_a[1])
     bx, by = rotate(local_bx, local_by, turn_b[0], turn_b[1])

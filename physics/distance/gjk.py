@@ -140,10 +140,10 @@ def drop_corner(a, b, simplex_inout):
 
 @subkernel
 def reduce_simplex(a, b, state_inout, simplex_inout):
-    """Reduce the simplex to its corner or edge nearest to the origin.
+    """Reduce the simplex to its corner or edge nearest to the origin, and write the direction from there to the origin.
 
-    Write the direction from this feature to the origin. a, b: corners of the hulls; state_inout, simplex_inout: arrays
-    of a GapWorkspace. Return TOUCHING if the origin lies in or on the simplex, else SEARCHING.
+    a, b: corners of the hulls; state_inout, simplex_inout: arrays of a GapWorkspace. Return TOUCHING if the origin lies
+    in or on the simplex, else SEARCHING.
     """
     count = int(state_inout[COUNT])
     if count == 3:
@@ -195,8 +195,8 @@ def start_walk(a, b, i, j, state_out, simplex_out):
 def walk_on(a, a_count, b, b_count, state_inout, simplex_inout):
     """Run one round of GJK: reduce the simplex to its feature nearest to the origin, then add the support point.
 
-    Return SEARCHING if a support point was added, APART if no support point is nearer to the origin than the feature,
-    and TOUCHING if the origin lies in the simplex. O(corners).
+    a, b (n, 2) [px]: corners, a_count and b_count of them. Return SEARCHING if a support point was added, APART if no
+    support point is nearer to the origin than the feature, and TOUCHING if the origin lies in the simplex. O(corners).
     """
     state_inout[ROUNDS] += 1.0
     if reduce_simplex(a, b, state_inout, simplex_inout) == TOUCHING:
@@ -391,8 +391,8 @@ def write_depth(a, b, count, polytope, gap_out):
 def measure_depth(a, a_count, b, b_count, workspace):
     """Write to workspace.gap the distance that B must move to end its overlap with A, and the normal (EPA).
 
-    The rounds are added to workspace.state[ROUNDS]; if they reach EPA_CAP, 1 is added to workspace.state[CAPPED].
-    O(corners squared).
+    a, b (n, 2) [px]: corners, a_count and b_count of them. The rounds are added to workspace.state[ROUNDS]; if they
+    reach EPA_CAP, 1 is added to workspace.state[CAPPED]. O(corners squared).
     """
     count = start_polytope(a, a_count, b, b_count, workspace.polytope)
     if count > 1:
@@ -439,7 +439,7 @@ def shape_separation(a, a_count, a_radius, b, b_count, b_radius, first, workspac
 
 @subkernel
 def box_gap(boxes_a, i, boxes_b, j):
-    """Return the distance [px] of two boxes (min_x, min_y, max_x, max_y); 0 if they overlap."""
+    """Return the distance [px] of boxes_a[i] and boxes_b[j] (min_x, min_y, max_x, max_y); 0 if they overlap."""
     across = max(0.0, max(boxes_a[i, 0] - boxes_b[j, 2], boxes_b[j, 0] - boxes_a[i, 2]))
     down = max(0.0, max(boxes_a[i, 1] - boxes_b[j, 3], boxes_b[j, 1] - boxes_a[i, 3]))
     return norm(across, down)

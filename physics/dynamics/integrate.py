@@ -311,8 +311,8 @@ def take_body(row, reason, found, bodies_inout, broken_out):
 def take_broken_bodies(rows, course, bodies_inout, broken_out):
     """Quarantine bodies whose numbers are not finite or out of range, and list them. Return their number.
 
-    A body whose pose is out of range is moved back to its last finite pose. rows: body rows; broken_out (bodies, 2):
-    body row and reason (index of REASONS).
+    A body whose pose is out of range is moved back to its last finite pose. rows: body rows; course: see Course;
+    broken_out (bodies, 2): body row and reason (index of REASONS).
     """
     found = 0
     for k in range(len(rows)):

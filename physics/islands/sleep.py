@@ -69,7 +69,7 @@ class SleepingSet:
             self.links.setdefault(identity, set()).update(keys)
 
     def take(self, key: int) -> Island:
-        """Remove an island and return it."""
+        """Remove the island with this key and return it."""
         island = self.islands.pop(key)
         for identity in self._named(island):
             keys = self.links[identity]

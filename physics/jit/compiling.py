@@ -99,7 +99,8 @@ class PartCompiler(CompilerBase):
 def entry_of(descriptor: Any, environment: Any, library: PartLibrary) -> Any:
     """Return the function object by which numba identifies a compiled part.
 
-    The object has no address, because it is never called.
+    The object has no address, because it is never called. descriptor, environment: numba's objects of the part;
+    library: its code.
     """
     name = descriptor.qualname.split(".")[-1]
     return _dynfunc.make_function(descriptor.lookup_module(), name, "", 0, environment, (library,))
@@ -113,7 +114,7 @@ def reduce(result: Any) -> tuple:
 
 
 def rebuild(target_context: Any, kept: tuple) -> Any:
-    """Return a part's CompileResult from the result of reduce()."""
+    """Return a part's CompileResult from `kept`, the result of reduce(). target_context: numba's target context."""
     name, code, descriptor, environment, signature = kept
     library = PartLibrary.from_bitcode(target_context.codegen(), name, code)
     return compile_result(
@@ -147,7 +148,10 @@ READABLE = 48  # characters of a kernel's name in the name of its file
 
 
 def file_name(kernel: Kernel, types_text: str) -> str:
-    """Return the name of a compiled form in the store: readable name, fingerprint of the kernel, hash of its types."""
+    """Return the name of a compiled form in the store: readable name, fingerprint of the kernel, hash of its types.
+
+    types_text: the types of the arguments as text.
+    """
     readable = f"{kernel.__module__.partition('.')[2]}.{kernel.__name__}"[-READABLE:]
     return f"{readable}.{fingerprint(kernel)}.{hashlib.blake2b(types_text.encode(), digest_size=8).hexdigest()}"
 
@@ -158,7 +162,10 @@ def name_of(kernel: Kernel, keys: Keys) -> str:
 
 
 def load(kernel: Kernel, keys: Keys) -> Form | None:
-    """Return the compiled form of a kernel from the store; None: the store does not have it."""
+    """Return the compiled form of a kernel from the store; None: the store does not have it.
+
+    keys: types of the arguments.
+    """
     content = store().read(name_of(kernel, keys))
     if content is None:
         return None
@@ -170,7 +177,10 @@ def load(kernel: Kernel, keys: Keys) -> Form | None:
 
 
 def load_or_compile(kernel: Kernel, keys: Keys) -> Form:
-    """Return the compiled form of a kernel from the store; if the store does not have it, compile and store it."""
+    """Return the compiled form of a kernel from the store; if the store does not have it, compile and store it.
+
+    keys: types of the arguments.
+    """
     form = load(kernel, keys)
     if form is None:
         with store().claim(name_of(kernel, keys)):
@@ -239,7 +249,7 @@ def _link(kept):
 
 
 def _environment(name, module, values):
-    """Return numba's environment of compiled code: the globals of its module, and its constants."""
+    """Return numba's environment of compiled code: the globals of its module, and its constants `values`."""
     known = lookup_environment(name)
     if known is not None:
         return known

@@ -175,7 +175,10 @@ class StageKernel(Kernel):
 
 
 def _checked(kernel, keys, whole, form):
-    """Return a wrapper of a compiled form that refuses a float for an int, and under CHECKING all other types."""
+    """Return a wrapper of a compiled form that refuses a float for an int, and under CHECKING all other types.
+
+    keys: types of the arguments; whole: numbers of the arguments that must be ints.
+    """
 
     def call(*arguments):
         for place in whole:

@@ -69,7 +69,7 @@ def contours(solid: np.ndarray, joined: int = 0) -> list[Contour]:
 
 
 def doubled_area(points: np.ndarray) -> float:
-    """Return twice the signed area of a loop (n, 2): positive for a loop that is clockwise on the screen."""
+    """Return twice the signed area of a loop, points (n, 2): positive for a loop that is clockwise on the screen."""
     x, y = points[:, 0], points[:, 1]
     return (x * np.roll(y, -1) - y * np.roll(x, -1)).sum()
 

@@ -79,7 +79,7 @@ def code_stamp() -> bytes:
 
 
 def write(path: Path, found: Mapping[bytes, Parts]) -> None:
-    """Write convex parts, keyed by bytes, to a file that `use` reads. Equal parts give a file of equal bytes."""
+    """Write convex parts with their keys to a file that `use` reads. Equal parts give a file of equal bytes."""
     order = sorted(found)
     np.savez_compressed(
         path,

@@ -74,7 +74,7 @@ def boundary(hulls: Sequence[Hull]) -> list[Stretch]:
 
 
 def line(start: np.ndarray, end: np.ndarray) -> Stretch:
-    """Return a straight stretch between two points."""
+    """Return the straight stretch from `start` to `end`."""
     return Stretch(np.asarray(start, float), np.asarray(end, float), np.zeros(2), 0.0, 0.0, 0.0)
 
 
@@ -166,7 +166,7 @@ def _arc_meets(side, other):
 
 
 def _on_circle(start, along, center, radius):
-    """Return the two points where an infinite line meets a circle.
+    """Return the two points where the infinite line through `start` with the direction `along` meets a circle.
 
     If the line misses the circle, the line's point nearest to the centre is returned twice.
     """
@@ -237,7 +237,10 @@ class Moments(NamedTuple):
 
 
 def moments(around: Sequence[Stretch]) -> Moments:
-    """Return the moments of the figure inside a closed boundary; without area, all are 0 and the centre is nan."""
+    """Return the moments of the figure inside a closed boundary; without area, all are 0 and the centre is nan.
+
+    around: stretches of the boundary.
+    """
     if not around:
         return Moments(0.0, math.nan, math.nan, 0.0)
     base = around[0].start  # integrals about a nearby point, which are precise far from the raster's corner
@@ -253,7 +256,10 @@ def moments(around: Sequence[Stretch]) -> Moments:
 
 
 def nodes(around: Sequence[Stretch]) -> tuple[np.ndarray, np.ndarray]:
-    """Return (n, 16, 2) [px] quadrature points on n stretches, and their derivatives by the fraction of length."""
+    """Return (n, 16, 2) [px] quadrature points on the n stretches `around`, and their derivatives.
+
+    The derivatives are by the fraction of a stretch's length.
+    """
     place = np.array([each.at(NODES) for each in around])
     step = np.empty_like(place)
     for k, each in enumerate(around):
@@ -445,7 +451,7 @@ def cell_sums(cells: Cells, weights: np.ndarray, base: tuple[float, float]) -> S
 def shared_sums(around: Sequence[Stretch], cells: Cells, base: tuple[float, float]) -> Sums:
     """Return the Sums, about a base point, of the part of the solid cells that is inside a boundary.
 
-    A cell is solid if a pixel of any mask in it is solid.
+    around: stretches of the boundary. A cell is solid if a pixel of any mask in it is solid.
     """
     parts = [part for each in around for part in _cut_by_lines(each, cells)]
     if not parts or not cells.count.any():

@@ -59,7 +59,10 @@ def rounded_core(cracks: Loop, smooth: float) -> Core | None:
 
 
 def _round_ones(outer, corners):
-    """Yield candidate cores: discs around the middle of the bounds and the centre of area, and up to two capsules."""
+    """Yield candidate cores: discs around the middle of the bounds and the centre of area, and up to two capsules.
+
+    outer: outline of the piece; corners: the corners of its pixel edges.
+    """
     area, center, axis = _moments(corners.astype(float))
     yield (corners.min(axis=0) + corners.max(axis=0))[None] / 2.0
     yield center[None]
@@ -240,7 +243,10 @@ class _Judge:
         return core, float(radius)
 
     def _from_cracks(self, points):
-        """Return the distance (m,) [px] of each of the points (m, 2) from the nearest pixel edge, exact below 1 px."""
+        """Return the distance (m,) [px] of each of the points (m, 2) from the nearest pixel edge.
+
+        Distances below 1 px are exact.
+        """
         cells = np.floor(points).astype(np.int64)
         least = np.full(len(points), math.inf)
         for axis, cracks in enumerate((self.across, self.down)):

@@ -178,7 +178,7 @@ def turn_bits(turn):
 
 @subkernel
 def first_of(around, number):
-    """Return the index in meetings (m, 5) of the first row whose tile number is `number` or higher. O(log m)."""
+    """Return the index in meetings `around` (m, 5) of the first row with tile number `number` or higher. O(log m)."""
     low, high = 0, len(around)
     while low < high:
         middle = (low + high) // 2

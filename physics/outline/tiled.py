@@ -159,8 +159,8 @@ def is_straight(runs, count, at):
 def bend(runs, count, at, x, y):
     """Fit a parabola (least squares) to the middles of a path's pixel edges within SEEN edges of a corner (x, y).
 
-    at: number of edges of the path before the corner. Return the tangent at the corner, in the format of `stretch`; the
-    last value is whether all middles are near the parabola.
+    runs: RUN, `count` of them; at: number of edges of the path before the corner. Return the tangent at the corner, in
+    the format of `stretch`; the last value is whether all middles are near the parabola.
     """
     sum_x = sum_y = u_x = u_y = uu_x = uu_y = 0.0
     for part in range(2):
@@ -198,7 +198,8 @@ def bend(runs, count, at, x, y):
 def line_at(runs, count, at, x, y):
     """Return (x, y, slope, steep) of the line that a path follows at a corner, in the format of `stretch`.
 
-    The line is fitted to the longest straight stretch around the corner, or is the tangent of a curve.
+    The line is fitted to the longest straight stretch around the corner, or is the tangent of a curve. runs, count, at,
+    x, y: see stretch.
     """
     for seen in range(SEEN, 1, -1):
         line_x, line_y, slope, steep, straight = stretch(runs, count, at, seen, x, y)
@@ -590,7 +591,10 @@ def put_open(window, n, number, workspace, sides_inout):
 
 @subkernel
 def is_hole(piece, points):
-    """Return whether a closed piece of the outline bounds a hole: it is then counter-clockwise on the screen."""
+    """Return whether a closed piece of the outline bounds a hole: it is then counter-clockwise on the screen.
+
+    piece: PIECE; points: POINT.
+    """
     doubled = 0.0
     before = points[piece.first + piece.count - 1]
     for k in range(piece.first, piece.first + piece.count):

@@ -315,7 +315,10 @@ def ray_cast_all(
 
 
 def _beside(world, rows, x, y, dx, dy, beyond) -> np.ndarray:
-    """Return the SHAPE rows whose AABBs, enlarged by `beyond` [px], cross the infinite line through a ray."""
+    """Return those of the shape rows whose AABBs, enlarged by `beyond` [px], cross the infinite line through a ray.
+
+    x, y, dx, dy [px]: start and vector of the ray.
+    """
     if not len(rows):
         return rows
     left, top, right, bottom = (world.shapes[name][rows] for name in ("min_x", "min_y", "max_x", "max_y"))

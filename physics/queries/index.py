@@ -114,7 +114,7 @@ def rows_meeting(shapes, row_of_slot, slots, loose, box, rows_out, work_inout):
 
 
 def is_same(now: tuple, before: tuple) -> bool:
-    """Return whether two tuples hold the same objects. Ints are compared by value."""
+    """Return whether the tuples `now` and `before` hold the same objects. Ints are compared by value."""
     return len(now) == len(before) and all(
         a is b or (type(a) is int and a == b) for a, b in zip(now, before, strict=True)
     )
@@ -237,7 +237,10 @@ class QueryIndex:
             self.loose, self.rows = np.zeros(2 * len(shapes), np.int64), np.zeros(2 * len(shapes), np.int64)
 
     def rows_in(self, world: IndexedWorld, lower: Pair, upper: Pair) -> np.ndarray:
-        """Return the shape rows, in order, whose AABBs meet a closed box [px]. Quarantined bodies are left out."""
+        """Return the shape rows, in order, whose AABBs meet the closed box from `lower` to `upper` [px].
+
+        Quarantined bodies are left out.
+        """
         reach = ROUNDING * max(abs(lower[0]), abs(lower[1]), abs(upper[0]), abs(upper[1]))
         box = (float(lower[0]) - reach, float(lower[1]) - reach, float(upper[0]) + reach, float(upper[1]) + reach)
         self.asked.append(box)

@@ -485,7 +485,10 @@ def _parts_at(shape, move, fraction, x, y) -> Parts:
 
 
 def _point(a, move_a, b, move_b, fraction):
-    """Return the point [px] midway between the nearest points of two moving shapes at a fraction of their motion."""
+    """Return the point [px] midway between the nearest points of two moving shapes at a fraction of their motion.
+
+    a, b: the shapes; move_a, move_b: start and end pose of each.
+    """
     x, y = move_a[0][:2]
     gap = _gap_at(*(_parts_at(each, move, fraction, x, y) for each, move in ((a, move_a), (b, move_b))))
     return Vec2(float(x + 0.5 * (gap[AX] + gap[BX])), float(y + 0.5 * (gap[AY] + gap[BY])))

@@ -456,7 +456,7 @@ def _sampled(padded, mixed, base_x, base_y, cosine, sine):
 
 
 def _mixed(padded):
-    """Return for each pixel whether the 3 x 3 pixels around it are neither all solid nor all clear."""
+    """Return for each pixel of `padded` whether the 3 x 3 pixels around it are neither all solid nor all clear."""
     wide = np.pad(padded, 1).view(np.uint8)
     row = wide[:, :-2] + wide[:, 1:-1] + wide[:, 2:]
     count = row[:-2] + row[1:-1] + row[2:]
@@ -495,7 +495,7 @@ def _in_order(some, key):
 
 
 def _is_simple(around):
-    """Return whether the middle of 3 x 3 pixels is a simple point: without it, its solid neighbours stay connected."""
+    """Return whether the middle of 3 x 3 pixels `around` is a simple point: without it, its solid neighbours stay joined."""
     ring = [bool(around[y, x]) for y, x in ((0, 0), (0, 1), (0, 2), (1, 2), (2, 2), (2, 1), (2, 0), (1, 0))]
     if not any(ring) or all(ring[1::2]):
         return False  # isolated, or interior

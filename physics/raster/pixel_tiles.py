@@ -512,7 +512,10 @@ def cut(tiles: PixelTiles, tool: Tool, box: Box, one_piece: bool, crumb: int) ->
 
 
 def _taken(tiles, tool, box):
-    """Return ({tile number: words without the pixels that the tool finds}, number of pixels found)."""
+    """Return ({tile number: words without the pixels that the tool finds}, number of pixels found).
+
+    box [px]: bounds of the tool in the raster.
+    """
     first_column, first_row = (max(0, int(each // TILE)) for each in box[:2])
     last_column, last_row = int(min(box[2] // TILE, tiles.columns - 1)), int(min(box[3] // TILE, tiles.rows - 1))
     changed, removed, found = {}, 0, np.empty(TILE, np.uint64)
@@ -528,7 +531,10 @@ def _taken(tiles, tool, box):
 
 
 def _pieces_before(before, after, changed):
-    """Return for each piece after a cut the number of the piece before the cut that contained it: (pieces,) int64."""
+    """Return for each piece after a cut the number of the piece before the cut that contained it: (pieces,) int64.
+
+    changed: numbers of the tiles that the cut changed.
+    """
     labels, parts, last = before.pieces.labels, [], 0
     for tile in sorted(changed):
         # The nodes of unchanged tiles are the same, in the same order.

@@ -407,6 +407,9 @@ class PixelMask(Shape):
 
 
 def _nearest(size: int, factor: float) -> np.ndarray:
-    """Return for each column (or row) of a scaled mask the source column that contains its centre: (n,) int64."""
+    """Return for each column (or row) of a scaled mask the source column that contains its centre: (n,) int64.
+
+    size: number of columns of the source; factor: scale.
+    """
     wanted = max(1, math.floor(size * factor + 0.5)) if size else 0
     return np.minimum(((np.arange(wanted) + 0.5) / factor).astype(np.int64), size - 1)

@@ -60,7 +60,10 @@ def together(parts: Iterable[Mass]) -> Mass:
 
 
 def polygon_mass(points: Points, density: float) -> Mass:
-    """Return the mass of a polygon, points (n, 2) clockwise on the screen, by shoelace integrals."""
+    """Return the mass of a polygon, points (n, 2) clockwise on the screen, by shoelace integrals.
+
+    density [mass per px2].
+    """
     base = np.array(points[0])
     a = np.array(points) - base
     b = np.roll(a, -1, axis=0)
@@ -74,7 +77,10 @@ def polygon_mass(points: Points, density: float) -> Mass:
 
 
 def rounded_mass(points: Points, radius: float, density: float) -> Mass:
-    """Return the mass of a rounded polygon: the polygon, a rectangle along each side, a sector at each corner."""
+    """Return the mass of a rounded polygon: the polygon, a rectangle along each side, a sector at each corner.
+
+    points (n, 2) [px]: corners, clockwise on the screen; radius [px]; density [mass per px2].
+    """
     parts = [polygon_mass(points, density)]
     count = len(points)
     edges = [
@@ -110,7 +116,7 @@ def rounded_mass(points: Points, radius: float, density: float) -> Mass:
 
 
 def disc_mass(center: Pair, radius: float, density: float) -> Mass:
-    """Return the mass of a disc."""
+    """Return the mass of a disc. center, radius [px]; density [mass per px2]."""
     mass = density * math.pi * radius * radius
     return Mass(mass, Vec2(*center), mass * radius * radius / 2.0)
 

@@ -175,7 +175,7 @@ def raster_aabb(geometry, raster, x, y):
 def upright_aabb(raster, x, y):
     """Return the AABB [px] of an unrotated mask's solid pixels with its body exactly at (x, y), not at whole pixels.
 
-    The AABB of an empty mask is the point (x, y).
+    raster: RASTER row at the angle 0. The AABB of an empty mask is the point (x, y).
     """
     if raster.area == 0:
         return x, y, x, y
@@ -185,7 +185,10 @@ def upright_aabb(raster, x, y):
 
 @subkernel
 def box_corners(min_x, min_y, max_x, max_y, corners_out):
-    """Write the corners [px] of a box, clockwise on the screen from the top left. Return their number."""
+    """Write the corners [px] of the box from min_x, min_y to max_x, max_y. Return their number.
+
+    They are clockwise on the screen from the top left.
+    """
     corners_out[0, 0] = min_x
     corners_out[0, 1] = min_y
     corners_out[1, 0] = max_x
@@ -245,7 +248,10 @@ def rounding(shapes, row):
 
 @subkernel
 def chain_aabb(geometry, chain, cosine, sine):
-    """Return the AABB [px] of a chain in a rotated body at (0, 0). O(links); without rotation O(blocks of links)."""
+    """Return the AABB [px] of a chain in a body at (0, 0) rotated by (cosine, sine).
+
+    chain: row of geometry.chains. O(links); without rotation O(blocks of links).
+    """
     span = geometry.chains[chain]
     min_x, min_y = math.inf, math.inf
     max_x, max_y = -math.inf, -math.inf

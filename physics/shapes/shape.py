@@ -112,7 +112,10 @@ def turned_parts(parts: Parts, x: float, y: float, cosine: float, sine: float) -
 
 
 def parts_near(parts: Parts, left: float, top: float, right: float, bottom: float) -> Parts:
-    """Return the parts whose AABBs overlap or touch a box [px], enlarged by a margin for rounding errors."""
+    """Return the parts whose AABBs overlap or touch a box [px], enlarged by a margin for rounding errors.
+
+    left, top, right, bottom: the box.
+    """
     reach = NEAR * max(map(abs, (left, top, right, bottom)))
     low, high = parts.boxes[:, :2], parts.boxes[:, 2:]
     keep = (low <= (right + reach, bottom + reach)).all(axis=1) & (high >= (left - reach, top - reach)).all(axis=1)
@@ -120,7 +123,7 @@ def parts_near(parts: Parts, left: float, top: float, right: float, bottom: floa
 
 
 def rectangle(left: float, top: float, right: float, bottom: float) -> list[tuple[float, float]]:
-    """Return the corners of a box, clockwise on the screen."""
+    """Return the corners of the box left, top, right, bottom, clockwise on the screen."""
     return [(left, top), (right, top), (right, bottom), (left, bottom)]
 
 

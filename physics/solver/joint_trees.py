@@ -191,7 +191,10 @@ def take_joints(order, motion_a, motion_b, motions, forest_inout, taken_out):
 
 @inlined
 def write_body(motion, parent, joint, parent_is_a, is_fixed, body_out):
-    """Write the links of a TREE_BODY row: motion (MOTION row), parent (slot), joint to the parent, and flags."""
+    """Write the links of a TREE_BODY row: motion (MOTION row), parent (slot), joint to the parent, and flags.
+
+    parent_is_a: whether the parent is body A of the joint; is_fixed: whether the body has infinite mass.
+    """
     body_out.motion = motion
     body_out.parent = parent
     body_out.joint = joint

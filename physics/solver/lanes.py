@@ -487,7 +487,7 @@ TURNING = 1e-5  # [rad] rotation in a step above which the arms of a round conta
 
 @subkernel
 def touches_slowly(separation, speed, limits):
-    """Return whether a contact point is within the slop, with a normal speed [px/s] below impact_speed, up or down."""
+    """Return whether a contact point is within the slop, with a normal speed of at most impact_speed, up or down."""
     return separation <= limits.slop and abs(speed) <= limits.impact_speed
 
 

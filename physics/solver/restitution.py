@@ -394,7 +394,7 @@ def solve_alone(blocks, last, motions, impacts_inout):
 def simulate_impacts(blocks, last, dt, contacts, motions, impacts_inout):
     """Simulate the impacts of a body over dt [s] in the order of their times, and write their impulses.
 
-    Return (time [s] of the step after the last hit, whether MOST_IMPACTS and MOST_ROUNDS were enough). last: see
+    Return (time [s] left of the step after the last hit, whether MOST_IMPACTS and MOST_ROUNDS were enough). last: see
     link_impacts; the IMPACT row last - 1 receives the displacement of the body up to the last hit.
     """
     k = last
