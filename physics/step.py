@@ -282,7 +282,7 @@ def step_length(world: WorldState, dt: float | None) -> float:
 
 
 def begin(world: WorldState, dt: float) -> StepState:
-    """Set the velocities of targets, and return the StepState for a step of dt [s].
+    """Set the velocities of bodies with targets, and return the StepState for a step of dt [s].
 
     The state has the settings and tables of the world, and the contacts of the last step.
     """

@@ -56,10 +56,10 @@ class Character:
     whether the character is solid for other characters, and they push it.
 
     The character's `body` is kinematic, so contacts and sensors see the character. A Character needs the effect
-    response. With the effect stacking, dynamic bodies also stop and carry the character, and it acts on them. mass
-    [density px2]: sets the weight and the momentum on landing; None: the mass of the shape at density 1. push [px/s2]:
-    the character accelerates bodies in its way to the speed of its moves, with a force of at most mass * push; None for
-    PUSH.
+    response. With the effect stacking, dynamic bodies also stop and carry the character, and the character acts on
+    them. mass [density px2]: sets the weight and the momentum on landing; None: the mass of the shape at density 1.
+    push [px/s2]: the character accelerates bodies in its way to the speed of its moves, with a force of at most mass *
+    push; None for PUSH.
 
     Raises TypeError for values of other types, ValueError for values out of range and for a world without the needed
     effects.

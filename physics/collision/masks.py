@@ -588,8 +588,8 @@ def bounds_overlap(batch, pair):
 def make_mask_pass(full: bool) -> Any:
     """Return the kernel that collides all pairs of snapped masks.
 
-    full: whether area, centroid, normal and depth are computed. Otherwise only the first shared pixel is found; then
-    the normal is the direction between the centres, and the separation is -1.
+    full: True to compute area, centroid, normal and depth. False to find only the first shared pixel; then the normal
+    is the direction between the centres, and the separation is -1.
     """
 
     @inlined

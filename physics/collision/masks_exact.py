@@ -385,8 +385,8 @@ def exact_mask_area(geometry, bodies, a, b):
 def make_exact_mask_pass(full: bool) -> Any:
     """Return the kernel that collides all pairs of masks of which at least one is not snapped.
 
-    full: whether area, centroid, normal and depth are computed. Otherwise only two overlapping pixels are found; then
-    the normal is the direction between the centres of the AABBs, and the separation is -1.
+    full: True to compute area, centroid, normal and depth. False to find only two overlapping pixels; then the normal
+    is the direction between the centres of the AABBs, and the separation is -1.
     """
 
     @inlined

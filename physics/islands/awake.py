@@ -122,7 +122,7 @@ class Awake:
             self.known = (int(np.count_nonzero(kept_bodies[: self.known[0]])), -1)
 
     def forget_shapes(self) -> None:
-        """Mark the shape rows of the bodies to be looked up again, after shape rows were added or removed."""
+        """Mark the list of shape rows as outdated, after shape rows were added or removed."""
         self.known = (self.known[0], -1)
 
     def take_in(self, tables: WorldTables) -> None:

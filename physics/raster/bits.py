@@ -495,7 +495,7 @@ def _in_order(some, key):
 
 
 def _is_simple(around):
-    """Return whether the middle of 3 x 3 pixels `around` is a simple point: without it, its solid neighbours stay joined."""
+    """Return whether the middle of 3 x 3 pixels is a simple point: without it, its solid neighbours stay connected."""
     ring = [bool(around[y, x]) for y, x in ((0, 0), (0, 1), (0, 2), (1, 2), (2, 2), (2, 1), (2, 0), (1, 0))]
     if not any(ring) or all(ring[1::2]):
         return False  # isolated, or interior
