@@ -219,7 +219,7 @@ class Background:
     def _urgency(self, waiting):
         """Return the priority of the kernels that share one file.
 
-        It is 1 + (seconds as plain Python) / (bytes of code that are not yet compiled).
+        The priority is 1 + (seconds as plain Python) / (bytes of code that are not yet compiled). waiting: the kernels.
         """
         code = LINK + code_of(waiting[0][0], self._compiled)
         return 1.0 + sum(kernel.seconds for kernel, _ in waiting) / code

@@ -264,7 +264,7 @@ class Body(Handle):
     def contacts(self) -> np.ndarray:
         """A copy of the CONTACT_POINT rows that name this body, in the order of shape ids.
 
-        It contains the contacts of the last step and the contacts of sleeping bodies.
+        The rows are those of the last step and of the contacts of sleeping bodies.
         """
         world, row = self.world, self._row
         told = world.contacts

@@ -57,9 +57,9 @@ def number(
 
 
 def known_attribute(thing: Any, name: str, strict: bool) -> None:
-    """Raise AttributeError if an existing name resembles the name of a missing attribute. The message suggests it.
+    """Raise AttributeError if an existing name resembles the name of a missing attribute.
 
-    thing: the object; strict: raise the error also if no existing name is similar.
+    The message suggests that name. thing: the object; strict: raise the error also if no existing name is similar.
     """
     public = [each for each in {*dir(type(thing)), *getattr(thing, "__dict__", ())} if not each.startswith("_")]
     near = difflib.get_close_matches(name, sorted(public), 1, NEAR_NAME)

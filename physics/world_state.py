@@ -293,8 +293,8 @@ class WorldState:
     def _row_at(self, identity: int) -> int:
         """Return the row number of a body, without dropping the rows of removed bodies first.
 
-        The number is valid until `bodies` or `shapes` is read, which drops these rows and moves other rows. So use it
-        only to access single numbers by Table.columns. Raises KeyError for an unknown body.
+        The number is valid until `bodies` or `shapes` is read, which drops these rows and moves other rows. So use the
+        number only to access single values by Table.columns. Raises KeyError for an unknown body.
         """
         row = -1 if identity in self._removed else row_number(self._bodies, identity)
         if row < 0:

@@ -54,8 +54,8 @@ def near_in_all(proxies, box, slots_out, work_inout):
 class BruteForce:
     """Broad phase that tests all pairs: O(n²) in the first step, O(moved · n) in later steps.
 
-    incremental: False tests all n (n - 1) / 2 pairs in every step, as "brute force" means in papers; it finds the same
-    pairs. Raises TypeError for a value that is not a bool.
+    incremental: False tests all n (n - 1) / 2 pairs in every step, as "brute force" means in papers; the pairs found
+    are the same. Raises TypeError for a value that is not a bool.
     """
 
     name = "brute"

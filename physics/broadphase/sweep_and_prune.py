@@ -183,9 +183,9 @@ def near_in_order(order, boxes, highest, axis, box, slots_out, work_inout):
     """Find the proxies whose boxes overlap `box`, by binary search along the sorted axis. Return their number.
 
     order: slots by the lower ends of their boxes; boxes (n, 4) [px]: see sort_boxes; axis: 0 for x, 1 for y; box [px]:
-    lower x, y, upper x, y. highest (n,) [px]: running maximum of the high ends; boxes at the start of the order that
-    end before `box` begins are skipped by it, but only up to the first box that reaches `box`. slots_out: slots of the
-    found proxies; work_inout: counters. O(log n + boxes read).
+    lower x, y, upper x, y. highest (n,) [px]: running maximum of the high ends, with which the search skips boxes at
+    the start of the order, up to the first box that does not end before `box` begins. slots_out: slots of the found
+    proxies; work_inout: counters. O(log n + boxes read).
     """
     count = len(order)
     lower, upper = box[axis], box[axis + 2]

@@ -133,8 +133,8 @@ def sweep_pair(row, other, dt, sweep, scratch):
 def asks_sweep(body, dt, only_straight):
     """Return whether a body is swept without rotation in this step of dt [s].
 
-    body: BODY row. Bodies in the modes "ray" and "swept" always are. A body in mode "auto" is if it moves by more than
-    its inradius and only_straight is false.
+    A body in mode "ray" or "swept" is always swept so. A body in mode "auto" is swept so if it moves by more than its
+    inradius and only_straight is false. body: BODY row.
     """
     if body.continuous == OFF or body.continuous == TOI or body.kind == STATIC or body.quarantined:
         return False

@@ -111,8 +111,8 @@ def is_wedged(walk, me, rows, slope):
 def steep_below(walk, me, rows, slope):
     """Return the slope of steep ground just below a sliding character; 0: there is none.
 
-    Steep ground is too steep to walk on. It is searched within the drop of `slope` over one pixel along x. me:
-    CHARACTER row; rows: nearby solids, see solids.gather.
+    Steep ground is too steep to walk on. The search covers the drop of `slope` over one pixel along x. me: CHARACTER
+    row; rows: nearby solids, see solids.gather.
     """
     c = walk.characters[me]
     for drop in range(1, pixels_along(slope) + 1):
@@ -280,9 +280,9 @@ def depth_in(me, row, walk_inout):
 
 @subkernel
 def is_in_drawn(me, row, walk_inout):
-    """Return whether a shape overlaps a character on the pixel grid, so that it blocks a move by 0 pixels.
+    """Return whether a shape overlaps a character on the pixel grid: it would block a motion in one of four directions.
 
-    All four directions count: left, right, up and down. me, row: CHARACTER row and shape row.
+    me, row: CHARACTER row and shape row.
     """
     c = walk_inout.characters[me]
     for side in range(-1, 2, 2):
@@ -689,8 +689,8 @@ def walk(me, dx, dy, walk_inout, moved_out):
     """Move a character by (dx, dy) [px], x first, and write its contacts. Return whether it overlaps a static solid.
 
     me: CHARACTER row. walk_inout: see Walk. moved_out (4,): pixels moved along x, along y; 1 if the character was
-    stopped along x, along y. If it overlaps a static solid, it has to be led out, see lead_out. O(pixels · nearby
-    solids).
+    stopped along x, along y. A character that overlaps a static solid has to be led out, see lead_out. O(pixels ·
+    nearby solids).
     """
     c = walk_inout.characters[me]
     reach = 3.0 + abs(dx) + abs(dy)
@@ -713,9 +713,9 @@ def walk(me, dx, dy, walk_inout, moved_out):
 
 @kernel
 def is_stopped(me, along_x, along_y, walk_inout):
-    """Return whether a character cannot move by (along_x, along_y) pixels, each -1, 0 or 1. It is not moved.
+    """Return whether a character cannot move by (along_x, along_y) pixels, each -1, 0 or 1.
 
-    me: CHARACTER row.
+    It is not moved by the test. me: CHARACTER row.
     """
     c = walk_inout.characters[me]
     gather(walk_inout, me, -1, 3.0, 3.0 + STEEPEST_CLIMB, 3.0, walk_inout.found)

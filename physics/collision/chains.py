@@ -233,8 +233,8 @@ def classify_normal(link, points, towards_end, nx, ny):
 def neighbour_separates(points, nx, ny, hull, x, y, face):
     """Return whether a neighbouring link is a better reference than this link for the contact with a Hull.
 
-    It is if the Hull's centre is in front of the neighbour, and the Hull's separation from the neighbour is greater
-    than `face` [px], its separation from this link. The neighbour is the one at the end in the direction (nx, ny).
+    The neighbour is better if the Hull's centre is in front of it, and the Hull's separation from it is greater than
+    `face` [px], the Hull's separation from this link. The neighbour is the one at the end in the direction (nx, ny).
     points: see link_at; x, y: centre of the Hull.
     """
     towards_end = is_towards_end(points, nx, ny)
@@ -312,8 +312,8 @@ def collide_link_hull(link, points, hull, margin, bias, is_second, manifold_out)
     """Write the manifold of a link and a Hull of two or more corners. Return the number of points.
 
     link: LINK row; points: see link_at; margin, bias, manifold_out: see hulls.collide_hulls. is_second: whether this is
-    the second pass over the links, in which no contact is left to neighbours. It is made if in the first pass each link
-    left the contact to its neighbour.
+    the second pass over the links, in which no contact is left to neighbours. The second pass is made if in the first
+    pass each link left the contact to its neighbour.
     """
     corners = hull.corners
     count = hull.count

@@ -481,7 +481,7 @@ def same_side(a, b):
 def segment_distance(a, b):
     """Return the distance [px] of two segments; 0 if they cross. a, b (2, 2): ends [px].
 
-    It supplements the separating axis test, whose face normals cannot separate two segments on one line.
+    This distance supplements the separating axis test, whose face normals cannot separate two segments on one line.
     """
     if same_side(a, b) < 0.0 and same_side(b, a) < 0.0:
         return 0.0

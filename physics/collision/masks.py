@@ -430,9 +430,9 @@ def border_pixels(raster, line, low, high, level):
 def collide_mask_line(raster, hull, depths_out):
     """Return (area, normal, point, separation, feature) of a PlacedRaster and a line (a Hull of two corners).
 
-    The line is solid from both sides. It touches where it crosses a solid pixel, or lies on the border between two
-    solid pixels; there the normal points away from the middle of the mask. Other values as in collide_mask_circle.
-    depths_out (16,): scratch.
+    The line is solid from both sides. The line touches the mask where it crosses a solid pixel, or lies on the border
+    between two solid pixels; on a border the normal points away from the middle of the mask. Other values as in
+    collide_mask_circle. depths_out (16,): scratch.
     """
     points = hull.corners
     left, top = raster.left, raster.top

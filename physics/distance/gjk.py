@@ -55,7 +55,7 @@ def support(corners, count, x, y):
 def difference_edge(a, b, i, j, k, m):
     """Return the vector [px] from corner a[i] - b[j] of the Minkowski difference to corner a[k] - b[m].
 
-    It is rounded only once if i == k or j == m.
+    The vector is rounded only once if i == k or j == m.
     """
     return (a[k, 0] - a[i, 0]) - (b[m, 0] - b[j, 0]), (a[k, 1] - a[i, 1]) - (b[m, 1] - b[j, 1])
 

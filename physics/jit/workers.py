@@ -150,7 +150,7 @@ def encoded(value: Any) -> str:
 def decoded(line: str) -> Any:
     """Return the value of a line from encoded().
 
-    Only for lines from this program's own processes, because it unpickles.
+    Use it only for lines from this program's own processes, because the line is unpickled.
     """
     return pickle.loads(base64.b64decode(line.removeprefix(MARK)))
 

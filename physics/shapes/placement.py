@@ -274,8 +274,8 @@ def chain_aabb(geometry, chain, cosine, sine):
 def aabb_at(geometry, shapes, row, x, y, angle):
     """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a shape with its body at a pose. O(corners).
 
-    For a mask it is the AABB of the solid pixels, at whole pixels if the row is drawn (snap=True, not the role PIXELS);
-    for an empty mask it is the point (x, y).
+    The AABB of a mask is that of its solid pixels, at whole pixels if the row is drawn (snap=True, not the role
+    PIXELS). The AABB of an empty mask is the point (x, y).
     """
     s = shapes[row]
     kind = s.kind

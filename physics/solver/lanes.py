@@ -463,7 +463,7 @@ def tangential_speed(c, lane, second, a, b):
 
 @subkernel
 def push_along(c, lane, second, impulse, a_inout, b_inout):
-    """Apply an impulse along the tangent at a contact point: `impulse` to B along the tangent, the opposite one to A."""
+    """Apply an impulse along the tangent at a contact point: to B along the tangent, to A in the opposite direction."""
     x, y = -impulse * c[NY + lane], impulse * c[NX + lane]
     a_inout.vx -= a_inout.inverse_mass * x
     a_inout.vy -= a_inout.inverse_mass * y

@@ -107,9 +107,9 @@ def prepare_pushes(geometry, bodies, shapes, manifolds, conveyor, press, pushes_
 def limit_pushes(pushes, bodies, push_speed, dt, reach_out):
     """Write the greatest displacement [px] by which contacts may push each body in this step. O(pushes).
 
-    It is dt · (push_speed + v), where v is the greatest of the speed of the body and the approach speeds of its
-    contacts. push_speed [px/s]: speed at which overlaps are removed; dt [s]: step length; reach_out (bodies) [px]:
-    result, written only for the bodies of PUSH rows.
+    The displacement is dt · (push_speed + v), where v is the greatest of the speed of the body and the approach speeds
+    of its contacts. push_speed [px/s]: speed at which overlaps are removed; dt [s]: step length; reach_out (bodies)
+    [px]: result, written only for the bodies of PUSH rows.
     """
     for i in range(len(pushes)):
         r = pushes[i]

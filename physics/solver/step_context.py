@@ -157,11 +157,11 @@ def speed_of_impact(speed, separation, acceleration):
 def restitution_threshold(contact, a, b, degrees, context):
     """Return the approach speed [px/s] up to which a contact does not bounce.
 
-    It is context.restitution_speed, with two exceptions. A new contact bounces at any speed if no acceleration presses
-    its bodies together: otherwise a slow ball would stick to a wall in space. A contact that touched in the last step
-    bounces only above the speed that acceleration adds in two steps, if that speed is greater. contact: CONTACT row; a,
-    b: MOTION rows; degrees: numbers of contacts of A and of B. Two bodies without other contacts fall together, so only
-    the difference of their accelerations presses them.
+    The result is context.restitution_speed, with two exceptions. A new contact bounces at any speed if no acceleration
+    presses its bodies together: otherwise a slow ball would stick to a wall in space. A contact that touched in the
+    last step bounces only above the speed that acceleration adds in two steps, if that speed is greater. contact:
+    CONTACT row; a, b: MOTION rows; degrees: numbers of contacts of A and of B. Two bodies without other contacts fall
+    together, so only the difference of their accelerations presses them.
     """
     m = contact
     on_a = a.acceleration_x * m.normal_x + a.acceleration_y * m.normal_y
