@@ -73,7 +73,7 @@ class Background:
 
     @property
     def share(self) -> float:
-        """The share of the called kernels that run compiled, 0..1."""
+        """The fraction of the called kernels that run compiled, 0..1."""
         return tiers.share_taken_over()
 
     @property
@@ -145,7 +145,7 @@ class Background:
         return True
 
     def _order_early(self, kernel, keys):
-        """Let a worker compile a kernel before numba is imported in this process.
+        """Let a worker compile a kernel before numba is imported in this process. keys: types of its arguments.
 
         Without numba, the name of the kernel's file in the store is not yet known here.
         """
@@ -172,7 +172,7 @@ class Background:
                 self._load([self._came.popleft()])
 
     def _find(self, kernel, keys):
-        """Load a called kernel from the store, or let a worker compile it."""
+        """Load a called kernel from the store, or let a worker compile it. keys: types of its arguments."""
         from physics.jit import compiling
 
         if (kernel, keys) in self._seen:
@@ -194,7 +194,8 @@ class Background:
         """Let a worker compile a kernel: called kernels first, then announced kernels in the order of their jobs.
 
         Among the called kernels, the kernel with the most run time per byte of code to compile comes first (Smith's
-        rule, which minimises the sum of the waiting times: Smith 1956). index: number of the job.
+        rule, which minimises the sum of the waiting times: Smith 1956). name: name of its file in the store; spec,
+        keys: reference to the kernel and types of its arguments; index: number of the job.
         """
         if name in self._ordered:
             return
@@ -218,7 +219,7 @@ class Background:
     def _urgency(self, waiting):
         """Return the priority of the kernels that share one file.
 
-        It is 1 + (seconds as plain Python) / (bytes of code that are not yet compiled).
+        The priority is 1 + (seconds as plain Python) / (bytes of code that are not yet compiled). waiting: the kernels.
         """
         code = LINK + code_of(waiting[0][0], self._compiled)
         return 1.0 + sum(kernel.seconds for kernel, _ in waiting) / code
@@ -246,7 +247,10 @@ class Background:
         tiers.arrived.append((kernel, keys, form))
 
     def _list(self, index, job):
-        """Compile the kernels of a job with workers, unless an earlier start of the program compiled all of them."""
+        """Compile the kernels of a job with workers, unless an earlier run of the program compiled all of them.
+
+        index: number of the job.
+        """
         mark = _mark(json.dumps(job, sort_keys=True))
         if store().has(mark) or not self.workers.alive:
             return
@@ -261,7 +265,7 @@ class Background:
 
 
 def _mark(job):
-    """Return the name of a file in the store. It exists if all kernels of a job are compiled from these sources."""
+    """Return the name of a file in the store that exists if all kernels of a job are compiled from these sources."""
     from physics.jit.content import environment
 
     digest = blake2b(f"{_sources()}{environment()}{job}".encode(), digest_size=20).hexdigest()
@@ -370,7 +374,7 @@ def _spread(found):
     """Return the kernels in an order in which each kernel adds the most code that no earlier kernel contains.
 
     Workers that take kernels in this order compile different parts of the physics and seldom wait for each other: 1 %
-    of their time, compared with 14 % if the kernel with the most code comes first (the platformer, two cores).
+    of their time, compared with 14 % if the kernel with the most code came first (the platformer, two cores).
     """
     left, order, covered = list(found), [], set()
     while left:

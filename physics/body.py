@@ -34,7 +34,10 @@ class Body(Handle):
     __slots__ = ()
 
     def __setattr__(self, name: str, value: Any) -> None:
-        """Set an attribute. Raises AttributeError for an unknown name; the message suggests the most similar name."""
+        """Set an attribute.
+
+        Raises AttributeError for an unknown name; the message suggests the most similar known name.
+        """
         try:
             object.__setattr__(self, name, value)
         except AttributeError:
@@ -104,9 +107,9 @@ class Body(Handle):
         """Move a kinematic body to a position [px] and an angle [rad] (None: unchanged) by the end of the next step.
 
         The velocity follows from the length of the next step. The body carries its riders and pushes other bodies on
-        its path. Afterwards the body stands still until a new target is set. Setting a velocity or teleporting the body
-        before the next step cancels the target. Raises ValueError for a body that is not kinematic, for a position too
-        far for the speed limit, and for a new angle without the effect rotation.
+        its path. Afterwards the body stands still until a new target is set. If a velocity is set or the body is
+        teleported before the next step, the target is cancelled. Raises ValueError for a body that is not kinematic,
+        for a position too far for the speed limit, and for a new angle without the effect rotation.
         """
         step.set_target(self.world, self.id, position, angle)
 
@@ -263,7 +266,7 @@ class Body(Handle):
     def contacts(self) -> np.ndarray:
         """A copy of the CONTACT_POINT rows that name this body, in the order of shape ids.
 
-        It contains the contacts of the last step and the contacts of sleeping bodies.
+        The rows are those of the last step and of the contacts of sleeping bodies.
         """
         world, row = self.world, self._row
         told = world.contacts
@@ -278,8 +281,8 @@ class Body(Handle):
         shape: a Circle, Capsule, Polygon or PixelMask. pose: (x, y) or (x, y, angle). Pieces are 8-connected. In a
         dynamic body, each carved mask keeps only its largest piece. In a body of another kind, pieces that were
         separate before the cut stay, and a piece that splits keeps its largest part. On ties, the piece with the first
-        pixel stays. The other pieces become dynamic bodies; their pixels keep their velocities. Separated pieces of
-        fewer than `crumb` pixels are removed. The body is removed if no shape is left, or if it is dynamic and no mass
+        pixel stays. The other pieces become dynamic bodies, whose pixels keep their velocities. Separated pieces of
+        fewer than `crumb` pixels are removed. The body is removed if no shape is left, or if it is dynamic and no mask
         is left. Bodies that touch carved pixels wake.
 
         Raises TypeError for an argument of another type, ValueError without the effect carving or for a body without a
@@ -502,7 +505,10 @@ class Body(Handle):
         self._world._row_at(self._id)
 
     def _stir(self, row: int) -> int:
-        """Wake the body of a row number and set its sleep time to 0. Return its row number, which may have changed."""
+        """Wake the body, whose row number is `row`, and set its sleep time to 0.
+
+        Return the row number after the call.
+        """
         columns = self._world._bodies.columns
         if not columns["awake"][row]:
             row = sleep.disturb_one(self._world, self._id, row)

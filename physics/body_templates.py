@@ -26,7 +26,10 @@ POSE = tuple((name, kept + name) for kept in ("previous_", "still_", "rocking_")
 
 
 class Template(NamedTuple):
-    """The rows of a body, and the state of the world on which they depend. Pose and velocity are replaced."""
+    """The rows of a body, which are copied for further bodies, and the state of the world on which they depend.
+
+    Pose and velocity are not copied.
+    """
 
     effects: Effects
     sleeps: bool
@@ -67,7 +70,7 @@ def key_of(
 
 
 def find(world: WorldState, key: tuple | None) -> Template | None:
-    """Return the template of a key if it fits the present effects, library and sleeping of the world, else None."""
+    """Return the template of a key if it fits the world's present effects, library and sleeping, else None."""
     try:
         found = world._templates.get(key)
     except TypeError:  # an argument is not hashable, so it is not a Shape
@@ -99,7 +102,10 @@ def keep(world: WorldState, key: tuple | None, shapes: Sequence[Shape]) -> None:
 def add_like(
     world: WorldState, template: Template, shapes: tuple, position: Vec2, velocity: Vec2, angle: float, spin: float
 ) -> int:
-    """Add a body with the rows of a template. Return its id; -1 if nothing was added because add_rows is needed."""
+    """Add a body with the rows of a template. Return its id, or -1 if nothing was added because add_rows must be used.
+
+    position [px]; velocity [px/s]; angle [rad]; spin [rad/s].
+    """
     parts, free = template.shapes, world.pairs.free
     moves = spin != 0.0 or velocity != (0.0, 0.0)
     if template.is_static and moves or (spin != 0.0 and not template.effects.rotation):
@@ -130,7 +136,10 @@ def add_like(
 
 
 def _add_shapes(world, parts, identity, at):
-    """Append the SHAPE rows of a body, by id and row, and add their proxies. parts: see Template.shapes."""
+    """Append the SHAPE rows of a body and add their proxies. identity, at: id and row of the body.
+
+    parts: see Template.shapes.
+    """
     pairs, first = world.pairs, world._next_shape
     world._next_shape += len(parts)
     for number, (row_bytes, parent, values) in enumerate(parts):

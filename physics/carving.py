@@ -111,9 +111,10 @@ def _mask_tool(mask, frame, shape, pose) -> Tool:
 
 
 def _shrink(world: WorldState, identity: int, cuts: dict[int, Cut], given: "_Given") -> None:
-    """Replace the carved masks of a body by their remaining pixels.
+    """Replace the carved masks of a body (id) by their remaining pixels.
 
-    Empty masks are removed. The body is removed if it has no shape left, or if it is dynamic and has no mass left.
+    cuts: the Cut of each carved mask; given: the motion and density of the body before the cut. Empty masks are
+    removed. The body is removed if it has no shape left, or if it is dynamic and has no mass left.
     """
     shapes, ids = world._shapes_of[identity], edit.shape_ids(world, identity)
     empty = [at for at, each in cuts.items() if not len(each.tiles.nodes)]
@@ -137,7 +138,7 @@ def _shrink(world: WorldState, identity: int, cuts: dict[int, Cut], given: "_Giv
 
 
 class _Given(NamedTuple):
-    """The motion and density that a body passes on to its fragments."""
+    """The motion and density of a carved body, which its fragments inherit."""
 
     center: tuple[float, float]
     velocity: tuple[float, float]
@@ -172,7 +173,11 @@ def _values_of(world, identity) -> edit.BodyDef:
 
 
 def _add_fragment(world, mask: PixelMask, loose: Loose, frame, given: _Given, wanted: edit.BodyDef) -> int:
-    """Add a body for a loose piece of a mask. Its pixels keep their positions and velocities. Return the body's id."""
+    """Add a body for a loose piece of a mask. Its pixels keep their positions and velocities. Return the body's id.
+
+    mask: the carved mask; loose: the piece (Loose); frame: pose of the carved body; given: its _Given; wanted: BodyDef
+    of the fragment.
+    """
     # The origin of the fragment is a corner of the mask's pixel grid near the middle of the piece, so that its pixels
     # stay on whole pixels.
     height, width = loose.solid.shape

@@ -26,7 +26,7 @@ LONGEST_SHOWN = 200  # [characters] of a wrong value in a message
 def number(
     name: str, value: Any, low: float | None = None, above: float | None = None, high: float | None = None
 ) -> float:
-    """Return a value as a finite float that is >= low, > above and <= high. None: no such limit.
+    """Return a value as a finite float that is >= low, > above and <= high. A limit of None does not apply.
 
     name: the argument's name for messages. Raises TypeError for a value that is not a real number or is a bool, and
     ValueError for a number outside the limits.
@@ -57,9 +57,9 @@ def number(
 
 
 def known_attribute(thing: Any, name: str, strict: bool) -> None:
-    """Raise AttributeError if the name of a missing attribute resembles an existing name, which the message suggests.
+    """Raise AttributeError if an existing name resembles the name of a missing attribute.
 
-    strict: raise the error also if no existing name is similar.
+    The message suggests that name. thing: the object; strict: raise the error also if no existing name is similar.
     """
     public = [each for each in {*dir(type(thing)), *getattr(thing, "__dict__", ())} if not each.startswith("_")]
     near = difflib.get_close_matches(name, sorted(public), 1, NEAR_NAME)
@@ -106,8 +106,8 @@ def vector(name: str, value: Any) -> Vec2:
 def position(name: str, value: Any) -> Vec2:
     """Return a pair of numbers as a Vec2 whose coordinates are within POSITION_LIMIT.
 
-    A double still resolves a pixel there. Raises TypeError for a value that is not a pair of numbers, and ValueError
-    for a coordinate at or beyond the limit.
+    Up to this limit a double resolves a pixel. Raises TypeError for a value that is not a pair of numbers, and
+    ValueError for a coordinate at or beyond the limit.
     """
     found = vector(name, value)
     if max(abs(found[0]), abs(found[1])) >= POSITION_LIMIT:

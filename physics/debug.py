@@ -299,7 +299,7 @@ def drawn_masks(world: World) -> Drawn:
 def _drawn(world, rows):
     """Return the masks of these shape rows, rasterised at their present poses.
 
-    Rasters that no step needs are drawn first.
+    Rasters that the steps did not need are drawn first.
     """
     draw_pictures(world.library, rows, world.bodies, world.shapes)
     shapes, library = world.shapes[rows], world.library
@@ -351,7 +351,7 @@ SPECULATIVE, NEW, PERSISTED, SENSOR, ASLEEP = range(5)
 
 
 def contact_points(world: World) -> np.ndarray:
-    """Return the POINT rows of all contacts of the last step, also of speculative and sleeping contacts.
+    """Return the POINT rows of all contacts of the last step, including speculative and sleeping contacts.
 
     state: SPECULATIVE, NEW, PERSISTED, SENSOR or ASLEEP. color: the contact's colour in the solver's graph colouring;
     -1: no colour.
@@ -393,7 +393,7 @@ def _points(world, contacts, state):
 
 
 def islands(world: World) -> np.ndarray:
-    """Return (n,) for each body the lowest body id in its island, which names the island; -1 without an island."""
+    """Return (n,) for each body the lowest body id in its island, which names the island; -1 for no island."""
     bodies = world.bodies
     return np.where(
         (bodies["kind"] == DYNAMIC) & ~bodies["quarantined"] & (bodies["island"] >= 0), bodies["island"], -1

@@ -33,7 +33,7 @@ LAST_SHAPE = 2**31 - 1  # greatest shape id, because candidates are reported in 
 
 
 def check_ids(world: WorldState, bodies: int, shapes: Sequence[Shape]) -> None:
-    """Raise ValueError if too few shape ids are left. bodies: number of new bodies, each with these shapes."""
+    """Raise ValueError if too few shape ids are left for this number of `bodies`, each with the shapes `shapes`."""
     room = LAST_SHAPE - world._next_shape
     if room < LAST_SHAPE // 2 and bodies * len(rows_of_shapes(shapes, world.effects.response)) > room:
         raise ValueError(
@@ -80,7 +80,7 @@ def _append_rows(world, first_row, bodies, pieces) -> np.ndarray:
 
 
 class NewParts(NamedTuple):
-    """Convex parts of a mask's outline without SHAPE rows."""
+    """Convex parts of a mask's outline that have no SHAPE rows yet."""
 
     tiles: ArrayLike  # (n,) int64 values of SHAPE.tile
     inner: ArrayLike  # (n,) int64 values of SHAPE.inner
@@ -91,7 +91,7 @@ NONE = NewParts((), (), ())
 
 
 def append_parts(world: WorldState, template: np.ndarray, parts: NewParts) -> None:
-    """Append SHAPE rows of further parts of a mask. template: SHAPE rows (1,), the row of the mask."""
+    """Append SHAPE rows for further parts of a mask's outline. template: the mask's SHAPE row, as an array (1,)."""
     count = len(parts.shapes)
     if not count:
         return
@@ -107,7 +107,7 @@ def append_parts(world: WorldState, template: np.ndarray, parts: NewParts) -> No
 
 
 def _enter(world, rows):
-    """Add the proxies of new SHAPE rows."""
+    """Add the proxies of new SHAPE rows to the broad phase."""
     owners = rows["body_row"]
     world.pairs.add_proxies(rows, np.arange(len(rows)), world.bodies["kind"][owners] == STATIC)
     if world.sleeps:
@@ -116,7 +116,7 @@ def _enter(world, rows):
 
 
 def write_own_values(rows: np.ndarray, given: np.ndarray, shape: Shape) -> None:
-    """Write material, filter and sensor of a shape to SHAPE rows; without own values copy BODY_DEF rows."""
+    """Write a shape's own material, filter and sensor to SHAPE rows; values of `given`, BODY_DEF rows, for the rest."""
     for name in (*MATERIAL, "membership", "mask", "sensor"):
         rows[name] = given[name]
     for name in ("material", "filter", "sensor"):
@@ -141,7 +141,7 @@ class Piece(NamedTuple):
 
 
 def rows_of_shapes(shapes: Sequence[Shape], pushed: bool) -> list[Piece]:
-    """Return a piece for each shape of a body; if `pushed` (response), also for each part of a mask's outline."""
+    """Return a Piece for each shape of a body; if `pushed` (response), also for each part of a mask's outline."""
     found: list[Piece] = []
     for shape in shapes:
         tiles, owner = shape._response_parts() if pushed else (), len(found)
@@ -283,7 +283,7 @@ def rows_at_cells(world: WorldState, at: int, size: float, cells: np.ndarray, ma
 
 
 def _wake_at_cells(world, at, rows):
-    """Wake islands at changed cells, and disturb bodies there that may touch the grid. rows: SHAPE rows there."""
+    """Wake islands at changed cells of a grid, and disturb bodies there that may touch it. rows: SHAPE rows there."""
     if not world.sleeps:
         return
     bodies = world.bodies[np.unique(world.shapes["body_row"][rows])]
@@ -306,7 +306,7 @@ def rows_of_parent(world: WorldState, shape_id: int) -> np.ndarray:
 
 
 def _differences(world, shape_id, before, mask, changed):
-    """Return (SHAPE rows of parts to remove, NewParts to add) for a new mask, and update the remaining rows."""
+    """Return (SHAPE rows of parts to remove, NewParts to add) for a new mask, and update the other parts' rows."""
     shapes = world.shapes
     if not world.effects.response:
         return np.zeros(0, np.int64), NONE
@@ -382,7 +382,7 @@ def check_grid_stands(shapes: Sequence[Shape], turn: float, what: str = "angular
 
 
 def set_mass_of(world: WorldState, identity: int, mass: float) -> None:
-    """Set the mass of a body [density px2], which replaces the mass from the densities of its shapes."""
+    """Set the mass of a body [density px2]. It replaces the mass that follows from the densities of its shapes."""
     at = world._row_number(identity)
     world._definitions.rows["mass"][at] = mass
     used, density = world._shapes_of[identity], float(world._definitions.rows["density"][at])
@@ -432,10 +432,11 @@ def shape_ids(world: WorldState, identity: int) -> tuple[int, ...]:
 
 
 def set_shapes(world: WorldState, identity: int, shapes: Sequence[Shape]) -> None:
-    """Replace the shapes of a body, and end its tier. Its own values stay; contacts on unchanged surface keep impulses.
+    """Replace the shapes of a body, and end its tier.
 
-    If all old and all new shapes are masks, and there are equally many, the ids stay; otherwise the shapes get new ids.
-    Raises TypeError, ValueError for invalid shapes.
+    The body's values stay; contacts on unchanged surface keep impulses. If all old and all new shapes are masks, and
+    there are equally many, the ids stay; otherwise the shapes get new ids. Raises TypeError, ValueError for invalid
+    shapes.
     """
     ids, before = shape_ids(world, identity), world._shapes_of.get(identity, ())
     _check(world, identity, shapes, ids)
@@ -455,7 +456,7 @@ def set_shapes(world: WorldState, identity: int, shapes: Sequence[Shape]) -> Non
 
 
 def add_shape(world: WorldState, identity: int, shape: Shape) -> int:
-    """Append a shape to a body and return its id. Raises TypeError, ValueError if the body cannot have it."""
+    """Append a shape to a body and return its id. Raises TypeError, ValueError if the body cannot have the shape."""
     world._row_number(identity)
     together = (*world._shapes_of[identity], shape)
     _check(world, identity, together, [])
@@ -492,7 +493,7 @@ def check_weight(world: WorldState, shapes: Sequence[Shape], kind: int, mass: fl
 
 
 def _check(world, identity, shapes, gone):
-    """Raise an error if a body cannot have these shapes. gone: ids of the shapes that it would lose."""
+    """Raise an error if a body cannot have these shapes. gone: ids of the shapes that the body would lose."""
     world._unlocked()
     if np.isin(world.characters.rows["shape"], gone).any():
         raise ValueError(f"shapes of body {identity} must stay: it is a Character's, who walks by its shape")
@@ -504,7 +505,7 @@ def _check(world, identity, shapes, gone):
 
 
 def _add(world, identity, shapes, new) -> np.ndarray:
-    """Set the shapes of a body. Add rows for its shapes without rows, `new`, and return their ids."""
+    """Set the shapes of a body. Add rows for those of its shapes that have none, `new`, and return their ids."""
     at = world._row_number(identity)
     world._shapes_of[identity] = shapes
     ids = add_shapes(world, at, 1, new)
@@ -682,7 +683,7 @@ def checked_bullet(world: WorldState, value: Any) -> bool:
 
 
 def checked_continuous(world: WorldState, value: Any) -> int:
-    """Return the index in CONTINUOUS. Raises TypeError, ValueError for other values or without the effect."""
+    """Return a value's index in CONTINUOUS. Raises TypeError, ValueError for other values or without the effect."""
     swept = CONTINUOUS.index(checks.choice("continuous", value, CONTINUOUS))
     world._needs("continuous", f"continuous={value!r}", swept not in (OFF, AUTO))
     return swept

@@ -71,10 +71,10 @@ class Effects:
 
     @classmethod
     def named(cls, names: Iterable[str]) -> "Effects":
-        """Return the Effects in which exactly the named effects are on; also `narrowphase` must be named to be on.
+        """Return the Effects in which exactly the named effects are on; `narrowphase` must be named, too, to be on.
 
-        This reverses names(). Raises TypeError for an unknown effect, and ValueError for an effect without an effect
-        that it needs.
+        This reverses names(). Raises TypeError for an unknown effect, and ValueError if an effect that a named one
+        needs is not named.
         """
         return cls(narrowphase=False).with_(**dict.fromkeys(names, True))
 

@@ -57,9 +57,9 @@ def new_comparison(room: int) -> Comparison:
 def look_at_pair(contacts, first, last, slop):
     """Return how a pair of shapes touches, from its CONTACT rows first … last - 1.
 
-    The result is (whether the pair touches, whether it has impulses, row of the deepest point, whether this is the
-    second point of the row, row of the fastest approaching point, whether this is the second point of the row, its
-    approach speed [px/s], sum of the normal impulses). slop [px]: greatest separation that counts as touching.
+    The result is (whether the pair touches, whether it has impulses, row and `second` of the deepest point, row and
+    `second` of the fastest approaching point, approach speed of the latter [px/s], sum of the normal impulses).
+    `second`: whether the point is the second one of its row. slop [px]: greatest separation that counts as touching.
     """
     active = False
     pushed = False
@@ -96,12 +96,12 @@ def compare_pairs(before, contacts, fell_asleep, sensors, persisting, slop, hit_
     """Compare the pairs that touched in the last step with the contacts of this step, and write the changes.
 
     Return False if the comparison stopped at a contact of a child shape, whose ids the caller must first replace by the
-    parent ids; otherwise True. before: EVENT rows of the touching pairs of the last step; contacts: CONTACT rows; both
-    in the order of shape ids. fell_asleep: CONTACT rows of pairs whose island fell asleep: these pairs still touch, are
-    not reported, and are written to `aside`. sensors: 1 to read only contacts of sensors, 0 to read only the other
-    contacts. persisting: 1 to report pairs that continue to touch. slop [px]: greatest separation of a touching pair
-    that also touched in the last step. hit_speed [px/s]: approach speed above which a hit is reported.
-    comparison_inout: Comparison. O(before + contacts).
+    parent ids; otherwise True. before: EVENT rows of the pairs that touched in the last step; contacts: CONTACT rows of
+    this step; both in the order of shape ids. fell_asleep: CONTACT rows of pairs whose island fell asleep: these pairs
+    still touch, are not reported, and are written to `aside`. sensors: 1 to read only contacts of sensors, 0 to read
+    only the other contacts. persisting: 1 to report pairs that continue to touch. slop [px]: greatest separation at
+    which a pair that touched in the last step still touches. hit_speed [px/s]: approach speed above which a hit is
+    reported. comparison_inout: Comparison. O(before + contacts).
     """
     counts = comparison_inout.counts
     now = comparison_inout.now
@@ -186,7 +186,10 @@ def compare_pairs(before, contacts, fell_asleep, sensors, persisting, slop, hit_
 
 
 class Changes:
-    """The changes of the touching pairs in one step, see Comparison. The arrays are valid until the next compare()."""
+    """The changes of the touching pairs in one step, see Comparison.
+
+    The arrays are valid until the next compare() call.
+    """
 
     __slots__ = ("aside", "begin", "end", "hits", "keep", "persist", "points")
 
@@ -259,13 +262,13 @@ class Pairs:
         self.last.now[: len(before)] = before
 
     def give_back(self, rows: np.ndarray) -> None:
-        """Add touching pairs, EVENT rows, from the sleeping set."""
+        """Add touching pairs (EVENT rows) that come from the sleeping set."""
         if len(rows):
             both = joined([self.rows, rows])
             self.restore(both[np.lexsort((both["shape_b"], both["shape_a"]))])
 
     def take_resting(self, bodies: np.ndarray) -> np.ndarray:
-        """Remove the pairs whose bodies are both not active, and return their EVENT rows, for the sleeping set."""
+        """Remove the pairs of two bodies that are both not active. Return their EVENT rows, for the sleeping set."""
         rows = self.rows
         if not len(rows):
             return rows.copy()
@@ -330,7 +333,7 @@ def is_any_sensor(pairs, shapes):
     writes=("sensed", "swept_sensors", "pairs", "broadphase", "work", "workspace", "library", *PLACED),
 )
 def sense(state: StepState) -> None:
-    """Detect sensor overlaps at the final poses of the step, and add the sensors that the sweep hit."""
+    """Detect sensor overlaps at the final poses of the step, and add the sensors that the sweep has hit."""
     bodies, shapes, swept = state.bodies, state.shapes, state.swept_sensors
     # Without sensors the loops are empty. The same kernels are called in every step, so that none has to be compiled
     # when the first sensor is added.

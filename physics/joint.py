@@ -96,7 +96,7 @@ def _poses(world, ids):
 
 
 def _anchors(kind, columns, poses):
-    """Return the given anchors (n, 2) of A and of B, zeros for a kind without anchors."""
+    """Return the anchors (n, 2) of A and of B that `columns` contains; zeros for a kind without anchors."""
     n = len(poses[0])
     if not kind.POINTS:
         return np.zeros((n, 2)), np.zeros((n, 2))
@@ -143,7 +143,7 @@ def check_bodies(world: WorldState, bodies_a: np.ndarray, bodies_b: np.ndarray) 
 
 
 def _check_effects(world, kind, given):
-    """Check that a world has the solver and the effects for a kind with these columns. Raises ValueError if not."""
+    """Raise ValueError if a world lacks the solver or an effect that a kind with these columns (`given`) needs."""
     name = type(kind).__name__
     world._needs("joints", name, True)
     if not world.stacks:
@@ -182,7 +182,7 @@ def _names() -> str:
 
 
 def _default_point(world, kind, name, body):
-    """Return the anchor in place of None: kind.at for Target.point, the centre of mass of B for Motor.at, else None.
+    """Return the anchor that None stands for: kind.at for Target.point, B's centre of mass for Motor.at, else None.
 
     name: name of the argument; body: id of B.
     """
@@ -207,7 +207,10 @@ def _body_ids(world, name, values) -> np.ndarray:
 
 
 def add_many(world: WorldState, kind: Any, bodies_a: Any, bodies_b: Any, settings: dict[str, Any]) -> np.ndarray:
-    """Add joints of one kind between pairs of bodies, and return their ids. See World.add_joints."""
+    """Add joints of one kind between pairs of bodies, and return their ids.
+
+    Arguments and errors as in World.add_joints.
+    """
     world._unlocked()
     if not (isinstance(kind, type) and kind in KINDS):
         raise TypeError(f"kind must be one of {_names()} (got {checks.shown(kind)})")
@@ -257,9 +260,10 @@ def wake(world: WorldState, rows: np.ndarray) -> list[int]:
 
 
 def set_apart(world: WorldState, ids: Sequence[int]) -> None:
-    """Pass the pairs of bodies whose joints forbid contacts to the broad phase, after a change of joints.
+    """Tell the broad phase which pairs of bodies never collide because a joint forbids contacts between them.
 
-    ids: bodies of the changed joints. Their boxes are tested again if the pairs changed.
+    Call this function after a change of joints. ids: bodies of the changed joints, whose boxes are tested again if the
+    pairs changed.
     """
     joints = world.joints
     apart = joints[~joints["contacts"] & joints["enabled"] & (joints["body_a"] != WORLD) & (joints["body_b"] != WORLD)]
@@ -280,7 +284,7 @@ def remove(world: WorldState, ids: Any) -> None:
 
 
 def drop(world: WorldState, rows: np.ndarray) -> np.ndarray:
-    """Remove joints by row, wake their bodies, and return copies of the rows."""
+    """Remove the joints in these rows, wake their bodies, and return copies of the rows."""
     gone = world.joints[rows].copy()
     keep = np.ones(world._joints.count, bool)
     keep[rows] = False
@@ -300,7 +304,10 @@ def drop_of_bodies(world: WorldState, ids: np.ndarray) -> None:
 
 
 def told(rows: np.ndarray, reason: str | np.ndarray) -> np.ndarray:
-    """Return a BROKEN row for each JOINT row. reason: "force", "torque" or "removed", one or one per row."""
+    """Return a BROKEN row, for reports, for each JOINT row.
+
+    reason: "force", "torque" or "removed"; one value for all rows, or one per row.
+    """
     found = np.zeros(len(rows), BROKEN)
     found["joint"], found["body_a"], found["body_b"] = rows["id"], rows["body_a"], rows["body_b"]
     found["force"], found["torque"], found["reason"] = (
@@ -346,7 +353,10 @@ def joint_rows(world: WorldState, ids: Any) -> np.ndarray:
 
 
 def row_of(world: WorldState, joint: Any) -> int:
-    """Return the row of one Joint or id. Raises KeyError for an unknown one, TypeError for anything else."""
+    """Return the row of one joint, given as a Joint or id.
+
+    Raises KeyError for an unknown one, TypeError for anything else.
+    """
     return int(joint_rows(world, [_identity(world, joint)])[0])
 
 
@@ -473,12 +483,15 @@ class Joint:
 
     @property
     def speed(self) -> float:
-        """Rate of change of the coordinate [px/s or rad/s] after the last step; without a coordinate of the angle."""
+        """Rate of change of the coordinate after the last step [px/s or rad/s].
+
+        Without a coordinate: that of the angle.
+        """
         return self._row["speed"].item()
 
     @property
     def separation(self) -> float:
-        """The error of the joint [px]: distance between held anchors, distance from the axis, or excess over limits."""
+        """The error of the joint [px]: distance of held anchors, distance from the axis, or excess over limits."""
         return self._row["separation"].item()
 
     @property
@@ -557,7 +570,7 @@ class Joint:
 
     @property
     def breaks(self) -> tuple[float, float]:
-        """The (force, torque) above which the joint breaks, inf: unbreakable."""
+        """The (force, torque) above which the joint breaks; inf for a value at which the joint never breaks."""
         row = self._row
         return row["break_force"].item(), row["break_torque"].item()
 

@@ -19,7 +19,7 @@ SMALL = 2.0**-6  # [rad] limit of the power series: there the first omitted term
 
 @subkernel
 def unit(x, y, fallback_x, fallback_y):
-    """Return the vector scaled to length 1, or the fallback vector for the zero vector."""
+    """Return the vector (x, y) scaled to length 1, or the vector (fallback_x, fallback_y) for the zero vector."""
     # Scaled first: the squares of tiny vectors would underflow, and the squares of huge vectors overflow.
     largest = max(abs(x), abs(y))
     if largest == 0.0:
@@ -68,10 +68,10 @@ def rotation_of(angle):
 
 @subkernel
 def cosine_and_sine(angle, greatest):
-    """Return the cosine and the sine of an angle [rad].
+    """Return the cosine and the sine of an angle [rad], exactly 0 and 1 or -1 near a multiple of a quarter turn.
 
-    Near a multiple of a quarter turn they are exactly 0 and 1 or -1. Near means within the rounding error of the angle.
-    greatest [rad]: the largest of the angles whose difference `angle` is; it determines this error.
+    Near means within the rounding error of the angle. greatest [rad]: the largest of the angles whose difference
+    `angle` is; it determines the rounding error.
     """
     cosine, sine = math.cos(angle), math.sin(angle)
     off = RIGHT * max(1.0, abs(greatest))
@@ -91,9 +91,9 @@ NO_PAIRS = (str, bytes, bytearray, set, frozenset, dict)  # these may have the l
 class Vec2(NamedTuple):
     """A pair (x, y) [px or px/s], y down.
 
-    It equals a plain pair, and every function that takes a Vec2 also takes a plain pair. + − * / work element by
-    element with a pair or a number on either side. An array of a shape other than (2,) gives an array. Another type
-    raises TypeError, and a division by zero ZeroDivisionError.
+    A Vec2 equals a plain pair, and every function that takes a Vec2 also takes a plain pair. + − * / work element by
+    element with a pair or a number on either side; with an array of a shape other than (2,) the result is an array.
+    Another type raises TypeError, and a division by zero ZeroDivisionError.
     """
 
     x: float
@@ -193,8 +193,8 @@ def _named_pair(name, value) -> tuple[float, float]:
 def _each(other, combine, combine_array) -> Vec2:
     """Return combine(x, y) for the pair `other`, or for a number as both x and y.
 
-    An array of a shape other than (2,) gives combine_array(other), and a value of another type NotImplemented. Raises
-    TypeError for a pair of values that are not numbers.
+    For an array of a shape other than (2,) return combine_array(other), for a value of another type NotImplemented.
+    Raises TypeError for a pair of values that are not numbers.
     """
     if _is_number(other):
         return combine(float(other), float(other))

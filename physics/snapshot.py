@@ -69,7 +69,10 @@ def pack_geometry(geometry: Geometries) -> tuple[dict[str, np.ndarray], dict[str
 
 
 def unpack_geometry(arrays: dict[str, np.ndarray], facts: dict[str, Any]) -> Geometries:
-    """Return the shapes from the result of pack_geometry. Raises KeyError, TypeError, ValueError for damaged data."""
+    """Return the shapes from `arrays` and `facts`, the result of pack_geometry.
+
+    Raises KeyError, TypeError, ValueError for damaged data.
+    """
     outlines, masks = [], []
     types = {each.__name__: each for each in SHAPES if issubclass(each, Convex)}
     for number, (name, given) in enumerate(facts["hulls"]):
@@ -260,7 +263,7 @@ def take(world: WorldState) -> Snapshot:
 
 
 def restore(world: WorldState, taken: Snapshot) -> None:
-    """Set a world to the state in a snapshot.
+    """Set a world to the state in a snapshot `taken`.
 
     Raises TypeError for anything but a Snapshot; ValueError if the snapshot is damaged, or has other effects or another
     pixels_per_meter than the world. The world is then unchanged.
@@ -323,7 +326,7 @@ def restore(world: WorldState, taken: Snapshot) -> None:
 def _islands_apart(islands) -> dict:
     """Return the sleeping islands as arrays by name: keys, rows of all islands joined, numbers of rows per island.
 
-    islands: SleepingSet.islands.
+    islands: see SleepingSet.islands.
     """
     keys = sorted(islands)
     apart: dict[str, np.ndarray] = {"island_keys": np.array(keys, np.int64)}
@@ -354,7 +357,7 @@ def _sleepers(arrays) -> SleepingSet:
 def _unpack(arrays, facts, geometry):
     """Check the data of a snapshot. Return (library, shapes by body id, original masks by body id, random generator).
 
-    Original masks exist for bodies with a tier. Raises one of the errors DAMAGE for invalid data.
+    Original masks exist for bodies with a tier. Raises one of the errors in DAMAGE for invalid data.
     """
     library = Library.of(geometry)
     shapes_of: dict[int, tuple[Shape, ...]] = {identity: () for identity in arrays["bodies"]["id"].tolist()}
@@ -389,7 +392,7 @@ def _unpack(arrays, facts, geometry):
 
 
 def _with_own_values(shape, row) -> Shape:
-    """Return a shape with the own material, filter and sensor flag of its SHAPE row; the body's values are left out."""
+    """Return a shape with the material, filter and sensor flag that its SHAPE row has as own values, if any."""
     material = Material(*(row[name].item() for name in MATERIAL)) if row["own_material"] else None
     filter = Filter(row["membership"].item(), row["mask"].item()) if row["own_filter"] else None
     return shape.with_(material, filter, row["sensor"].item() if row["own_sensor"] else None)
@@ -425,9 +428,9 @@ WALK = (
 def digest(world: WorldState) -> str:
     """Return the blake2b-128 hash of the state on which the next step depends, as hexadecimal digits.
 
-    It covers the solver, dt and substeps; in the order of ids poses, velocities, flags, masses, filters, characters,
-    contacts and impulses; then joints, targets and forces of the next step. −0.0 counts as 0.0. Materials and random
-    numbers are not included.
+    The hash covers the solver, dt and substeps; in the order of ids poses, velocities, flags, masses, filters,
+    characters, contacts and impulses; then joints, targets and forces of the next step. −0.0 counts as 0.0. Materials
+    and random numbers are not included.
     """
     found = hashlib.blake2b(digest_size=16)
     auto = world.substeps == "auto"

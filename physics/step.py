@@ -95,12 +95,15 @@ def _velocities(bodies: np.ndarray, targets: np.ndarray, dt: float) -> np.ndarra
 
 
 def _rows(world) -> tuple[np.ndarray, np.ndarray]:
-    """Return (body rows with a target, their target poses (n, 3))."""
+    """Return (body rows with a target, target poses (n, 3) of these bodies)."""
     return rows_of(world.bodies, np.array([*world._targets], np.int64)), np.array([*world._targets.values()])
 
 
 def aim(world: WorldState, dt: float) -> None:
-    """Set the velocities with which the bodies with targets reach them in dt [s]. Do nothing for a step of length 0."""
+    """Set the velocities with which bodies with targets reach their targets in dt [s].
+
+    Do nothing for a step of length 0.
+    """
     if not world._targets or dt == 0.0:
         return
     rows, targets = _rows(world)
@@ -233,7 +236,7 @@ def plans(effects: Effects, solver: str) -> tuple[Plan, Plan]:
 class Workspace:
     """The scratch arrays of the stages of one world, which grow and are reused.
 
-    Except for CONTACT rows, their contents do not outlive a stage.
+    The contents of the arrays do not outlive a stage, except for CONTACT rows.
     """
 
     def __init__(self, effects: Effects, solver: str) -> None:
@@ -279,7 +282,7 @@ def step_length(world: WorldState, dt: float | None) -> float:
 
 
 def begin(world: WorldState, dt: float) -> StepState:
-    """Set the velocities of targets, and return the StepState for a step of dt [s].
+    """Set the velocities of bodies with targets, and return the StepState for a step of dt [s].
 
     The state has the settings and tables of the world, and the contacts of the last step.
     """
@@ -343,7 +346,7 @@ def finish(world: WorldState, state: StepState) -> None:
 
 
 def staged_step(world: WorldState, dt: float | None = None) -> Generator[Stage | None, None, None]:
-    """Run the step of World.step(dt) stage by stage. Yield None before the first stage, and each stage after its run.
+    """Run the step of World.step(dt) stage by stage. Yield None before the first stage, then each stage after its run.
 
     Between stages the world shows intermediate results: bodies, candidates, contacts and events, and times and counters
     in `profile`. The world cannot be changed then, and its state is not valid for further steps. A caller that stops
@@ -378,7 +381,7 @@ def _show(world: WorldState, state: StepState) -> None:
 
 
 def _touching(state: StepState) -> np.ndarray:
-    """Return a bool for each CONTACT row: whether it touches and has no sensor, by the rule of the stage `events`.
+    """Return a bool for each CONTACT row: whether it touches and has no sensor, as the stage `events` decides.
 
     A contact touches if it overlaps, has an impulse, or was found by the sweep. A pair that touched in the last step
     also touches if it is within the slop.

@@ -22,7 +22,7 @@ NOT_SET = np.zeros((1, 2))
 
 
 def move_to(world: WorldState, identity: int, position: Pair | None, angle: float | None) -> None:
-    """Move a body to a position [px] and an angle [rad]; None leaves the value unchanged.
+    """Move a body (id) to a position [px] and an angle [rad]; None leaves the value unchanged.
 
     Raises ValueError for an angle of a TileGrid other than 0, RuntimeError during a step.
     """
@@ -42,7 +42,7 @@ def move_to(world: WorldState, identity: int, position: Pair | None, angle: floa
 
 
 class Motions(NamedTuple):
-    """The new poses and velocities of n bodies. Angles or velocities that are not set have a dummy array."""
+    """The new poses and velocities of n bodies. For angles or velocities that stay unchanged the array is a dummy."""
 
     positions: np.ndarray  # (n, 2) float64 [px]
     angles: np.ndarray  # (n,) float64 [rad]
@@ -56,8 +56,9 @@ def find_movable(ids, motions, limit, bodies, rows_out, dynamic_out, marks_inout
     """Write the rows of bodies, and the rows of the dynamic bodies among them. Return the number of dynamic bodies.
 
     The result is -1 for any fault: an id that is absent or listed twice, a number that is not finite, a position of at
-    least `limit` [px], or a velocity of a static body. ids, rows_out, dynamic_out (n,) int64; marks_inout (bodies)
-    bool: all False before and after the call. O(n) if no body was ever removed, otherwise O(n log bodies).
+    least `limit` [px], or a velocity of a static body. ids, rows_out, dynamic_out (n,) int64; motions: see Motions;
+    marks_inout (bodies) bool: all False before and after the call. O(n) if no body was ever removed, otherwise O(n log
+    bodies).
     """
     found = 0
     known = 0
@@ -93,8 +94,9 @@ def find_movable(ids, motions, limit, bodies, rows_out, dynamic_out, marks_inout
 def place_bodies(rows, motions, runs, shapes, bodies_inout, proxies_inout):
     """Write the poses and velocities of bodies, and mark their proxies as changed for the next step.
 
-    Return the number of bodies with SCATTERED shape rows: the caller must mark their proxies. rows: BODY rows; runs:
-    RUN rows. O(shapes of these bodies) if no shape was ever removed, otherwise O(log shapes) more for each body.
+    Return the number of bodies whose shape rows are not consecutive (SCATTERED); the caller must mark the proxies of
+    these bodies. rows: BODY rows; motions: see Motions; runs: RUN rows. O(shapes of these bodies) if no shape was ever
+    removed, otherwise O(log shapes) more for each body.
     """
     scattered = 0
     for k in range(len(rows)):
@@ -209,7 +211,7 @@ def _contacts_at(world, keys):
 
 
 def touch(world: WorldState, ids: Any) -> None:
-    """Wake bodies, and refresh their centres of mass and boxes, after their columns were written. See World.touch."""
+    """Wake bodies after their columns were written, and refresh their centres of mass and boxes. See World.touch."""
     numbers = world._identities("ids", ids)
     rows = world.rows(numbers)
     sleep.disturb(world, numbers)

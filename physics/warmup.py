@@ -173,7 +173,7 @@ def _small_world(effects, solver, strategy, pair):
 
 
 def _together(effects, solver, pairs):
-    """Run a step in which pairs of several kinds collide. This calls the sort of their contacts into one order."""
+    """Run a step in which pairs of several kinds collide, so that their contacts are sorted into one order."""
     world = World(effects, solver=solver)
     for number, pair in enumerate(pairs):
         for shape in pair:
@@ -256,7 +256,7 @@ def _impacts(effects, solver):
 def _amid(effects, solver):
     """Run a box in the middle of a cross-shaped mask and a box above the mask.
 
-    No single part of the mask's outline can push the first box out.
+    The first box is one that no single part of the mask's outline can push out.
     """
     arm = abs(np.arange(12) - 5.5) < 2.0
     world = World(effects, solver=solver, gravity=(0.0, 0.0) if effects.gravity else None)
@@ -268,14 +268,17 @@ def _amid(effects, solver):
 
 
 def _fit():
-    """Fit the outline of a mask with a hole and a notch. The file of outlines in the package does not contain it."""
+    """Fit the outline of a mask with a hole and a notch, which the file of outlines in the package does not contain."""
     solid = np.ones((23, 29), bool)
     solid[8:13, 9:17] = solid[:5, 20:] = False
     outline_of(PixelMask(solid))
 
 
 def _zone(effects, solver):
-    """Run masks that overlap a sensor, one of them at high speed. With response, masks collide by their outlines."""
+    """Run masks that overlap a sensor, one of them at high speed.
+
+    With the effect response, masks collide by their outlines.
+    """
     world = World(effects, solver=solver)
     world.add_body(BOX, kind="static", sensor=True)
     world.add_body(MASK, position=(1, 0))

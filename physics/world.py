@@ -465,7 +465,7 @@ class World(WorldState):
         self.profile = Profile(self._plan_now.names)
 
     def _let_sleep(self, sleeping):
-        """Set whether later steps process only the awake bodies (True), or all bodies (False)."""
+        """Set whether later steps process only the awake bodies (`sleeping` True) or all bodies (False)."""
         self.awake = Awake(sleeping)
         self.bodies["active"] = not sleeping
         self.awake.mark_dirty(self.bodies["id"][self.bodies["kind"] != DYNAMIC].tolist())
@@ -547,7 +547,10 @@ class World(WorldState):
         self._gravity = self._felt(self._gravity, gravity, self._effects.gravity)
 
     def _felt(self, before, now, felt):
-        """Return the new value of a force field. Wake all sleeping bodies if the value changed and acts on them."""
+        """Return `now`, the new value of a force field. If it differs from `before`, wake all sleeping bodies.
+
+        felt: whether the force field acts on bodies; otherwise none wake.
+        """
         if felt and now != before:
             sleep.wake_all(self)
         return now
@@ -587,7 +590,10 @@ class World(WorldState):
         self._wind = self._felt(self._wind, wind, self._effects.wind)
 
     def _needs_fields(self, gravity: Vec2 | None = None, drag: float = 0.0, wind: Vec2 | None = None) -> None:
-        """Raise ValueError for a force field other than 0 without its effect. Drag also counts with wind."""
+        """Raise ValueError for a force field other than 0 without its effect.
+
+        For drag the effect wind is also enough.
+        """
         self._needs("gravity", f"gravity={gravity}", bool(gravity and any(gravity)))
         self._needs("drag", f"drag={drag}", drag != 0.0 and not self._effects.wind)
         self._needs("wind", f"wind={wind}", bool(wind and any(wind)))

@@ -207,7 +207,10 @@ class WorldState:
         return contacts_of(with_areas(self, self.sleeping_set.contacts()))
 
     def report_contacts(self, rows: np.ndarray, keep: np.ndarray | None = None) -> None:
-        """Store the CONTACT rows for `contacts`. keep: bool for each row, whether it is listed; None: all."""
+        """Store the CONTACT rows that `contacts` lists.
+
+        keep: a bool for each row, whether it is listed; None: all are.
+        """
         self._reported, self._contacts = (rows, keep), None
 
     @property
@@ -291,8 +294,8 @@ class WorldState:
     def _row_at(self, identity: int) -> int:
         """Return the row number of a body, without dropping the rows of removed bodies first.
 
-        The number is valid until `bodies` or `shapes` is read, which drops these rows and moves other rows. So use it
-        only to access single numbers by Table.columns. Raises KeyError for an unknown body.
+        The number is valid until `bodies` or `shapes` is read, which drops these rows and moves other rows. So use the
+        number only to access single values by Table.columns. Raises KeyError for an unknown body.
         """
         row = -1 if identity in self._removed else row_number(self._bodies, identity)
         if row < 0:
@@ -330,7 +333,7 @@ class WorldState:
         return np.repeat(starts - ends + counts, counts) + np.arange(ends[-1])
 
     def _write_runs(self) -> None:
-        """Write the RUN rows of all bodies, after the tables were replaced."""
+        """Write the RUN rows (where a body's shape rows are) of all bodies, after the tables were replaced."""
         bodies, owners, ids = self._bodies.count, self.shapes["body_row"], self.shapes["id"]
         self._runs.count = 0
         runs, numbers = self._runs.append(bodies), np.arange(len(owners))
@@ -341,13 +344,13 @@ class WorldState:
         runs["first"][counts > 0] = ids[starts[counts > 0]]
 
     def _write_run(self, row: int) -> None:
-        """Write the RUN row of a body row, after its shapes changed."""
+        """Write the RUN row (where its shape rows are) of a body row, after the body's shapes changed."""
         mine, run = np.flatnonzero(self.shapes["body_row"] == row), self._runs.data
         run["count"][row] = len(mine) if not len(mine) or mine[-1] - mine[0] + 1 == len(mine) else SCATTERED
         run["first"][row] = self.shapes["id"][mine[0]] if len(mine) else 0
 
     def _identity(self, name: str, value: Any) -> int:
-        """Return the id that `value` gives, a Body or an id, without testing whether the body exists.
+        """Return the id that `value` (a Body or an id) stands for, without testing whether the body exists.
 
         name: name of the argument in messages. Raises TypeError for anything else, ValueError for a Body of another
         world, KeyError for a number outside the range of ids (0 to 2**62 - 1).
@@ -438,7 +441,7 @@ class WorldState:
                 joints[f"body_row_{side}"] = rows_in(self._bodies, joints[f"body_{side}"])
 
     def _forget_values(self, identity: int) -> None:
-        """Delete the values of a body that are kept by id, outside of the tables."""
+        """Delete the values of a body that are stored by its id, outside of the tables."""
         del self._shapes_of[identity]
         for values in (self._users, self._tiers, self._sources, self._targets):
             if values:
@@ -451,7 +454,7 @@ class WorldState:
         self._drop_rows(ids, rows_in(self._bodies, ids))
 
     def _drop_rows(self, ids: np.ndarray, rows: np.ndarray) -> None:
-        """Drop the rows of bodies and of their shapes and contacts."""
+        """Drop the rows of bodies, given by ids and rows, and the rows of their shapes and contacts."""
         keep = np.ones(self._bodies.count, bool)
         keep[rows] = False
         kept_shapes = keep[self.shapes["body_row"]]

@@ -34,7 +34,11 @@ def find_all(proxies, changed, pairs_out, work_inout):
 
 @kernel
 def near_in_all(proxies, box, slots_out, work_inout):
-    """List the slots of the proxies whose boxes meet a closed box [px]. Return their number. O(n)."""
+    """Find the proxies whose boxes overlap `box`, by comparing all of them. Return their number. O(n).
+
+    proxies: PROXY rows, where a free slot has row -1; box [px]: lower x, y, upper x, y; slots_out: their slots;
+    work_inout: counters of tests.
+    """
     found = 0
     for slot in range(len(proxies)):
         p = proxies[slot]
@@ -50,8 +54,8 @@ def near_in_all(proxies, box, slots_out, work_inout):
 class BruteForce:
     """Broad phase that tests all pairs: O(n²) in the first step, O(moved · n) in later steps.
 
-    incremental: False tests all n (n - 1) / 2 pairs in every step, as "brute force" means in papers; it finds the same
-    pairs. Raises TypeError for a value that is not a bool.
+    incremental: False tests all n (n - 1) / 2 pairs in every step, as "brute force" means in papers; the pairs found
+    are the same. Raises TypeError for a value that is not a bool.
     """
 
     name = "brute"
@@ -68,16 +72,22 @@ class BruteForce:
         return find_pairs(self.fresh(), lower, upper)
 
     def fresh(self) -> "BruteForce":
-        """Return a broad phase with the same settings and without proxies."""
+        """Return a new broad phase with the same settings and without proxies."""
         return BruteForce(self.incremental)
 
     def update(self, arena: Arena) -> None:
         """Do nothing: this broad phase stores nothing between steps."""
 
     def query(self, arena: Arena) -> Query:
-        """Return a function (pairs, work) -> count that lists the pairs of the changed proxies."""
+        """Return a function (pairs, work) -> count, which writes the pairs with a changed proxy to `pairs`.
+
+        arena: see Arena; work: counters of tests.
+        """
         return lambda pairs, work: find_all(arena.proxies, arena.changed, pairs, work)
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Write to `slots` the slots whose boxes meet box (lower x, y, upper x, y) [px]. Return their number."""
+        """Find the proxies whose boxes overlap `box`. Write their slots to `slots`, and return their number.
+
+        proxies: PROXY rows; box [px]: lower x, y, upper x, y; work: counters of tests.
+        """
         return near_in_all(proxies, box, slots, work)

@@ -55,7 +55,7 @@ def joined_outline(nodes, a, b):
 
 @subkernel
 def refit(index, nodes_inout):
-    """Write the box and the height of a node from the boxes and heights of its children."""
+    """Write the box and the height of the node `index` from the boxes and heights of its children."""
     n = nodes_inout[index]
     p, q = nodes_inout[n.child_a], nodes_inout[n.child_b]
     n.lower_x, n.lower_y = min(p.lower_x, q.lower_x), min(p.lower_y, q.lower_y)
@@ -65,9 +65,9 @@ def refit(index, nodes_inout):
 
 @subkernel
 def replace_child(parent, old, new, root, nodes_inout, state_inout):
-    """Put the node `new` in the place of `old`: as a child of `parent`, or as the root if parent is -1.
+    """Put the node `new` in the place of the node `old`: as a child of `parent`, or as the root if `parent` is -1.
 
-    root: ROOT_MOVING or ROOT_STILL.
+    root: index of the root in state_inout, ROOT_MOVING or ROOT_STILL.
     """
     nodes_inout[new].parent = parent
     if parent < 0:
@@ -116,8 +116,8 @@ def rotate(index, root, nodes_inout, state_inout):
 def swap_pays(upper, lower_parent, lower, nodes):
     """Return the perimeter [px] that is saved by swapping a child of a node with a child of its sibling.
 
-    upper: the child of the node; lower: the child of its sibling lower_parent. Return 0 if the swap would violate the
-    AVL balance.
+    upper: the child of the node; lower_parent: the sibling; lower: the child of the sibling. Return 0 if the swap would
+    violate the AVL balance.
     """
     q = nodes[lower_parent]
     other = q.child_b if q.child_a == lower else q.child_a
@@ -132,9 +132,9 @@ def swap_pays(upper, lower_parent, lower, nodes):
 
 @subkernel
 def improve(index, nodes_inout):
-    """Swap a child of a node with a child of its sibling if that shrinks the sibling's box and keeps the AVL balance.
+    """Swap a child of one node with a child of its sibling if that shrinks the sibling's box and keeps the AVL balance.
 
-    index: the parent of both. Source: Catto, GDC 2019, after Kopta et al. 2012, with the balance test added.
+    index: the parent of these two nodes. Source: Catto, GDC 2019, after Kopta et al. 2012, with the balance test added.
     """
     n = nodes_inout[index]
     best = 0.0
@@ -173,7 +173,10 @@ def improve(index, nodes_inout):
 
 @subkernel
 def repair_upward(index, root, nodes_inout, state_inout, work_inout):
-    """Refit, balance and improve all nodes from `index` up to the root. O(height)."""
+    """Refit, balance and improve all nodes from `index` up to the root. O(height).
+
+    root: index of the root in state_inout, ROOT_MOVING or ROOT_STILL; work_inout: counters.
+    """
     while index >= 0:
         work_inout[NODES_VISITED] += 1
         refit(index, nodes_inout)
@@ -253,10 +256,10 @@ def remove_leaf(leaf, nodes_inout, state_inout, work_inout):
 
 @subkernel
 def select_median(along, first, last, middle, leaves_inout):
-    """Reorder leaves first..last so that position `middle` holds the leaf that a sort by `along` would put there.
+    """Reorder leaves first..last so that position `middle` holds the leaf that would be there after sorting by `along`.
 
-    Leaves before this position have smaller or equal coordinates. along: coordinate of each leaf. Source: quickselect,
-    Hoare 1961.
+    Leaves before this position have smaller or equal values. along: coordinate of each leaf; leaves_inout: indices of
+    leaves. Source: quickselect, Hoare 1961.
     """
     low, high = first, last
     while low < high:
@@ -281,7 +284,7 @@ def select_median(along, first, last, middle, leaves_inout):
 
 @subkernel
 def spread(along, leaves, first, last):
-    """Return the difference between the greatest and the least value of `along` among leaves first..last."""
+    """Return the difference between the greatest and the least value of `along` among leaves[first] to leaves[last]."""
     low = along[leaves[first]]
     high = low
     for k in range(first + 1, last + 1):
@@ -378,10 +381,10 @@ def rebuild(leaf_of, still, leaves_out, spans_out, twice_x_out, twice_y_out, nod
 
 @kernel
 def find_pairs_in_trees(proxies, changed, nodes, state, stack_inout, pairs_out, work_inout):
-    """List the overlapping pairs that contain a changed proxy. Return their number.
+    """List the overlapping pairs that contain a changed proxy. Return their number. O(changed · log n + pairs).
 
-    Both trees are searched with the box of each changed proxy. changed: slots of the changed proxies; stack_inout:
-    scratch. O(changed · log n + pairs).
+    Both trees are searched with the box of each changed proxy. changed: slots of the changed proxies; state: see
+    place_changed; stack_inout: scratch; work_inout: counters.
     """
     found = 0
     for i in range(len(changed)):
@@ -415,7 +418,11 @@ def find_pairs_in_trees(proxies, changed, nodes, state, stack_inout, pairs_out, 
 
 @kernel
 def query_trees(nodes, roots, box, stack_inout, slots_out, work_inout):
-    """List the slots of the leaves in both trees that meet a closed box [px]. Return their number. O(log n + found)."""
+    """Find the leaves of both trees whose boxes overlap `box`. Return their number. O(log n + found).
+
+    roots: the root nodes of the trees, -1: empty tree; box [px]: lower x, y, upper x, y; stack_inout: scratch;
+    slots_out: slots of the leaves; work_inout: counters.
+    """
     found = 0
     depth = 0
     for k in range(len(roots)):
@@ -447,9 +454,9 @@ def place_changed(proxies, changed, margins, loose, leaf_of_inout, nodes_inout, 
     """Insert, remove, or move the leaves of the changed proxies. Return the number of leaves changed. O(moved · log n).
 
     A leaf is not moved while its proxy is within the leaf's fat box. changed: slots of the changed proxies. margins:
-    margin of a leaf in px and as a share of the box's size; the smaller is used. loose: for the moving and the static
-    tree, 1 if the tree is rebuilt next, so that leaves need not be linked or unlinked. leaf_of_inout (slots): leaf of
-    each proxy, or -1. state_inout: first free node, number of used nodes, both roots.
+    margin of a leaf in px, and as a share of the box's size; the smaller of the two is used. loose: two flags, for the
+    moving and the static tree: 1 if the tree is rebuilt next, so that its leaves need not be linked or unlinked.
+    leaf_of_inout (slots): leaf of each proxy, or -1. state_inout: first free node, number of used nodes, both roots.
     """
     moved = 0
     for i in range(len(changed)):
@@ -506,9 +513,9 @@ def place_changed(proxies, changed, margins, loose, leaf_of_inout, nodes_inout, 
 class DynamicTree:
     """Broad phase with two dynamic bounding volume trees.
 
-    width: number of children of an inner node; 2 and None (for 2) are allowed. margin [px]: the greatest margin of a
-    moving leaf; None: the setting at 32 px per metre. Raises TypeError or ValueError for another width, and for a
-    margin that is not a number >= 0.
+    width: number of children of an inner node, 2 or None (the same). margin [px]: the greatest margin of a moving leaf;
+    None: the setting for a world of 32 px per metre. Raises TypeError or ValueError for another width, and for a margin
+    that is not a number >= 0.
     """
 
     name = "tree"
@@ -532,7 +539,7 @@ class DynamicTree:
         return find_pairs(self.fresh(), lower, upper)
 
     def fresh(self) -> "DynamicTree":
-        """Return a broad phase with the same settings and without proxies."""
+        """Return a new broad phase with the same settings and without proxies."""
         return DynamicTree(self.width, self.margin)
 
     def update(self, arena: Arena) -> None:
@@ -574,24 +581,31 @@ class DynamicTree:
         return tuple(int(changed[k] > max(REBUILD_FROM, total[k] // 2)) for k in (0, 1))
 
     def query(self, arena: Arena) -> Query:
-        """Return a function (pairs, work) -> count that lists the pairs of the changed proxies."""
+        """Return a function (pairs, work) -> count, which writes the pairs with a changed proxy to `pairs`.
+
+        arena: see Arena; work: counters of tests.
+        """
         proxies, changed = arena.proxies, arena.changed
         return lambda pairs, work: find_pairs_in_trees(
             proxies, changed, self.nodes, self.state, self.stack, pairs, work
         )
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Write to `slots` the slots whose boxes meet box (lower x, y, upper x, y) [px]. Return their number."""
+        """Find the proxies whose boxes overlap `box`. Write their slots to `slots`, and return their number.
+
+        The fat boxes of the tree are compared, so proxies up to a margin away may also be found. proxies: unused; box
+        [px]: lower x, y, upper x, y; work: counters of tests.
+        """
         roots = self.state[ROOT_MOVING:]
         return query_trees(self.nodes, roots, box, self.stack, slots, work)
 
     @property
     def height(self) -> int:
-        """Height of the higher of the two trees; 0 for a single leaf, -1 if both are empty."""
+        """The height of the higher of the two trees; 0 for a single leaf, -1 if both are empty."""
         return max(int(self.nodes[root]["height"]) if root >= 0 else -1 for root in self.state[ROOT_MOVING:])
 
     def boxes(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return all nodes for drawing: their boxes (m, 4) [px], and the depth (m,) of each below its root."""
+        """Return all nodes for drawing: their boxes (m, 4) [px], and their depths (m,) below the root of their tree."""
         found, depths = [], []
         for root in self.state[ROOT_MOVING:].tolist():
             todo = [(root, 0)] if root >= 0 else []

@@ -50,8 +50,8 @@ def overlaps(proxies, a, b, work_inout):
 def may_meet(proxies, a, b, work_inout):
     """Return whether two proxies whose boxes touch may pair. O(1).
 
-    Excluded are two static proxies, two sleeping proxies, proxies of one body, planes that avoid each other, and
-    filtered pairs.
+    Pairs of two static proxies, of two sleeping proxies, of two proxies of one body, of planes that avoid each other,
+    and filtered pairs are excluded. proxies: PROXY rows; a, b: slots.
     """
     p, q = proxies[a], proxies[b]
     if (p.still and q.still) or p.body == q.body or not (p.awake or q.awake) or (p.plane & q.avoids) != 0:
@@ -64,16 +64,19 @@ def may_meet(proxies, a, b, work_inout):
 
 @subkernel
 def meets_box(row, box):
-    """Return whether the box of a row meets another closed box (lower x, y, upper x, y) [px]."""
+    """Return whether the closed box of a row meets the closed box `box` (lower x, y, upper x, y) [px].
+
+    row: a record with lower_x, lower_y, upper_x, upper_y.
+    """
     return row.lower_x <= box[2] and row.upper_x >= box[0] and row.lower_y <= box[3] and row.upper_y >= box[1]
 
 
 @subkernel
 def write_pair(a, b, found, pairs_out):
-    """Write a pair of slots if the array has capacity. Return the new count, which may exceed the capacity.
+    """Write the pair of slots a, b to row `found` if the array has capacity. Return found + 1. O(1).
 
-    pairs_out (capacity, 2) int32. If the count exceeds the capacity, the caller enlarges the array and repeats the
-    search. O(1).
+    pairs_out (capacity, 2) int32. If the number of pairs exceeds the capacity, the caller enlarges the array and
+    repeats the search.
     """
     if found < pairs_out.shape[0]:
         pairs_out[found, 0] = a
@@ -93,7 +96,8 @@ class Arena:
     def collect(self, query: Query) -> int:
         """Run query(pairs, work) -> count, and repeat it with a larger array if the pairs did not fit.
 
-        Return the count.
+        Return the count. query: result of Strategy.query, which writes pairs to the array and returns their number,
+        even if they do not fit.
         """
         work = self.work.copy()
         count = query(self.pairs, self.work)
@@ -119,19 +123,26 @@ class Strategy(Protocol):
         ...
 
     def fresh(self) -> "Strategy":
-        """Return a copy without state."""
+        """Return a new broad phase with the same settings and without proxies."""
         ...
 
     def update(self, arena: Arena) -> None:
-        """Update the structure with the proxies that changed."""
+        """Update the data structure with the proxies that changed. arena: proxies and slots of the changed ones."""
         ...
 
     def query(self, arena: Arena) -> Query:
-        """Return the function that lists the pairs of the changed proxies."""
+        """Return a function (pairs, work) -> count, which writes the pairs with a changed proxy to `pairs`.
+
+        arena: see Arena; work: counters of tests.
+        """
         ...
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Write to `slots` the slots whose boxes meet box (lower x, y, upper x, y) [px]. Return their number."""
+        """Find the proxies whose boxes overlap `box`. Write their slots to `slots`, and return their number.
+
+        proxies: PROXY rows; box [px]: lower x, y, upper x, y; slots: array with room for all proxies; work: counters of
+        tests. A strategy may also find proxies that are near the box.
+        """
         ...
 
 
@@ -181,7 +192,7 @@ def _corners(name, value):
 
 @kernel
 def tell_rows(shapes, proxies_inout):
-    """Write the shape rows of the proxies that have a swept AABB. O(shapes)."""
+    """Write the rows of shapes in SHAPE to their proxies; shapes without a swept AABB are skipped. O(shapes)."""
     for k in range(len(shapes)):
         slot = shapes[k].proxy
         if slot >= 0 and proxies_inout[slot].row >= 0:
@@ -189,9 +200,9 @@ def tell_rows(shapes, proxies_inout):
 
 
 def write_states(proxies: np.ndarray, states_out: np.ndarray) -> None:
-    """Write to states_out 2 for each changed proxy plus 1 for each awake proxy. O(proxies).
+    """Write to states_out, for each proxy, 2 if it is changed plus 1 if it is awake. O(proxies).
 
-    The result is a compact array for many reads.
+    The result is a compact array, because keep_pairs reads it for every pair.
     """
     np.left_shift(proxies["changed"].view(np.int8), 1, out=states_out)
     states_out |= proxies["awake"].view(np.int8)
@@ -199,11 +210,11 @@ def write_states(proxies: np.ndarray, states_out: np.ndarray) -> None:
 
 @kernel
 def keep_pairs(states, old, old_rows, old_count, kept_out, rows_out):
-    """Copy the pairs without a changed or freed side and with at least one awake side, in their order.
+    """Copy the pairs that have no changed or freed proxy and at least one awake proxy, in their order. O(pairs).
 
-    states (proxies,) int8: result of write_states(); old, kept_out (capacity, 2) int32: slots; old_rows, rows_out
-    (capacity, 2) int64: shape rows of these slots. The loop has no branch, because a branch would be mispredicted.
-    O(pairs). Return the number of kept pairs.
+    states (proxies,) int8: result of write_states; old, kept_out (capacity, 2) int32: slots; old_rows, rows_out
+    (capacity, 2) int64: shape rows of these slots; old_count: number of old pairs. The loop has no branch, because a
+    branch would be mispredicted. Return the number of kept pairs.
     """
     kept = 0
     for i in range(old_count):
@@ -219,9 +230,9 @@ def keep_pairs(states, old, old_rows, old_count, kept_out, rows_out):
 
 @kernel
 def drop_apart(proxies, count, apart, pairs_inout, work_inout):
-    """Drop the pairs of slots whose bodies never pair. Return the number of pairs left. O(pairs log apart).
+    """Drop the pairs of slots whose bodies never pair. Return the number of remaining pairs. O(pairs log apart).
 
-    apart: see PairList.keep_apart; pairs_inout (capacity, 2) int32 slots, `count` of them in use.
+    apart: see PairList.keep_apart; pairs_inout (capacity, 2) int32: slots, `count` pairs of them; work_inout: counters.
     """
     kept = 0
     for i in range(count):
@@ -245,9 +256,9 @@ def drop_apart(proxies, count, apart, pairs_inout, work_inout):
 
 @kernel
 def pair_keys(proxies, pairs, count, pairs_inout, keys_out):
-    """Order each pair by shape row, and write a key that sorts by both rows.
+    """Order each of `count` pairs by shape row, and write a key that sorts the pairs by both rows. O(pairs).
 
-    pairs, pairs_inout: the same (capacity, 2) int32 slots; keys_out int64. O(pairs).
+    pairs, pairs_inout: the same (capacity, 2) int32 array of slots; keys_out int64: low row << 32 | high row.
     """
     for i in range(count):
         a = pairs[i, 0]
@@ -262,11 +273,11 @@ def pair_keys(proxies, pairs, count, pairs_inout, keys_out):
 
 @kernel
 def merge_pairs(shapes, kept, kept_rows, kept_count, keys, new_count, pairs_out, candidates_out):
-    """Merge the kept pairs with the sorted keys of the new pairs.
+    """Merge the kept pairs with the new pairs, in the order of their shape rows. O(pairs).
 
-    shapes: SHAPE rows; kept (n, 2): slots in the order of their shape rows, kept_rows; keys int64: row << 32 | row,
-    sorted; pairs_out (capacity, 2) int32: slots, and candidates_out (capacity, 2) int64: shape rows, both in the order
-    of rows. O(pairs).
+    shapes: SHAPE rows; kept (n, 2): slots of the kept pairs, kept_rows: their shape rows, kept_count: their number;
+    keys int64, new_count of them: sorted keys (low row << 32 | high row) of the new pairs; pairs_out (capacity, 2)
+    int32: slots; candidates_out (capacity, 2) int64: shape rows.
     """
     i = 0
     at = 0
@@ -289,7 +300,7 @@ def merge_pairs(shapes, kept, kept_rows, kept_count, keys, new_count, pairs_out,
 
 @kernel
 def mark_settled(changed, proxies_inout):
-    """Clear the changed flag of the listed slots. O(changed)."""
+    """Clear the changed flag of the proxies in the slots `changed`. O(changed)."""
     for i in range(len(changed)):
         proxies_inout[changed[i]].changed = False
 
@@ -319,9 +330,10 @@ class Reach(NamedTuple):
 
 @kernel
 def update_rectangles(rows, geometry, bodies, reach, shapes_inout, proxies_inout, changed_out):
-    """Write the AABBs of these shape rows and the swept AABBs that no longer fit. List the changed slots.
+    """Write the AABBs of the shapes in `rows`, and the swept AABBs that no longer fit.
 
-    reach: see Reach; changed_out: slots. O(rows). Return the number of changed slots.
+    Return the number of changed slots. rows: indices of SHAPE rows; reach: see Reach; changed_out: slots of the proxies
+    whose swept AABBs were written. O(rows).
     """
     refresh_boxes(rows, geometry, bodies, shapes_inout)
     rasters = geometry.rasters
@@ -400,7 +412,10 @@ def update_rectangles(rows, geometry, bodies, reach, shapes_inout, proxies_inout
 
 @kernel
 def list_outside(rows, bodies, shapes, proxies, rows_out):
-    """List the shape rows whose AABB, as drawn, extends beyond its swept AABB. Return their number. O(rows)."""
+    """List the shapes whose AABB at the drawn pose extends beyond their swept AABB. Return their number. O(rows).
+
+    rows, rows_out: indices of SHAPE rows, to test and found.
+    """
     found = 0
     for k in range(len(rows)):
         s = shapes[rows[k]]
@@ -420,7 +435,7 @@ def list_outside(rows, bodies, shapes, proxies, rows_out):
 
 
 def cover_final_poses(state: StepState, rows: np.ndarray) -> None:
-    """Write new swept AABBs for the shapes that left their swept AABBs, and find the pairs of these shapes.
+    """Write new swept AABBs for the shapes in `rows` that left their swept AABBs, and find the pairs of these shapes.
 
     rows: indices of SHAPE rows. The candidates then contain all overlaps at the final poses, and are valid for the next
     step.
@@ -443,9 +458,10 @@ def motion_rectangles(state: StepState) -> None:
 
 
 def write_rectangles(tables: WorldTables, rows: np.ndarray) -> int:
-    """Update the AABBs and swept AABBs of these shape rows. Return the number of changed slots, listed in the pairs.
+    """Update the AABBs and swept AABBs of the shapes in `rows` (indices of SHAPE rows).
 
-    tables: a StepState, or a world whose shapes have just been added to the broad phase.
+    Return the number of changed slots. The slots are listed in tables.pairs.changed. tables: a StepState, or a world
+    whose shapes have just been added to the broad phase.
     """
     bodies, shapes, pairs, tolerances, dt = tables.bodies, tables.shapes, tables.pairs, tables.tolerances, tables.dt
     piles = tables.stacks
@@ -485,8 +501,7 @@ class PairList:
     """The proxies of the shapes of a world, and the sorted list of their pairs.
 
     `rows` (n, 2): shape rows of the candidates of this step. sleeping: new proxies are asleep until they are set awake,
-    and pairs without an awake side are not kept. Methods skip the slot -1 of a shape whose body is disabled
-    (quarantine).
+    and pairs without an awake proxy are not kept. A shape of a body in quarantine has slot -1, which all methods skip.
     """
 
     def __init__(self, sleeping: bool = False) -> None:
@@ -509,7 +524,7 @@ class PairList:
         self._make_room()
 
     def _make_room(self):
-        """Create the arrays that an update writes before it reads them."""
+        """Create the arrays that an update overwrites before it reads them."""
         self.kept, self.kept_rows = np.zeros((64, 2), np.int32), np.zeros((64, 2), np.int64)
         self.states, self.keys = np.zeros(64, np.int8), np.zeros(64, np.int64)
         self.viewed, self.views = None, {}  # columns of the proxies, for writes to single rows
@@ -527,9 +542,9 @@ class PairList:
         return self.arena.proxies
 
     def ids(self, shapes: np.ndarray) -> np.ndarray:
-        """Return the (n, 2) parent ids of the candidates, each pair once, sorted.
+        """Return the (n, 2) ids of the shapes' parents for all candidates, each pair once, sorted.
 
-        shapes: the SHAPE rows to which the candidates refer; not read if `name` was called before.
+        shapes: the SHAPE rows to which the candidates refer; not read if `name` has been called since the last update.
         """
         if self.known_ids is None:
             owners = np.sort(self.name(shapes), axis=1)  # rows of new parts of a mask follow the rows of later shapes
@@ -538,13 +553,16 @@ class PairList:
         return self.known_ids
 
     def name(self, shapes: np.ndarray) -> np.ndarray:
-        """Return the (n, 2) parent ids of the candidates, and store them while the given SHAPE rows are still valid."""
+        """Return the (n, 2) ids of the candidates' parents, and store them while the given SHAPE rows are valid."""
         if self.owners is None:
             self.owners = shapes["parent"][self.rows]
         return self.owners
 
     def add_proxies(self, shapes: np.ndarray, rows: np.ndarray, still: np.ndarray) -> None:
-        """Assign a slot to each shape at these rows of a SHAPE array. still: whether each shape is static."""
+        """Assign a slot of the broad phase to each shape at these `rows` of the array `shapes`.
+
+        still: whether they are static.
+        """
         while len(self.free) < len(rows):
             used = len(self.proxies)
             grown = np.zeros(max(64, 2 * used, used + len(rows)), PROXY)
@@ -562,7 +580,10 @@ class PairList:
         self.proxies["row"][slots] = -1  # until its swept AABB is written
 
     def add_proxy(self, slot: int, body: int, values: dict[str, int], still: bool) -> None:
-        """Assign a free slot to one shape. values: membership, mask, plane and avoids of the shape's proxy."""
+        """Assign a free slot to one shape of a body. still: whether the shape is static.
+
+        slot: the free slot; body: id of the body; values: membership, mask, plane and avoids of the shape's proxy.
+        """
         if self.viewed is not self.arena.proxies:
             self.viewed = self.arena.proxies
             self.views = columns_of(self.viewed)
@@ -574,7 +595,7 @@ class PairList:
         views["row"][slot] = -1  # until its swept AABB is written
 
     def free_proxies(self, slots: np.ndarray) -> None:
-        """Remove shapes from the broad phase."""
+        """Remove the shapes with these slots from the broad phase."""
         slots = slots[slots >= 0]
         self.sensors -= int(np.count_nonzero(self.proxies["plane"][slots] == SENSED))
         self.proxies["plane"][slots] = NOWHERE
@@ -583,20 +604,23 @@ class PairList:
         self.freed += slots.tolist()
 
     def touch(self, slots: np.ndarray) -> None:
-        """Mark slots so that their swept AABBs are written again and their pairs are searched again."""
+        """Mark the proxies in these slots: their swept AABBs are written again, and their pairs are searched again."""
         slots = slots[slots >= 0]
         self.proxies["changed"][slots] = True
 
     def let_sleep(self, sleeping: bool) -> None:
-        """Set whether new proxies are asleep until they are set awake. All present proxies become asleep or awake."""
+        """Set whether new proxies are asleep until they are set awake. All present proxies become asleep or awake.
+
+        sleeping: True for asleep.
+        """
         self.sleeping = sleeping
         self.proxies["awake"] = not sleeping
         self.start_over()
 
     def set_awake(self, slots: np.ndarray, awake: bool) -> None:
-        """Set whether slots are awake.
+        """Set whether the proxies in these slots are awake.
 
-        Pairs of woken slots are searched again, pairs of two sleeping slots are dropped.
+        Pairs of woken proxies are searched again. Pairs of two sleeping proxies are dropped.
         """
         slots = slots[slots >= 0]
         self.proxies["awake"][slots] = awake
@@ -608,23 +632,23 @@ class PairList:
             self.resting = True
 
     def room_for(self, count: int) -> np.ndarray:
-        """Return an array for the slots that update_rectangles lists for `count` shapes."""
+        """Return an array in which update_rectangles can list the changed slots of `count` shapes."""
         if len(self.changed) < count:
             self.changed = np.zeros(2 * count, np.int64)
         return self.changed
 
     def rename(self, shapes: np.ndarray) -> None:
-        """Write the new shape rows to the proxies after rows have moved.
+        """Write the rows of shapes to their proxies again, after rows of the SHAPE array have moved.
 
-        The next update writes the candidates' rows.
+        The next update writes the rows of the candidates.
         """
         tell_rows(shapes, self.proxies)
         self.moved = True
 
     def widen(self, shapes: np.ndarray, margin: float) -> int:
-        """Extend the swept AABBs of SHAPE rows to include their AABBs with a margin [px]. Return the number of slots.
+        """Extend the swept AABBs of SHAPE rows to include their AABBs with a margin [px].
 
-        The slots are listed as changed.
+        Return the number of changed slots; the slots are listed in `changed`.
         """
         shapes = shapes[shapes["proxy"] >= 0]  # shapes of disabled bodies have no proxy
         slots = shapes["proxy"]
@@ -641,28 +665,31 @@ class PairList:
         return len(slots)
 
     def keep_apart(self, keys: np.ndarray) -> bool:
-        """Set the pairs of bodies that never pair, as sorted int64 keys low id << 32 | high id.
+        """Set which pairs of bodies never pair, as sorted int64 keys: low id << 32 | high id.
 
-        Return whether they differ from those before; proxies of the bodies must then be touched.
+        Return whether the keys differ from the former ones; the caller must then touch the proxies of these bodies.
         """
         changed = not np.array_equal(keys, self.apart)
         self.apart = keys
         return changed
 
     def set_filter(self, slots: np.ndarray, value: Filter) -> None:
-        """Set the filter of slots."""
+        """Set the collision filter of the proxies in these slots."""
         slots = slots[slots >= 0]
         self.proxies["membership"][slots], self.proxies["mask"][slots] = value.membership, value.mask
         self.touch(slots)
 
     def set_sensor(self, shapes: np.ndarray, rows: np.ndarray) -> None:
-        """Update the proxies after the shapes at these rows of a SHAPE array became sensors or solid."""
+        """Update the proxies after the shapes at these `rows` of the array `shapes` became sensors or solid."""
         rows = rows[shapes["proxy"][rows] >= 0]
         self._set_planes(shapes["proxy"][rows], shapes["role"][rows], shapes["sensor"][rows])
         self.touch(shapes["proxy"][rows])
 
     def _set_planes(self, slots, roles, sensors):
-        """Write the planes of slots: sensors and pixel shapes pair with whole masks, solid shapes with mask parts."""
+        """Write the planes of proxies: sensors and pixel shapes pair with whole masks, solid shapes with mask parts.
+
+        slots: the proxies; roles: role of each shape; sensors: whether each shape is a sensor.
+        """
         plane = np.where(sensors, SENSED, np.array([SOLID, PIXEL, OUTLINE])[roles])
         plane[sensors & (roles == PART)] = NOWHERE
         before = self.proxies["plane"][slots]
@@ -670,17 +697,20 @@ class PairList:
         self.proxies["plane"][slots], self.proxies["avoids"][slots] = plane, AVOIDS[plane]
 
     def set_still(self, slots: np.ndarray, still: bool) -> None:
-        """Set whether slots are static."""
+        """Set whether the proxies in these slots are static."""
         slots = slots[slots >= 0]
         self.proxies["still"][slots] = still
         self.touch(slots)
 
     def start_over(self) -> None:
-        """Mark all proxies, so that the next update passes them to a new strategy."""
+        """Mark all proxies as changed in the next update, so that a new broad phase receives them."""
         self.everything = True
 
     def update(self, strategy: Strategy, shapes: np.ndarray, changed_count: int, work: np.ndarray) -> None:
-        """Update the candidates for freed slots and for the first `changed_count` slots in `self.changed`."""
+        """Update the candidates for freed slots and for the first `changed_count` slots in `self.changed`.
+
+        strategy: the broad phase that finds the pairs; shapes: SHAPE rows; work: counters.
+        """
         news = changed_count or self.freed or self.can_recycle or self.everything or self.moved or self.resting
         if news or not strategy.incremental:
             self._take_in(strategy, shapes, changed_count, work)
@@ -743,7 +773,7 @@ class PairList:
         self.known_ids = self.owners = None
 
     def _rename(self, shapes):
-        """Write the shape rows of the candidates again, because the removal of a body without proxies moved rows."""
+        """Write the shape rows of the candidates again, after the removal of a body without proxies has moved rows."""
         self.candidates[: self.count] = self.proxies["row"][self.slots[: self.count]]
         self.rows = self.candidates[: self.count]
         self.known_ids = self.owners = None

@@ -56,13 +56,13 @@ def empty_cells(slots: int, buckets: int) -> Cells:
 
 @subkernel
 def cell_of(coordinate, inverse_size):
-    """Return the column or row of the cell that holds a coordinate [px]. inverse_size [1/px]: 1 / size of a cell."""
+    """Return the column or row of the cell that contains a coordinate [px]. inverse_size [1/px]: 1 / size of a cell."""
     return math.floor(coordinate * inverse_size)
 
 
 @subkernel
 def bucket_at(level, cell_x, cell_y, mask):
-    """Return the hash bucket of a cell. Source: Teschner 2003.
+    """Return the hash bucket of the cell in column cell_x and row cell_y of a level. Source: Teschner 2003.
 
     mask: number of buckets minus one. Products stay below 2^62 for cells within CELL_RANGE.
     """
@@ -71,7 +71,7 @@ def bucket_at(level, cell_x, cell_y, mask):
 
 @subkernel
 def level_of(lower_x, lower_y, upper_x, upper_y, base):
-    """Return the finest level whose cells are at least as large as the box [px].
+    """Return the finest level whose cells are at least as large as the box lower_x to upper_x, lower_y to upper_y [px].
 
     base [px]: cell size on level 0. Return LEVELS if no level has such cells, or if the box is outside CELL_RANGE.
     """
@@ -96,7 +96,7 @@ def write_box(proxy, entry_out):
 
 @subkernel
 def take_out(slot, cells_inout, work_inout):
-    """Unlink a slot from its cells, at most four, and from the list of its level. O(1)."""
+    """Unlink a slot from the lists of its cells, at most four, and from the list of its level. O(1)."""
     entries = cells_inout.entries
     lists = cells_inout.lists
     level = cells_inout.levels[slot]
@@ -127,7 +127,10 @@ def take_out(slot, cells_inout, work_inout):
 
 @subkernel
 def put_in(proxies, slot, level, base, cells_inout, work_inout):
-    """Link a slot into the cells that its box touches, at most four, and into the list of its level. O(1)."""
+    """Link a slot into the lists of the cells that its box touches, at most four, and of its level. O(1).
+
+    level: level whose cells are at least as large as the box; base [px]: cell size on level 0; work_inout: counters.
+    """
     p = proxies[slot]
     heads = cells_inout.heads
     entries = cells_inout.entries
@@ -165,8 +168,9 @@ def put_in(proxies, slot, level, base, cells_inout, work_inout):
 def place_changed(proxies, changed, base, cells_inout, work_inout):
     """Link the changed proxies into the cells that their boxes touch. O(changed).
 
-    changed: slots of the changed proxies. If a proxy is still in the same cells, only the box stored there is updated.
-    A box whose ends lie on cell borders may span three cells along an axis; it goes to the next coarser level.
+    changed: slots of the changed proxies; base [px]: cell size on level 0; work_inout: counters. If a proxy is still in
+    the same cells, only the copy of its box in the cells is updated. A box whose ends lie on cell borders may span
+    three cells along an axis; such a box goes to the next coarser level.
     """
     entries = cells_inout.entries
     for i in range(len(changed)):
@@ -215,11 +219,11 @@ CHAINS, NEAR = 8, 64  # number of cells whose lists are traversed side by side; 
 def follow(entries, p, level, count, chains_inout, near_out):
     """Traverse the lists of several cells, and collect the entries whose boxes overlap the box of the PROXY row p.
 
-    The traversal ends before more than NEAR entries could be collected. count: number of lists. chains_inout (CHAINS,
-    3) int64: the next entry of each list, and the column and row of its cell; near_out (NEAR,) int64: the collected
-    entries. The lists are traversed side by side, so that their memory latencies overlap. The tests have no branch,
-    because a branch would be mispredicted. Return (number of unfinished lists, number of collected entries, number of
-    tests).
+    The traversal ends before more than NEAR entries could be collected. level: level of the cells; count: number of
+    lists. chains_inout (CHAINS, 3) int64: the next entry of each list, and the column and row of its cell; near_out
+    (NEAR,) int64: the collected entries. The lists are traversed side by side, so that their memory latencies overlap.
+    The tests have no branch, because a branch would be mispredicted. Return (number of unfinished lists, number of
+    collected entries, number of tests).
     """
     near = 0
     tested = 0
@@ -253,10 +257,11 @@ def follow(entries, p, level, count, chains_inout, near_out):
 def find_in_cells(proxies, changed, base, cells, chains_out, near_out, pairs_out, work_inout):
     """List the overlapping pairs that contain a changed proxy. Return their number. O(cells + candidates).
 
-    On each level, the candidates of a box are the proxies in the cells that the box touches. If these are too many
-    cells, the candidates are all proxies of the level. So the number of cells is at most proportional to the perimeter
-    of the box. A pair that shares several cells is reported only in the cell that contains the lower corner of the
-    overlap.
+    On each level, a box is tested against the proxies in the cells that the box touches. If these are too many cells,
+    it is tested against all proxies of the level, so the number of cells is at most proportional to the perimeter of
+    the box. A pair that shares several cells is reported only in the cell that contains the lower corner of the
+    overlap. changed: slots of the changed proxies; base [px]: cell size on level 0; chains_out, near_out: scratch, see
+    follow; work_inout: counters.
     """
     heads = cells.heads
     entries = cells.entries
@@ -327,11 +332,12 @@ def find_in_cells(proxies, changed, base, cells, chains_out, near_out, pairs_out
 
 @kernel
 def near_in_cells(base, cells, proxies, box, slots_out, work_inout):
-    """List the slots of the proxies whose boxes meet a closed box [px]. Return their number. O(cells + boxes in them).
+    """Find the proxies whose boxes overlap `box`. Return their number. O(cells + boxes in them).
 
     On each level the cells that the box touches are read, or the list of all proxies of the level if there are more
     cells than proxies. A proxy in several of the cells is reported only in the cell that contains the lower corner of
-    the overlap.
+    the overlap. base [px]: cell size on level 0; box [px]: lower x, y, upper x, y; slots_out: slots of the found
+    proxies; work_inout: counters.
     """
     heads = cells.heads
     level_counts = cells.level_counts
@@ -423,14 +429,14 @@ class SpatialHashGrid:
         return find_pairs(self.fresh(), lower, upper)
 
     def fresh(self) -> "SpatialHashGrid":
-        """Return a broad phase with the same settings and without proxies."""
+        """Return a new broad phase with the same settings and without proxies."""
         return SpatialHashGrid(self.cell)
 
     def update(self, arena: Arena) -> None:
         """Move the changed proxies to their cells.
 
-        The table is enlarged when it has fewer buckets than proxies. The cell size is tuned again when the number of
-        proxies has doubled or most proxies are on coarse levels.
+        The hash table is enlarged when it has fewer buckets than proxies. The cell size is tuned again when the number
+        of proxies has doubled, or when most proxies are on coarse levels.
         """
         proxies = arena.proxies
         changed = arena.changed
@@ -453,20 +459,26 @@ class SpatialHashGrid:
 
     @staticmethod
     def _tuned(boxes):
-        """Return a cell size [px]: twice the median extent of the finite boxes with a size; 1 without such boxes."""
+        """Return a cell size [px]: twice the median extent of the finite boxes that are not points; 1 without any."""
         with np.errstate(invalid="ignore", over="ignore"):
             extent = np.maximum(boxes["upper_x"] - boxes["lower_x"], boxes["upper_y"] - boxes["lower_y"])
         extent = extent[np.isfinite(extent) & (extent > 0.0)]
         return max(SMALLEST_CELL, CELL_OF_MEDIAN * float(np.median(extent))) if len(extent) else 1.0
 
     def query(self, arena: Arena) -> Query:
-        """Return a function (pairs, work) -> count that lists the pairs of the changed proxies."""
+        """Return a function (pairs, work) -> count, which writes the pairs with a changed proxy to `pairs`.
+
+        arena: see Arena; work: counters of tests.
+        """
         return lambda pairs, work: find_in_cells(
             arena.proxies, arena.changed, self.base, self.lists, self.chains, self.near_entries, pairs, work
         )
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Write to `slots` the slots whose boxes meet box (lower x, y, upper x, y) [px]. Return their number."""
+        """Find the proxies whose boxes overlap `box`. Write their slots to `slots`, and return their number.
+
+        proxies: PROXY rows; box [px]: lower x, y, upper x, y; work: counters of tests.
+        """
         return near_in_cells(self.base, self.lists, proxies, box, slots, work)
 
     def cells(self) -> tuple[np.ndarray, np.ndarray]:

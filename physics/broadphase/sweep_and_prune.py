@@ -22,9 +22,10 @@ SWAP_BUDGET = 16  # swaps per proxy after which a full sort is cheaper than inse
 
 @kernel
 def refresh_order(proxies, axis, order_inout, lower_out):
-    """Remove freed slots from the order, and read the lower ends of the boxes along the axis (0: x). O(n).
+    """Remove freed slots from the order, and read the lower ends of the boxes along the axis. O(n).
 
-    order_inout: slots; lower_out [px]: lower ends. Return the number of slots left.
+    axis: 0 for x, 1 for y; order_inout: slots; lower_out [px]: lower ends, in this order. Return the number of
+    remaining slots.
     """
     count = 0
     for i in range(len(order_inout)):
@@ -39,10 +40,10 @@ def refresh_order(proxies, axis, order_inout, lower_out):
 
 @kernel
 def insertion_sort(count, budget, order_inout, lower_inout, work_inout):
-    """Sort nearly sorted lower ends by insertion sort. O(n + swaps).
+    """Sort slots by the lower ends of their boxes, which are nearly sorted, by insertion sort. O(n + swaps).
 
-    order_inout: slots; lower_inout [px]: lower ends of their boxes. Return 0, or 1 if the sort stopped unfinished after
-    more than `budget` swaps.
+    order_inout: slots, `count` of them; lower_inout [px]: lower ends of their boxes; work_inout: counters. Return 0, or
+    1 if the sort stopped unfinished after more than `budget` swaps.
     """
     left = budget
     for i in range(1, count):
@@ -66,8 +67,9 @@ def insertion_sort(count, budget, order_inout, lower_inout, work_inout):
 def sort_boxes(proxies, order, count, axis, boxes_out, next_changed_out):
     """Copy the boxes into sorted order, so that the sweep reads them sequentially. O(n).
 
-    boxes_out (n, 4) float64 [px]: low and high end along the axis, then along the other axis. next_changed_out (n,):
-    for each position in the order, the position of the next changed proxy after it.
+    order: slots in sorted order, `count` of them; axis: 0 for x, 1 for y. boxes_out (n, 4) float64 [px]: low and high
+    end along the axis, then along the other axis. next_changed_out (n,): for each position in the order, the position
+    of the next changed proxy after it.
     """
     following = count
     for k in range(count):
@@ -86,8 +88,8 @@ def sort_boxes(proxies, order, count, axis, boxes_out, next_changed_out):
 def sweep_one(proxies, order, count, boxes, next_changed, pairs_out, work_inout):
     """List the overlapping pairs that contain a changed proxy, by a sweep along the axis. Return their number.
 
-    order: slots; boxes, next_changed: see sort_boxes. An unchanged proxy is tested only against changed proxies, so a
-    few moving bodies among many cost few tests. The boxes are read sequentially, which makes a test cheap.
+    order: slots in sorted order, `count` of them; boxes, next_changed: see sort_boxes; work_inout: counters. An
+    unchanged proxy is tested only against changed proxies, so a few moving bodies among many cost few tests.
     """
     found = 0
     tested = 0
@@ -129,10 +131,10 @@ def sweep_one(proxies, order, count, boxes, next_changed, pairs_out, work_inout)
 
 @kernel
 def sweep_intervals(proxies, order, count, boxes, next_changed, keys_out, work_inout):
-    """Write the interval overlaps along one axis that involve a changed proxy. Return their number.
+    """Write the pairs with a changed proxy whose intervals along one axis overlap. Return their number.
 
-    keys_out: lower slot << 32 | higher slot. Other arguments: see sweep_one. Overlaps that do not fit in keys_out are
-    only counted.
+    keys_out: lower slot << 32 | higher slot of each pair; pairs that do not fit into keys_out are only counted. Other
+    arguments: see sweep_one.
     """
     found = 0
     for i in range(count):
@@ -155,7 +157,10 @@ def sweep_intervals(proxies, order, count, boxes, next_changed, keys_out, work_i
 
 @kernel
 def intersect(proxies, keys_x, count_x, keys_y, count_y, pairs_out, work_inout):
-    """Write the pairs that are in both sorted lists of keys and may collide. Return their number. O(keys)."""
+    """Write the pairs that are in both sorted lists of keys and may collide. Return their number. O(keys).
+
+    keys_x, keys_y: the lists, see sweep_intervals; count_x, count_y: their lengths; work_inout: counters.
+    """
     found = 0
     i, j = 0, 0
     low = 0xFFFFFFFF
@@ -175,11 +180,12 @@ def intersect(proxies, keys_x, count_x, keys_y, count_y, pairs_out, work_inout):
 
 @kernel
 def near_in_order(order, boxes, highest, axis, box, slots_out, work_inout):
-    """List the slots of the proxies whose boxes meet a closed box, by binary search along the sorted axis.
+    """Find the proxies whose boxes overlap `box`, by binary search along the sorted axis. Return their number.
 
-    order: slots by the lower ends of their boxes; boxes (n, 4) [px]: see sort_boxes; axis: 0 for x; highest (n,) [px]:
-    running maximum of the high ends, by which boxes that end before the closed box are skipped. A very large box at the
-    start of the order prevents this skip. O(log n + boxes read). Return the number of slots.
+    order: slots by the lower ends of their boxes; boxes (n, 4) [px]: see sort_boxes; axis: 0 for x, 1 for y; box [px]:
+    lower x, y, upper x, y. highest (n,) [px]: running maximum of the high ends, with which the search skips boxes at
+    the start of the order, up to the first box that does not end before `box` begins. slots_out: slots of the found
+    proxies; work_inout: counters. O(log n + boxes read).
     """
     count = len(order)
     lower, upper = box[axis], box[axis + 2]
@@ -239,7 +245,10 @@ class Axis:
         self.highest = None
 
     def query_box(self, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Write to `slots` the slots whose boxes meet box (lower x, y, upper x, y) [px]. Return their number."""
+        """Find the proxies whose boxes overlap `box`. Write their slots to `slots`, and return their number.
+
+        box [px]: lower x, y, upper x, y; work: counters of tests.
+        """
         if self.highest is None:
             self.highest = np.maximum.accumulate(self.boxes[: len(self.order), 1])
         return near_in_order(self.order, self.boxes, self.highest, self.axis, box, slots, work)
@@ -248,7 +257,10 @@ class Axis:
         return sweep_one(arena.proxies, self.order, len(self.order), self.boxes, self.next_changed, pairs, work)
 
     def intervals(self, arena: Arena, work: np.ndarray) -> tuple[np.ndarray, int]:
-        """Return the sorted keys of the interval overlaps along this axis (see sweep_intervals), and their number."""
+        """Return (sorted keys of the pairs with a changed proxy that overlap along this axis, number of these keys).
+
+        The keys are those of sweep_intervals. work: counters.
+        """
         before = work.copy()
         count = sweep_intervals(
             arena.proxies, self.order, len(self.order), self.boxes, self.next_changed, self.keys, work
@@ -284,13 +296,13 @@ class SweepAndPrune:
         return find_pairs(self.fresh(), lower, upper)
 
     def fresh(self) -> "SweepAndPrune":
-        """Return a broad phase with the same settings and without proxies."""
+        """Return a new broad phase with the same settings and without proxies."""
         return SweepAndPrune(self.axes)
 
     def update(self, arena: Arena) -> None:
         """Move the changed proxies to their positions in the order.
 
-        With axes "auto", the axis is chosen again every AXIS_INTERVAL updates, and when most proxies have changed.
+        With axes "auto", the axis is chosen again every AXIS_INTERVAL updates, and whenever most proxies have changed.
         """
         self.updates += 1
         if self.axes == "auto" and (
@@ -318,7 +330,10 @@ class SweepAndPrune:
         return 1 - now if spread[1 - now] > needed * spread[now] else now
 
     def query(self, arena: Arena) -> Query:
-        """Return a function (pairs, work) -> count that lists the pairs of the changed proxies."""
+        """Return a function (pairs, work) -> count, which writes the pairs with a changed proxy to `pairs`.
+
+        arena: see Arena; work: counters of tests.
+        """
         if self.axes == "auto":
             return lambda pairs, work: self.sorted[0].sweep(arena, pairs, work)
 
@@ -330,5 +345,8 @@ class SweepAndPrune:
         return both
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Write to `slots` the slots whose boxes meet box (lower x, y, upper x, y) [px]. Return their number."""
+        """Find the proxies whose boxes overlap `box`. Write their slots to `slots`, and return their number.
+
+        proxies: unused; box [px]: lower x, y, upper x, y; work: counters of tests.
+        """
         return self.sorted[0].query_box(box, slots, work)

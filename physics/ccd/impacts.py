@@ -18,8 +18,8 @@ from physics.tables.step_state import TOI_CALLS
 def is_fast(bodies, paths, row, other):
     """Return whether a dynamic body moves so far relative to a kinematic body that the two may pass through each other.
 
-    True if a point may move by more than the dynamic body's inradius. row, other: rows of BODY, of the dynamic and the
-    kinematic body; paths: see Sweep.
+    They may if a point can move by more than the dynamic body's inradius. row, other: rows of BODY, of the dynamic and
+    the kinematic body; paths: see Sweep.
     """
     b = bodies[row]
     if b.kind != DYNAMIC or bodies[other].kind != KINEMATIC or b.continuous == OFF or b.quarantined:
@@ -59,8 +59,8 @@ def is_straight(shape):
 def has_closed_form(mover, other, mode):
     """Return whether the sweep of a fast shape against another shape has a closed form.
 
-    mover, other: SHAPE rows; mode: continuous mode of the mover's body. With RAY only the centre of the mover is swept,
-    so the mover may be any hull.
+    mover, other: SHAPE rows; mode: continuous mode of the mover's body. In mode RAY only the centre of the mover is
+    swept, so the mover may be any hull.
     """
     if mode == RAY:
         return is_straight(other) and is_hull(mover.kind)
@@ -131,10 +131,10 @@ def sweep_pair(row, other, dt, sweep, scratch):
 
 @subkernel
 def asks_sweep(body, dt, only_straight):
-    """Return whether a body is swept without rotation in this step of dt [s]. body: BODY row.
+    """Return whether a body is swept without rotation in this step of dt [s].
 
-    True for the modes "ray" and "swept"; for mode "auto" if the body moves by more than its inradius and only_straight
-    is false.
+    A body in mode "ray" or "swept" is always swept so. A body in mode "auto" is swept so if it moves by more than its
+    inradius and only_straight is false. body: BODY row.
     """
     if body.continuous == OFF or body.continuous == TOI or body.kind == STATIC or body.quarantined:
         return False
@@ -204,9 +204,9 @@ def find_impacts(dt, only_straight, sweep_inout, scratch, impacts_out):
 
 @kernel
 def stop_at_impacts(shapes, candidates, impacts, bodies_inout):
-    """Stop each dynamic body at its first stopping impact by writing its `fraction` of the step. O(impacts).
+    """Stop each dynamic body at its first impact that stops, by lowering its `fraction` of the step. O(impacts).
 
-    Impacts with sensors are ignored. impacts (n, 8): see find_impacts.
+    Impacts with sensors are ignored. impacts (n, 8): see find_impacts; candidates (n, 2): SHAPE rows.
     """
     for i in range(len(impacts)):
         pair = int(impacts[i, 0])
@@ -269,7 +269,10 @@ def stands_still(bodies, paths, row):
 
 @subkernel
 def rest_where_it_is(bodies, row, paths_inout, fast_inout):
-    """If a body is not active in this step, write a path without motion and clear its fast flag. row: row of BODY."""
+    """Write a path without motion for a body that is not active in this step, and clear its fast flag.
+
+    row: row of BODY.
+    """
     b = bodies[row]
     if b.active:
         return
@@ -284,8 +287,8 @@ def rest_where_it_is(bodies, row, paths_inout, fast_inout):
 def goes_on(bodies, paths, mover, other, fraction, nx, ny):
     """Return the distance [px] that two bodies would move further after an impact at a fraction of the step.
 
-    It is the greater of their motion into each other along the normal (nx, ny), from other to mover, and the motion of
-    their outermost points by rotation. mover, other: rows of BODY.
+    The distance is the greater of their motion into each other along the normal (nx, ny), from other to mover, and the
+    motion of their outermost points by rotation. mover, other: rows of BODY; paths: see Sweep.
     """
     left_m = max(0.0, bodies[mover].fraction - fraction)
     left_o = max(0.0, bodies[other].fraction - fraction)
@@ -302,8 +305,8 @@ def goes_on(bodies, paths, mover, other, fraction, nx, ny):
 def is_swept(moving, a, b, sweep_inout):
     """Return whether a pair of SHAPE rows is swept: one body is fast relative to the other.
 
-    moving: 0 selects pairs with a resting body, 1 pairs of two moving bodies. With a stacking solver two dynamic bodies
-    are swept only if at least one is a bullet.
+    moving: 0 selects pairs with a resting body, 1 pairs of two moving bodies. With a stacking solver, two dynamic
+    bodies are swept only if at least one is a bullet.
     """
     bodies, paths, fast = sweep_inout.bodies, sweep_inout.paths, sweep_inout.fast
     rest_where_it_is(bodies, a.body_row, paths, fast)
@@ -382,11 +385,11 @@ FREELY = 1e-3  # greatest deviation of a path from free fall, as a share of the 
 
 @subkernel
 def lose_fall(lost, path_x, path_y, gravity_x, gravity_y, dt, body_inout):
-    """Correct the velocity of a body that is stopped within a step, so that it gains no energy from gravity.
+    """Correct the velocity of a body that is stopped within a step, so that the body gains no energy from gravity.
 
     The body does not move along the share `lost` of its path, but its velocity includes the gravity of the whole step.
-    If it fell freely, it gets the velocity of the time at which it stopped. Otherwise its kinetic energy is reduced by
-    the potential energy of the lost path. path_x, path_y [px]: the whole path; gravity [px/s2]; dt [s].
+    A body in free fall gets the velocity of the time at which it stopped. Any other body loses as much kinetic energy
+    as the potential energy of the lost path. path_x, path_y [px]: the whole path; gravity_x, gravity_y [px/s2]; dt [s].
     """
     b = body_inout
     pull = norm(gravity_x, gravity_y) * abs(b.gravity_scale)
@@ -435,7 +438,10 @@ def move_back(rows, paths, gravity_x, gravity_y, dt, bodies_inout):
 
 @subkernel
 def is_ray(body, other):
-    """Return whether a body is swept against another as a ray from its centre, not with its outline. Rows of BODY."""
+    """Return whether a body is swept against another as a ray from its centre, not with its outline.
+
+    body, other: BODY rows.
+    """
     return body.continuous == RAY and body.kind != STATIC and other.continuous != SWEPT and other.continuous != TOI
 
 
@@ -443,9 +449,9 @@ def is_ray(body, other):
 def impact_point(body, shape, side, nx, ny, fraction, flew_on):
     """Return an estimate (x, y) [px] of the point where a shape hit another shape.
 
-    It is the point of the shape's AABB farthest along side · (nx, ny); for a ray it is the centre. body, shape: BODY
-    and SHAPE rows, at the end of the step. fraction: fraction of the step at the impact. flew_on: whether the body
-    moved on after the impact without response; then the point is moved back to the time of the impact.
+    The estimate is the point of the shape's AABB farthest along side · (nx, ny); for a ray, the centre of the AABB.
+    body, shape: BODY and SHAPE rows at the end of the step; fraction: fraction of the step at the impact; flew_on:
+    whether the body moved on after the impact without response; then the point is moved back to the time of the impact.
     """
     reach = 0.0 if body.continuous == RAY and body.kind != STATIC else side
     x = 0.5 * (shape.min_x + shape.max_x) + reach * nx * 0.5 * (shape.max_x - shape.min_x)
@@ -462,9 +468,9 @@ def write_impacts(bodies, shapes, candidates, impacts, dt, response, manifolds_o
     """Write a CONTACT row for each impact that its bodies reached before they stopped. Return the number of rows.
 
     impacts (n, 8): candidate, fraction, normal from A to B, stops, feature, point x and y [px]. An unknown point (nan)
-    is estimated by impact_point: for the shape that is swept as a ray or, without a ray, for the shape with the smaller
-    AABB. response: 1 if the separation [px] is computed at the final poses, from the motion after the impact; otherwise
-    the separation is 0.
+    is estimated by impact_point, for the shape that is swept as a ray, or without a ray for the shape with the smaller
+    AABB. response: 1: the separation [px] is computed at the final poses, from the motion after the impact; 0: the
+    separation is 0. dt [s]: step length.
     """
     found = 0
     for i in range(len(impacts)):

@@ -1,8 +1,8 @@
 """Sweep of masks by their pixels, for worlds without contact response and for sensors: the time of the first overlap.
 
 A mask is the union of its solid pixel squares at the exact pose, even if it is drawn snapped. The pixels are grouped
-into rectangles. As in rotational.py, but without a slop, a motion that leads no deeper than the overlap at the start is
-not an impact. So grazing contacts and seams between two rectangles are not impacts.
+into rectangles. A motion that leads no deeper than the overlap at the start is not an impact, as in rotational.py but
+without a slop. So grazing contacts and seams between two rectangles are not impacts.
 """
 
 import math
@@ -45,7 +45,7 @@ NO_SQUARES = Squares(np.zeros((0, 2), np.int64), np.zeros((0, 4)))
 
 
 def squares_of(library: Library, masks: np.ndarray, known: Squares) -> Squares:
-    """Return the cache `known`, extended by the rectangles of these masks. masks: rows of the library."""
+    """Return the cache `known`, extended by the rectangles of the masks in rows `masks` of the library."""
     missing = [row for row in masks.tolist() if row >= len(known.spans) or known.spans[row, 0] < 0]
     if not missing:
         return known
@@ -78,7 +78,7 @@ def pieces_of(shape, body, spans, as_ray):
     """Return (first rectangle, number of pieces, whether the pieces are rectangles) of a shape.
 
     A mask has one piece for each rectangle. A hull, or a body swept as a ray, is a single piece. shape, body: SHAPE and
-    BODY rows; as_ray: whether a body in mode "ray" is swept as a ray.
+    BODY rows; spans: see Squares; as_ray: whether a body in mode "ray" is swept as a ray.
     """
     if shape.kind != MASK or (as_ray and body.continuous == RAY):
         return 0, 1, False
@@ -117,10 +117,10 @@ def sweep_on_pieces(mover, depth, body, squares, span, hull, workspace, best_out
     """Sweep one piece of the moving shape against all pieces of the other shape, or measure their overlap.
 
     mover: the piece, with its corners in workspace.mover. depth [px]: overlap at the start, which does not count as an
-    impact. If depth is negative, nothing is swept, and the deepest overlap [px] at the start is returned; else 0. body:
-    BODY row of the other shape; span: result of pieces_of for the other shape; hull: its only piece if it is not a
-    mask, with the corners in workspace.advance.local_b. best_out (5,): first impact so far, see sweep_squares. O(nearby
-    pieces).
+    impact. If `depth` is negative, nothing is swept, and the deepest overlap [px] at the start is returned; otherwise 0
+    is returned. body: BODY row of the other shape; span: result of pieces_of for the other shape; hull: the only piece
+    of the other shape if that is not a mask, with the corners in workspace.advance.local_b. best_out (5,): first impact
+    so far, see sweep_squares. O(nearby pieces).
     """
     r = workspace.advance
     first, pieces, are_squares = span
@@ -164,8 +164,8 @@ def sweep_on_pieces(mover, depth, body, squares, span, hull, workspace, best_out
 def middle_of_mask(geometry, shape, body, angle):
     """Return the centre (x, y) [px] of a mask's AABB, in body space relative to the centre of mass.
 
-    angle [rad]: angle of the mask for which the AABB is computed; shape, body: SHAPE and BODY rows. The centre
-    determines the side of a link on which the mask is.
+    angle [rad]: angle of the mask for which the AABB is computed; shape, body: SHAPE and BODY rows. The position of the
+    centre decides on which side of a link the mask is.
     """
     raster = geometry.raster_of[shape.geometry, 0]
     left, top, right, bottom = exact_aabb(geometry.rasters, geometry.corners, raster, 0.0, 0.0, angle)
@@ -243,8 +243,8 @@ def sweep_squares(row, other, squares, sweep_inout, best_out):
 def first_shared(row, other, squares, sweep_inout, best_out):
     """Write the first overlap in the step of two shapes, at least one of them a mask, to best_out (5,).
 
-    Columns as in sweep_squares, but the fraction is a fraction of the step. Each body moves along its path up to its
-    own BODY fraction of the step, and then rests.
+    The columns are those of sweep_squares, but the fraction refers to the step. Each body moves along its path up to
+    its own BODY fraction of the step, and then rests. row, other: rows of SHAPE.
     """
     bodies, paths, cuts = sweep_inout.bodies, sweep_inout.paths, sweep_inout.cuts
     p, q = sweep_inout.shapes[row].body_row, sweep_inout.shapes[other].body_row

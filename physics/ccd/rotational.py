@@ -122,7 +122,7 @@ def write_local(geometry, bodies, shapes, row, motion_inout, corners_out):
 
 @subkernel
 def place_mover(count, workspace):
-    """Copy the mover's corners to workspace.advance.local_a, and reset the state of GJK.
+    """Copy the mover's corners from workspace.mover to workspace.advance.local_a, and reset the state of GJK.
 
     count: number of corners. Return the distance [px] of the farthest corner from the centre of mass.
     """
@@ -136,7 +136,10 @@ def place_mover(count, workspace):
 
 @subkernel
 def depth_at_start(mover, other_count, other_radius, workspace):
-    """Return the depth [px] of the mover in the hull in workspace.advance.local_b at the start; 0 without overlap."""
+    """Return the depth [px] at the start of the mover in the hull in workspace.advance.local_b; 0 without overlap.
+
+    other_count, other_radius: number of corners and rounding radius [px] of that hull.
+    """
     place_mover(mover.count, workspace)
     return max(0.0, -separate_at(mover.count, mover.radius, other_count, other_radius, 0.0, workspace.advance))
 
@@ -145,9 +148,11 @@ def depth_at_start(mover, other_count, other_radius, workspace):
 def sweep_core(core_radius, other_count, other_radius, workspace):
     """Return the fraction of the motion at which the mover's core circle hits a hull, or MISS.
 
-    The hull is in workspace.advance.local_b; MISS if the circle's centre is inside it at the start. If the circle would
-    overlap at the start, its radius is reduced to CORE_LEFT of the centre's distance, so that the centre never crosses
-    the surface. With half of the distance, 3 of 768 test rooms lost a body whose centre reached the wall step by step.
+    core_radius [px]: radius of the core circle. The hull is in workspace.advance.local_b, with other_count corners and
+    the rounding radius other_radius [px]. The result is MISS if the circle's centre is inside the hull at the start. If
+    the circle would overlap the hull at the start, its radius is reduced to CORE_LEFT of the centre's distance, so that
+    the centre never crosses the surface. With half of the distance, 3 of 768 test rooms lost a body whose centre
+    reached the wall step by step.
     """
     workspace.advance.local_a[0, 0] = 0.0
     workspace.advance.local_a[0, 1] = 0.0
@@ -163,8 +168,9 @@ def sweep_core(core_radius, other_count, other_radius, workspace):
 def back_to(mover, other_count, other_radius, depth, fraction, size, workspace):
     """Return the last fraction before `fraction` at which the mover was `depth` [px] deep (Newton's method).
 
-    At `fraction` the mover is deeper. The iteration starts at `fraction`, so that an earlier contact with another side
-    of the obstacle is not found. The obstacle is in workspace.advance.local_b; size [px]: size of both shapes.
+    At `fraction` the mover is deeper. The iteration starts at `fraction`, so that it does not find an earlier contact
+    with another side of the obstacle. The obstacle is in workspace.advance.local_b, with other_count corners and the
+    rounding radius other_radius [px]; size [px]: size of both shapes.
     """
     count, radius, _, _ = mover
     gap = workspace.advance.gap.gap
@@ -187,8 +193,8 @@ def back_to(mover, other_count, other_radius, depth, fraction, size, workspace):
 def sweep_part(mover, other_count, other_radius, depth, workspace):
     """Return (fraction or MISS, whether the core circle was swept) of the mover against a convex piece of an obstacle.
 
-    The piece is in workspace.advance.local_b. depth [px]: depth of the mover in the whole obstacle at the start, which
-    is allowed.
+    The piece is in workspace.advance.local_b, with other_count corners and the rounding radius other_radius [px]. depth
+    [px]: depth of the mover in the whole obstacle at the start, which is allowed.
     """
     count, radius, half, slack = mover
     reach = place_mover(count, workspace)
@@ -229,7 +235,7 @@ def swept_box(reach, motion_a, motion_b):
 
 @subkernel
 def feet_of(mover, local_y, workspace):
-    """Return the greatest y [px] of the mover at the start, relative to the origin of a tile grid.
+    """Return the y [px] of the mover's lowest point at the start, relative to the origin of a tile grid.
 
     local_y [px]: y of the grid's centre of mass in its body space.
     """
@@ -323,7 +329,10 @@ def place_link(link, local, workspace):
 
 @subkernel
 def ahead_of(ax, ay, bx, by, u, v):
-    """Return the signed distance of the point (u, v) from the line a to b, times |b - a|; positive in front."""
+    """Return the signed distance of the point (u, v) from the line a to b, times |b - a|; positive in front.
+
+    ax, ay, bx, by: coordinates of a and b.
+    """
     return (by - ay) * (u - ax) - (bx - ax) * (v - ay)
 
 
@@ -331,9 +340,9 @@ def ahead_of(ax, ay, bx, by, u, v):
 def is_before(link, local, middle, fraction, core, workspace):
     """Return whether the mover is in front of a link at a fraction of the motion.
 
-    The mover's side is determined by its point `middle` [px], relative to its centre of mass at angle 0; with `core`,
-    by the centre of mass itself. If this point is beyond an end of the link at which the chain bends towards its front,
-    the point must also be in front of the neighbouring link. link: LINK row; local: see sweep_chain.
+    A point of the mover decides: `middle` [px], relative to its centre of mass at angle 0, or with `core` the centre of
+    mass itself. If this point is beyond an end of the link at which the chain bends towards its front, it must also be
+    in front of the neighbouring link. link: LINK row; local: see sweep_chain.
     """
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
@@ -372,7 +381,10 @@ def misses_block(block, local, box):
 
 @subkernel
 def depth_in_chain(geometry, chain, local, middle, mover, workspace):
-    """Return the greatest depth [px] of the mover at the start in any link that it is in front of, see is_before."""
+    """Return the greatest depth [px] of the mover at the start in any link that has the mover in front, see is_before.
+
+    geometry, chain, local: see sweep_chain.
+    """
     span = geometry.chains[chain]
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
@@ -475,8 +487,8 @@ def shrink_to_middle(count, mover_inout):
 def sweep_hull(mover, core_b, n, radius_b, workspace):
     """Return (fraction or MISS, normal from the obstacle) of the first impact of the mover with another hull.
 
-    The obstacle is in workspace.advance.local_b: n corners, rounding radius_b [px], core circle of radius core_b [px];
-    0: no core circle.
+    The obstacle is in workspace.advance.local_b, with n corners and the rounding radius radius_b [px]. core_b [px]:
+    radius of the obstacle's core circle; 0: none.
     """
     depth = depth_at_start(mover, n, radius_b, workspace)
     fraction, core = sweep_part(mover, n, radius_b, depth, workspace)
@@ -490,7 +502,10 @@ def sweep_hull(mover, core_b, n, radius_b, workspace):
 
 @subkernel
 def stands_deep(row, other, sweep_inout):
-    """Return whether two hulls overlap by more than sweep_inout.slack at the start of the step. Rows of SHAPE."""
+    """Return whether two hulls overlap by more than sweep_inout.slack at the start of the step.
+
+    row, other: rows of SHAPE.
+    """
     geometry, bodies, shapes = sweep_inout.geometry, sweep_inout.bodies, sweep_inout.shapes
     workspace = sweep_inout.workspace
     r = workspace.advance
@@ -554,7 +569,7 @@ def sweep_rotational(row, other, slack, but, sweep_inout):
 
 @subkernel
 def begin_sweep(workspace, impact_out):
-    """Reset impact_out (3,) to MISS, and the counters in workspace. Return the length [px] of the relative motion."""
+    """Reset impact_out (3,) to MISS, and the counters in `workspace`. Return the length [px] of the relative motion."""
     r = workspace.advance
     r.totals[0] = 0.0
     r.totals[1] = 0.0
@@ -575,7 +590,10 @@ def keep_first(fraction, nx, ny, impact_out):
 
 @subkernel
 def gap_at_start(a_count, a_radius, b_count, b_radius, workspace):
-    """Return a lower bound [px] of the gap at the start between the hulls in workspace.advance.local_a and local_b."""
+    """Return a lower bound [px] of the gap at the start between the hulls in workspace.advance.local_a and local_b.
+
+    a_count, a_radius, b_count, b_radius: numbers of corners and rounding radii [px] of the two hulls.
+    """
     r = workspace.advance
     place_at(r.local_a, a_count, r.motion_a, 0.0, r.motion_a[CENTER_X], r.motion_a[CENTER_Y], r.a)
     place_at(r.local_b, b_count, r.motion_b, 0.0, r.motion_a[CENTER_X], r.motion_a[CENTER_Y], r.b)
@@ -612,10 +630,10 @@ def advance_parts(a, b, workspace, impact_out):
 
 @kernel
 def sweep_unions(a, b, workspace, impact_out):
-    """Write the first impact of two shapes whose parts may lie flush, such as masks. Arguments as in advance_parts.
+    """Write the first impact of two shapes whose parts may lie flush, such as masks, to impact_out (3,).
 
     A motion that leads no deeper than the overlap at the start is not an impact (see "rotational" above). So seams
-    between parts and grazing contacts are not impacts. O(parts of A · parts of B).
+    between parts and grazing contacts are not impacts. Arguments as in advance_parts. O(parts of A · parts of B).
     """
     r = workspace.advance
     path = begin_sweep(workspace, impact_out)

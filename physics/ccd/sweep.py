@@ -72,9 +72,10 @@ def way_of(bodies, paths, row):
 def find_fast(rows, bodies, paths, fast_out):
     """Flag the bodies to sweep. Return (number of bodies whose pairs must be tested, number swept without rotation).
 
-    A moving body in mode "toi", "ray" or "swept" is always flagged; a body in mode "auto" is flagged if a point of it
-    may move by more than its inradius. The first number also includes bodies without a flag that a kinematic body may
-    pass through: see impacts.is_fast. rows: rows of BODY; paths: see list_paths; fast_out (bodies,) bool. O(rows).
+    A moving body in mode "toi", "ray" or "swept" is always flagged. A body in mode "auto" is flagged if one of its
+    points may move by more than its inradius. The first number also includes bodies without a flag that a kinematic
+    body may pass through: see impacts.is_fast. rows: rows of BODY; paths: see list_paths; fast_out (bodies,) bool.
+    O(rows).
     """
     found = 0
     straight = 0
@@ -154,7 +155,8 @@ def push_ahead(sweep_inout, moves_inout):
     """Push stopped bodies out of the way of kinematic bodies for the rest of the step. Return the number of pushes.
 
     moves_inout (bodies, 2) [px]: translation of each stopped body from the position where it stopped; each push is
-    added. A push is along one normal, so a corner needs several calls: repeat until the result is 0. O(candidates).
+    added. A push is along one normal, so in a corner several calls are needed: the caller repeats the call until the
+    result is 0. O(candidates).
     """
     bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
     cuts, slack = sweep_inout.cuts, sweep_inout.slack
@@ -303,9 +305,9 @@ FORESEEN = ("effects", "stacks", "tolerances", "dt", "awake", "bodies", "shapes"
 
 @stage("time_of_impact", reads=FORESEEN, writes=("impacts", "library", "work", "workspace", "bodies.fraction"))
 def foresee_impacts(state: StepState) -> None:
-    """Predict the impacts of the coming motion, and set the fraction of the step that each body may move.
+    """Predict the impacts of the coming motion, and set the fraction of the step up to which each body may move.
 
-    For worlds without a stacking solver.
+    This stage is for worlds without a stacking solver.
     """
     sweeper, bodies, rows, dt = state.workspace.sweep, state.bodies, state.awake.bodies, state.dt
     found = _look_straight(state, bodies, dt, state.effects.rotation)
@@ -327,9 +329,9 @@ def foresee_impacts(state: StepState) -> None:
     ),
 )  # fmt: skip
 def detect_moved(state: StepState) -> None:
-    """Find the contacts at the final poses, and add predicted impacts that are not among them.
+    """Find the contacts at the final poses, and add the predicted impacts of pairs that have no such contact.
 
-    For worlds without a stacking solver. Kinematic bodies first push stopped bodies on.
+    This stage is for worlds without a stacking solver. Before, kinematic bodies push stopped bodies out of their way.
     """
     rows = state.awake.bodies
     stopped = rows[state.bodies["fraction"][rows] < 1.0] if len(state.impacts) and state.effects.response else rows[:0]
@@ -362,7 +364,7 @@ def detect_moved(state: StepState) -> None:
 def _written(state, impacts, response) -> np.ndarray:
     """Return CONTACT rows, with approach speeds, of the impacts that bodies reached before they stopped.
 
-    impacts (n, 8), response: see impacts.write_impacts.
+    impacts, response: see impacts.write_impacts.
     """
     workspace = np.zeros(len(impacts), CONTACT)
     found = write_impacts(state.bodies, state.shapes, state.pairs.rows, impacts, state.dt, response, workspace)
@@ -382,7 +384,7 @@ def _written(state, impacts, response) -> np.ndarray:
 def sweep_piles(state: StepState) -> None:
     """Find the fast bodies, move each back to its first impact in the step, and add the impacts to the contacts.
 
-    For worlds with a stacking solver, after the solver has moved all bodies.
+    This stage is for worlds with a stacking solver, after the solver has moved all bodies.
     """
     bodies, rows, sweeper = state.bodies, state.awake.bodies, state.workspace.sweep
     state.ghosts = None
@@ -418,7 +420,7 @@ def _cover(state):
 
 
 def _sweep_straight(state) -> np.ndarray:
-    """Return the impacts (n, 8) of bodies in mode "ray" or "swept" on their straight path in the step; stop them."""
+    """Stop bodies in mode "ray" or "swept" on their straight path in the step. Return their impacts (n, 8)."""
     dt, moved = state.dt, state.bodies.copy()
     for name, velocity in (("x", "vx"), ("y", "vy")):
         moved[velocity] = (moved[name] - moved["previous_" + name]) / dt if dt > 0.0 else 0.0
@@ -430,7 +432,7 @@ def _sweep_straight(state) -> np.ndarray:
 
 
 def _sweep_rotational(state) -> np.ndarray:
-    """Return the impacts (n, 8) of fast bodies along paths with rotation, and stop the bodies at their first impacts.
+    """Stop fast bodies at their first impacts along paths with rotation. Return the impacts (n, 8).
 
     Impacts with resting bodies come first. Pairs of moving bodies are swept repeatedly, because a body that stops
     changes the impacts of others.
@@ -457,9 +459,9 @@ def _stop(state, impacts) -> bool:
 
 
 def push_stopped(state: StepState, stopped: np.ndarray) -> bool:
-    """Let kinematic bodies push stopped bodies for the rest of the step, until a resting body blocks them.
+    """Let kinematic bodies push stopped bodies for the rest of the step. Return whether any body was pushed.
 
-    stopped: rows of BODY, of the bodies stopped at an impact. Return whether any body was pushed.
+    A pushed body moves until a resting body blocks it. stopped: rows of BODY, of the bodies stopped at an impact.
     """
     sweeper, bodies = state.workspace.sweep, state.bodies
     moves = np.zeros((len(bodies), 2))
@@ -479,7 +481,7 @@ def shift_freely(state: StepState, rows: np.ndarray, moves: np.ndarray, arrived:
     """Translate bodies, each until a resting body blocks it.
 
     rows (n,): rows of BODY; moves (n, 2): translations [px]; arrived: whether kinematic bodies are at their final
-    poses; then they also count as resting.
+    poses; if they are, they also block.
     """
     sweeper, bodies, awake = state.workspace.sweep, state.bodies, state.awake.bodies
     sweeper.grow(state)
@@ -498,9 +500,9 @@ def shift_freely(state: StepState, rows: np.ndarray, moves: np.ndarray, arrived:
 
 
 def _tell(state, met):
-    """Add the impacts (n, 8) to the contacts and to the pairs sensed by sensors.
+    """Add the impacts met (n, 8) to the contacts, or for sensors to the sensed pairs of the step.
 
-    Such a contact begins in this step, but its impulse follows in the next step.
+    A contact that is added begins in this step, but its impulse follows in the next step.
     """
     if not len(met):
         return

@@ -129,10 +129,10 @@ def sweep_circle_polygon(corners, count, edges, x, y, dx, dy, radius):
 def half_planes(a, a_count, b, b_count, side, move, slack, clip):
     """Clip the interval of time in which two polygons overlap by the faces of the polygon in b.
 
-    a, b (16, 2) [px]: corners; side: 1.0 if a holds polygon A and b holds B, -1.0 if a holds B and b holds A. move:
-    motion (x, y) [px] of polygon A. A face that is crossed by less than `slack` [px] does not count. clip, and the
-    result: (fraction at which the overlap begins or MISS, fraction at which it ends, face k of B entered last or -1 - k
-    for face k of A, normal from B to A).
+    a, b (16, 2) [px]: corners; side: 1.0 if `a` holds polygon A and `b` holds B, -1.0 if `a` holds B and `b` holds A.
+    move: motion (x, y) [px] of polygon A. A face that is crossed by less than `slack` [px] does not count. clip is the
+    interval before, and the result is the interval after: (fraction at which the overlap begins or MISS, fraction at
+    which it ends, face k of B entered last or -1 - k for face k of A, normal from B to A).
     """
     enter, leave, entering, nx, ny = clip
     for k in range(b_count):
@@ -222,9 +222,9 @@ def new_advance_workspace() -> AdvanceWorkspace:
 
 @subkernel
 def place_at(local, count, motion, fraction, x, y, corners_out):
-    """Write a hull's corners [px] at a fraction of its motion, relative to the world point (x, y).
+    """Write a hull's corners [px] at a fraction of its motion, relative to the world point (x, y), to corners_out.
 
-    local (16, 2) [px]: corners from the centre of rotation at angle 0; motion (6,): see AdvanceWorkspace.
+    local (16, 2) [px]: corners relative to the centre of rotation at angle 0; motion (6,): see AdvanceWorkspace.
     """
     angle = motion[ANGLE] + fraction * motion[TURN]
     cosine, sine = math.cos(angle), math.sin(angle)
@@ -240,7 +240,8 @@ def place_at(local, count, motion, fraction, x, y, corners_out):
 def separate_at(a_count, a_radius, b_count, b_radius, fraction, workspace):
     """Return the separation [px] of the two hulls of a workspace at a fraction of their motions.
 
-    Then workspace.gap.gap holds the normal, and workspace.a and workspace.b hold the corners at this fraction.
+    a_count, a_radius, b_count, b_radius: numbers of corners and rounding radii [px]. The normal is written to
+    workspace.gap.gap, the corners at this fraction to workspace.a and workspace.b.
     """
     x, y = workspace.motion_a[CENTER_X], workspace.motion_a[CENTER_Y]
     place_at(workspace.local_a, a_count, workspace.motion_a, fraction, x, y, workspace.a)
@@ -256,7 +257,7 @@ def separate_at(a_count, a_radius, b_count, b_radius, fraction, workspace):
 
 @subkernel
 def reach_of(local, count):
-    """Return the distance [px] of the farthest corner from the centre of rotation of a hull."""
+    """Return the distance [px] of the farthest of a hull's `count` corners `local` from its centre of rotation."""
     reach = 0.0
     for k in range(count):
         reach = max(reach, norm(local[k, 0], local[k, 1]))
@@ -265,10 +266,10 @@ def reach_of(local, count):
 
 @subkernel
 def along(corners, motion, fraction, k, x, y, nx, ny):
-    """Return (position [px], velocity, bound of the acceleration) of corner k along the unit vector (nx, ny).
+    """Return (position [px], velocity, bound of the acceleration) of corner k of a hull along the unit vector (nx, ny).
 
-    The time unit is the whole motion. corners (16, 2) [px]: corners at this fraction, relative to the world point (x,
-    y).
+    The time unit is the whole motion. corners (16, 2) [px]: corners at this fraction of `motion`, relative to the world
+    point (x, y).
     """
     arm_x = corners[k, 0] - ((motion[CENTER_X] - x) + fraction * motion[MOVE_X])
     arm_y = corners[k, 1] - ((motion[CENTER_Y] - y) + fraction * motion[MOVE_Y])
@@ -279,9 +280,9 @@ def along(corners, motion, fraction, k, x, y, nx, ny):
 
 @subkernel
 def free_until(gap, speed, bend):
-    """Return the first root t of gap + speed · t - bend / 2 · t² for gap >= 0; infinite without a root.
+    """Return the first root t of gap + speed · t - bend / 2 · t², where gap >= 0; infinite without a root.
 
-    Two corners cannot meet before this root. gap [px]; speed: speed at which the gap grows; bend: bound of the
+    Two corners cannot meet before this time. gap [px]; speed: speed at which the gap grows; bend: bound of the
     acceleration, >= 0.
     """
     if bend > 0.0:
@@ -298,8 +299,9 @@ def free_until(gap, speed, bend):
 def free_motion(a_count, b_count, radii, fraction, separation, workspace):
     """Return a lower bound of the further fraction of the motion in which the hulls cannot meet.
 
-    It is the time until any two corners can meet along the present normal. separation [px]: separation of the hulls at
-    `fraction`; no pair of corners counts as nearer. radii [px]: sum of both radii. O(corners of A · corners of B).
+    The bound is the time until any two corners can meet along the present normal. separation [px]: separation of the
+    hulls at `fraction`; no pair of corners counts as nearer. radii [px]: sum of both radii. O(corners of A · corners of
+    B).
     """
     nx, ny = workspace.gap.gap[NX], workspace.gap.gap[NY]
     x, y = workspace.motion_a[CENTER_X], workspace.motion_a[CENTER_Y]
@@ -335,8 +337,8 @@ def free_motion(a_count, b_count, radii, fraction, separation, workspace):
 def speed_of(motion, seen_from, fraction, x, y, nx, ny):
     """Return the velocity [px per motion] along the unit vector (nx, ny) of a body's point at (x, y).
 
-    x, y [px]: relative to the centre of rotation at the start of the motion `seen_from`; motion: motion of the body;
-    fraction: fraction of the motion.
+    x, y [px]: the point, relative to the start position of the centre of rotation in `seen_from`, the motion of either
+    body; motion: motion of the body itself; fraction: fraction of the motion.
     """
     arm_x = x - ((motion[CENTER_X] - seen_from[CENTER_X]) + fraction * motion[MOVE_X])
     arm_y = y - ((motion[CENTER_Y] - seen_from[CENTER_Y]) + fraction * motion[MOVE_Y])
@@ -347,7 +349,7 @@ def speed_of(motion, seen_from, fraction, x, y, nx, ny):
 def touching_span(corners, count, nx, ny, side, band):
     """Return the interval (low, high) [px] along the tangent (-ny, nx) that a hull's touching face or corner covers.
 
-    It includes the corners that are farthest in the direction side · (nx, ny), up to a difference of `band` [px].
+    The touching corners are those farthest in the direction side · (nx, ny), up to a difference of `band` [px].
     """
     furthest = -math.inf
     for k in range(count):
@@ -364,8 +366,8 @@ def touching_span(corners, count, nx, ny, side, band):
 def approach_at(a_count, b_count, fraction, band, workspace):
     """Return the greatest approach speed [px per motion] along the normal of two touching hulls.
 
-    If two faces touch, within `band` [px], the speed is greatest at an end of their common part. workspace: with normal
-    and corners at `fraction`, as written by separate_at.
+    a_count, b_count: numbers of corners. If two faces touch, within `band` [px], the speed is greatest at an end of
+    their common part. workspace: with normal and corners at `fraction`, as written by separate_at.
     """
     nx, ny = workspace.gap.gap[NX], workspace.gap.gap[NY]
     a_low, a_high = touching_span(workspace.a, a_count, nx, ny, 1.0, band)
@@ -392,9 +394,9 @@ def advance(a_count, a_radius, b_count, b_radius, workspace):
     """Return the first fraction of the motion at which two moving hulls meet, or MISS.
 
     workspace: the caller writes local_a, local_b, motion_a, motion_b; on return gap.gap holds normal and points at the
-    impact, and totals is increased. a_radius, b_radius [px]: roundings. If the hulls touch or overlap at the start, the
-    result is 0 if they approach; otherwise the search continues until they approach. If ADVANCE_CAP is reached, a
-    fraction before the impact is returned.
+    impact, and the counters in `totals` are increased. a_radius, b_radius [px]: roundings. If the hulls touch or
+    overlap at the start, the result is 0 if they approach; otherwise the search continues until they approach. If
+    ADVANCE_CAP is reached, a fraction before the impact is returned.
     """
     turn_a, turn_b = abs(workspace.motion_a[TURN]), abs(workspace.motion_b[TURN])
     reach_a, reach_b = reach_of(workspace.local_a, a_count), reach_of(workspace.local_b, b_count)

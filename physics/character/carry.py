@@ -59,8 +59,8 @@ def motion_of(b):
 def find_stirred(bodies, shapes, characters, pairs, count, stirred_out):
     """Flag the characters that a step may move: riders, users of conveyors, and those that may touch a moving body.
 
-    pairs (count, 2): shape rows from the broad phase. stirred_out (characters,): the flags. O(pairs · log characters).
-    Return the greatest distance [px] that any point of these bodies moved in the step.
+    pairs (count, 2): shape rows from the broad phase; stirred_out (characters,): the flags. Return the greatest
+    distance [px] that any point of the ridden or touched bodies moved in the step. O(pairs · log characters).
     """
     most = 0.0
     for me in range(len(characters)):
@@ -80,7 +80,7 @@ def find_stirred(bodies, shapes, characters, pairs, count, stirred_out):
 
 
 def near_characters(state: StepState) -> tuple[np.ndarray, np.ndarray]:
-    """Return (near, spans), see Walk: the shape rows that may carry, push or stop each character in this step."""
+    """Return (near, spans) for a Walk: the shape rows that may carry, push or stop each character in this step."""
     rows, pairs = state.characters, state.pairs.rows
     dirty = np.zeros(len(rows), bool)
     motion = find_stirred(state.bodies, state.shapes, rows, pairs, len(pairs), dirty)
@@ -111,7 +111,7 @@ def near_characters(state: StepState) -> tuple[np.ndarray, np.ndarray]:
 def shift_aside(me, without, pixels, walk_inout, rows_out):
     """Move a character along x by up to `pixels` (negative: left). Return the number of pixels that were blocked.
 
-    without: body row to ignore, or -1; rows_out: scratch array for the nearby solids.
+    me: CHARACTER row; without: body row to ignore, or -1; rows_out: scratch array for the nearby solids.
     """
     c = walk_inout.characters[me]
     reach = 2.0 + abs(pixels)
@@ -137,7 +137,7 @@ def shift_aside(me, without, pixels, walk_inout, rows_out):
 def shift_along_y(me, without, pixels, walk_inout, rows_out):
     """Move a character along y by up to `pixels` (negative: up). Return the number of pixels that were blocked.
 
-    without: body row to ignore, or -1; rows_out: scratch array for the nearby solids.
+    me: CHARACTER row; without: body row to ignore, or -1; rows_out: scratch array for the nearby solids.
     """
     c = walk_inout.characters[me]
     reach = 2.0 + abs(pixels)
@@ -153,10 +153,10 @@ def shift_along_y(me, without, pixels, walk_inout, rows_out):
 
 @subkernel
 def shift(me, without, pixels, along_x, walk_inout, rows_out):
-    """Move a character by up to `pixels` along an axis; along x also up and down walkable slopes.
+    """Move a character by up to `pixels` along one axis. Return the number of pixels that were blocked.
 
-    without: body row to ignore, or -1; rows_out: scratch array for the nearby solids. Return the number of pixels that
-    were blocked.
+    along_x: 1 for the x axis, along which the character also moves up and down walkable slopes, 0 for the y axis. me:
+    CHARACTER row; without: body row to ignore, or -1; rows_out: scratch array for the nearby solids.
     """
     if along_x == 1:
         stopped = shift_aside(me, without, pixels, walk_inout, rows_out)
@@ -174,7 +174,10 @@ def carried_by(way, stopped):
 
 @subkernel
 def carry_riders(along_x, walk_inout):
-    """Carry the characters that stand on carried characters, in stacks of any height, by the same pixels."""
+    """Move the characters that stand on characters carried in this step by the same pixels, in stacks of any height.
+
+    along_x: 1 for the x axis, 0 for the y axis.
+    """
     characters = walk_inout.characters
     for _ in range(len(characters)):
         repeated = False
@@ -200,9 +203,9 @@ def carry_riders(along_x, walk_inout):
 
 @subkernel
 def loose_under(walk, me):
-    """Return the row of the loose shape that a character rides; -1: it rides none.
+    """Return the shape row of the loose shape (solids.is_loose) that a character stands on; -1: none.
 
-    The point under the character's feet moves with such a shape. Loose: see solids.is_loose.
+    The point of such a shape that is under the feet carries the character. me: CHARACTER row.
     """
     c = walk.characters[me]
     row = row_of(walk.shapes, c.riding_shape) if c.riding >= 0 else -1
@@ -234,7 +237,7 @@ def take_back(characters_inout, bodies_inout):
 
 @subkernel
 def motion_under(c, body):
-    """Return the displacement (x, y) [px] in this step of the point of a body that is under a character's feet.
+    """Return the displacement (x, y) [px] in this step of the body's point that is under a character's feet.
 
     c: CHARACTER row; body: BODY row of the ground.
     """
@@ -251,7 +254,8 @@ def motion_under(c, body):
 def pixels_carried(me, row, along_x, walk_inout):
     """Return the whole pixels by which the ground and its conveyor carry a character along an axis.
 
-    row: shape row of the ground; -1: the motion of the ground does not carry the character.
+    me: CHARACTER row; row: shape row of the ground, -1 if its motion does not carry the character; along_x: 1 for the x
+    axis, 0 for the y axis.
     """
     c = walk_inout.characters[me]
     way = 0
@@ -278,7 +282,7 @@ def pixels_carried(me, row, along_x, walk_inout):
 
 @subkernel
 def step_down(me, walk_inout):
-    """Move a character down to ground that sank by no more than the character may drop over one pixel along x."""
+    """Move a character down to ground that has sunk, by no more than it may drop while walking one pixel along x."""
     c = walk_inout.characters[me]
     gather(walk_inout, me, -1, 1.0, 1.0, 3.0 + c.climb, walk_inout.found)
     drop, slope = drop_onto(walk_inout, me, walk_inout.found, c.left, 0.5)
@@ -314,7 +318,10 @@ def ride_bodies(walk_inout):
 
 @subkernel
 def move_out(me, row, walk_inout):
-    """Move a character out of a loose shape until it is blocked, and store the depth that remains. row: shape row."""
+    """Move a character out of a loose shape until it is blocked, and store the depth of overlap that remains.
+
+    me, row: CHARACTER row and shape row.
+    """
     c = walk_inout.characters[me]
     depth, nx, ny = depth_in(me, row, walk_inout)
     body_row = walk_inout.shapes[row].body_row
@@ -342,9 +349,9 @@ def move_out(me, row, walk_inout):
 def give_way(walk_inout):
     """Move characters out of loose bodies (solids.is_loose) that moved into them. Flag those without space as squeezed.
 
-    walk_inout: see Walk. A body that has just fallen onto a character overlaps it until the solver has separated them.
-    So an overlap with loose bodies squeezes a character only if it was deeper than GIVE and is at least as deep one
-    step later. O(characters · nearby solids).
+    walk_inout: see Walk. A body that has just fallen onto a character overlaps the character until the solver has
+    separated them. So an overlap with loose bodies squeezes a character only if it was deeper than GIVE and is at least
+    as deep one step later. O(characters · nearby solids).
     """
     for me in range(len(walk_inout.characters)):
         c = walk_inout.characters[me]
@@ -370,9 +377,10 @@ def give_way(walk_inout):
 
 @subkernel
 def swept_box(walk, row, along_x):
-    """Return (left, top, right, bottom [px], pixels moved) of the area that a box sweeps along one axis in a step.
+    """Return (left, top, right, bottom, pixels moved) [px] of the area that a box sweeps along one axis in a step.
 
-    All values are whole pixels. The box moves along x first, then along y.
+    All values are whole pixels. row: shape row of the box, which moves along x first, then along y; along_x: 1 for the
+    x axis, 0 for the y axis.
     """
     b = walk.bodies[walk.shapes[row].body_row]
     old_left, old_top, old_right, old_bottom = aabb_at(
@@ -400,7 +408,8 @@ def swept_box(walk, row, along_x):
 def in_swept(me, row, shifted, along_x, box, walk_inout):
     """Return whether a character, shifted by `shifted` pixels along an axis, overlaps the area that a solid sweeps.
 
-    box: see swept_box. A tile grid is tested at its pose after the motion along this axis.
+    me, row: CHARACTER row and shape row of the solid; along_x: 1 for the x axis, 0 for the y axis; box: see swept_box.
+    A tile grid is tested at its pose after the motion along this axis.
     """
     c = walk_inout.characters[me]
     left, top, right, bottom, moved = box
@@ -427,7 +436,7 @@ def in_swept(me, row, shifted, along_x, box, walk_inout):
 def way_clear(me, row, along_x, box, walk_inout):
     """Return the signed pixels, along a solid's motion, that move a character out of the area that the solid sweeps.
 
-    The result is 0 if the character does not overlap this area. box: see swept_box.
+    The result is 0 if the character does not overlap this area. Arguments as in in_swept.
     """
     if not in_swept(me, row, 0, along_x, box, walk_inout):
         return 0
@@ -448,7 +457,7 @@ def way_clear(me, row, along_x, box, walk_inout):
 
 @subkernel
 def carry_one(me, row, along_x, box, walk_inout):
-    """Carry or push one character with a solid that moved by whole pixels along an axis. box: see swept_box."""
+    """Carry or push one character with a solid that moved by whole pixels along an axis. Arguments as in in_swept."""
     c = walk_inout.characters[me]
     s = walk_inout.shapes[row]
     b = walk_inout.bodies[s.body_row]
@@ -556,7 +565,7 @@ def carry_characters(state: StepState) -> None:
 def apply_character_weight(state: StepState) -> None:
     """Apply the weight of characters to their ground before a step.
 
-    The ground is woken if a character arrived on it, left it or walked.
+    The ground is woken if a character has arrived on it, left it or walked on it.
     """
     characters, bodies = state.characters, state.bodies
     if state.effects.sleeping:

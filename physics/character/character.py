@@ -31,10 +31,10 @@ class Moved(NamedTuple):
     """The result of a move: pixels moved, and the contacts of the character after the move.
 
     x, y: pixels moved. grounded: whether the character stands on ground that it can walk on, or that holds it. wall: -1
-    for a solid at its left, 1 at its right, 0 for none. slope: rise of the ground under its feet per px to the right
-    (1: 45 degrees up to the right), also of ground that it slides down. riding: the kinematic or dynamic body, or the
-    pushable character, under its feet; None on static ground and in the air. squeezed: whether a moving body left it no
-    space; True in every move until this body no longer overlaps the character.
+    for a solid at its left, 1 at its right, 0 for none. slope: rise per px to the right of the ground under its feet
+    (1: 45 degrees up to the right), also of ground down which the character slides. riding: the kinematic or dynamic
+    body, or the pushable character, under its feet; None on static ground and in the air. squeezed: whether a moving
+    body left the character no space; True in every move until this body no longer overlaps the character.
     """
 
     x: int
@@ -52,13 +52,14 @@ class Character:
     shape: Polygon, Circle, Capsule, or Bounds of one of them or of a sprite, of at least one pixel. A box without angle
     is rounded to whole pixels. position [px]: position of the shape's origin, rounded so that the left side and the
     feet are on the pixel grid. max_slope [rad], 0 <= max_slope < pi/2: the character walks up and down ground of at
-    most this angle, and slides down steeper ground up to 86 degrees; the kind of shape of the ground does not matter.
-    pushable: whether the character is solid for other characters, and they push it.
+    most this angle, and slides down steeper ground up to 86 degrees, whatever the shape of the ground. pushable:
+    whether the character is solid for other characters, and they push it.
 
-    Its `body` is kinematic, so contacts and sensors see the character. A Character needs the effect response. With the
-    effect stacking, dynamic bodies also stop and carry the character, and it acts on them. mass [density px2]: sets the
-    weight and the momentum on landing; None: the mass of the shape at density 1. push [px/s2]: the character
-    accelerates bodies in its way to the speed of its moves, with a force of at most mass * push; None for PUSH.
+    The character's `body` is kinematic, so contacts and sensors see the character. A Character needs the effect
+    response. With the effect stacking, dynamic bodies also stop and carry the character, and the character acts on
+    them. mass [density px2]: sets the weight and the momentum on landing; None: the mass of the shape at density 1.
+    push [px/s2]: the character accelerates bodies in its way to the speed of its moves, with a force of at most mass *
+    push; None for PUSH.
 
     Raises TypeError for values of other types, ValueError for values out of range and for a world without the needed
     effects.
@@ -143,11 +144,11 @@ class Character:
     def move(self, dx: float, dy: float, drop: bool = False) -> Moved:
         """Move the character by (dx, dy) [px], x first. Return the result of the move.
 
-        drop: whether it falls through one-way tiles. On a slope that is too steep it slides down, by the component of
-        dy along the slope. While its body is quarantined, or would be by the next step, it does not move and touches
-        nothing. A character that was placed in a static solid is moved out, two pixels per move, if there is free space
-        within its own size. Raises TypeError for values of other types, ValueError for a move that is not finite or too
-        long, RuntimeError during a step.
+        drop: True if the character falls through one-way tiles. On a slope that is too steep it slides down, by the
+        component of dy along the slope. While the character's body is quarantined, or would be by the next step, the
+        character does not move and touches nothing. A character that was placed in a static solid is moved out, two
+        pixels per move, if there is free space within its own size. Raises TypeError for values of other types,
+        ValueError for a move that is not finite or too long, RuntimeError during a step.
         """
         world = self.world
         world._unlocked()
@@ -194,7 +195,10 @@ class Character:
         return bool(is_stopped(me, int(np.sign(dx)), int(np.sign(dy)), self._walk(me, 0.0, 0.0)))
 
     def _walk(self, me, dx, dy):
-        """Return the Walk for a move by (dx, dy) [px], with the shapes near the character's path."""
+        """Return the Walk for a move by (dx, dy) [px], with the shapes near the character's path.
+
+        me: its CHARACTER row.
+        """
         world = self.world
         rows = world.characters.rows
         find_own_rows(world.bodies, world.shapes, rows)
@@ -238,7 +242,7 @@ class Character:
 
 
 def _asleep(world, near):
-    """Return the rows of the sleeping bodies among the bodies of the shape rows `near`."""
+    """Return the BODY rows of the sleeping bodies whose shapes are among the shape rows `near`."""
     if not world.sleeps:
         return np.zeros(0, np.int64)
     rows = np.unique(world.shapes["body_row"][near])

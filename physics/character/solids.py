@@ -76,9 +76,9 @@ def verdict(c, nx, ny):
 
 @subkernel
 def allowed_depth(c, loose, nx, ny, give, slop):
-    """Return the depth [px] by which a character may overlap a surface without being blocked.
+    """Return the depth [px] by which a character (row c) may overlap a surface without being blocked.
 
-    (nx, ny): unit normal into the surface; give [px]: depth that is added in a loose shape, see is_loose.
+    loose: see is_loose; (nx, ny): unit normal into the surface; give [px]: depth that is added for a loose shape.
     """
     if not loose:
         return slop
@@ -87,10 +87,10 @@ def allowed_depth(c, loose, nx, ny, give, slop):
 
 @subkernel
 def deepest_of(b, slop, dt):
-    """Return the greatest depth [px] by which a character can have entered an outline of body b since it was free.
+    """Return the greatest depth [px] to which a character can have entered an outline of body b since it was free.
 
-    It is a pixel plus the motion of the body. A deeper overlap behind a hull edge of one part belongs to a neighbouring
-    part, see hulls.collide_hulls.
+    The depth is a pixel plus the motion of the body in dt [s]. A deeper overlap behind a hull edge of one part belongs
+    to a neighbouring part, see hulls.collide_hulls.
     """
     if b.kind == STATIC:
         return 1.0 + 2.0 * slop
@@ -102,7 +102,7 @@ def judge(c, kind, beyond, nx, ny, way_x, way_y):
     """Return (FREE, ON_SLOPE, STEEP or BLOCKED; slope) of a surface that a character (row c) overlaps.
 
     beyond [px]: overlap minus allowed_depth; kind: kind of the surface's body; way_x, way_y: pixels that the character
-    just moved. A moving body may have moved into the character, so it blocks only motion that leads deeper.
+    just moved. A moving body may itself have caused the overlap, so it blocks only motion that leads deeper.
     """
     if beyond <= 0.0:
         return FREE, 0.0
@@ -133,7 +133,7 @@ def place_outline(walk, me, left, top):
 def manifold_depth(points, manifold):
     """Return (depth [px], unit normal, middle of the points [px]) of a manifold; all 0 without points.
 
-    points: number of points.
+    points: number of points; manifold: see "clipping" in collision/hulls.py.
     """
     if points == 0:
         return 0.0, 0.0, 0.0, 0.0, 0.0
@@ -147,7 +147,7 @@ def manifold_depth(points, manifold):
 
 @subkernel
 def meet_disc(scratch, count, radius, x, y, other):
-    """Return (depth, normal, contact point) of the character's outline in a disc, as meet.
+    """Return (depth, normal, contact point) of the overlap of a character's outline with a disc, like meet.
 
     x, y, other [px]: centre and radius of the disc; count, radius: result of place_outline, which writes the outline.
     """
@@ -161,7 +161,7 @@ def meet_disc(scratch, count, radius, x, y, other):
 
 @subkernel
 def meet_hull(scratch, count, radius, corners, rounded, edges, deepest):
-    """Return (depth, normal, contact point) of the character's outline in the hull in scratch.theirs, as meet.
+    """Return (depth, normal, contact point) of a character's outline in the hull in scratch.theirs, like meet.
 
     count, radius: result of place_outline, which writes the outline; corners, rounded: number of corners and rounding
     radius [px] of the hull; edges, deepest: see hulls.collide_hulls. scratch.points[0] is COVERED_OVERLAP if a
@@ -185,10 +185,10 @@ def meet_hull(scratch, count, radius, corners, rounded, edges, deepest):
 
 @subkernel
 def meet_link(links, link, scratch, count, radius):
-    """Return (depth, normal, contact point) of the character's outline in a chain link, as meet.
+    """Return (depth, normal, contact point) of a character's outline in a chain link, in the format of meet.
 
-    From the back of the link the depth is 0. The ends of the link are in scratch.theirs; count, radius: result of
-    place_outline, which writes the outline.
+    The depth is 0 for a character behind the link. The ends of the link are in scratch.theirs; links, link: LINK rows
+    and row of the link; count, radius: result of place_outline, which writes the outline.
     """
     if count == 1:
         hit, nx, ny, x, y, separation, feature = collide_link_circle(
@@ -206,8 +206,8 @@ def meet(walk, row, count, radius):
     """Return (depth [px], unit normal from the character, contact point [px]) of its outline in a hull or a disc.
 
     row: row of the shape; count, radius: result of place_outline, which writes the outline. The depth is 0 if the shape
-    and the character are apart, or if a neighbouring part of the shape has the nearer surface; then scratch.points[0]
-    is COVERED_OVERLAP.
+    and the character are apart. It is also 0 if a neighbouring part of the shape has the nearer surface; then
+    scratch.points[0] is COVERED_OVERLAP.
     """
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -226,7 +226,7 @@ def meet(walk, row, count, radius):
 
 @subkernel
 def deepest_on(walk, body):
-    """Return the greatest depth [px] of a character in a chain link that it entered from the front."""
+    """Return the greatest depth [px] in a chain link of `body` that a character can reach from the link's front."""
     most = 1.0 + 2.0 * walk.settings.slop
     if body.kind == KINEMATIC:
         most += 1.0 + (abs(body.vx) + abs(body.vy) + abs(body.angular_velocity) * body.extent) * walk.settings.dt
@@ -235,11 +235,11 @@ def deepest_on(walk, body):
 
 @subkernel
 def link_depth(walk, row, link, drops, count, radius):
-    """Return (depth [px], unit normal from the character) of a character's outline in a chain link.
+    """Return (depth [px], unit normal from the character) of the overlap of a character with a link of a chain.
 
-    The depth is 0 if the character may pass. An overlap deeper than deepest_on was entered from the back, and passes,
-    because the character moves by pixels and starts free. If `drops` is true, the character also passes a level link
-    and a one-way surface. count, radius: see place_outline.
+    The depth is 0 if the link lets the character pass. That is so for an overlap deeper than deepest_on, which began at
+    the back of the link, and, if `drops` is true, for a level link and a one-way surface. row, link: row of the chain
+    in SHAPE, row of the link in LINK; count, radius: result of place_outline, which writes the outline.
     """
     b = walk.bodies[walk.shapes[row].body_row]
     scratch = walk.scratch
@@ -254,9 +254,9 @@ def link_depth(walk, row, link, drops, count, radius):
 
 @subkernel
 def is_across(walk, me, row, left, top):
-    """Return whether a character lies across a one-way surface, and therefore passes it.
+    """Return whether a character, with its box at pixel (left, top), lies across a one-way surface and so passes it.
 
-    False for a chain that is not the surface of a one-way mask.
+    The result is False for a chain that is not the surface of a one-way mask.
     """
     s = walk.shapes[row]
     if s.role != PART:
@@ -341,13 +341,13 @@ def deepest_link(walk, me, row, left, top):
 
 @subkernel
 def on_pixels(kind, coordinate):
-    """Return a coordinate [px] of a body for tests of characters: in whole pixels if the body is kinematic."""
+    """Return a body's coordinate [px] for tests of characters: rounded to whole pixels if `kind` is KINEMATIC."""
     return float(math.floor(coordinate + 0.5)) if kind == KINEMATIC else coordinate
 
 
 @subkernel
 def is_falling(c, way_x, way_y):
-    """Return 1 if one-way ground holds a character that moved by (way_x, way_y) pixels: straight down, not dropping."""
+    """Return 1 if one-way tiles stop a character (row c) that moved by (way_x, way_y) pixels: straight down; else 0."""
     return 1 if way_x == 0 and way_y > 0 and not c.drop else 0
 
 
@@ -404,8 +404,8 @@ def in_tiles(walk, me, row, left, top, way_x, way_y):
 def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
     """Return (depth [px], unit normal from the character) of a character's outline in the tile in scratch.theirs.
 
-    count, radius: result of place_outline, which writes the outline; corners: number of corners of the tile; edges,
-    deepest: see hulls.collide_hulls.
+    count, radius: result of place_outline, which writes the outline; corners: number of corners of the tile, a slope if
+    is_slope; edges, deepest: see hulls.collide_hulls.
     """
     mine = scratch.mine
     tile = Hull(scratch.theirs, corners, 0.0, edges)
@@ -524,7 +524,7 @@ def new_scratch() -> Scratch:
 
 
 def walk_for(tables: WorldTables, characters: np.ndarray, near: np.ndarray, spans: np.ndarray, dt: float) -> Walk:
-    """Return the Walk of a world or a StepState for a motion within dt [s].
+    """Return the Walk of a world or a StepState (`tables`) for a motion within dt [s].
 
     characters: CHARACTER rows; near, spans: see Walk.
     """
@@ -575,7 +575,7 @@ def find_own_rows(bodies, shapes, characters_inout):
 
 @subkernel
 def place_body(c, body_inout):
-    """Move the body of a character (row c) to the position of its pixel box."""
+    """Move the body of a character (row c) to the position that belongs to the character's pixel box."""
     body_inout.x, body_inout.y = c.left + c.offset_x, c.top + c.offset_y
     body_inout.center_x = body_inout.x + body_inout.local_center_x
     body_inout.center_y = body_inout.y + body_inout.local_center_y
@@ -583,7 +583,7 @@ def place_body(c, body_inout):
 
 @subkernel
 def settle(me, walk_inout):
-    """Move the body of a character to the position of its pixel box. me: its CHARACTER row."""
+    """Move the body of a character to the position that belongs to its pixel box. me: CHARACTER row."""
     c = walk_inout.characters[me]
     place_body(c, walk_inout.bodies[c.body_row])
 
@@ -631,7 +631,7 @@ def is_box(walk, row):
 def is_loose(walk, row):
     """Return whether a shape is loose: dynamic, or kinematic and not tested on the pixel grid.
 
-    Of kinematic shapes only axis-aligned boxes and tile grids that do not rotate are tested on the pixel grid.
+    Of kinematic shapes, only tile grids and axis-aligned boxes that do not rotate are tested on the pixel grid.
     """
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -651,7 +651,7 @@ def aabb_of(walk, row):
 
 @subkernel
 def in_character(walk, me, other, left, top):
-    """Return whether a character, with its box at pixel (left, top), would overlap the character `other`."""
+    """Return whether a character with its box at pixel (left, top) would overlap another. me, other: CHARACTER rows."""
     c = walk.characters[me]
     o = walk.characters[other]
     hit = left < o.left + o.width and o.left < left + c.width and top < o.top + o.height and o.top < top + c.height
@@ -664,7 +664,7 @@ def in_character(walk, me, other, left, top):
 
 @subkernel
 def in_upright_box(walk, me, row, left, top):
-    """Return whether a character's box at pixel (left, top) shares a pixel with an axis-aligned box, both rounded."""
+    """Return whether a character's box at pixel (left, top) shares a pixel with shape `row`, an axis-aligned box."""
     c = walk.characters[me]
     min_x, min_y, max_x, max_y = aabb_of(walk, row)
     return (
@@ -697,8 +697,8 @@ def in_hull(walk, me, row, left, top, way_x, way_y, give):
 def in_shape(walk, me, row, left, top, way_x, way_y, give):
     """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a character at a position, with regard to one shape.
 
-    me, row: CHARACTER row and shape row. left, top: pixel of the character's box. way_x, way_y: pixels moved to get
-    there. give [px]: depth that is allowed in a loose shape, see allowed_depth.
+    me, row: CHARACTER row and shape row. left, top: pixel of the character's box. way_x, way_y: pixels that it moved to
+    get there. give [px]: depth that is allowed in a loose shape, see allowed_depth.
     """
     c = walk.characters[me]
     s = walk.shapes[row]
@@ -721,7 +721,7 @@ def in_shape(walk, me, row, left, top, way_x, way_y, give):
 
 @subkernel
 def gather(walk, me, without, reach_x, reach_up, reach_down, rows_out):
-    """List the shapes that may block a character, within these distances [px] of its box. O(nearby rows).
+    """List the shapes that may block a character, within reach_x, reach_up, reach_down [px] of its box. O(nearby rows).
 
     rows_out: the number of shapes, then their rows; a loose shape is listed as -1 - row. without: body row to leave out
     (the platform that moves the character), or -1.
@@ -764,8 +764,9 @@ def gather(walk, me, without, reach_x, reach_up, reach_down, rows_out):
 def blocked_at(walk, me, rows, left, top, way_x, way_y, give):
     """Return (FREE, STEEP, ON_SLOPE or BLOCKED; shape row with this result, or -1; slope) of a character at a position.
 
-    rows: see gather; other arguments: see in_shape. The greatest result is used; the search ends at BLOCKED. If all
-    parts of a static mask leave the contact to their neighbours, the position is deep inside the mask, and BLOCKED.
+    rows: see gather; other arguments: see in_shape. The greatest result of all shapes is returned; BLOCKED ends the
+    search. If all parts of a static mask leave the contact to their neighbours, the position is deep in the mask, and
+    BLOCKED.
     """
     result = FREE
     by = -1

@@ -35,9 +35,9 @@ from physics.tables.table import row_of
 def rise_onto(walk, me, rows, direction, slope):
     """Return the pixels by which a character can rise onto walkable ground one pixel to a side; -1: it cannot.
 
-    direction: -1 left, 1 right; slope: rise of this ground per px. The rise may exceed the slope by half a pixel,
-    because of corners of outlines on steps of pixels. Ground that is too steep to walk on does not count, even if it
-    holds the character.
+    me: CHARACTER row; rows: nearby solids, see solids.gather; direction: -1 left, 1 right; slope: rise of this ground
+    per px. The rise may exceed the slope by half a pixel, because of corners of outlines on steps of pixels. Ground
+    that is too steep to walk on does not count, even if it holds the character.
     """
     c = walk.characters[me]
     most = pixels_along(abs(slope) + 0.5)
@@ -57,9 +57,10 @@ def rise_onto(walk, me, rows, direction, slope):
 
 @subkernel
 def way_aside(walk, me, rows, direction):
-    """Return (pixels up; blocking shape row, or -1; slope) of a move of a character by one pixel to a side.
+    """Return (pixels up; blocking shape row, or -1; slope of the ground) of a character's move by one pixel to a side.
 
-    Pixels up: 0 on level ground, -1 if the move is blocked. direction: -1 left, 1 right.
+    Pixels up: 0 on level ground, -1 if the move is blocked. me: CHARACTER row; rows: nearby solids, see solids.gather;
+    direction: -1 left, 1 right.
     """
     c = walk.characters[me]
     what, by, slope = blocked_at(walk, me, rows, c.left + direction, c.top, direction, 0, 0.0)
@@ -74,8 +75,9 @@ def way_aside(walk, me, rows, direction):
 def drop_onto(walk, me, rows, left, onto):
     """Return (pixels down until a character stands on walkable ground, slope of this ground); 0 without such ground.
 
-    left: pixel column of the character. onto: slope of the ground that the character leaves; 0 for flat ground, from
-    which it drops only onto slopes. Flat ground is found down to one pixel plus the rise of `onto`.
+    me: CHARACTER row; rows: nearby solids, see solids.gather; left: pixel column of the character; onto: slope of the
+    ground that the character leaves. With onto = 0 (flat ground) only slopes are found. Otherwise flat ground is also
+    found, down to one pixel plus the rise of `onto`.
     """
     c = walk.characters[me]
     for drop in range(pixels_along(c.climb) + 1):
@@ -95,7 +97,10 @@ def drop_onto(walk, me, rows, left, onto):
 
 @subkernel
 def is_wedged(walk, me, rows, slope):
-    """Return whether a solid at the foot of a slope stops a character that slides down the slope."""
+    """Return whether a solid at the foot of a slope stops a character that slides down the slope.
+
+    me: CHARACTER row; rows: nearby solids, see solids.gather; slope: rise per px to the right.
+    """
     c = walk.characters[me]
     side = -1 if slope > 0.0 else 1
     what, by, rise = blocked_at(walk, me, rows, c.left + side, c.top, side, 0, 0.0)
@@ -106,7 +111,8 @@ def is_wedged(walk, me, rows, slope):
 def steep_below(walk, me, rows, slope):
     """Return the slope of steep ground just below a sliding character; 0: there is none.
 
-    Steep ground is too steep to walk on. It is searched within the drop of `slope` over one pixel along x.
+    Steep ground is too steep to walk on. The search covers the drop of `slope` over one pixel along x. me: CHARACTER
+    row; rows: nearby solids, see solids.gather.
     """
     c = walk.characters[me]
     for drop in range(1, pixels_along(slope) + 1):
@@ -118,7 +124,10 @@ def steep_below(walk, me, rows, slope):
 
 @subkernel
 def slide_of(slope):
-    """Return (pixels along x, pixels down) of a slide along a slope, for each pixel that a free fall would move."""
+    """Return (pixels along x, pixels down) that a character slides down a slope for each pixel of a free fall.
+
+    slope: rise per px to the right.
+    """
     length = math.sqrt(1.0 + slope * slope)
     sine = slope / length
     return -sine / length, sine * sine
@@ -128,7 +137,8 @@ def slide_of(slope):
 def slide_gently(me, rows, pixels, slope, walk_inout):
     """Slide down ground that is too steep to walk on but flatter than 45 degrees, for a fall of `pixels`.
 
-    The character moves pixel by pixel along x. Return whether nothing stopped it.
+    The character moves pixel by pixel along x. me: CHARACTER row; rows: nearby solids, see solids.gather; slope: rise
+    of the ground per px to the right. Return whether nothing stopped the character.
     """
     c = walk_inout.characters[me]
     aside, down = slide_of(slope)
@@ -170,7 +180,10 @@ def tile_slope(walk, row, x, y):
 
 @subkernel
 def slope_under_box(walk, me, row):
-    """Return the slope of the tile under the middle of a box's feet; if it is 0, the slope under an end of the feet."""
+    """Return the slope of the tile under the middle of a box's feet, or if it is 0, under an end of the feet.
+
+    me, row: CHARACTER row and shape row of the tile grid.
+    """
     c = walk.characters[me]
     bottom = c.top + c.height + 0.5
     slope = tile_slope(walk, row, c.left + 0.5 * c.width, bottom)
@@ -185,7 +198,7 @@ def slope_under_box(walk, me, row):
 def speed_under(walk, row, x, y):
     """Return the surface speed [px/s] of a shape at the point (x, y) [px] where a character stands on it.
 
-    It is along the tangent, and positive to the right on a floor (Box2D's tangent speed).
+    The speed is along the tangent, and positive to the right on a floor (Box2D's tangent speed).
     """
     s = walk.shapes[row]
     if s.kind != CHAIN:
@@ -267,7 +280,10 @@ def depth_in(me, row, walk_inout):
 
 @subkernel
 def is_in_drawn(me, row, walk_inout):
-    """Return whether a shape overlaps a character on the pixel grid: it blocks a motion left, right, up or down."""
+    """Return whether a shape overlaps a character on the pixel grid: it would block a motion in one of four directions.
+
+    me, row: CHARACTER row and shape row.
+    """
     c = walk_inout.characters[me]
     for side in range(-1, 2, 2):
         what, slope = in_shape(walk_inout, me, row, c.left, c.top, side, 0, 0.0)
@@ -283,7 +299,7 @@ def is_in_drawn(me, row, walk_inout):
 def is_crushed(me, all_kinds, walk_inout):
     """Return whether a moving solid overlaps a character; if it is loose, by more than GIVE. O(nearby solids).
 
-    all_kinds: whether bodies that the solver moves are also tested; otherwise only kinematic bodies are.
+    me: CHARACTER row; all_kinds: True to test dynamic bodies too, False for kinematic bodies only.
     """
     gather(walk_inout, me, -1, 0.0, 0.0, 0.0, walk_inout.found)
     for k in range(1, walk_inout.found[0] + 1):
@@ -337,7 +353,7 @@ def lead_out(me, reach, walk_inout, moved_inout):
     """Move a character out of a static solid towards the nearest free position, by up to PACE pixels.
 
     Of equally near positions, up comes before sideways, and sideways before down. The character does not move if there
-    is no free position within `reach` [px]. moved_inout: see walk; the pixels moved are added. O(reach · nearby
+    is no free position within `reach` [px]. The pixels moved are added to moved_inout, see walk. O(reach · nearby
     solids).
     """
     c = walk_inout.characters[me]
@@ -377,9 +393,9 @@ def lead_out(me, reach, walk_inout, moved_inout):
 
 @subkernel
 def push_body(me, row, direction, speed, left, walk_inout):
-    """Push one body towards a speed [px/s] along x, by an impulse of at most `left`.
+    """Push one body towards a speed [px/s] along x, by an impulse of at most `left`. Return the unused part of `left`.
 
-    row: row of the shape; direction: -1 left, 1 right. Return the part of `left` that was not used.
+    me, row: CHARACTER row and shape row of the body; direction: -1 left, 1 right.
     """
     c = walk_inout.characters[me]
     b = walk_inout.bodies[walk_inout.shapes[row].body_row]
@@ -407,7 +423,8 @@ def push_body(me, row, direction, speed, left, walk_inout):
 def shove(me, direction, speed, walk_inout):
     """Push the bodies next to a character towards the speed [px/s] of its move, as far as its strength allows.
 
-    The push is a force over the coming step, so sufficient friction holds a body in place. direction: -1 left, 1 right.
+    The push is a force over the coming step, so sufficient friction holds a body in place. me: CHARACTER row;
+    direction: -1 left, 1 right.
     """
     c = walk_inout.characters[me]
     speed += walk_inout.bodies[c.body_row].vx  # the speed of its carrier
@@ -426,9 +443,10 @@ def shove(me, direction, speed, walk_inout):
 
 @subkernel
 def foot_of(c, s):
-    """Return the point (x, y) [px] of the feet of a character (row c) that stands on a shape (row s).
+    """Return the point (x, y) [px] at which the feet of a character (row c) stand on a shape (row s).
 
-    It is the middle of the feet, or the point nearest to the middle that is above the shape.
+    The point is the middle of the feet, or the point of the feet nearest to the middle that is within the shape's AABB
+    along x.
     """
     return min(max(c.left + 0.5 * c.width, s.min_x), s.max_x), float(c.top + c.height)
 
@@ -437,7 +455,7 @@ def foot_of(c, s):
 def knock(me, row, direction, speed, walk_inout):
     """Apply the inelastic impact of a character that lands on a body (direction 1) or hits it with its head (-1).
 
-    row: row of the shape; speed [px/s]: speed of the character along y, positive down.
+    me, row: CHARACTER row and shape row of the body; speed [px/s]: speed of the character along y, positive down.
     """
     c = walk_inout.characters[me]
     x, y = foot_of(c, walk_inout.shapes[row])
@@ -459,8 +477,9 @@ def knock(me, row, direction, speed, walk_inout):
 def press(shapes, gravity_x, gravity_y, slow, characters_inout, bodies_inout):
     """Apply the weight of characters to the awake dynamic bodies that they stand on. O(characters · log shapes).
 
-    gravity [px/s2]. The body of a character gets the velocity of its ground, except if the ground is slower than `slow`
-    [px/s]: such ground is coming to rest, and must not be kept awake. The point under the feet [px] is stored.
+    gravity_x, gravity_y [px/s2]. The body of a character gets the velocity of the ground under it, except if the ground
+    is slower than `slow` [px/s]: such ground is coming to rest, and must not be kept awake. The point under the feet
+    [px] is stored.
     """
     for me in range(len(characters_inout)):
         c = characters_inout[me]
@@ -523,7 +542,7 @@ def write_weight(characters, weight_rate, manifolds_inout):
 
 @subkernel
 def whole_pixels(remainder):
-    """Return the whole number of pixels nearest to a remainder [px], by which a character moves."""
+    """Return the whole number of pixels nearest to `remainder` [px], the part of a motion not yet made."""
     return math.floor(remainder + 0.5)
 
 
@@ -531,8 +550,8 @@ def whole_pixels(remainder):
 def way_for_pushed(by, direction, walk_inout):
     """Return (row of the character that blocks a move; pixels up by which it can be pushed one pixel along x).
 
-    by: shape row that blocks the move. The first value is -1 if `by` is not a character, the second -1 if it cannot
-    move.
+    by: shape row that blocks the move; direction: -1 left, 1 right. The first value is -1 if `by` does not belong to a
+    character; the second is -1 if this character cannot move.
     """
     other = character_of(walk_inout.characters, walk_inout.shapes[by].body)
     if other < 0:
@@ -546,7 +565,8 @@ def way_for_pushed(by, direction, walk_inout):
 def step_sideways(me, direction, follow, walk_inout):
     """Move a character one pixel along x, with a pushable character in front of it. Return whether it moved.
 
-    It moves up a slope, and if `follow` is 1 also down a slope. direction: -1 left, 1 right.
+    The character also moves up a slope, and if `follow` is 1 down a slope. me: CHARACTER row; direction: -1 left, 1
+    right.
     """
     c = walk_inout.characters[me]
     rows = walk_inout.found
@@ -668,8 +688,9 @@ def fall_or_rise(me, dy, walk_inout, moved_out):
 def walk(me, dx, dy, walk_inout, moved_out):
     """Move a character by (dx, dy) [px], x first, and write its contacts. Return whether it overlaps a static solid.
 
-    me: its CHARACTER row. walk_inout: see Walk. moved_out (4,): pixels moved along x, along y; 1 if it was stopped
-    along x, along y. If it overlaps a static solid, see lead_out. O(pixels · nearby solids).
+    me: CHARACTER row. walk_inout: see Walk. moved_out (4,): pixels moved along x, along y; 1 if the character was
+    stopped along x, along y. A character that overlaps a static solid has to be led out, see lead_out. O(pixels ·
+    nearby solids).
     """
     c = walk_inout.characters[me]
     reach = 3.0 + abs(dx) + abs(dy)
@@ -692,9 +713,9 @@ def walk(me, dx, dy, walk_inout, moved_out):
 
 @kernel
 def is_stopped(me, along_x, along_y, walk_inout):
-    """Return whether a character cannot move by (along_x, along_y) pixels (each -1, 0 or 1). It is not moved.
+    """Return whether a character cannot move by (along_x, along_y) pixels, each -1, 0 or 1.
 
-    me: its CHARACTER row.
+    It is not moved by the test. me: CHARACTER row.
     """
     c = walk_inout.characters[me]
     gather(walk_inout, me, -1, 3.0, 3.0 + STEEPEST_CLIMB, 3.0, walk_inout.found)

@@ -28,7 +28,7 @@ def outline_of_part(geometry, bodies, shapes, row, part, workspace):
     """Write the corners [px] of one part of a tile grid or chain to workspace.b. Return the number of corners.
 
     row: row of SHAPE; part: for a grid the index of the first cell of a run of tiles (one rectangle of equal cells),
-    for a chain the index of a link. A link is widened to a rectangle, BACKING thick, because a line has no area.
+    for a chain the index of a link. A link has no area, so it is widened to a rectangle, BACKING thick.
     """
     s = shapes[row]
     b = bodies[s.body_row]
@@ -64,7 +64,7 @@ def area_in_part(geometry, bodies, shapes, mask, other, part, workspace):
 
 @kernel
 def count_areas(geometry, bodies, shapes, workspace, manifolds_inout):
-    """Recompute area_1 and area_2 [px2] of every CONTACT row whose area_1 is not 0, at the present poses.
+    """Recompute area_1 and area_2 [px2] at the present poses, in every CONTACT row whose area_1 is not 0.
 
     area_2 is written only against tiles and chains, for a second point. O(shared pixels).
     """
@@ -94,10 +94,10 @@ def count_areas(geometry, bodies, shapes, workspace, manifolds_inout):
 def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:
     """Return the contacts (CONTACT rows) with the area [px2] that their shapes share at the present poses.
 
-    Rows name whole shapes, not the parts that touch. The area is 0 if neither shape is a mask, or if no pixels overlap.
-    Each point reports the area of the whole pair; against tiles and chains, the area in the touched run or link. In
-    worlds without contact response a step only tests whether two masks overlap; there this function also computes
-    point, normal and depth of these contacts.
+    The rows name whole shapes, not the parts that touch. The area is 0 if neither shape is a mask, or if no pixels
+    overlap. Each point reports the area of the whole pair, but against tiles and chains the area in the touched run or
+    link. In worlds without contact response a step only tests whether two masks overlap; for these contacts this
+    function also computes point, normal and depth.
     """
     whole, _ = by_parent(manifolds)
     shapes = tables.shapes
@@ -132,7 +132,7 @@ def put_back(full, places, manifolds_out):
 
 
 def _told_in_full(tables, manifolds):
-    """Return the manifolds with point, normal and depth computed for each pair of masks that still overlaps."""
+    """Return the manifolds, with point, normal and depth computed for each pair of masks that still overlaps."""
     shapes = tables.shapes
     row_a, row_b = (_rows(shapes, manifolds, side) for side in "ab")
     masks = (row_a >= 0) & (row_b >= 0) & (shapes["kind"][row_a] == MASK) & (shapes["kind"][row_b] == MASK)

@@ -76,7 +76,7 @@ def link_at(links, link, x, y, cosine, sine, corners_out):
 
 @subkernel
 def dot_along(points, i, j, x, y, origin):
-    """Return the dot product [px2] of two vectors: from point `origin` to (x, y), and from point i to point j.
+    """Return the dot product [px2] of two vectors: from point number `origin` to (x, y), and from point i to point j.
 
     points (16, 2) [px]; origin, i, j: rows of points.
     """
@@ -87,14 +87,17 @@ def dot_along(points, i, j, x, y, origin):
 
 @subkernel
 def height_over(points, i, j, x, y):
-    """Return the signed distance [px] of (x, y) from the line through points i and j; positive in front of the line."""
+    """Return the signed distance [px] of (x, y) from the line through points i and j; positive in front of the line.
+
+    points (16, 2) [px]; i, j: rows of points.
+    """
     nx, ny = unit(points[j, 1] - points[i, 1], points[i, 0] - points[j, 0], 0.0, -1.0)
     return nx * (x - points[i, 0]) + ny * (y - points[i, 1])
 
 
 @subkernel
 def is_convex(points, i, j, k):
-    """Return whether the chain from point i over j to k has a convex corner at j: it bends away from its front."""
+    """Return whether the chain of points i, j, k has a convex corner at j: it bends away from its front side."""
     dx = points[j, 0] - points[i, 0]
     dy = points[j, 1] - points[i, 1]
     ex = points[k, 0] - points[j, 0]
@@ -104,7 +107,7 @@ def is_convex(points, i, j, k):
 
 @subkernel
 def is_gentle_hollow(points, i, j, k):
-    """Return whether the chain from point i over j to k bends towards its front at j, by less than 30 degrees."""
+    """Return whether the chain of points i, j, k bends towards its front side at j, by less than 30 degrees."""
     dx = points[j, 0] - points[i, 0]
     dy = points[j, 1] - points[i, 1]
     ex = points[k, 0] - points[j, 0]
@@ -141,7 +144,10 @@ def is_behind(link, points, x, y):
 
 @subkernel
 def owns_start(link, points, x, y):
-    """Return whether this link, not the previous one, reports contacts at its end a with a shape centred at (x, y)."""
+    """Return whether a link, not the previous one, reports contacts at its end a with a shape centred at (x, y).
+
+    link: LINK row; points: see link_at.
+    """
     return link.first_owned or height_over(points, 2, 0, x, y) < 0.0
 
 
@@ -150,7 +156,7 @@ def collide_link_circle(link, points, x, y, radius):
     """Return (found, normal from link to disc, contact point, separation, feature) of a link and a disc [px].
 
     link: LINK row; points: see link_at; x, y, radius: centre and radius of the disc. The contact point is midway
-    between the surfaces. Feature: 0 for the link's face, CIRCLE_CORNER for its end a, CIRCLE_CORNER + 1 for its end b.
+    between the surfaces. feature: 0 for the link's face, CIRCLE_CORNER for its end a, CIRCLE_CORNER + 1 for its end b.
     """
     nx, ny = unit(points[1, 1] - points[0, 1], points[0, 0] - points[1, 0], 0.0, -1.0)
     height = nx * (x - points[0, 0]) + ny * (y - points[0, 1])
@@ -187,7 +193,10 @@ def collide_link_circle(link, points, x, y, radius):
 
 @subkernel
 def is_towards_end(points, nx, ny):
-    """Return whether the direction (nx, ny) has a positive component along a link, from its end a to its end b."""
+    """Return whether the direction (nx, ny) has a positive component along a link, from its end a to its end b.
+
+    points: see link_at.
+    """
     return dot_along(points, 0, 1, points[0, 0] + nx, points[0, 1] + ny, 0) > 0.0
 
 
@@ -196,7 +205,8 @@ def classify_normal(link, points, towards_end, nx, ny):
     """Return how to treat the normal (nx, ny) from a link to a hull: ADMIT, SNAP or SKIP.
 
     ADMIT: use the normal. SNAP: use the link's own normal. SKIP: no contact, because the neighbouring link reports it.
-    towards_end: whether the hull touches the link's end b (otherwise a); the neighbour at this end is considered.
+    link: LINK row; points: see link_at; towards_end: True if the hull touches the link's end b, False for its end a.
+    The neighbour at this end is considered.
     """
     has_neighbour = link.has_after if towards_end else link.has_before
     own_x, own_y = unit(points[1, 1] - points[0, 1], points[0, 0] - points[1, 0], 0.0, -1.0)
@@ -221,10 +231,11 @@ def classify_normal(link, points, towards_end, nx, ny):
 
 @subkernel
 def neighbour_separates(points, nx, ny, hull, x, y, face):
-    """Return whether a neighbouring link faces a Hull that is less deep behind the neighbour than behind this link.
+    """Return whether a neighbouring link is a better reference than this link for the contact with a Hull.
 
-    The neighbour is at the end in the direction (nx, ny). x, y: centre of the Hull; face [px]: separation of the Hull
-    from this link's face.
+    The neighbour is better if the Hull's centre is in front of it, and the Hull's separation from it is greater than
+    `face` [px], the Hull's separation from this link. The neighbour is the one at the end in the direction (nx, ny).
+    points: see link_at; x, y: centre of the Hull.
     """
     towards_end = is_towards_end(points, nx, ny)
     i = 1 if towards_end else 2
@@ -242,7 +253,8 @@ def push_at_open_end(link, points, hull, face, margin, manifold_out):
     """Write a contact point that pushes a Hull out past an open end of the chain. Return the number of points, 0 or 1.
 
     The reference plane goes through the open end, perpendicular to the link. A point is written only if the Hull's
-    separation from this plane exceeds `face` [px], the Hull's separation from the link's face.
+    separation from this plane exceeds `face` [px], its separation from the link's face, and is at most `margin` [px].
+    link: LINK row; points: see link_at.
     """
     ex, ey = unit(points[1, 0] - points[0, 0], points[1, 1] - points[0, 1], 1.0, 0.0)
     manifold_out[0] = 0.0
@@ -274,7 +286,10 @@ def push_at_open_end(link, points, hull, face, margin, manifold_out):
 
 @subkernel
 def keep_owned(link, points, x, y, count, manifold_out):
-    """Drop the contact points at end a that the previous link reports. Return the number of points left."""
+    """Drop the contact points at end a that the previous link reports. Return the number of remaining points.
+
+    link: LINK row; points: see link_at; x, y: centre of the other shape; count: number of points before.
+    """
     nx, ny = manifold_out[1], manifold_out[2]
     if is_towards_end(points, nx, ny) or owns_start(link, points, x, y):
         return count
@@ -296,8 +311,9 @@ def keep_owned(link, points, x, y, count, manifold_out):
 def collide_link_hull(link, points, hull, margin, bias, is_second, manifold_out):
     """Write the manifold of a link and a Hull of two or more corners. Return the number of points.
 
-    margin, bias, manifold_out: see hulls.collide_hulls. is_second: whether this is the second pass, which is made if
-    each link left the contact to its neighbour; in this pass no contact is left to neighbours.
+    link: LINK row; points: see link_at; margin, bias, manifold_out: see hulls.collide_hulls. is_second: whether this is
+    the second pass over the links, in which no contact is left to neighbours. The second pass is made if in the first
+    pass each link left the contact to its neighbour.
     """
     corners = hull.corners
     count = hull.count
@@ -365,7 +381,10 @@ BACKING = 2.0  # [px] thickness added behind a link when it is tested against a 
 
 @subkernel
 def box_in_body(min_x, min_y, max_x, max_y, x, y, cosine, sine):
-    """Return the AABB [px] of a world box in the local space of a body. x, y, cosine, sine: pose of the body."""
+    """Return the AABB [px], in the local space of a body, of the world box from min_x, min_y to max_x, max_y.
+
+    x, y, cosine, sine: pose of the body.
+    """
     middle_x, middle_y = rotate(0.5 * (min_x + max_x) - x, 0.5 * (min_y + max_y) - y, cosine, -sine)
     half_x, half_y = 0.5 * (max_x - min_x), 0.5 * (max_y - min_y)
     reach_x = abs(cosine) * half_x + abs(sine) * half_y
@@ -375,7 +394,7 @@ def box_in_body(min_x, min_y, max_x, max_y, x, y, cosine, sine):
 
 @subkernel
 def misses_box(ax, ay, bx, by, min_x, min_y, max_x, max_y):
-    """Return whether the AABB of the segment from (ax, ay) to (bx, by) is disjoint from the box (min_x, …, max_y)."""
+    """Return whether the AABB of the segment from (ax, ay) to (bx, by) is disjoint from the box min_x to max_y."""
     return max(ax, bx) < min_x or min(ax, bx) > max_x or max(ay, by) < min_y or min(ay, by) > max_y
 
 
@@ -476,7 +495,10 @@ collide_chain_pairs = make_pass(CHAIN_ANY, collide_chain_pair)
 
 @subkernel
 def line_separation(line, hull):
-    """Return the separation [px] of a Hull from the line between two points; negative if it lies across the line."""
+    """Return the separation [px] of a Hull from the line through two points; negative if the Hull lies across the line.
+
+    line: array whose first two rows are the points.
+    """
     corners = hull.corners
     count = hull.count
     if count > 1:
@@ -563,9 +585,9 @@ def was_across(batch, surface, other, most, workspace):
 def admit_to_surfaces(batch, known, workspace, kinds_inout, counts_inout):
     """Set the kind of each SURFACE_ANY pair: CHAIN_ANY if the shapes may collide, else NOTHING.
 
-    They may collide if they touched in the last step, or if the shape was not across the surface at the previous poses.
-    known: whether workspace.memory holds the contacts of the last step. kinds_inout (candidates,): kind of each pair;
-    counts_inout: number of pairs of each kind. O(candidates + nearby links).
+    The shapes may collide if they touched in the last step, or if the other shape was not across the one-way surface at
+    the previous poses. known: whether workspace.memory holds the contacts of the last step. kinds_inout (candidates,):
+    kind of each pair; counts_inout: number of pairs of each kind. O(candidates + nearby links).
     """
     for i in range(batch.count):
         if kinds_inout[i] != SURFACE_ANY:

@@ -55,9 +55,10 @@ NEVER = -1.0  # in place of a time: the shapes do not meet
 
 @subkernel
 def needs_ccd(body, distance):
-    """Return whether a body that moves a distance [px] in a step needs continuous collision detection.
+    """Return whether a body that moves by `distance` [px] in a step needs continuous collision detection.
 
-    It needs it if the distance exceeds its inradius; then it gets no speculative contacts. body: BODY row.
+    A body needs it if the distance exceeds its inradius, unless it is static. Such a body gets no speculative contacts.
+    body: BODY row.
     """
     return body.kind != STATIC and distance > body.inradius
 
@@ -66,9 +67,9 @@ def needs_ccd(body, distance):
 def speculative_distance(a, b, speed, margin, lookahead):
     """Return the largest gap [px] at which two bodies get a speculative contact.
 
-    If a body needs continuous collision detection, the gap is `margin` [px]. Otherwise it is the greater of `margin`
-    and the distance covered in `lookahead` [s] at the greatest of three speeds: `speed`, and those of the two bodies,
-    because one may be stopped on the way. a, b: BODY rows; speed [px/s]: speed of B relative to A.
+    If a body needs continuous collision detection, the gap is `margin` [px]. Otherwise the gap is the greater of
+    `margin` and the distance covered in `lookahead` [s] at the greatest of three speeds: `speed`, and those of the two
+    bodies, because one of them may be stopped on the way. a, b: BODY rows; speed [px/s]: speed of B relative to A.
     """
     distance = lookahead * max(speed, norm(a.vx, a.vy), norm(b.vx, b.vy))
     return margin if needs_ccd(a, distance) or needs_ccd(b, distance) else max(margin, distance)
@@ -92,7 +93,8 @@ def speculative_rotation(a, b, speed, margin, lookahead):
 def collide_circles(ax, ay, a_radius, bx, by, b_radius):
     """Return (unit normal from A to B, contact point, separation) of two discs [px].
 
-    The point is midway between the surfaces. Discs with equal centres get the normal (1, 0). O(1).
+    ax, ay, a_radius, bx, by, b_radius: centres and radii. The point is midway between the surfaces. Discs with equal
+    centres get the normal (1, 0). O(1).
     """
     dx, dy = bx - ax, by - ay
     nx, ny = unit(dx, dy, 1.0, 0.0)
@@ -134,9 +136,9 @@ def time_of_closest_approach(dx, dy, vx, vy):
 def toi_hulls(a, vx, vy, target, most, b_inout):
     """Return the time [s] at which the gap of two Hulls has shrunk to `target` [px] (conservative advancement).
 
-    B moves at vx, vy [px/s] relative to A, and its corners are moved to the pose at this time. Return the time of least
-    distance if the gap stops shrinking before, and NEVER if the gap is not reached within `most` [s]. O(corners²) an
-    iteration.
+    B moves at vx, vy [px/s] relative to A, and its corners are moved to the pose at the returned time. If the gap stops
+    shrinking before, the time of least distance is returned. If the gap is not reached within `most` [s], NEVER is
+    returned. O(corners²) an iteration.
     """
     time = 0.0
     corners = b_inout.corners
@@ -167,9 +169,9 @@ def toi_hulls(a, vx, vy, target, most, b_inout):
 def advance_to_contact(margin, lookahead, p, q, a, b_inout):
     """Move the corners of Hull B to its predicted contact with Hull A. Slow pairs are not moved.
 
-    p, q: BODY rows of A and B; margin [px]; lookahead [s]. Return (time, vx, vy, reach): time [s] of the contact, 0 for
-    slow pairs, or NEVER; velocity of B relative to A [px/s]; largest separation [px] of a contact point at this pose.
-    reach exceeds the margin if rotation may close a wider gap.
+    p, q: BODY rows of A and B; margin [px]: gap at the predicted contact; lookahead [s]: greatest time. Return (time,
+    vx, vy, reach): time [s] of the contact, 0 for slow pairs, or NEVER; velocity of B relative to A [px/s]; largest
+    separation [px] of a contact point at this pose. reach exceeds the margin if rotation may close a wider gap.
     """
     if lookahead == 0.0:
         return 0.0, 0.0, 0.0, margin
@@ -185,9 +187,9 @@ def advance_to_contact(margin, lookahead, p, q, a, b_inout):
 def toi_hull_circle(hull, x, y, radius, vx, vy, target, most):
     """Return the time [s] at which the gap of a Hull and a moving disc has shrunk to `target` [px].
 
-    x, y, radius [px]: centre and radius of the disc; vx, vy [px/s]: its velocity relative to the Hull. Return the time
-    of least distance if the gap stops shrinking before, and NEVER if the gap is not reached within `most` [s].
-    O(corners) an iteration.
+    x, y, radius [px]: centre and radius of the disc; vx, vy [px/s]: its velocity relative to the Hull. If the gap stops
+    shrinking before, the time of least distance is returned. If the gap is not reached within `most` [s], NEVER is
+    returned. O(corners) an iteration.
     """
     whole = Hull(hull.corners, hull.count, hull.radius, ALL_EDGES)
     time = 0.0
@@ -206,9 +208,10 @@ def toi_hull_circle(hull, x, y, radius, vx, vy, target, most):
 
 @subkernel
 def path_offsets(time, vx, vy, nx, ny):
-    """Return the two components of B's displacement [px] after a time [s] at the velocity vx, vy [px/s].
+    """Return the displacement [px] of B after a time [s] at the velocity vx, vy [px/s], as two components.
 
-    The first component is against the unit normal (nx, ny), the second along the tangent (-ny, nx).
+    The first component is along -(nx, ny), so it is positive if B approaches against the unit normal. The second is
+    along the tangent (-ny, nx).
     """
     return -time * (vx * nx + vy * ny), time * (vy * nx - vx * ny)
 
@@ -254,8 +257,8 @@ class Meeting(NamedTuple):
 def travel_of(batch, ground, body):
     """Return the Travel of a body relative to the ground. ground, body: BODY rows.
 
-    The Travel has no prediction for a slow body, nor for a fast body that is left to continuous collision detection:
-    then reach is the margin and time is 0.
+    Two kinds of bodies get no prediction (reach is the margin, time is 0): slow bodies, and fast bodies that are left
+    to continuous collision detection.
     """
     if batch.lookahead == 0.0:
         return Travel(0.0, 0.0, batch.margin, 0.0)
@@ -269,7 +272,8 @@ def travel_of(batch, ground, body):
 def advance_to_piece(travel, margin, piece, hull, corners_out):
     """Write the corners [px] of a Hull at its predicted contact with a piece of ground. Return the time [s] or NEVER.
 
-    piece: Hull of a run of tiles or of a link; margin [px]. Without prediction (travel.time 0) the Hull is not moved.
+    travel: Travel; margin [px]: gap at the predicted contact; piece: Hull of a run of tiles or of a link. Without
+    prediction (travel.time 0) the Hull is not moved.
     """
     corners = hull.corners
     for k in range(hull.count):
@@ -286,8 +290,9 @@ def advance_to_piece(travel, margin, piece, hull, corners_out):
 def move_piece_manifold_back(time, travel, sign, points_inout):
     """Convert a manifold of ground and hull, computed at their predicted contact, to the hull's present position.
 
-    time [s]: time until the contact; sign: 1.0 if the ground is A, else -1.0; points_inout (11,): see "clipping" in
-    hulls.py. Return the distance [px] that B moves along the tangent, relative to A, until the contact.
+    time [s]: time until the contact; travel: Travel of the hull; sign: 1.0 if the ground is A, else -1.0; points_inout
+    (11,): see "clipping" in hulls.py. Return the distance [px] that B moves along the tangent, relative to A, until the
+    contact.
     """
     tangential = move_manifold_back(time, travel.vx, travel.vy, points_inout)
     if sign < 0.0:
@@ -300,10 +305,10 @@ def move_piece_manifold_back(time, travel, sign, points_inout):
 
 @subkernel
 def piece_misses_circle(meeting, graze, disc, separation, feature, corners_out):
-    """Return whether the predicted contact of a disc with a corner is false because the disc's path misses the piece.
+    """Return whether a disc's predicted contact with a corner of a piece is false: the disc's path misses the piece.
 
-    meeting: Meeting; disc: (x, y, radius); separation [px], feature: values of the contact; corners_out (16, 2):
-    scratch.
+    meeting: Meeting; graze [px]: a contact with a separation up to this is kept; disc: (x, y, radius); separation [px],
+    feature: values of the contact; corners_out (16, 2): scratch.
     """
     travel = meeting.travel
     if travel.time == 0.0 or separation <= graze or feature < CIRCLE_CORNER:
@@ -328,7 +333,10 @@ def set_tangential_offset(before, found, offset, manifolds_out):
 
 @inlined
 def time_to_piece(travel, margin, piece, x, y, radius):
-    """Return the time [s] at which a disc meets a piece of ground, or NEVER; 0 without prediction (travel.time 0)."""
+    """Return the time [s] at which a disc meets a piece of ground, or NEVER; 0 without prediction (travel.time 0).
+
+    travel: Travel; margin [px]: gap at the meeting; piece: Hull; x, y, radius [px]: centre and radius of the disc.
+    """
     if travel.time == 0.0:
         return 0.0
     return toi_hull_circle(piece, x, y, radius, travel.vx, travel.vy, margin, travel.time)
@@ -338,8 +346,8 @@ def time_to_piece(travel, margin, piece, x, y, radius):
 def add_circle_on_piece(batch, pair, meeting, disc, contact, workspace, manifolds_out, found):
     """Append the contact of a disc with a piece of ground. Return the new number of manifolds.
 
-    disc: (x, y, radius) at the predicted contact; contact: result of the collision function for this position, see
-    hulls.collide_hull_circle.
+    meeting: predicted contact (Meeting); disc: (x, y, radius) at this contact; contact: result of the collision
+    function for this position, see hulls.collide_hull_circle.
     """
     travel, sign = meeting.travel, meeting.sign
     hit, nx, ny, x, y, separation, feature = contact
@@ -457,9 +465,9 @@ def collide_polygon_circle_pair(batch, pair, workspace, manifolds_out, found, wo
 def overlaps_narrowly(a, b, most, far, manifold):
     """Return whether two Hulls with a face contact overlap by at most `most` [px] along the face.
 
-    The overlap is measured by the Hulls' extents along the face or, with `far`, also by the distance of the two contact
-    points. far: whether the Hulls move far in this step; at rest such a narrow contact may carry a load (the edge of a
-    card). manifold (11,): see "clipping" in hulls.py.
+    The overlap is measured by the Hulls' extents along the face. If `far` is true, a distance of the two contact points
+    of at most `most` is also enough. far: whether the Hulls move far in this step; at rest such a narrow contact may
+    carry a load (the edge of a card). manifold (11,): see "clipping" in hulls.py.
     """
     if far and manifold[0] == 2.0 and norm(manifold[7] - manifold[3], manifold[8] - manifold[4]) <= most:
         return True
@@ -472,10 +480,10 @@ def overlaps_narrowly(a, b, most, far, manifold):
 def is_grazing(a, b, batch, p, q, manifold):
     """Return whether to drop the contact of two Hulls because they only pass each other in this step.
 
-    The path of B must miss A, up to an overlap of batch.graze [px]. Dropped are only contacts between corners, contacts
-    with a normal mainly along the motion, and contacts on a patch no wider than graze. Without this, a tile that stands
-    slightly above its neighbour would stop a sliding body. p, q: BODY rows of A and B; manifold (11,): see "clipping"
-    in hulls.py.
+    Two conditions must hold. The path of B must miss A, up to an overlap of batch.graze [px]. And the contact must be
+    between corners, or have a normal mainly along the motion, or be on a patch no wider than graze. Without this rule,
+    a tile that stands slightly above its neighbour would stop a sliding body. a, b: the Hulls; p, q: BODY rows of A and
+    B; manifold (11,): see "clipping" in hulls.py.
     """
     graze = batch.graze
     least = manifold[5] if manifold[0] == 1.0 else min(manifold[5], manifold[9])

@@ -73,7 +73,7 @@ def part_of(feature):
 
 @subkernel
 def pixel_feature(row, column, width):
-    """Return the feature id of a mask pixel. width [px]: width of the mask."""
+    """Return the feature id of the mask pixel at (row, column). width [px]: width of the mask."""
     return row * width + column
 
 
@@ -135,8 +135,9 @@ def is_normal_at_corner(corners, count, edges, corner, nx, ny):
     """Return whether the unit direction (nx, ny) is a valid contact normal at a corner of a hull or of a part.
 
     At a corner that is not touchable (covered by a neighbouring part) no normal is valid. At a corner where only one
-    edge of the part is on the outline of the whole shape, the normal may deviate from this edge's normal by at most the
-    angle stored in `edges`. At other corners all normals are valid. edges: bits, see ALL_EDGES.
+    edge of the part is on the outline of the whole shape, the normal may deviate from the normal of this edge by at
+    most the angle stored in `edges`. At all other corners every normal is valid. corner: number of the corner; edges:
+    bits, see ALL_EDGES.
     """
     if (edges >> (16 + corner)) & 1 == 0:
         return False
@@ -179,8 +180,8 @@ def clip_edges(reference, edge, incident, limit, flipped, manifold_out):
     """Write the manifold of an edge of the Hull `reference` and the opposite edge of the Hull `incident`.
 
     The opposite edge is clipped to the reference edge. edge: number of the reference edge; limit [px]: points with a
-    larger separation are dropped; flipped: `reference` is B, so the normal is inverted; manifold_out (11,): see the
-    comment above COVERED_OVERLAP. Return the number of points.
+    larger separation are dropped; flipped: True if `reference` is B, so that the normal is inverted; manifold_out
+    (11,): see the comment above COVERED_OVERLAP. Return the number of points.
     """
     corners, count, radius, _ = reference
     others, other_count, other_radius, _ = incident
@@ -445,7 +446,7 @@ def collide_aabbs(a, b, margin, manifold_out):
 
 @subkernel
 def nearest_on_edge(ax, ay, bx, by, x, y):
-    """Return the position of the point nearest to (x, y) on the line segment from a to b: 0 at a, 1 at b."""
+    """Return where the point nearest to (x, y) lies on the line segment from (ax, ay) to (bx, by): 0 at a, 1 at b."""
     ex, ey = bx - ax, by - ay
     along = ex * (x - ax) + ey * (y - ay)
     square = ex * ex + ey * ey
@@ -456,7 +457,7 @@ def nearest_on_edge(ax, ay, bx, by, x, y):
 
 @subkernel
 def distance_to_edge(ax, ay, bx, by, x, y):
-    """Return the distance [px] of the point (x, y) from the line segment from a to b."""
+    """Return the distance [px] of the point (x, y) from the line segment from (ax, ay) to (bx, by)."""
     t = nearest_on_edge(ax, ay, bx, by, x, y)
     return norm(x - ax - t * (bx - ax), y - ay - t * (by - ay))
 
@@ -480,7 +481,7 @@ def same_side(a, b):
 def segment_distance(a, b):
     """Return the distance [px] of two segments; 0 if they cross. a, b (2, 2): ends [px].
 
-    It supplements the separating axis test, whose face normals cannot separate two segments on one line.
+    This distance supplements the separating axis test, whose face normals cannot separate two segments on one line.
     """
     if same_side(a, b) < 0.0 and same_side(b, a) < 0.0:
         return 0.0
@@ -539,7 +540,10 @@ def corner_manifold(a, i, b, j, limit, manifold_out):
 
 @subkernel
 def ends_face(corners, count, edges, corner, nx, ny):
-    """Return whether a corner ends a touchable edge whose normal is within 6 degrees of the unit vector (nx, ny)."""
+    """Return whether a corner is an end of a touchable edge whose normal is within 6 degrees of (nx, ny).
+
+    nx, ny: unit vector; corner: number of the corner; edges: bits of the touchable edges and corners, see ALL_EDGES.
+    """
     for back in range(2):
         side = corner if back == 0 else (corner - 1 if corner > 0 else count - 1)
         if (edges >> side) & 1:
@@ -563,9 +567,9 @@ def is_over(corners, count, edge, x, y):
 def pushing_edges(a, b, over_ends):
     """Return the bits of the edges of Hull A whose normals may push A out of Hull B, a part of a larger outline.
 
-    Such an edge faces a touchable corner of B. Other edges face a corner at which B's neighbour continues the surface.
-    over_ends: also return edges that are nearly parallel to a touchable edge of B and have an end of this edge over
-    them, because the other end of B's edge may also be touched. All bits of corners are set.
+    Such an edge faces a touchable corner of B. An edge that faces a corner at which B's neighbour continues the surface
+    is left out. over_ends: True to include an edge of A that is nearly parallel to a touchable edge of B and lies over
+    an end of that edge, because the other end of B's edge may also be touched. All bits of corners are set.
     """
     if b.edges == ALL_EDGES:
         return ALL_EDGES
@@ -628,8 +632,8 @@ def extent_along(corners, count, nx, ny):
 def path_misses(a, b, allowed, vx, vy):
     """Return whether Hull B, moving in the direction (vx, vy), never overlaps Hull A by more than `allowed` [px].
 
-    Predicted contacts of such hulls are dropped: the normal of a contact is fixed for the whole step, so it would
-    deflect B while B passes.
+    The predicted contact of such Hulls is dropped: the normal of a contact is fixed for the whole step, so the contact
+    would deflect B while B passes.
     """
     nx, ny = unit(-vy, vx, 0.0, 0.0)
     low, high = extent_along(a.corners, a.count, nx, ny)
@@ -642,11 +646,11 @@ def path_misses(a, b, allowed, vx, vy):
 def collide_hulls(a, b, margin, bias, deepest, manifold_out):
     """Write the manifold of two Hulls of two or more corners, with the normal from A to B (SAT, clipping).
 
-    bias [px]: B is the reference if its separation exceeds A's by more than this, so that the reference does not
-    alternate between equal faces. deepest [px]: an overlap deeper than this is left to a neighbour if the neighbour
-    covers an edge with less depth. manifold_out (11,): see the comment above COVERED_OVERLAP. O(corners of A · corners
-    of B). Return the number of points; 0 if the separation exceeds the margin [px]. If an overlap is left to a
-    neighbour, 0 is returned and manifold_out[0] is COVERED_OVERLAP.
+    bias [px]: B is the reference only if its greatest face separation exceeds that of A by more than this, so that the
+    reference does not alternate between equal faces. deepest [px]: an overlap deeper than this is left to a
+    neighbouring part, if this part covers an edge behind which the overlap is less deep. manifold_out (11,): see the
+    comment above COVERED_OVERLAP. O(corners of A · corners of B). Return the number of points; 0 if the separation
+    exceeds the margin [px]. If an overlap is left to a neighbour, 0 is returned and manifold_out[0] is COVERED_OVERLAP.
     """
     a_corners, a_count, a_radius, a_edges = a
     b_corners, b_count, b_radius, b_edges = b

@@ -31,10 +31,10 @@ def are_whole(manifolds):
 
 
 def by_parent(manifolds: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
-    """Return (CONTACT rows in which whole shapes replace their parts, the row in `manifolds` of each or None).
+    """Return (CONTACT rows that name whole shapes instead of their parts, the index in `manifolds` of each row).
 
-    The rows are sorted by the ids of the whole shapes, and A is the shape with the smaller id. None: no side is a part,
-    and `manifolds` itself is returned.
+    The rows are sorted by the ids of the whole shapes, and A is the shape with the smaller id. If no side is a part,
+    `manifolds` itself and None are returned.
     """
     if are_whole(manifolds):
         return manifolds, None
@@ -60,7 +60,7 @@ def by_parent(manifolds: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
 
 @inlined
 def mixed(geometry, a, b, manifold):
-    """Return the mixed (friction, restitution, rolling resistance [px], surface speed [px/s]) of a contact.
+    """Return the (friction, restitution, rolling resistance [px], surface speed [px/s]) of a contact of two materials.
 
     a, b: SHAPE rows; manifold: CONTACT row, whose feature names the link of a chain, because each link has its own
     material. Friction is the geometric mean, restitution and rolling resistance the greater value, surface speed the
@@ -159,7 +159,7 @@ def queue_fallback(pair, fallback_inout):
 
 @subkernel
 def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
-    """Initialize a CONTACT row for a candidate pair, with the normal (nx, ny) but without points."""
+    """Initialize a CONTACT row for the candidate pair number `pair`, with the normal (nx, ny) but without points."""
     row_a = candidates[pair, 0]
     row_b = candidates[pair, 1]
     a, b = shapes[row_a], shapes[row_b]
@@ -204,7 +204,7 @@ def add_manifold(shapes, candidates, pair, point, manifolds_out, found):
 
 @subkernel
 def add_point(shapes, candidates, pair, point, manifolds_out, found):
-    """Add a point to the last manifold if it has the same pair and normal and one point, else to a new manifold.
+    """Add a point to the last manifold if that has one point, of the same pair and normal, else to a new manifold.
 
     Arguments as in add_manifold. Return the number of manifolds, which may exceed the capacity.
     """
@@ -270,7 +270,7 @@ def hull_of(geometry, bodies, shapes, row, corners_out):
 
 @inlined
 def always(batch, pair):
-    """Return True. As may_touch of make_pass it selects every pair of the kind."""
+    """Return True: passed to make_pass as may_touch, this selects every pair of the kind."""
     return True
 
 
@@ -278,8 +278,8 @@ def make_pass(kind: int, collide_pair: Callable, may_touch: Callable = always) -
     """Return a kernel that tests all candidate pairs of one kind.
 
     collide_pair(batch, pair, workspace, manifolds_out, found, work_inout) appends the manifolds of one candidate at row
-    `found`, and returns the new number of manifolds. may_touch(batch, pair): cheap test that selects pairs for
-    collide_pair. may_touch is called without branches for a block of pairs before these are collided, which avoids
+    `found`, and returns the new number of manifolds. may_touch(batch, pair) is a cheap test that selects the pairs for
+    collide_pair. It is called without branches for a block of pairs before the selected ones are collided, which avoids
     branch mispredictions. Both functions must be inlined: passing a whole Batch to a call costs more than a test of two
     circles.
     """
@@ -359,8 +359,8 @@ def is_of(contact, shape_a, shape_b):
 def place_in_order(manifolds, count, candidate_count, starts_out, manifolds_out):
     """Copy manifolds to manifolds_out, sorted by candidate index (stable counting sort).
 
-    manifolds, manifolds_out: CONTACT rows; count: number of manifolds; starts_out (candidates + 1): scratch.
-    O(manifolds + candidates).
+    manifolds, manifolds_out: CONTACT rows; count: number of manifolds; candidate_count: number of candidates;
+    starts_out (candidates + 1): scratch. O(manifolds + candidates).
     """
     for i in range(candidate_count + 1):
         starts_out[i] = 0
@@ -428,7 +428,7 @@ def relative_velocity(a, b, ax, ay, bx, by):
 
 @subkernel
 def center_velocity(a, b):
-    """Return the velocity (vx, vy) [px/s] of B relative to A at the centre of the smaller body, and its norm.
+    """Return (vx, vy, speed) [px/s] of the velocity of B relative to A at the centre of the smaller body.
 
     a, b: BODY rows.
     """
@@ -440,7 +440,10 @@ def center_velocity(a, b):
 
 @subkernel
 def closing_speed_bound(a, b):
-    """Return an upper bound [px/s] of both bodies' speeds and of the norm that center_velocity returns; BODY rows."""
+    """Return an upper bound [px/s] of both bodies' speeds and of the speed that center_velocity returns.
+
+    a, b: BODY rows.
+    """
     distance = abs(b.center_x - a.center_x) + abs(b.center_y - a.center_y)
     turning = abs(a.angular_velocity) + abs(b.angular_velocity)
     return abs(a.vx) + abs(a.vy) + abs(b.vx) + abs(b.vy) + turning * distance

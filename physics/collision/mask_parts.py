@@ -29,7 +29,7 @@ def write_faces(hull, other, sign, first, faces_out):
     """Write the faces of a Hull to faces_out, from row `first` on. Return the row after the last face.
 
     A disc has no faces. other: the overlapping Hull, whose depth behind each face is written; sign: 1.0 if `hull`
-    belongs to A, -1.0 if to B; faces_out (any, 4): columns DIRECTION_X, DIRECTION_Y, DEPTH, MAY_PUSH.
+    belongs to A, -1.0 if it belongs to B; faces_out (any, 4): columns DIRECTION_X, DIRECTION_Y, DEPTH, MAY_PUSH.
     """
     if hull.count == 1:
         return first
@@ -119,10 +119,11 @@ def hulls_of_pair(batch, pair, workspace):
 
 @kernel
 def write_fallback(batch, pairs, last_x, last_y, workspace, starts_out, faces_out, manifolds_out):
-    """Write the manifold that pushes shape B out of shape A by the shortest translation. Return 0 or 1, its number.
+    """Write the manifold that pushes shape B out of shape A by the shortest translation.
 
-    pairs: indices of the candidates whose sides are overlapping parts of A and B; last_x, last_y: unit normal of the
-    last step, or 0; starts_out (pairs + 1,), faces_out (FACES · pairs, 4): scratch. O(faces²).
+    Return the number written, 0 or 1. pairs: indices of the candidates whose sides are overlapping parts of A and B;
+    last_x, last_y: unit normal of the last step, or 0; starts_out (pairs + 1,), faces_out (FACES · pairs, 4): scratch.
+    O(faces²).
     """
     starts_out[0] = 0
     for k in range(len(pairs)):
@@ -216,8 +217,9 @@ def drop_opposed_rows(order, deep, manifolds_inout):
 def drop_opposed(bodies: np.ndarray, count: int, deep: float, flags: np.ndarray, manifolds: np.ndarray) -> int:
     """Drop each manifold of parts deeper than `deep` [px] if a shallower one of the same shapes has an opposite normal.
 
-    Otherwise a body thrown into a notch narrower than itself would be squeezed between both sides; with this the nearer
-    side pushes it out. count: number of manifolds; flags (count,): scratch. Return the number of remaining manifolds.
+    Otherwise a body thrown into a notch narrower than itself would be squeezed between both sides of the notch. With
+    this rule the nearer side pushes the body out. count: number of manifolds; flags (count,): scratch. Return the
+    number of remaining manifolds.
     """
     if not find_deep(bodies, manifolds, count, deep, flags):
         return count
@@ -228,9 +230,9 @@ def drop_opposed(bodies: np.ndarray, count: int, deep: float, flags: np.ndarray,
 def fallback_manifolds(batch: Batch, found: np.ndarray, previous: np.ndarray, workspace: Workspace) -> np.ndarray:
     """Return additional CONTACT rows, at most one for each pair of shapes with parts in the fallback queue.
 
-    A pair gets a row if it has no overlapping manifold, or if its manifolds are deeper than the margin, because these
-    may push along a wall and not out of it. found: manifolds of this step; previous: manifolds of the last step, whose
-    normals are preferred so that the direction of the push does not alternate.
+    A pair gets a row if it has no overlapping manifold. It also gets one if its manifolds are deeper than the margin,
+    because these may push along a wall instead of out of it. found: manifolds of this step; previous: manifolds of the
+    last step, whose normals are preferred so that the direction of the push does not alternate.
     """
     shapes = batch.shapes
     queued = np.sort(workspace.fallback[1 : 1 + workspace.fallback[0]])
@@ -273,9 +275,9 @@ def _pair_keys(shapes, pairs):
 
 
 def _is_found(manifold, found) -> bool:
-    """Return whether `found` already contains a manifold of the same candidate with nearly the same normal.
+    """Return whether `found` contains a manifold of the same candidate as `manifold`, with nearly the same normal.
 
-    The normal of a recycled manifold may have rotated slightly with its body.
+    The normals may differ slightly, because a recycled manifold has rotated with its body.
     """
     same = found["candidate"] == manifold["candidate"]
     along = found["normal_x"] * manifold["normal_x"] + found["normal_y"] * manifold["normal_y"]

@@ -78,7 +78,7 @@ class RasterPair(NamedTuple):
 class Remainders(NamedTuple):
     """Fractions [px] in 0..1 by which snapping to whole pixels has changed the positions of masks A and B.
 
-    With them a tested move is rounded to the same pixels as the real move will be.
+    With these fractions a tested move is rounded to the same pixels as the real move will be.
     """
 
     ax: float
@@ -91,8 +91,8 @@ class Remainders(NamedTuple):
 def separation_along(pair, remainders, nx, ny, most):
     """Return the least whole number of pixels to move along the normal (nx, ny) that ends the overlap of two rasters.
 
-    pair: RasterPair. The overlap must end if B moves along the normal and also if A moves against it. A result above
-    `most` [px] means that no move up to `most` is enough.
+    pair: RasterPair; remainders: Remainders. The overlap must end if B moves along the normal, and also if A moves
+    against the normal. A result above `most` [px] means that no move up to `most` is enough.
     """
     rasters = pair.rasters
     words = pair.words
@@ -130,7 +130,7 @@ def mask_contact(pair, remainders):
     """Return (area, point x, point y, normal from A to B, separation) of a RasterPair that shares pixels.
 
     The area is the number of shared pixels. The point is their centroid [px] in A's raster. The separation [px] is
-    minus the move along the normal that ends the overlap.
+    minus the length of the move along the normal that ends the overlap.
     """
     rasters = pair.rasters
     words = pair.words
@@ -179,8 +179,8 @@ def mask_contact(pair, remainders):
 def pixel_range(low, high, start, set_low, set_high):
     """Return (first, last + 1) of the indices of the pixels that overlap the open interval low..high on one axis.
 
-    low, high [px]: the interval; start [px]: position of pixel 0; set_low, set_high: bounds of the solid pixels, to
-    which the result is limited. low and high may be infinite, so they are clamped before rounding.
+    low, high [px]: the interval; start [px]: position of pixel 0; set_low, set_high: range of indices of the solid
+    pixels, to which the result is limited. low and high may be infinite, so they are clamped before rounding.
     """
     first = math.floor(min(float(set_high), max(float(set_low), low - start)))
     last = math.floor(max(set_low - 1.0, min(set_high - 1.0, high - start))) + 1
@@ -351,9 +351,9 @@ def square_in_polygon(corners, count, x, y):
 
 @inlined
 def square_depths(hull, x, y, depths_out):
-    """Return whether the unit square at x, y shares area with a convex polygon, and record its depths.
+    """Return whether the unit square at x, y shares area with a convex polygon, and record the square's depths.
 
-    depths_out (16,): for each edge of the polygon the greatest depth [px] behind it of all squares so far.
+    depths_out (16,): for each edge of the polygon the greatest depth [px] of all squares so far behind this edge.
     """
     corners = hull.corners
     if not square_in_polygon(corners, hull.count, x, y):
@@ -373,7 +373,7 @@ sum_pixels_in_polygon = make_pixel_sum(square_depths)
 def collide_mask_polygon(raster, hull, depths_out):
     """Return (area, normal, point, separation, feature) of a PlacedRaster and a convex polygon (Hull without radius).
 
-    The normal is opposite to the normal of the touchable edge behind which the overlapping pixels are least deep; the
+    The normal is opposite to that of the touchable edge behind which the overlapping pixels are least deep; the
     separation is minus this depth [px]. Other values as in collide_mask_circle. depths_out (16,): scratch.
     """
     count = hull.count
@@ -398,9 +398,9 @@ def collide_mask_polygon(raster, hull, depths_out):
 def border_pixels(raster, line, low, high, level):
     """Find the positions at which a border between two rows or columns of pixels has solid pixels on both sides.
 
-    raster: PlacedRaster; line: index of the row or column after the border; level: the border is between rows; low,
-    high [px]: open interval along the border, from the raster's corner. Return (number of positions, sum of the
-    positions [px] along the border, pixel_feature of the first or -1).
+    raster: PlacedRaster; line: index of the row or column after the border; level: True for a border between rows,
+    False for one between columns; low, high [px]: open interval along the border, from the raster's corner. Return
+    (number of positions, sum of the positions [px] along the border, pixel_feature of the first or -1).
     """
     words = raster.words
     r = raster.rasters[raster.row]
@@ -430,9 +430,9 @@ def border_pixels(raster, line, low, high, level):
 def collide_mask_line(raster, hull, depths_out):
     """Return (area, normal, point, separation, feature) of a PlacedRaster and a line (a Hull of two corners).
 
-    The line is solid from both sides. It touches where it crosses a solid pixel, or lies on the border between two
-    solid pixels; there the normal points away from the middle of the mask. Other values as in collide_mask_circle.
-    depths_out (16,): scratch.
+    The line is solid from both sides. The line touches the mask where it crosses a solid pixel, or lies on the border
+    between two solid pixels; on a border the normal points away from the middle of the mask. Other values as in
+    collide_mask_circle. depths_out (16,): scratch.
     """
     points = hull.corners
     left, top = raster.left, raster.top
@@ -505,10 +505,10 @@ def direction_to_core(corners, count, x, y):
 
 @subkernel
 def depth_along(raster, hull, nx, ny):
-    """Return the move [px] of a rounded hull along the unit vector (nx, ny) that separates it from a mask.
+    """Return the distance [px] that a rounded hull must move along (nx, ny) to be separated from a mask.
 
-    After the move a line perpendicular to (nx, ny) separates the hull from all pixels that it overlaps now. raster:
-    PlacedRaster.
+    After the move a line perpendicular to the unit vector (nx, ny) separates the hull from all pixels that it overlaps
+    now. raster: PlacedRaster.
     """
     r = raster.rasters[raster.row]
     least, _ = extent_along(hull.corners, hull.count, nx, ny)
@@ -588,8 +588,8 @@ def bounds_overlap(batch, pair):
 def make_mask_pass(full: bool) -> Any:
     """Return the kernel that collides all pairs of snapped masks.
 
-    full: whether area, centroid, normal and depth are computed. Otherwise only the first shared pixel is found; then
-    the normal is the direction between the centres, and the separation is -1.
+    full: True to compute area, centroid, normal and depth. False to find only the first shared pixel; then the normal
+    is the direction between the centres, and the separation is -1.
     """
 
     @inlined

@@ -124,7 +124,10 @@ def shared_with_hull(rasters, words, mask, hull):
 
 @subkernel
 def least_area(raster):
-    """Return the least area [px2] reported for an overlap; rounding errors may make the computed area smaller."""
+    """Return the least area [px2] reported for an overlap, because rounding errors may make the computed area smaller.
+
+    raster: RASTER row.
+    """
     slack = ROUNDED * (raster.width + raster.height)
     return slack * slack
 
@@ -191,7 +194,7 @@ def collide_in_raster(rasters, words, mask, hull, depths_out):
 
 @subkernel
 def out_of_mask(geometry, body, shape, nx, ny, x, y):
-    """Return a normal (nx, ny) and a point (x, y) transformed from a mask's raster space to the world.
+    """Return a normal (nx, ny) and a point (x, y) transformed from a mask's raster space to world space.
 
     body, shape: BODY and SHAPE rows of the mask, which is not snapped.
     """
@@ -267,7 +270,10 @@ NOISE = 1e-9  # rounding error of area differences, as a share of the area
 
 @subkernel
 def boxes_normal(a, b):
-    """Return (unit direction from A's AABB centre to B's, whether the centres differ). a, b: SHAPE rows."""
+    """Return (unit direction from the centre of A's AABB to that of B, whether the centres differ).
+
+    a, b: SHAPE rows.
+    """
     x, y = (b.min_x - a.min_x) + (b.max_x - a.max_x), (b.min_y - a.min_y) + (b.max_y - a.max_y)
     nx, ny = unit(x, y, 1.0, 0.0)
     return nx, ny, x != 0.0 or y != 0.0
@@ -275,10 +281,10 @@ def boxes_normal(a, b):
 
 @subkernel
 def area_normal(pair, area):
-    """Return (unit direction in A's raster in which moving B shrinks the shared area fastest, whether it is defined).
+    """Return (unit direction in A's raster in which a move of B shrinks the shared area fastest, whether it exists).
 
-    pair: SquaresPair; area [px2]: present shared area. The direction is undefined if a move changes the area only by
-    rounding.
+    pair: SquaresPair; area [px2]: present shared area of the two masks. The direction does not exist if a move changes
+    the area only by rounding.
     """
     before, _, _ = shared_squares(pair, pair.u - 1.0, pair.v)
     behind, _, _ = shared_squares(pair, pair.u + 1.0, pair.v)
@@ -290,7 +296,7 @@ def area_normal(pair, area):
 
 @subkernel
 def depth_of_squares(pair, nx, ny, turn_cosine, turn_sine, most):
-    """Return the move [px] of B along the world normal (nx, ny) that ends the overlap of a SquaresPair.
+    """Return the length [px] of the move of B along the world normal (nx, ny) that ends the overlap of a SquaresPair.
 
     turn_cosine, turn_sine: cosine and sine of A's angle. A result above `most` [px] means that no move up to `most` is
     enough.
@@ -379,8 +385,8 @@ def exact_mask_area(geometry, bodies, a, b):
 def make_exact_mask_pass(full: bool) -> Any:
     """Return the kernel that collides all pairs of masks of which at least one is not snapped.
 
-    full: whether area, centroid, normal and depth are computed. Otherwise only two overlapping pixels are found; then
-    the normal is the direction between the centres of the AABBs, and the separation is -1.
+    full: True to compute area, centroid, normal and depth. False to find only two overlapping pixels; then the normal
+    is the direction between the centres of the AABBs, and the separation is -1.
     """
 
     @inlined

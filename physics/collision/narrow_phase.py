@@ -58,7 +58,7 @@ ALL, NO_SENSORS, SOLIDS, SENSORS = 0, 1, 2, 3
 
 @inlined
 def may_change(a, b):
-    """Return whether a step can change the contact of two bodies (BODY rows): one is active or wakes the other."""
+    """Return whether a step can change the contact of two BODY rows, because one is active or wakes the other."""
     return is_active(a) or is_active(b) or wakes(a, b) or wakes(b, a)
 
 
@@ -70,9 +70,9 @@ def is_wanted(which, a, b):
 
 @subkernel
 def is_asked(which, bodies, a, b):
-    """Return whether `which` selects a pair of SHAPE rows.
+    """Return whether `which` (ALL, NO_SENSORS, SOLIDS, SENSORS) selects a pair of SHAPE rows.
 
-    For SOLIDS the pair's contact must also be able to change.
+    SOLIDS selects a pair only if a step can change its contact, see may_change.
     """
     if not is_wanted(which, a, b):
         return False
@@ -83,8 +83,8 @@ def is_asked(which, bodies, a, b):
 def collide_boxes(batch, which, manifolds_out, work_inout):
     """Write the contacts of the candidates from their AABBs alone. Return the number of contacts. O(candidates).
 
-    The normal is the axis of least overlap, the point the middle of the overlap. which: ALL, NO_SENSORS, SOLIDS or
-    SENSORS.
+    The normal is the axis along which the AABBs overlap least, the point the middle of the overlap. which: ALL,
+    NO_SENSORS, SOLIDS or SENSORS.
     """
     shapes, candidates = batch.shapes, batch.candidates
     found = 0
@@ -141,10 +141,10 @@ def kind_of_pair(low, high):
 
 @inlined
 def as_snapped(kind, a, b):
-    """Return the kind of pair of two SHAPE rows. kind: the result of kind_of_pair for them.
+    """Return `kind`, the result of kind_of_pair for two SHAPE rows, adapted to how the shapes are tested.
 
-    The result differs from `kind` for two masks of which at least one is not snapped (MASKS_EXACT), and for a chain
-    that is the one-way surface of a mask (SURFACE_ANY).
+    The result is MASKS_EXACT for two masks of which at least one is not snapped, and SURFACE_ANY for a chain that is
+    the one-way surface of a mask.
     """
     if kind == CHAIN_ANY:
         chain = a if a.kind == CHAIN else b
@@ -202,10 +202,10 @@ def is_of_child(a, b):
 def classify(batch, which, kinds_out, counts_out, work_inout):
     """Write the kind of each candidate pair, and the number of pairs of each kind. O(candidates).
 
-    which: ALL, NO_SENSORS, SOLIDS or SENSORS; pairs that are not selected get the kind NOTHING. With SOLIDS and SENSORS
-    also pairs whose AABBs are farther apart than batch.margin get NOTHING, unless they may meet within batch.lookahead.
-    counts_out[WITH_CHILD]: number of pairs with a part of a larger shape; counts_out[DRAWN_PAIRS]: number of pairs with
-    a mask that must be rasterized first.
+    which: ALL, NO_SENSORS, SOLIDS or SENSORS; pairs that are not selected get the kind NOTHING. With SOLIDS and
+    SENSORS, pairs whose AABBs are farther apart than batch.margin also get NOTHING, unless they may meet within
+    batch.lookahead. counts_out[WITH_CHILD]: number of pairs with a part of a larger shape; counts_out[DRAWN_PAIRS]:
+    number of pairs with a mask that must be rasterized first.
     """
     bodies, shapes, candidates = batch.bodies, batch.shapes, batch.candidates
     for i in range(len(counts_out)):
@@ -231,10 +231,10 @@ def classify(batch, which, kinds_out, counts_out, work_inout):
 
 @kernel
 def remember_ground(batch, previous, memory_out):
-    """Find the contacts of the last step of each candidate with a tile grid or one-way surface.
+    """Find the contacts of the last step of each candidate pair with a tile grid or one-way surface.
 
-    They show which bodies stood on one-way ground. previous: CONTACT rows of the last step, sorted by shape ids like
-    the candidates; memory_out (count, 2): first row in `previous`, number of rows. O(candidates + previous).
+    These contacts show which bodies stood on one-way ground. previous: CONTACT rows of the last step, sorted by shape
+    ids like the candidates; memory_out (count, 2): first row in `previous`, number of rows. O(candidates + previous).
     """
     j = 0
     for i in range(batch.count):
@@ -339,7 +339,8 @@ class NarrowPhase:
     def complete(self, batch: Batch, previous: np.ndarray | None, recycled: int, work: np.ndarray) -> np.ndarray:
         """Test all pairs that `classify` has selected. Return the manifolds in the order of the candidates.
 
-        recycled: number of recycled manifolds already at the beginning of self.raw, which are part of the result.
+        previous: CONTACT rows of the last step, or None; recycled: number of recycled manifolds that the caller has
+        written to the beginning of self.raw, and that are part of the result.
         """
         workspace, counts = self.workspace, self.counts
         if self.one_way and (counts[GRID_ANY] or counts[SURFACE_ANY]):
@@ -365,9 +366,9 @@ class NarrowPhase:
     def _detect(self, batch, workspace, previous, counts, recycled, work) -> tuple[int, int]:
         """Run the passes, and append their manifolds to self.raw after the first `recycled` rows.
 
-        Return (number of manifolds including the recycled ones, number of passes made, with the fallback if it added a
-        manifold). The manifolds of one pass are in the order of the candidates, so they must be sorted only after
-        several passes.
+        Return (number of manifolds including the recycled ones, number of passes made). The fallback counts as a pass
+        if it added a manifold. The manifolds of one pass are in the order of the candidates, so they have to be sorted
+        only after several passes.
         """
         used = [run for kind, run in self.passes if counts[kind]]
         if len(workspace.fallback) < batch.count + 1:
@@ -412,13 +413,16 @@ class NarrowPhase:
             self.kinds = np.zeros(2 * count + 1, np.int64)
 
     def _deep_for(self, count) -> np.ndarray:
-        """Return an array of flags for at least `count` manifolds: the scratch array of drop_opposed."""
+        """Return a scratch array of flags for at least `count` manifolds, for drop_opposed."""
         if len(self.deep) < count:
             self.deep = np.zeros(2 * count, bool)
         return self.deep
 
     def _drop_seams(self, batch, previous, found) -> int:
-        """Drop ghost contacts at seams between flush pieces of ground. Return the number of manifolds left."""
+        """Drop ghost contacts at seams between flush pieces of ground. Return the number of remaining manifolds.
+
+        found: number of manifolds before; previous: CONTACT rows of the last step.
+        """
         bodies, rows = len(batch.bodies), found + len(previous)
         rows = max(rows, batch.count)
         if len(self.lists.heads) < bodies or len(self.lists.links) < rows:
@@ -479,9 +483,9 @@ def detect(state: StepState) -> np.ndarray:
 
 
 def place_swept_contacts(state: StepState, met: np.ndarray) -> None:
-    """Recompute points, normals and separations of contacts that a sweep has found, at the present poses.
+    """Recompute points, normals and separations at the present poses of contacts that a sweep has found.
 
-    met: CONTACT rows to update; a row is unchanged if the narrow phase finds no contact with a similar normal.
+    met: CONTACT rows to update; a row stays unchanged if the narrow phase finds no contact with a similar normal.
     """
     found = state.workspace.narrow.collide(
         state.library,

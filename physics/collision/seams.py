@@ -72,7 +72,10 @@ def ground_side(bodies, shapes, manifold):
 
 @subkernel
 def is_at_corner(shapes, manifold):
-    """Return whether a contact is between two corners, or a disc and a corner, so its normal is not a face normal."""
+    """Return whether the normal of a contact is not that of a face: it is between two corners, or a corner and a disc.
+
+    manifold: CONTACT row.
+    """
     part = manifold.feature_1 % PART
     disc = shapes[manifold.row_a].kind == CIRCLE or shapes[manifold.row_b].kind == CIRCLE
     return part >= (CIRCLE_CORNER if disc else CORNERS)
@@ -108,8 +111,8 @@ def piece_at(batch, row, feature, corners_out):
 def may_be_seam(batch, side, manifold, corners_out):
     """Return whether a contact with ground may be at a seam: near an end of its piece of ground, or not yet touching.
 
-    side: 0 if A is the ground, 1 if B is. A contact over a wide face, or of a disc with a face, is not at a seam.
-    corners_out (16, 2): scratch.
+    side: 0 if A is the ground, 1 if B is; manifold: CONTACT row; corners_out (16, 2): scratch. The result is False for
+    a contact over a wide face, and for a contact of a disc with a face.
     """
     m = manifold
     row = m.row_a if side == 0 else m.row_b
@@ -177,7 +180,7 @@ def distance_to_hull(hull, x, y):
 def is_behind_plane(batch, seam, support, workspace):
     """Return whether the piece of ground touched in contact `seam` lies behind the contact plane of `support`.
 
-    Near the body, the piece may exceed the plane by batch.graze. seam, support: CONTACT rows of the same dynamic body
+    Near the body, the piece may rise above the plane by batch.graze. seam, support: CONTACT rows of one dynamic body
     with two pieces of ground.
     """
     shapes = batch.shapes
@@ -216,9 +219,9 @@ def is_behind_plane(batch, seam, support, workspace):
 
 @subkernel
 def is_on_piece(batch, row, x, y, own_part, workspace):
-    """Return whether the point (x, y) is on a ground shape, or within batch.graze of it.
+    """Return whether the point (x, y) is on a ground shape, or within batch.graze of the shape.
 
-    row: row of SHAPE; own_part: index of a run's first cell, or of a link, that is ignored; NONE: nothing is ignored.
+    row: row of SHAPE; own_part: a part of the shape to ignore (index of a run's first cell, or of a link), or NONE.
     """
     geometry = batch.geometry
     near = batch.graze
@@ -262,8 +265,8 @@ def is_on_piece(batch, row, x, y, own_part, workspace):
 def is_covered(batch, seam, first, others, workspace):
     """Return whether each touching point of a contact also lies on another piece of ground.
 
-    seam: CONTACT row; first, others: linked list of the ground candidates of its dynamic body (index of the first
-    candidate, and for each candidate the index of the next).
+    seam: CONTACT row of a dynamic body. first, others: linked list of this body's candidate pairs with ground: index of
+    the first pair, and for each pair the index of the next.
     """
     shapes = batch.shapes
     side = ground_side(batch.bodies, shapes, seam)
@@ -342,7 +345,7 @@ def link_contact(batch, contact, place, lists_inout):
 
 @kernel
 def drop_seams(batch, previous, count, workspace, contacts_out, ground_out, manifolds_inout):
-    """Drop the contacts of dynamic bodies at seams between pieces of ground. Return the number of manifolds left.
+    """Drop the contacts of dynamic bodies at seams between pieces of ground. Return the number of remaining manifolds.
 
     manifolds_inout: CONTACT rows, `count` in use, whose order is kept; previous: CONTACT rows of the last step, of
     which the recycled rows count as supports. contacts_out, ground_out: scratch, BodyLists for contacts and candidates.

@@ -39,7 +39,10 @@ from physics.tables.step_state import MASK_TESTS
 
 @subkernel
 def is_covered(grids, cells, grid, row, column, from_row, from_column):
-    """Return whether the cell at (row, column) covers the edge that it shares with the cell (from_row, from_column)."""
+    """Return whether the cell at (row, column) covers the edge that it shares with the cell (from_row, from_column).
+
+    grids, cells: tables of the geometry; grid: row of GRID.
+    """
     g = grids[grid]
     if row < 0 or row >= g.rows or column < 0 or column >= g.columns:
         return False
@@ -60,9 +63,10 @@ def is_covered(grids, cells, grid, row, column, from_row, from_column):
 
 @subkernel
 def bends_down(grids, cells, grid, row, column, side):
-    """Return whether the ground bends down between a tile and its neighbour, so that the corner is exposed.
+    """Return whether the ground bends down between a tile and the tile beside it, so that the corner is exposed.
 
-    side: -1 for the left neighbour, 1 for the right neighbour.
+    grids, cells: tables of the geometry; grid: row of GRID; row, column: the tile; side: -1 for the left neighbour, 1
+    for the right neighbour.
     """
     g = grids[grid]
     other = column + side
@@ -86,9 +90,10 @@ def corners_between(edges, count):
 def run_at(geometry, grid, x, y, row, column, under, corners_out):
     """Write the world corners [px] of the run of solid or one-way cells that contains a cell.
 
-    The run is one rectangle, without seams between its cells. under: first and last column under the other shape; the
-    top (bottom) edge is touchable if a cell within these columns has no neighbour above (below) that covers the edge.
-    Return (number of corners, bits of touchable edges and corners, see tile_at).
+    The run is one rectangle, without seams between its cells. grid: row of GRID; x, y [px]: the grid's origin; row,
+    column: the cell; under: first and last column under the other shape. The top (bottom) edge is touchable if a cell
+    within these columns has no neighbour above (below) that covers the edge. Return (number of corners, bits of
+    touchable edges and corners, see tile_at).
     """
     grids, cells = geometry.grids, geometry.cells
     low, high = under
@@ -187,10 +192,10 @@ def tile_at(geometry, grid, x, y, row, column, corners_out):
 
 @subkernel
 def pushing_edges_on_tile(corners, count, tile_edges):
-    """Return the bits of the edges of a polygon whose normals may push it out of a tile.
+    """Return the bits of the edges of a polygon whose normals may push the polygon out of a tile.
 
-    An edge that would push the polygon out through a covered side of the tile is excluded. tile_edges: bits returned by
-    tile_at for a tile of four corners (surface, right, bottom, left).
+    An edge that would push it out through a covered side of the tile is left out. tile_edges: bits returned by tile_at
+    for a tile of four corners (surface, right, bottom, left).
     """
     if (tile_edges & 15) == 15:
         return ALL_EDGES
@@ -235,7 +240,10 @@ def touched_run(workspace, pair, run):
 
 
 def make_grid_pass(one_way: bool) -> Any:
-    """Return the kernel that collides tile grids with all other shapes. one_way: whether one-way tiles collide."""
+    """Return the kernel that collides tile grids with all other shapes.
+
+    one_way: whether the world has one-way tiles.
+    """
 
     @inlined
     def collide_grid_pair(batch, pair, workspace, manifolds_out, found, work_inout):

@@ -33,7 +33,7 @@ def core_radius(shape):
 
 @subkernel
 def is_ground(shape):
-    """Return whether a shape is a tile grid or chain: their feature ids have a number of the tile run or link added."""
+    """Return whether a shape is a tile grid or chain, whose feature ids include the number of a tile run or link."""
     return shape.kind == TILES or shape.kind == CHAIN
 
 
@@ -82,10 +82,10 @@ def is_corner(polygons, table, body, shape, corner, local_x, local_y):
 
 @subkernel
 def core_in_body(body, turn, x, y, nx, ny, inside, behind):
-    """Return a world point (x, y), displaced along the normal and the tangent of a contact, in the space of a body.
+    """Return a world point (x, y), displaced along the normal and tangent of a contact, in the space of a body.
 
     inside [px]: displacement along the normal (nx, ny); behind [px]: displacement along (ny, -nx), against the tangent;
-    turn: (cosine, sine) of the angle of the BODY row.
+    body: BODY row; turn: (cosine, sine) of its angle.
     """
     return rotate(x + inside * nx + behind * ny - body.x, y + inside * ny - behind * nx - body.y, turn[0], -turn[1])
 
@@ -95,7 +95,7 @@ def share_of(polygons, table, body_a, body_b, contact, a, b, second):
     """Return which side a contact point follows when the sides slide along the face: 0 for A, 1 for B, 0.5 for both.
 
     A point at a corner, or under a disc, follows the side with the corner or the disc. A point clipped by the end of a
-    face follows the side with the face. polygons, table: geometry.polygons and geometry.corners; body_a, body_b: BODY
+    face follows the side with this face. polygons, table: geometry.polygons and geometry.corners; body_a, body_b: BODY
     rows; contact: CONTACT row with local points already written; a, b: SHAPE rows; second: True for the second point.
     """
     part = (contact.feature_2 if second else contact.feature_1) % PART
@@ -178,7 +178,7 @@ def write_cache(polygons, table, bodies, shapes, contact_inout):
 
 @subkernel
 def reset_impulses(contact_out):
-    """Clear the cached forces, used for warm starting, and the graph colour of a CONTACT row."""
+    """Clear the cached forces (for warm starting) and the graph colour of a CONTACT row."""
     c = contact_out
     c.color = -1
     c.rolling_force, c.normal_force_1, c.tangent_force_1 = 0.0, 0.0, 0.0
@@ -201,7 +201,8 @@ def write_caches(geometry, bodies, shapes, contacts_inout):
 def cores_at(a, turn_a, b, turn_b, local_ax, local_ay, local_bx, local_by):
     """Return (ax, ay, dx, dy) [px]: a contact's point on A's core in the world, the vector to the point on B's core.
 
-    a, b: BODY rows; turn_a, turn_b: (cosine, sine) of the angles; local_ax … local_by [px]: the points in body space.
+    a, b: BODY rows; turn_a, turn_b: (cosine, sine) of the angles; local_ax, local_ay, local_bx, local_by [px]: the
+    points in body space.
     """
     ax, ay = rotate(local_ax, local_ay, turn_a[0], turn_a[1])
     bx, by = rotate(local_bx, local_by, turn_b[0], turn_b[1])
@@ -216,9 +217,10 @@ def clipped_gap(gap, core, other, apart, with_a, normal, wander):
 
     A point clipped by the end of a face moves along the incident hull edge when the sides slide, which changes the gap.
     The incident edge is the line through both core points of the side without the face. gap [px]: gap before the
-    correction; core [px]: vector from A's core point to B's core point; other [px]: the same vector for the other
-    contact point; apart [px]: vector from A's core point of this contact point to A's core point of the other contact
-    point; with_a: whether A has the face; wander [px]: smaller corrections are omitted.
+    correction. core [px]: vector from A's core point to B's core point; other [px]: the same vector for the other
+    contact point of the manifold; apart [px]: vector from A's core point here to A's core point at the other contact
+    point. with_a: whether A has the face; normal: unit normal of the contact; wander [px]: smaller corrections are
+    omitted.
     """
     nx, ny = normal
     edge_x = apart[0] + (other[0] - core[0] if with_a else 0.0)
@@ -234,7 +236,7 @@ def clipped_gap(gap, core, other, apart, with_a, normal, wander):
 
 @inlined
 def is_clipped(contact, share):
-    """Return whether a contact point is clipped by the end of a face. share: share_of the point."""
+    """Return whether a contact point is clipped by the end of a face. share: result of share_of for the point."""
     return (contact.frame == WITH_A and share == 0.0) or (contact.frame == WITH_B and share == 1.0)
 
 
@@ -260,7 +262,8 @@ def update_contact(a, turn_a, b, turn_b, wander, contact_inout):
 
     Return (greatest relative motion [px] of a point since detection, along the face or the normal; motion [px] of a
     round side around a corner; whether a clipped point was corrected, see clipped_gap). a, b: BODY rows; turn_a,
-    turn_b: (cosine, sine) of the angles; wander [px]: least correction of a clipped point, infinite for no correction.
+    turn_b: (cosine, sine) of their angles; wander [px]: smaller corrections of a clipped point are omitted, infinite
+    for none.
     """
     c = contact_inout
     two = c.count == 2
@@ -342,9 +345,9 @@ def is_finite(contact):
 def recycle_distance(contact, distance):
     """Return the greatest relative motion [px] since detection up to which a contact may be recycled.
 
-    The result is `distance` [px], or RECYCLE_MOVE times `distance` for a loaded contact with two points and without
-    roundings: its points are updated exactly. Exception: points too close together, see RECYCLE_SHARE. An unloaded
-    contact is detected again earlier, to find the shortest way out of an overlap.
+    The result is `distance` [px]. For a loaded contact with two points and without roundings it is RECYCLE_MOVE times
+    `distance`, because such points are updated exactly, unless they are too close together, see RECYCLE_SHARE. An
+    unloaded contact is detected again earlier, to find the shortest way out of an overlap.
     """
     c = contact
     loaded = c.normal_force_1 > 0.0 or c.normal_force_2 > 0.0
@@ -359,9 +362,9 @@ def recycle_distance(contact, distance):
 def can_recycle(shapes, a, turn_a, b, turn_b, distance, wander, contact_inout):
     """Update a contact to the present poses, and return whether it can be recycled.
 
-    This is the case if points have moved by at most recycle_distance, by at most `distance` [px] through relative
-    rotation, and the correction of clipped points is at most `wander` [px]. a, b: BODY rows; turn_a, turn_b: (cosine,
-    sine) of the angles.
+    It can be recycled under three conditions: its points have moved by at most recycle_distance, relative rotation has
+    moved them by at most `distance` [px], and clipped points need no correction of `wander` [px] or more. shapes: SHAPE
+    rows; a, b: BODY rows; turn_a, turn_b: (cosine, sine) of their angles.
     """
     c = contact_inout
     moved, rolled, wandered = update_contact(a, turn_a, b, turn_b, wander, c)
@@ -376,7 +379,7 @@ def can_recycle(shapes, a, turn_a, b, turn_b, distance, wander, contact_inout):
 
 @inlined
 def is_settled(body):
-    """Return whether a BODY row has the pose for which its centre of mass was last computed."""
+    """Return whether a BODY row has the pose at which its centre of mass was last computed."""
     return body.x == body.settled_x and body.y == body.settled_y and body.angle == body.settled_angle
 
 

@@ -100,8 +100,8 @@ def match_contacts(geometry, bodies, shapes, previous, stale, found, contacts_ou
 
     previous: CONTACT rows of the last step; found: CONTACT rows of this step. Both, and the result, are in the order of
     the candidate pairs. stale: int32 rows of `previous` that are not recycled, ascending. A new contact takes over the
-    forces of points with the same feature id. If found.previous is not -1, the row is a recycled contact and keeps its
-    cache.
+    forces of points with the same feature id. A row of `found` whose `previous` is not -1 is a recycled contact, and
+    keeps its cache.
     """
     count = 0
     kept = 0
@@ -141,9 +141,9 @@ def match_contacts(geometry, bodies, shapes, previous, stale, found, contacts_ou
 
 @kernel
 def copy_recycled(previous, stale, contacts_out):
-    """Copy the manifolds of all contacts of the last step except the stale rows. O(previous).
+    """Copy all contacts of the last step except the stale rows to contacts_out. O(previous).
 
-    stale: int32 rows of `previous`, ascending.
+    previous: CONTACT rows; stale: int32 rows of `previous`, ascending.
     """
     count = 0
     passed = 0
@@ -184,10 +184,10 @@ def recycle_contacts(batch, distance, previous_inout, kinds_out, counts_out, sta
 
     Return (number of stale rows, number of pairs left to test plus number of pairs with a part). If neither body of a
     contact has moved since the last step, CONTACT.can_recycle of that step decides. Otherwise the contact is tested
-    now, with `distance` [px]. previous_inout: CONTACT rows of the last step, sorted by shape ids like the candidates;
-    recycled rows are updated to the present poses. A pair whose contacts are recycled gets the kind NOTHING in
-    kinds_out, and is not counted in counts_out. stale_out (previous,): int32 rows that are not recycled; all contacts
-    of masks are among these. O(candidates + contacts).
+    now, with can_recycle and `distance` [px]. previous_inout: CONTACT rows of the last step, sorted by shape ids like
+    the candidates; recycled rows are updated to the present poses. A pair whose contacts are recycled gets the kind
+    NOTHING in kinds_out, and is not counted in counts_out. stale_out (previous,): int32 rows that are not recycled,
+    which include all contacts of masks. O(candidates + contacts).
     """
     bodies = batch.bodies
     shapes = batch.shapes
@@ -264,7 +264,7 @@ class ContactCache:
         self.stale = np.zeros(64, np.int32)
 
     def room_beside(self, contacts: np.ndarray, count: int) -> np.ndarray:
-        """Return a table with room for `count` rows, other than the table of the present contacts, `contacts`."""
+        """Return a table with room for `count` rows that is not the table of the present contacts, `contacts`."""
         if contacts.base is self.tables[0].base:
             self.tables.reverse()
         if len(self.tables[0]) < count:
@@ -276,9 +276,9 @@ class ContactCache:
     ) -> Found | None:
         """Find the contacts of pairs without sensors, and recycle contacts of the last step if possible.
 
-        Return the new contacts and the rows of `previous` that are not recycled; None if all rows are recycled and no
-        pair is left to test. batch: candidate pairs; previous: CONTACT rows of the last step, recycled rows are updated
-        in place; distance [px]: see recycle_contacts.
+        Return the new contacts and the rows of `previous` that are not recycled, or None if all rows are recycled and
+        no pair is left to test. narrow: NarrowPhase; batch: candidate pairs; previous: CONTACT rows of the last step,
+        of which recycled rows are updated in place; distance [px]: see recycle_contacts; work: counters.
         """
         if len(self.stale) < len(previous):
             self.stale = np.zeros(2 * len(previous), np.int32)
@@ -366,9 +366,9 @@ class KeptImpulses:
                 self.others = np.unique(np.where(at_a, found["shape_b"], found["shape_a"])[kept])
 
     def transfer(self, tables: WorldTables, new: np.ndarray) -> None:
-        """Detect the contacts of new shapes with the former partners, and copy the kept forces to them. O(pairs).
+        """Detect the contacts of new shapes with the partners of the old ones, and copy the kept forces to them.
 
-        new: SHAPE rows. Call this method after the removal of the old shapes.
+        O(pairs). new: SHAPE rows. Call this method after the removal of the old shapes.
         """
         if not len(self.contacts):
             return
@@ -401,10 +401,10 @@ class KeptImpulses:
         tables.contact_rows = known[order_of(known)]
 
     def _stood_on(self, shapes, pairs):
-        """Return CONTACT rows that count as contacts of the last step, for the pairs with a Chain.
+        """Return CONTACT rows that stand in for contacts of the last step, for the pairs with a Chain.
 
-        With these rows a body that stood on an old one-way surface is held by the new surface, at any depth. pairs
-        (n, 2): SHAPE rows.
+        With these rows a body that stood on an old one-way surface is held by the new surface, at any depth. shapes:
+        SHAPE; pairs (n, 2): SHAPE rows.
         """
         some = shapes[pairs[(shapes["kind"][pairs] == CHAIN).any(axis=1)]]
         found = np.zeros(len(some), CONTACT)
@@ -414,7 +414,7 @@ class KeptImpulses:
     def _take(self, contact, k, reach):
         """Copy the forces of the nearest kept point with a similar normal to point k (1 or 2) of a new contact.
 
-        Kept points further away than reach [px], and contacts of other pairs of bodies, do not count.
+        Kept points farther away than `reach` [px], and contacts of other pairs of bodies, do not count.
         """
         old = self.contacts
         same = (old["body_a"] == contact["body_a"]) & (old["body_b"] == contact["body_b"])

@@ -40,7 +40,7 @@ def new_gap_workspace() -> GapWorkspace:
 
 @subkernel
 def support(corners, count, x, y):
-    """Return the support point: the corner farthest along a direction; on ties, the first. O(count)."""
+    """Return the number of the corner that is farthest along the direction (x, y); on ties, the first. O(count)."""
     best = 0
     most = 0.0
     for k in range(1, count):
@@ -55,14 +55,14 @@ def support(corners, count, x, y):
 def difference_edge(a, b, i, j, k, m):
     """Return the vector [px] from corner a[i] - b[j] of the Minkowski difference to corner a[k] - b[m].
 
-    It is rounded only once if i == k or j == m.
+    The vector is rounded only once if i == k or j == m.
     """
     return (a[k, 0] - a[i, 0]) - (b[m, 0] - b[j, 0]), (a[k, 1] - a[i, 1]) - (b[m, 1] - b[j, 1])
 
 
 @subkernel
 def write_corner(a, b, i, j, k, simplex_out):
-    """Write corner a[i] - b[j] of the Minkowski difference to row k of the simplex."""
+    """Write the corner a[i] - b[j] of the Minkowski difference to row k of the simplex. a, b (n, 2) [px]: corners."""
     simplex_out[k, 0] = float(i)
     simplex_out[k, 1] = float(j)
     simplex_out[k, 2] = a[i, 0] - b[j, 0]
@@ -84,7 +84,7 @@ def edge_of(a, b, p, q, simplex):
 
 @subkernel
 def region_of(x, y, ex, ey):
-    """Return whether the origin projects onto a line segment: -1 before its start, 0 on it, 1 beyond its end.
+    """Return where the origin projects onto a line segment: -1 before its start, 0 on it, 1 beyond its end.
 
     The segment starts at (x, y) and has the vector (ex, ey). A projection past an end by no more than rounding counts
     as on the segment, so that parallel faces with flush ends get the face normal.
@@ -140,10 +140,10 @@ def drop_corner(a, b, simplex_inout):
 
 @subkernel
 def reduce_simplex(a, b, state_inout, simplex_inout):
-    """Reduce the simplex to its corner or edge nearest to the origin. Write the direction from there to the origin.
+    """Reduce the simplex to its corner or edge nearest to the origin, and write the direction from there to the origin.
 
-    state_inout, simplex_inout: arrays of a GapWorkspace. Return TOUCHING if the origin lies in or on the simplex, else
-    SEARCHING.
+    a, b: corners of the hulls; state_inout, simplex_inout: arrays of a GapWorkspace. Return TOUCHING if the origin lies
+    in or on the simplex, else SEARCHING.
     """
     count = int(state_inout[COUNT])
     if count == 3:
@@ -195,8 +195,8 @@ def start_walk(a, b, i, j, state_out, simplex_out):
 def walk_on(a, a_count, b, b_count, state_inout, simplex_inout):
     """Run one round of GJK: reduce the simplex to its feature nearest to the origin, then add the support point.
 
-    Return SEARCHING if a support point was added, APART if no support point is nearer to the origin than the feature,
-    and TOUCHING if the origin lies in the simplex. O(corners).
+    a, b (n, 2) [px]: corners, a_count and b_count of them. Return SEARCHING if a support point was added, APART if no
+    support point is nearer to the origin than the feature, and TOUCHING if the origin lies in the simplex. O(corners).
     """
     state_inout[ROUNDS] += 1.0
     if reduce_simplex(a, b, state_inout, simplex_inout) == TOUCHING:
@@ -246,7 +246,10 @@ def write_edge_gap(a, b, places, p, q, nx, ny, gap_out):
 
 @subkernel
 def write_nearest(a, b, state, simplex, gap_out):
-    """Write separation, normal and nearest points of the final simplex, which is an edge or a single corner."""
+    """Write separation, normal and nearest points of two hulls to gap_out, from the final simplex of GJK.
+
+    The simplex is an edge or a single corner. gap_out: see GapWorkspace.
+    """
     q = 1 if state[COUNT] == 2.0 else 0
     write_edge_gap(a, b, simplex, 0, q, state[NORMAL_X], state[NORMAL_Y], gap_out)
     if q == 0:
@@ -372,9 +375,9 @@ def grow_polytope(a, a_count, b, b_count, count, polytope_inout):
 
 @subkernel
 def write_depth(a, b, count, polytope, gap_out):
-    """Write separation (minus the depth), normal and points of the polytope edge nearest to the origin.
+    """Write separation (minus the depth), normal and points of the polytope edge nearest to the origin to gap_out.
 
-    For a polytope that is a single point, the normal is (1, 0).
+    count: number of corners of the polytope; for a single point, the normal is (1, 0).
     """
     if count < 2:
         write_edge_gap(a, b, polytope, 0, 0, 1.0, 0.0, gap_out)
@@ -388,8 +391,8 @@ def write_depth(a, b, count, polytope, gap_out):
 def measure_depth(a, a_count, b, b_count, workspace):
     """Write to workspace.gap the distance that B must move to end its overlap with A, and the normal (EPA).
 
-    The rounds are added to workspace.state[ROUNDS]; if they reach EPA_CAP, 1 is added to workspace.state[CAPPED].
-    O(corners squared).
+    a, b (n, 2) [px]: corners, a_count and b_count of them. The rounds are added to workspace.state[ROUNDS]; if they
+    reach EPA_CAP, 1 is added to workspace.state[CAPPED]. O(corners squared).
     """
     count = start_polytope(a, a_count, b, b_count, workspace.polytope)
     if count > 1:
@@ -415,9 +418,9 @@ def measure_depth(a, a_count, b, b_count, workspace):
 def shape_separation(a, a_count, a_radius, b, b_count, b_radius, first, workspace):
     """Write separation, unit normal from A to B and nearest points to workspace.gap. Return the separation [px].
 
-    a, b: world corners (n, 2) [px], 1 to 16 of them; radii [px]; first: indices of the corners of A and B at which the
-    search starts. If the hulls overlap, the separation is minus the distance that B must move along the normal to end
-    the overlap. workspace.state holds the number of rounds and of caps hit.
+    a, b: world corners (n, 2) [px], 1 to 16 of them; a_radius, b_radius [px]: roundings; first: indices of the corners
+    of A and B at which the search starts. If the hulls overlap, the separation is minus the distance that B must move
+    along the normal to end the overlap. workspace.state holds the number of rounds and of caps hit.
     """
     if walk_to_nearest(a, a_count, b, b_count, first[0], first[1], workspace) == TOUCHING:
         measure_depth(a, a_count, b, b_count, workspace)
@@ -436,7 +439,7 @@ def shape_separation(a, a_count, a_radius, b, b_count, b_radius, first, workspac
 
 @subkernel
 def box_gap(boxes_a, i, boxes_b, j):
-    """Return the distance [px] of two boxes (min_x, min_y, max_x, max_y); 0 if they overlap."""
+    """Return the distance [px] of boxes_a[i] and boxes_b[j] (min_x, min_y, max_x, max_y); 0 if they overlap."""
     across = max(0.0, max(boxes_a[i, 0] - boxes_b[j, 2], boxes_b[j, 0] - boxes_a[i, 2]))
     down = max(0.0, max(boxes_a[i, 1] - boxes_b[j, 3], boxes_b[j, 1] - boxes_a[i, 3]))
     return norm(across, down)

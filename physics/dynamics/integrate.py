@@ -94,7 +94,7 @@ def make_position_pass(rotation: bool) -> Callable:
 
 @subkernel
 def put_center(u, v, body_inout):
-    """Write the world centre of mass of a BODY row, at offset (u, v) [px] from its origin.
+    """Write the world centre of mass of a BODY row, which is at the offset (u, v) [px] from the body's origin.
 
     A finite pose is also stored as the settled pose, which is the last finite pose. has_current_contacts is cleared.
     """
@@ -128,7 +128,7 @@ def refresh_centers(rows, bodies_inout):
 def write_center(bodies: Table, at: int) -> None:
     """Write the centre of mass of the BODY row `at`, and its last finite pose, as refresh_centers does.
 
-    Single numbers are faster by memory views, so the kernel is only called for a rotated body.
+    Single numbers are read and written faster by memory views, so the kernel is called only for a rotated body.
     """
     columns = bodies.columns
     x, y, angle = columns["x"][at], columns["y"][at], columns["angle"][at]
@@ -241,15 +241,15 @@ def disable_body(body_inout):
 
 @subkernel
 def is_within_limits(body):
-    """Return whether the position and angle of a body are within POSITION_LIMIT, so that a double resolves them."""
+    """Return whether the position and angle of a body are within POSITION_LIMIT, where a double still resolves them."""
     return abs(body.x) < POSITION_LIMIT and abs(body.y) < POSITION_LIMIT and abs(body.angle) < POSITION_LIMIT
 
 
 @subkernel
 def is_finite_in_step(body, gravity_x, gravity_y, speed_limit, dt):
-    """Return whether all numbers of a body that a step of dt [s] reads are finite and in range, also after its motion.
+    """Return whether all numbers of a body that a step reads are finite and in range, also after the body's motion.
 
-    gravity_x, gravity_y [px/s2]; speed_limit [px/s].
+    gravity_x, gravity_y [px/s2]; speed_limit [px/s]; dt [s]: length of the step.
     """
     b = body
     vx = b.vx + dt * (b.inverse_mass * b.force_x + b.gravity_scale * gravity_x)
@@ -311,8 +311,8 @@ def take_body(row, reason, found, bodies_inout, broken_out):
 def take_broken_bodies(rows, course, bodies_inout, broken_out):
     """Quarantine bodies whose numbers are not finite or out of range, and list them. Return their number.
 
-    A body whose pose is out of range is moved back to its last finite pose. rows: body rows; broken_out (bodies, 2):
-    body row and reason (index of REASONS).
+    A body whose pose is out of range is moved back to its last finite pose. rows: body rows; course: see Course;
+    broken_out (bodies, 2): body row and reason (index of REASONS).
     """
     found = 0
     for k in range(len(rows)):
@@ -342,8 +342,8 @@ def take_broken(rows, shape_rows, grid_rows, shapes, characters, course, bodies_
     """Quarantine bodies for invalid numbers of the body, its shapes or its character. Return the number of bodies.
 
     Also quarantine rotated or rotating bodies with a TileGrid; only a direct write to the table can rotate them. rows:
-    body rows; shape_rows: shape rows; grid_rows: shape rows to test for TileGrids. broken_out (bodies, 2): body row and
-    reason (index of REASONS), each body once. O(rows + shape_rows + grid_rows + characters).
+    body rows; shape_rows: shape rows; grid_rows: shape rows to test for TileGrids; course: see Course. broken_out
+    (bodies, 2): body row and reason (index of REASONS), each body once. O(rows + shape_rows + grid_rows + characters).
     """
     found = take_broken_bodies(rows, course, bodies_inout, broken_out)
     for k in range(len(shape_rows)):
@@ -365,9 +365,9 @@ def take_broken(rows, shape_rows, grid_rows, shapes, characters, course, bodies_
 
 @kernel
 def take_broken_by_solver(rows, course, bodies_inout, broken_out):
-    """Quarantine bodies whose numbers a solver left out of range, as take_broken does for the numbers of bodies.
+    """Quarantine bodies whose numbers a solver left out of range, and list them in broken_out. Return their number.
 
-    Return the number of bodies.
+    Arguments as in take_broken.
     """
     return take_broken_bodies(rows, course, bodies_inout, broken_out)
 
@@ -390,7 +390,7 @@ def quarantine(state: StepState) -> None:
 
 @stage("quarantine_solved", reads=(*READS, "non_finite_count", "workspace"), writes=(*WRITES, "workspace"))
 def quarantine_solved(state: StepState) -> None:
-    """Disable bodies whose numbers a solver left out of range, and drop their contacts, before sweep and reports."""
+    """Disable bodies whose numbers a solver left out of range, and drop their contacts, before sweeps and reports."""
     if not state.non_finite_count:
         return
     broken, course = np.zeros((len(state.bodies), 2), np.int64), Course(0.0, 0.0, state.tolerances.speed_limit, 0.0)

@@ -2,7 +2,7 @@
 
 Without sleeping these are all rows. With sleeping they are the awake dynamic bodies, moving non-dynamic bodies,
 characters, and for one step the added or edited bodies. Sleeping bodies and bodies at rest cost nothing. The lists are
-updated when bodies wake or fall asleep, so a step does not search all bodies.
+updated when bodies wake or fall asleep, so that a step does not have to search all bodies.
 """
 
 import math
@@ -38,13 +38,19 @@ def is_active(body):
 
 @subkernel
 def wakes(body, other):
-    """Return whether `body` wakes `other` on contact: `other` sleeps, and `body` is active or was edited. BODY rows."""
+    """Return whether `body` wakes `other` on contact: `other` sleeps, and `body` is active or was edited.
+
+    body, other: BODY rows.
+    """
     return other.kind == DYNAMIC and not other.awake and (body.dirty or is_active(body))
 
 
 @kernel
 def list_active(bodies, rows, rows_out):
-    """List the active body rows of `rows` that are not quarantined, see is_active. Return their number. O(rows)."""
+    """List those of the body rows `rows` that are active (see is_active) and not quarantined. Return their number.
+
+    O(rows).
+    """
     found = 0
     for k in range(len(rows)):
         b = bodies[rows[k]]
@@ -56,9 +62,9 @@ def list_active(bodies, rows, rows_out):
 
 @kernel
 def gather_shapes(rows, order, starts, rows_out):
-    """List the shape rows of distinct body rows. Return their number. O(shapes of these bodies).
+    """List the shape rows of the body rows `rows`, all distinct. Return their number. O(shapes of these bodies).
 
-    order: shape rows sorted by body row; starts: index in order of the first shape row of each body row.
+    order: shape rows sorted by body row; starts: index in `order` of the first shape row of each body row.
     """
     found = 0
     for k in range(len(rows)):
@@ -71,7 +77,7 @@ def gather_shapes(rows, order, starts, rows_out):
 class Awake:
     """The awake rows of one world: `bodies` and `shapes`, int64, ascending.
 
-    sleeping: whether the world has sleeping; otherwise all rows are awake.
+    sleeping: whether the world has sleeping. Without sleeping all rows are awake.
     """
 
     def __init__(self, sleeping: bool) -> None:
@@ -91,7 +97,7 @@ class Awake:
         self.stale = True
 
     def mark_dirty(self, ids: list[int]) -> None:
-        """Add bodies that were added or edited, by id, to the rows of the next step. No effect without sleeping."""
+        """Add bodies that were added or edited (ids) to the rows of the next step. No effect without sleeping."""
         if self.sleeping:
             self.dirty += ids
 
@@ -116,14 +122,14 @@ class Awake:
             self.known = (int(np.count_nonzero(kept_bodies[: self.known[0]])), -1)
 
     def forget_shapes(self) -> None:
-        """Mark the shape rows of the bodies to be looked up again, after shape rows were added or removed."""
+        """Mark the list of shape rows as outdated, after shape rows were added or removed."""
         self.known = (self.known[0], -1)
 
     def take_in(self, tables: WorldTables) -> None:
-        """Add new rows to the lists, or rebuild the lists if they are marked.
+        """Add new rows of the tables to the lists, or rebuild the lists if they are marked.
 
-        Rebuilt lists contain the bodies of the last step, by the column `active`. So the next step can find the bodies
-        that have come to rest since, and store their touching pairs.
+        Rebuilt lists contain the bodies of the last step (column `active`). So the next step can find the bodies that
+        have come to rest since, and store their touching pairs.
         """
         bodies, shapes = tables.bodies, tables.shapes
         count, shape_count = len(bodies), len(shapes)
@@ -158,25 +164,25 @@ class Awake:
         self.starts = np.searchsorted(owners[self.order], np.arange(len(bodies) + 1))
 
     def is_known(self, bodies: np.ndarray, shapes: np.ndarray) -> bool:
-        """Return whether the lists cover these tables."""
+        """Return whether the lists cover all rows of these tables."""
         return not self.stale and self.known == (len(bodies), len(shapes))
 
     def may_move(self, bodies: np.ndarray, before: np.ndarray) -> np.ndarray:
         """Return the body rows whose pose may have changed since `before` was the list of awake rows.
 
-        before: `bodies` at most one step ago.
+        before: an earlier value of `self.bodies`, at most one step old.
         """
         dirty = rows_of(bodies, np.array(self.dirty, np.int64))
         rows = np.concatenate([before, self.bodies, self.dynamic, self.kinematic, dirty[dirty >= 0]])
         return distinct(rows, len(bodies))
 
     def shapes_of(self, rows: np.ndarray) -> np.ndarray:
-        """Return the shape rows of distinct body rows, ascending."""
+        """Return the shape rows, ascending, of distinct body rows `rows`."""
         gathered = np.empty(len(self.order), np.int64)
         return np.sort(gathered[: gather_shapes(rows, self.order, self.starts, gathered)])
 
     def include(self, tables: WorldTables, rows: np.ndarray) -> None:
-        """Add body rows to the lists. It may be called in a step; the pairs of these bodies are searched again."""
+        """Add body rows to the lists. The call is allowed in a step; the pairs of these bodies are searched again."""
         self.take_in(tables)
         self.bodies = distinct(np.concatenate([self.bodies, rows]), len(tables.bodies))
         new = rows[tables.bodies["kind"][rows] == DYNAMIC]
@@ -205,9 +211,10 @@ class Awake:
     writes=("awake", "sleeping_set", "pairs", "touching_pairs", "sensing_pairs", "bodies.active", "bodies.dirty"),
 )
 def list_awake(state: StepState) -> None:
-    """List the awake rows of this step: include bodies that began to move, and exclude bodies that stopped.
+    """List the awake rows of this step: include bodies that have begun to move, and exclude bodies that have stopped.
 
-    Also move the stored touching pairs of these bodies out of the sleeping set, or into it.
+    Also move the stored touching pairs of the included bodies out of the sleeping set, and those of the excluded bodies
+    into it.
     """
     awake, bodies = state.awake, state.bodies
     awake.take_in(state)
@@ -257,7 +264,10 @@ FREE_TIME = 60.0  # [s] time in which the free motion of a sleeping body would b
 
 
 class Groups(NamedTuple):
-    """Groups of bodies linked by friction or joints: arrays by BODY row. The values of a group are at its root."""
+    """Groups of bodies linked by friction or joints: arrays by BODY row.
+
+    The values of a group are in the row of its root.
+    """
 
     parents: np.ndarray  # int32 union-find, see join_trees
     anchored: np.ndarray  # bool friction or joints hold the group on a resting body
@@ -278,7 +288,7 @@ class Groups(NamedTuple):
 
 
 class FreeFall(NamedTuple):
-    """The acceleration of free bodies, and how far they move in FREE_TIME."""
+    """The acceleration of free bodies, and factors for the distance that they move in FREE_TIME."""
 
     gravity_x: float  # [px/s2] before the gravity scale of a body
     gravity_y: float
@@ -330,7 +340,7 @@ def is_free(body):
 
 @kernel
 def start_groups(rows, bodies, fall, groups_out):
-    """Make each body a separate group, with the acceleration of its free fall times its mass. O(rows).
+    """Make each body a separate group, and write its mass times the acceleration of its free fall. O(rows).
 
     rows: body rows; fall: see FreeFall; groups_out: see Groups.
     """
@@ -354,10 +364,10 @@ def start_groups(rows, bodies, fall, groups_out):
 
 @kernel
 def join_groups(bodies, contacts, friction, groups_inout):
-    """Join the free bodies of loaded contacts with friction, and mark bodies held by friction on a resting body.
+    """Join free bodies into groups by loaded contacts with friction. O(contacts).
 
-    Also mark bodies with two loaded points of one contact in Groups.faces. friction: 1 if the effect friction is
-    declared, else 0. O(contacts).
+    Bodies that friction holds on a resting body are marked in Groups.anchored. Bodies with two loaded points of one
+    contact are marked in Groups.faces. friction: 1 if the effect friction is declared, else 0.
     """
     g = groups_inout
     for i in range(len(contacts)):
@@ -433,7 +443,7 @@ def hold_of(joint):
 
 @kernel
 def join_jointed_groups(bodies, joints, groups_inout):
-    """Join the free bodies of joints, and write how joints to resting bodies hold their groups. O(joints).
+    """Join free bodies into groups by joints, and write how joints to resting bodies hold their groups. O(joints).
 
     The position of a pivot, or the direction of a rail, is written to the row of the held body.
     """
@@ -473,7 +483,7 @@ def join_jointed_groups(bodies, joints, groups_inout):
 
 @kernel
 def hold_groups(rows, bodies, groups_inout):
-    """Write the numbers of pivots and rails, and the centres of mass, of groups to their roots. O(rows).
+    """Write the numbers of pivots and rails, and the centre of mass, of each group to the row of its root. O(rows).
 
     A group with two pivots, or with a pivot and a rail, hardly moves and counts as anchored. rows: body rows.
     """
@@ -501,11 +511,12 @@ def hold_groups(rows, bodies, groups_inout):
 
 @subkernel
 def way_of_hung(root, body, groups, fall):
-    """Return how far [px] a body may still move whose group hangs on one pivot or slides on rails.
+    """Return how far [px] a body may still move if its group hangs on one pivot or slides on rails.
 
-    With acceleration, a pivoted group swings to its lowest point: the result is SWING times the sideways distance of
-    its centre of mass from there, infinite if it is above the pivot. Without acceleration, the group continues to
-    rotate about the pivot. root: root row of the group; body: BODY row; fall: see FreeFall.
+    With acceleration, a pivoted group swings about its lowest position. The result is SWING times the amplitude: the
+    sideways distance of its centre of mass from this position, enlarged by its speed; infinite if the centre is above
+    the pivot. Without acceleration, the group continues to rotate about the pivot. root: root row of the group; body:
+    BODY row; fall: see FreeFall.
     """
     g = groups
     ax, ay = g.ax[root], g.ay[root]
@@ -527,7 +538,10 @@ def way_of_hung(root, body, groups, fall):
 
 @kernel
 def sum_groups(rows, bodies, fall, groups_inout):
-    """Write mass, mean acceleration by mass, and anchored flag of each group to its root. rows: body rows. O(rows)."""
+    """Write total mass, mean acceleration and anchored flag of each group to the row of its root. O(rows).
+
+    The mean is weighted by mass. rows: body rows.
+    """
     g = groups_inout
     for k in range(len(rows)):
         i = rows[k]
@@ -552,9 +566,9 @@ def sum_groups(rows, bodies, fall, groups_inout):
 
 @subkernel
 def choose_surface(root, nx, ny, groups_inout):
-    """Replace the surface of a group if the group accelerates more strongly into another surface.
+    """Make a surface the one of a group if the group accelerates more strongly into it than into the present one.
 
-    root: root row of the group; nx, ny: normal of the other surface, towards the group.
+    root: root row of the group; nx, ny: normal of the surface, towards the group.
     """
     g = groups_inout
     into = -(g.ax[root] * nx + g.ay[root] * ny)
@@ -566,7 +580,7 @@ def choose_surface(root, nx, ny, groups_inout):
 
 @subkernel
 def mark_blocked(root, nx, ny, fall, groups_inout):
-    """Mark a group as blocked if its motion along its surface would enter another surface by more than the slop.
+    """Mark a group as blocked if its motion along its own surface would enter another surface by more than the slop.
 
     root: root row of the group; nx, ny: normal of the other surface, towards the group; fall: see FreeFall.
     """
@@ -578,9 +592,9 @@ def mark_blocked(root, nx, ny, fall, groups_inout):
 
 @kernel
 def find_surfaces(rows, bodies, contacts, fall, groups_inout):
-    """Project the acceleration of each group onto the surface that it presses on most, and mark blocked groups.
+    """Project the acceleration of each group onto the surface on which it presses most, and mark blocked groups.
 
-    rows: body rows. O(rows + contacts).
+    rows: body rows; fall: see FreeFall. O(rows + contacts).
     """
     g = groups_inout
     for turn in range(2):
@@ -611,10 +625,10 @@ def find_surfaces(rows, bodies, contacts, fall, groups_inout):
 
 @kernel
 def keep_free_awake(rows, bodies, groups, fall, islands, least_out):
-    """Set the least sleep time of islands to 0 if the free motion of one of their bodies exceeds the slop. O(rows).
+    """Set the least sleep time of an island to 0 if the free motion of one of its bodies exceeds the slop. O(rows).
 
-    rows: body rows; fall: see FreeFall; islands (bodies) int32: root row of the island of each body; least_out
-    (bodies): least sleep time [s] of each island, at its root.
+    rows: body rows; groups: see Groups; fall: see FreeFall; islands (bodies) int32: root row of the island of each
+    body; least_out (bodies): least sleep time [s] of each island, in the row of its root.
     """
     g = groups
     for k in range(len(rows)):
@@ -643,7 +657,7 @@ def keep_free_awake(rows, bodies, groups, fall, islands, least_out):
 
 @kernel
 def keep_sprung_awake(bodies, joints, slop, islands, least_out):
-    """Set the least sleep time of islands to 0 if one of their bodies still moves on a spring. O(joints).
+    """Set the least sleep time of an island to 0 if one of its bodies still moves on a spring. O(joints).
 
     A body on a spring is slow where it turns back. So it may sleep only after it has stayed in place for half a period,
     and if its speed corresponds to an amplitude of about a slop [px] or less. islands, least_out: see keep_free_awake.
@@ -680,7 +694,7 @@ def keep_awake_what_moves_freely(
     islands: np.ndarray,
     least_out: np.ndarray,
 ) -> None:
-    """Keep islands awake if one of their bodies is not held by friction and its free motion exceeds the slop.
+    """Keep an island awake if the free motion of one of its bodies, not held by friction, exceeds the slop.
 
     rows: awake body rows; friction: whether the effect is declared; fall: FreeFall of the world; groups: scratch Groups
     with room for all BODY rows; islands, least_out: see keep_free_awake.

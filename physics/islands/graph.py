@@ -22,7 +22,7 @@ NO_NODE = -1  # value of a node without a body
 
 
 class Edges(NamedTuple):
-    """Constraints as edges of the graph, with an array for each property."""
+    """Constraints as edges of the graph, with one array for each property of an edge."""
 
     kinds: np.ndarray  # (edges) int32 CONTACT_EDGE or JOINT_EDGE
     rows: np.ndarray  # (edges) int32 CONTACT or JOINT row
@@ -116,7 +116,7 @@ def find_roots(
 
 @subkernel
 def share_classes(parents, classes_inout):
-    """Raise the substep class of each node to the greatest class in its island.
+    """Raise the substep class of each node to the greatest class of a node in its island.
 
     parents (nodes,): int32 root of the island of each node, from find_roots; classes_inout (nodes,): int32.
     """
@@ -196,9 +196,10 @@ def color_edges(
 
 @subkernel
 def slot_of(edge, edges, colors, classes):
-    """Return the sort key of an edge: by the greatest class of its nodes, then by colour; edges without colour first.
+    """Return the sort key of an edge: the greatest class of its nodes, then its colour, with no colour first.
 
-    edge: index of the edge; colors: colour of each edge; classes (nodes,): empty if there is only one class.
+    edge: index of the edge; colors: colour of each edge, -1 for none; classes (nodes,): class of each node, empty if
+    there is only one class.
     """
     slot = colors[edge] + 1
     if len(classes) > 0:

@@ -51,14 +51,14 @@ class SleepingSet:
         self.sensing_pairs = np.zeros(0, EVENT)
 
     def put(self, key: int, island: Island) -> None:
-        """Store an island."""
+        """Store an island under its key."""
         self.islands[key] = island
         self._link(self._named(island), [key])
 
     def put_many(self, keys: list[int], islands: list[Island], named: list[int], owners: list[int]) -> None:
-        """Store many islands.
+        """Store many islands, islands[k] under keys[k].
 
-        named: body outside (id) for each reference from a contact; owners: key of the island of each reference.
+        named: ids of bodies outside to which contacts refer; owners: key of the referring island for each of these ids.
         """
         self.islands.update(zip(keys, islands, strict=True))
         for identity, key in set(zip(named, owners, strict=True)):
@@ -69,7 +69,7 @@ class SleepingSet:
             self.links.setdefault(identity, set()).update(keys)
 
     def take(self, key: int) -> Island:
-        """Remove an island and return it."""
+        """Remove the island with this key and return it."""
         island = self.islands.pop(key)
         for identity in self._named(island):
             keys = self.links[identity]
@@ -85,7 +85,7 @@ class SleepingSet:
         return np.setdiff1d(named, island.bodies).tolist()
 
     def take_naming(self, identity: int) -> list[tuple[np.ndarray, np.ndarray]]:
-        """Remove the contacts with a body (id) outside from all islands. Return (CONTACT, EVENT rows) of each."""
+        """Remove the contacts with a body outside (id) from all islands. Return (CONTACT, EVENT rows) of each."""
         found = []
         for key in sorted(self.links.get(identity, ())):
             island = self.take(key)
@@ -97,7 +97,7 @@ class SleepingSet:
         return found
 
     def keep_touching(self, rows: np.ndarray, fell_asleep: np.ndarray, keys: np.ndarray) -> None:
-        """Store touching pairs in islands that have just fallen asleep.
+        """Store the touching pairs of islands that have just fallen asleep.
 
         rows: EVENT rows of the pairs; fell_asleep: CONTACT rows of the islands in the order of shape ids; keys: island
         of each CONTACT row.
@@ -111,7 +111,7 @@ class SleepingSet:
             self.islands[key] = self.islands[key]._replace(touching=part)
 
     def naming(self, identity: int, own: int) -> np.ndarray:
-        """Return the sleeping CONTACT rows that refer to a body, by id. own: key of the body's island, -1: none."""
+        """Return the sleeping CONTACT rows that refer to a body (id). own: key of the body's island, -1: none."""
         parts = [np.zeros(0, CONTACT)]
         for key in sorted({own, *self.links.get(identity, ())} & self.islands.keys()):
             m = self.islands[key].contacts
@@ -123,7 +123,7 @@ class SleepingSet:
         return in_order(joined([np.zeros(0, CONTACT), *(each.contacts for each in self.islands.values())]))
 
     def keep_reported(self, tables: WorldTables) -> None:
-        """Move the touching and sensed pairs whose bodies are both not active from `tables` to this set."""
+        """Move the touching and sensed pairs of two bodies that are not active from `tables` to this set."""
         self.touching_pairs = np.concatenate([self.touching_pairs, tables.touching_pairs.take_resting(tables.bodies)])
         self.sensing_pairs = np.concatenate([self.sensing_pairs, tables.sensing_pairs.take_resting(tables.bodies)])
 
@@ -144,7 +144,7 @@ class SleepingSet:
 
 
 def order_of(manifolds: np.ndarray) -> np.ndarray:
-    """Return the indices that sort manifolds by shape ids, stable for the manifolds of a pair."""
+    """Return the indices that sort manifolds by shape ids. Manifolds of one pair keep their order."""
     return np.lexsort((np.arange(len(manifolds)), manifolds["shape_b"], manifolds["shape_a"]))
 
 
@@ -163,9 +163,9 @@ def in_order(manifolds: np.ndarray) -> np.ndarray:
 
 
 def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
-    """Wake the islands of bodies, and the islands that touch these, before the bodies are moved, edited or removed.
+    """Wake the islands of bodies, and the islands that touch them, before the bodies are moved, edited or removed.
 
-    ids: ids of the bodies. The next step visits the bodies, and their sleep time is reset to 0. No effect without
+    ids: ids of the bodies. The next step visits these bodies, and their sleep time is reset to 0. No effect without
     sleeping.
     """
     if not tables.awake.sleeping:
@@ -180,11 +180,11 @@ def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
 
 
 def disturb_one(world: Any, identity: int, row: int) -> int:
-    """Disturb one body between steps, as disturb does. Return its present row, which changes if removed rows drop.
+    """Disturb one body between steps, like `disturb`.
 
-    world: a World, annotated Any because its module imports this one. identity, row: id and row of the body. The rows
-    of removed bodies may still be in the tables, see World._row_at. So only single numbers are read, unless an island
-    wakes or the world has joints.
+    Return its row after the call, because removed rows may be dropped. world: a World, annotated Any because its module
+    imports this one. identity, row: id and row of the body. The rows of removed bodies may still be in the tables, see
+    World._row_at. So only single numbers are read, unless an island wakes or the world has joints.
     """
     awake, sleeping_set = world.awake, world.sleeping_set
     if not awake.sleeping:
@@ -213,7 +213,7 @@ def with_partners(joints: np.ndarray, ids: list[int]) -> list[int]:
 
 
 def stir(tables: WorldTables, ids: list[int], rows: np.ndarray) -> None:
-    """Add bodies, by id and row, to the rows of the next step, and reset their sleep time, in a world with sleeping."""
+    """Add bodies (ids, BODY rows) to the rows of the next step, and reset their sleep time."""
     tables.sleeping_set.return_reported(tables, ids)
     tables.awake.mark_dirty(ids)
     tables.bodies["sleep_time"][rows] = 0.0
@@ -276,7 +276,7 @@ def wake_all(tables: WorldTables) -> None:
 
 
 def wake(tables: WorldTables, keys: Iterable[int]) -> None:
-    """Wake islands, by key: move their bodies, and all sleeping contacts with these, back to the awake tables."""
+    """Wake the islands with these keys: move their bodies, and the bodies' sleeping contacts, to the awake tables."""
     sleeping_set = tables.sleeping_set
     keys = [key for key in sorted(keys) if key in sleeping_set.islands]
     if not keys:
@@ -303,7 +303,7 @@ def wake(tables: WorldTables, keys: Iterable[int]) -> None:
 
 
 def _bring_back(tables, contacts):
-    """Add contacts to tables.contact_rows, with present rows, unless their pair already has a contact there."""
+    """Add woken contacts, with present rows, to tables.contact_rows, except those of a pair that is already there."""
     found = tables.contact_rows
     known = found["shape_a"] << 32 | found["shape_b"]
     new = ~np.isin(contacts["shape_a"] << 32 | contacts["shape_b"], known)
@@ -322,7 +322,7 @@ def with_rows(tables: WorldTables, contacts: np.ndarray) -> np.ndarray:
 
 
 def forget(tables: WorldTables) -> None:
-    """Drop the contacts of removed bodies and shapes, and update the row numbers in the other contacts."""
+    """Drop the contacts of removed bodies and shapes, and update the row numbers in all other contacts."""
     if len(tables.contact_rows):
         tables.contact_rows = with_rows(tables, joined([tables.contact_rows]))
 
@@ -483,7 +483,7 @@ def is_touching(contact):
 
 @inlined
 def is_pressed(contact):
-    """Return whether a contact overlaps, or had a normal impulse in the step; a speculative contact may do neither."""
+    """Return whether a contact overlaps or had a normal impulse in the step. A speculative contact may do neither."""
     c = contact
     if c.separation_1 <= 0.0 or c.normal_impulse_1 > 0.0:
         return True
@@ -538,7 +538,7 @@ def start_islands(rows, parents_out):
 
 @inlined
 def way_from(body, x, y, angle):
-    """Return an upper bound [px] for the motion of any point of a BODY row since another pose; NaN for a NaN pose."""
+    """Return an upper bound [px] of the motion of any point of a BODY row since the pose x, y, angle; NaN for NaN."""
     return norm(body.x - x, body.y - y) + abs(body.angle - angle) * body.extent
 
 
@@ -562,9 +562,10 @@ def advance_sleep_times(
 
     Return (number of islands of awake dynamic bodies, whether any body has a sleep time of at least `patience` [s]).
     The sleep time restarts at 0 when a body has moved further than `slow` [px/s] times `patience` from its reference
-    pose. The rocking time restarts beyond rocking_range [px], see settings.ROCKING_RANGE. rows: rows of the awake
-    bodies; edges, count, parents_inout: see graph.join. At the root of each island, least_out (bodies) receives the
-    least sleep time [s] of its bodies, and excess_out (bodies) the sum of speed² - slow² over its bodies.
+    pose. The rocking time restarts when it has moved further than rocking_range [px], see settings.ROCKING_RANGE. rows:
+    rows of the awake bodies; edges, count, parents_inout: see graph.join. least_out (bodies) and excess_out (bodies)
+    receive, at the root of each island, the least sleep time [s] of its bodies and the sum of speed² - slow² over its
+    bodies.
     """
     distance = slow * patience
     islands = 0
@@ -624,9 +625,9 @@ def fall_asleep(
 ):
     """Put islands to sleep if all their bodies have stayed in place for `patience` [s]. O(rows).
 
-    Return the number of bodies that fell asleep. In addition, the mean square speed of the island must not exceed the
-    square of the sleep speed. So a few bodies may tremble, but an island that has just begun to fall, or was pushed,
-    stays awake. rows: rows of the awake bodies; parents, least, excess: see advance_sleep_times.
+    Return the number of bodies that fell asleep. The mean square speed of the island must also not exceed the square of
+    the sleep speed. So a few bodies may tremble, but an island that has just begun to fall, or was pushed, stays awake.
+    rows: rows of the awake bodies; parents, least, excess: see advance_sleep_times.
     """
     slept = 0
     for k in range(len(rows)):
@@ -754,9 +755,9 @@ def rest(state: StepState) -> None:
 
 
 def _park(state, slept):
-    """Move the islands of these body rows to the sleeping set with their contacts, and drop speculative contacts.
+    """Move the islands of these body rows to the sleeping set with their contacts. Drop their speculative contacts.
 
-    Return (CONTACT rows that were moved, in the order of shape ids, key of the island of each).
+    Return (CONTACT rows that were moved, in the order of shape ids; key of the island of each row).
     """
     bodies, m = state.bodies, state.contact_rows
     still = (bodies["kind"][m["body_row_a"]] != DYNAMIC) | ~bodies["awake"][m["body_row_a"]]

@@ -15,7 +15,7 @@ from physics.tables.step_state import StepState
 
 
 class Islands(NamedTuple):
-    """The bodies of all islands, and the numbers of substeps from which an island may choose."""
+    """The island bodies, and the numbers of substeps from which each island may choose."""
 
     members: np.ndarray  # int32 rows of MOTION
     rate: float  # see estimate_rate
@@ -25,7 +25,7 @@ class Islands(NamedTuple):
 
 
 def estimate_rate(state: StepState) -> float:
-    """Return n² / v [s/px], where n substeps keep the sag of a contact within the accuracy.
+    """Return n² / v [s/px], where n is the number of substeps that keeps the sag of a contact within the accuracy.
 
     v [px/s] is the impulse of the contact in the step divided by its effective mass m. A contact sags under a force F
     by F / (m ω²), where HERTZ_SHARE gives ω as a fraction of the substeps per second.
@@ -37,7 +37,7 @@ def estimate_rate(state: StepState) -> float:
 def class_for(choices, square, least):
     """Return the index of the first number of substeps, from index `least` on, whose square is at least `square`.
 
-    choices: numbers of substeps, ascending. If none is large enough, the result is the last index.
+    choices: numbers of substeps, ascending. If none of them is large enough, the result is the last index.
     """
     place = least
     while place < len(choices) - 1 and choices[place] * choices[place] < square:
@@ -50,7 +50,8 @@ def class_motions(motions, degrees, islands, classes_out):
     """Write the class of each MOTION row: the index of its number of substeps in islands.choices. O(motions).
 
     Return whether there are new bodies with contacts. A body without constraints takes the fewest substeps. A new body
-    with contacts takes islands.by_load, with joints alone islands.jointed. degrees: number of contacts of each body.
+    takes islands.by_load if it has contacts, and islands.jointed if it has only joints. Every other body takes the
+    number that the last step chose (MOTION.substeps). degrees: number of contacts of each body; islands: see Islands.
     """
     unknown = False
     choices, by_load = islands.choices, islands.by_load
@@ -104,10 +105,11 @@ def expect_impacts(edges, count, motions, degrees, rate, choices, classes_inout)
 
 @subkernel
 def expect_columns(edges, count, motions, degrees, most, classes_inout):
-    """Give new columns, whose bodies have at most two contacts, the most substeps. O(count).
+    """Give new columns the most substeps. A column consists of bodies with at most two contacts each. O(count).
 
-    count: number of contacts; most: index of the greatest number of substeps in the choices. The lean of a column is
-    unknown until the load has reached its foot, and a lean does not stop by itself.
+    The lean of a column is unknown until the load has reached its foot, and a lean does not stop by itself. count:
+    number of contacts, the first entries of `edges`; motions: MOTION rows; degrees: number of contacts of each body;
+    most: index of the greatest number of substeps in the choices; classes_inout: see class_motions.
     """
     for i in range(count):
         if not edges.resting[i]:
@@ -126,7 +128,10 @@ def expect_columns(edges, count, motions, degrees, most, classes_inout):
 
 @subkernel
 def are_mixed(motions, degrees, classes):
-    """Return whether the bodies with constraints have different substep classes. O(motions)."""
+    """Return whether the bodies with constraints are in different classes, see class_motions. O(motions).
+
+    degrees: number of contacts of each MOTION row; classes: class of each MOTION row.
+    """
     first = -1
     for i in range(len(classes)):
         if motions[i].is_dynamic and (degrees[i] > 0 or motions[i].jointed):
@@ -167,8 +172,9 @@ class LoadRules(NamedTuple):
 def choose_substeps(members, degrees, substeps, rules, motions_inout):
     """Write the number of substeps that each island body needs in the next step. O(members).
 
-    Return whether all bodies need the present number again, so that islands need not be determined. members: MOTION
-    rows; degrees: number of contacts of each body; substeps: number of substeps in this step; rules: see LoadRules.
+    Return whether every body needs the same number as in this step, so that islands need not be determined. members:
+    MOTION rows of the group; degrees: number of contacts of each body; substeps: number in this step; rules: see
+    LoadRules.
     """
     content = True
     for k in range(len(members)):

@@ -48,7 +48,10 @@ def kernel(function: Callable) -> Any:
 
 
 def generic(function: Callable) -> Any:
-    """Return a kernel that is called with several types, with one compiled form for each, looked up in every call."""
+    """Return a kernel that is called with arguments of several types. Used as a decorator.
+
+    There is one compiled form for each list of types, which is looked up in every call.
+    """
     return StageKernel(function, is_generic=True) if JIT else _viewing(function)
 
 

@@ -41,7 +41,7 @@ from physics.jit.store import store
 class PartLibrary(codegen.JITCodeLibrary):
     """The code of a part (a kernel that only kernels call), to be linked into the code of its callers.
 
-    Its calls are resolved, but the code is neither optimised nor executable.
+    The calls in it are resolved, but the code is neither optimised nor executable.
     """
 
     def _optimize_final_module(self):
@@ -71,7 +71,7 @@ class PartLowering(typed_passes.NativeLowering):
     _name = "part_lowering"
 
     def run_pass(self, state: Any) -> bool:
-        """Lower the function as numba does, but without machine code, so that it has no address."""
+        """Lower the function as numba does, but without machine code, so that the function has no address."""
         state.library = PartLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
         state.flags.no_compile = True
         state.flags.noalias = getattr(state.func_id.func, "noalias", False)
@@ -99,7 +99,8 @@ class PartCompiler(CompilerBase):
 def entry_of(descriptor: Any, environment: Any, library: PartLibrary) -> Any:
     """Return the function object by which numba identifies a compiled part.
 
-    The object has no address, because it is never called.
+    The object has no address, because it is never called. descriptor, environment: numba's objects of the part;
+    library: its code.
     """
     name = descriptor.qualname.split(".")[-1]
     return _dynfunc.make_function(descriptor.lookup_module(), name, "", 0, environment, (library,))
@@ -113,7 +114,7 @@ def reduce(result: Any) -> tuple:
 
 
 def rebuild(target_context: Any, kept: tuple) -> Any:
-    """Return a part's CompileResult from the result of reduce()."""
+    """Return a part's CompileResult from `kept`, the result of reduce(). target_context: numba's target context."""
     name, code, descriptor, environment, signature = kept
     library = PartLibrary.from_bitcode(target_context.codegen(), name, code)
     return compile_result(
@@ -147,7 +148,10 @@ READABLE = 48  # characters of a kernel's name in the name of its file
 
 
 def file_name(kernel: Kernel, types_text: str) -> str:
-    """Return the name of a compiled form in the store: readable name, fingerprint of the kernel, hash of its types."""
+    """Return the name of a compiled form in the store: readable name, fingerprint of the kernel, hash of its types.
+
+    types_text: the types of the arguments as text.
+    """
     readable = f"{kernel.__module__.partition('.')[2]}.{kernel.__name__}"[-READABLE:]
     return f"{readable}.{fingerprint(kernel)}.{hashlib.blake2b(types_text.encode(), digest_size=8).hexdigest()}"
 
@@ -158,7 +162,10 @@ def name_of(kernel: Kernel, keys: Keys) -> str:
 
 
 def load(kernel: Kernel, keys: Keys) -> Form | None:
-    """Return the compiled form of a kernel from the store; None: the store does not have it."""
+    """Return the compiled form of a kernel from the store; None: the store does not have it.
+
+    keys: types of the arguments.
+    """
     content = store().read(name_of(kernel, keys))
     if content is None:
         return None
@@ -170,7 +177,10 @@ def load(kernel: Kernel, keys: Keys) -> Form | None:
 
 
 def load_or_compile(kernel: Kernel, keys: Keys) -> Form:
-    """Return the compiled form of a kernel from the store; if the store does not have it, compile and store it."""
+    """Return the compiled form of a kernel from the store; if the store does not have it, compile and store it.
+
+    keys: types of the arguments.
+    """
     form = load(kernel, keys)
     if form is None:
         with store().claim(name_of(kernel, keys)):
@@ -239,7 +249,7 @@ def _link(kept):
 
 
 def _environment(name, module, values):
-    """Return numba's environment of compiled code: the globals of its module, and its constants."""
+    """Return numba's environment of compiled code: the globals of its module, and its constants `values`."""
     known = lookup_environment(name)
     if known is not None:
         return known
@@ -298,10 +308,10 @@ def _compiled_form_of(value):
 
 
 def _take_literals_as_values(dispatcher):
-    """Make a dispatcher compile one version for all calls of the same types.
+    """Make a dispatcher compile one version for all calls with the same types.
 
-    Numba would compile a version for every literal argument. With this the kernels of the platformer compile in 80 s of
-    processor time instead of 136 s.
+    Numba would compile a version for every literal argument. With this change the kernels of the platformer compile in
+    80 s of processor time instead of 136 s.
     """
     general = dispatcher.get_call_template
 
@@ -339,9 +349,9 @@ class PartCache(caching._Cache):
         return str(store().folder)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """Return a part from the store; None: the store does not have it.
+        """Return a part from the store; None: the store does not have the part.
 
-        In this case the part is claimed, so that other processes wait until it is stored.
+        In the second case the part is claimed, so that other processes wait until it is stored.
         """
         name = self._name(sig)
         content = store().read(name)
@@ -412,7 +422,7 @@ def stable_symbols() -> Iterator[None]:
 
 
 def _symbol(function):
-    """Return a unique name for a function's symbol: the hash of its content, or if it has none, a random name."""
+    """Return a unique name for a function's symbol: the hash of its content, or a random name if there is no hash."""
     content = getattr(function, "content", None)
     if content is not None:
         return content

@@ -1,9 +1,9 @@
 """Fingerprints of kernels: hashes of all data on which their machine code depends, equal in every process.
 
-They cover the code of the kernel and of all functions that it calls or closes over, at any depth, with docstrings;
-closed-over values and module globals that it reads; flags; the name of its module; the sources of this folder; the
-versions of Python, NumPy, numba and llvmlite; the processor and its features; bounds checks and SVML. They do not cover
-comments of kernels and line numbers.
+A fingerprint covers the code of the kernel and of all functions that it calls or closes over, at any depth, with
+docstrings; closed-over values and module globals that it reads; flags; the name of its module; the sources of this
+folder; the versions of Python, NumPy, numba and llvmlite; the processor and its features; bounds checks and SVML. It
+does not cover comments of kernels and line numbers.
 """
 
 import hashlib
@@ -64,8 +64,8 @@ def _digest(*parts):
 def content_of_library(function: FunctionType) -> str:
     """Return the hash of one of numba's own functions that is compiled into kernels: its code and its closure.
 
-    The globals of its module are left out, because numba's version identifies them. Raises NotHashable for a function
-    of another package.
+    The globals of the function's module are left out, because numba's version identifies them. Raises NotHashable for a
+    function of another package.
     """
     return _digest(*_describe_library(function, ()))
 
@@ -110,7 +110,7 @@ def _describe_code(code):
 
 
 def _describe(value, names=()):
-    """Yield texts that distinguish a value from other values. names: if it is a module, the attributes to describe."""
+    """Yield texts that distinguish a value from other values. names: for a module, the attributes to describe."""
     kind = type(value)
     if value is None or kind in (bool, int, float, complex, str, bytes):
         yield f"{kind.__name__} {value!r}"

@@ -131,7 +131,7 @@ registry: "list[Kernel]" = []  # every kernel, in the order of definition; empty
 class Kernel:
     """A function over tables that can be compiled.
 
-    A call executes its present form, `run`: a compiled form, or plain Python.
+    A call executes `run`, the present form of the kernel: a compiled form, or plain Python.
     """
 
     is_part = False
@@ -171,7 +171,7 @@ class Kernel:
 
     @property
     def plain(self) -> Form:
-        """The plain twin: the same function as plain Python, which calls the plain twins of other kernels."""
+        """The plain twin: the same function as plain Python, in which calls of other kernels call their plain twins."""
         if self._plain is None:
             rebound(self.py_func, plain_form_of, self._note_plain)
         assert self._plain is not None
@@ -197,9 +197,9 @@ class Kernel:
 
 
 class Part(Kernel):
-    """A kernel that other kernels call.
+    """A kernel that only other kernels call in its compiled form.
 
-    Only kernels call its compiled form; Python calls its plain twin, with the same result.
+    Python can call its plain twin, with the same result.
     """
 
     is_part = True

@@ -53,7 +53,7 @@ _kept: dict[int, tuple[ref, "TableView"]] = {}  # id of an array -> the array, a
 
 
 class TableView:
-    """View of a structured array for plain kernels; `view[i].x = 1.0` writes to row i of the array.
+    """View of a structured array for plain kernels: `view[i].x = 1.0` writes to row i of the array.
 
     Raises TypeError for a row type that C cannot hold.
     """
@@ -276,7 +276,8 @@ def globals_of(function: FunctionType) -> Iterator[tuple[str, Any]]:
 def rebound(function: FunctionType, replace: Replace, made: Callable[[FunctionType], Any] = lambda twin: None) -> Any:
     """Return a copy of a function in which every global and closed-over value is replaced by replace(value).
 
-    made(copy) is called before the values are replaced, so that a function that refers to itself finds its own copy.
+    made(copy) is called before the values are replaced, so that in a function that refers to itself, `replace` can
+    return the copy.
     """
     names = {"__builtins__": __builtins__, "__name__": function.__module__}
     cells = tuple(CellType() for _ in function.__closure__ or ())

@@ -1,8 +1,8 @@
 """The store: compiled kernels on disk, in a private folder. The folder is checked before a file is loaded as code.
 
-There is one file per kernel and argument types. Its name contains a hash of all data on which its contents depend, and
-it starts with a checksum. Files are written by atomic replace. A file that was not used for KEPT is removed; if the
-folder exceeds LIMIT, the least recently used files are also removed.
+There is one file per kernel and argument types. The name of a file contains a hash of all data on which its contents
+depend, and the file starts with a checksum. Files are written by atomic replace. A file that was not used for KEPT is
+removed; if the folder exceeds LIMIT, the least recently used files are also removed.
 """
 
 import atexit
@@ -51,9 +51,10 @@ def cache_home() -> Path:
 
 
 def make_private(folder: Path) -> str:
-    """Make a folder that only this user can read and write. Return "" or, if that fails, the reason.
+    """Make a folder that only this user can read and write. Return "", or the reason if that fails.
 
-    An existing folder is not changed, except that read permission of other users is removed if it holds only kernels.
+    An existing folder is not changed, with one exception: if it holds only kernels, read permission of other users is
+    removed.
     """
     try:
         for each in (*reversed(folder.parents), folder):
@@ -137,7 +138,8 @@ def _remove_at_exit(folder):
 def _locked(path, wait):
     """Return a file opened with an exclusive lock, held until the file is closed; None: another process holds the lock.
 
-    On a system without such locks every process gets the file; then work may be done twice.
+    wait: whether to wait for the lock. On a system without such locks every process gets the file; then work may be
+    done twice.
     """
     file = open(path, "ab")  # noqa: SIM115, closed by the owner of the lock
     if fcntl is None:
@@ -240,7 +242,7 @@ class Store:
     def claim(self, name: str) -> Iterator[None]:
         """Hold a lock on a name while the context is open, so that only one process compiles the kernel of this name.
 
-        Another process waits for the lock on entry, but no longer than PATIENCE [s].
+        A process that enters while another process holds the lock waits, but no longer than PATIENCE [s].
         """
         path, lock, until = self.folder / (name + CLAIMED), None, time.monotonic() + PATIENCE
         with contextlib.suppress(OSError):

@@ -29,8 +29,8 @@ TURN = 0.0005  # [s] switch interval of the threads of this process while kernel
 def short_turns() -> Iterator[None]:
     """Let the interpreter switch threads after TURN while the context is open.
 
-    The main thread releases the interpreter in every call of NumPy, and would wait 5 ms to get it back. With this,
-    frames of the platformer take 55 ms instead of 80 ms while the compiler is imported.
+    The main thread releases the interpreter in every call of NumPy, and would wait 5 ms to get it back. With short
+    turns, frames of the platformer take 55 ms instead of 80 ms while the compiler is imported.
     """
     before = sys.getswitchinterval()
     sys.setswitchinterval(TURN)
@@ -41,7 +41,7 @@ def short_turns() -> Iterator[None]:
 
 
 class _Pauses:
-    """An import hook that slows the imports of one thread: while kernels run plain, it sleeps before each import.
+    """An import hook that slows the imports of one thread: while kernels run plain, the hook sleeps before each import.
 
     It is a module finder that finds no module.
     """
@@ -57,10 +57,10 @@ class _Pauses:
 
 @contextmanager
 def unhurried_imports() -> Iterator[None]:
-    """Limit imports to SHARE of this thread's time while the context is open.
+    """Limit imports to the fraction SHARE of this thread's time while the context is open.
 
-    So a game with plain kernels continues: importing the compiler takes 0.7 s of processor time, and without pauses a
-    game showed 20 frames in this second.
+    So a game with plain kernels continues to run: importing the compiler takes 0.7 s of processor time, and without
+    pauses a game showed 20 frames in this second.
     """
     pauses: Any = _Pauses()
     sys.meta_path.insert(0, pauses)
@@ -100,9 +100,9 @@ def start_module(module: str, **environment: str) -> "subprocess.Popen[str]":
 
 
 def search_path() -> dict[str, str]:
-    """Return {"PYTHONPATH": …} for a child process, so that it imports this package from the same folder.
+    """Return {"PYTHONPATH": …} for a child process, so that the child imports this package from the same folder.
 
-    The dict is empty if the child imports the package from this folder without it.
+    The dict is empty if the child does so without it.
     """
     if IMPORTED_FROM in {Path(each).resolve() for each in (*site.getsitepackages(), site.getusersitepackages())}:
         return {}  # if named again, site-packages would come before the standard library
@@ -150,7 +150,7 @@ def encoded(value: Any) -> str:
 def decoded(line: str) -> Any:
     """Return the value of a line from encoded().
 
-    Only for lines from this program's own processes, because it unpickles.
+    Use it only for lines from this program's own processes, because the line is unpickled.
     """
     return pickle.loads(base64.b64decode(line.removeprefix(MARK)))
 

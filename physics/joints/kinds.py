@@ -58,8 +58,8 @@ class Spring:
 def checked_limits(value: Any, low: float | None = None) -> tuple[float, float]:
     """Return the limits of a coordinate as (low, high), with -inf or inf for no limit.
 
-    value: a pair, in which None means no limit on that side, or None for no limits. low: least allowed limit. Raises
-    TypeError if value is not a pair of numbers; ValueError for low > high, or a limit below `low`.
+    value: a pair, in which None means no limit on that side; None instead of the pair: no limits. low: least allowed
+    limit. Raises TypeError if value is not a pair of numbers; ValueError for low > high, or a limit below `low`.
     """
     if value is None:
         return -math.inf, math.inf
@@ -77,10 +77,10 @@ def checked_limits(value: Any, low: float | None = None) -> tuple[float, float]:
 
 
 def checked_breaks(value: Any) -> tuple[float, float]:
-    """Return (force, torque) above which a joint breaks, inf for unbreakable.
+    """Return (force, torque) above which a joint breaks; inf for a value at which the joint never breaks.
 
-    value: a pair, in which None means unbreakable, or None for both. Raises TypeError if value is not a pair of
-    numbers; ValueError for a number <= 0.
+    value: a pair, in which None means unbreakable; None instead of the pair: both are. Raises TypeError if value is not
+    a pair of numbers; ValueError for a number <= 0.
     """
     if value is None:
         return math.inf, math.inf
@@ -103,14 +103,17 @@ def motor_fields(motor: Any) -> dict[str, float]:
 
 
 def checked_spring(spring: Any, name: str = "spring") -> Spring | None:
-    """Return the argument, a Spring or None. name: its name in messages. Raises TypeError for anything else."""
+    """Return the argument `spring`, a Spring or None. Raises TypeError for anything else.
+
+    name: name of the argument in messages.
+    """
     if spring is not None and not isinstance(spring, Spring):
         raise TypeError(f"{name} must be a Spring(hertz, damping, target) (got {checks.shown(spring)})")
     return spring
 
 
 def greatest(name: str, value: Any) -> float:
-    """Return the greatest force or torque of a hold, inf for None. name: name of the argument in messages.
+    """Return the greatest force or torque of a hold, where None means inf. name: name of the argument in messages.
 
     Raises TypeError if the value is not a number, ValueError if it is below 0.
     """
@@ -155,7 +158,7 @@ class Kind:
         return given["a"], given["b"]
 
     def columns(self) -> dict[str, Any]:
-        """Return the JOINT columns that follow from the settings.
+        """Return the JOINT columns that follow from the settings of the joint.
 
         Raises TypeError for a setting of a wrong type, ValueError for a value out of range.
         """
@@ -173,7 +176,7 @@ class Kind:
         return found
 
     def with_lengths(self, rows: np.ndarray, lengths: np.ndarray) -> None:
-        """Write the columns of JOINT rows (n,) that depend on the distances (n,) [px] between the anchors."""
+        """Write the columns of JOINT rows (n,) that depend on `lengths` (n,) [px], the distances of the anchors."""
 
 
 @dataclass(frozen=True)
@@ -355,8 +358,8 @@ class Motor(Kind):
 class Target(Kind):
     """A spring that pulls a point of a body to a point of the world: mouse drag, grapple, tractor beam.
 
-    at: the point of the body [px]; point: the target in the world [px], None for `at`. joint.point changes the target.
-    max_force: greatest force, None for no bound.
+    at: the point of the body [px]; point: the target in the world [px], None for the position of `at`. The property
+    joint.point changes the target. max_force: greatest force, None for no bound.
     """
 
     PARTS = {"hold": PINNED}

@@ -41,11 +41,11 @@ class Contour(NamedTuple):
 def contours(solid: np.ndarray, joined: int = 0) -> list[Contour]:
     """Return the connected pieces of solid[row, col] bool, ordered by their topmost, then leftmost corner.
 
-    A loop lists only the corners at which it turns. joined [px] sets whether solid pixels that touch only diagonally
-    (at a pinch) are connected. joined = 0: they are never connected, so pieces are 4-connected, no loop visits a corner
-    twice, and loops touch at most in pinches. joined > 0: they are connected, and a loop may pass the pinch twice,
-    unless a horizontal and a vertical run of at least this length meet there. Linear in pixels (vectorised) and
-    corners.
+    A loop lists only the corners at which it turns. joined [px] determines whether solid pixels that touch only
+    diagonally (at a pinch) are connected. With joined = 0 they never are, so pieces are 4-connected, no loop visits a
+    corner twice, and loops touch at most in pinches. With joined > 0 they are connected, and a loop may pass the pinch
+    twice, unless a horizontal and a vertical run of at least `joined` px meet at the pinch. Linear in pixels
+    (vectorised) and corners.
     """
     runs = _Runs(np.ascontiguousarray(solid, dtype=bool), joined)
     outers, holes = [], []
@@ -69,7 +69,7 @@ def contours(solid: np.ndarray, joined: int = 0) -> list[Contour]:
 
 
 def doubled_area(points: np.ndarray) -> float:
-    """Return twice the signed area of a loop (n, 2): positive for a loop that is clockwise on the screen."""
+    """Return twice the signed area of a loop, points (n, 2): positive for a loop that is clockwise on the screen."""
     x, y = points[:, 0], points[:, 1]
     return (x * np.roll(y, -1) - y * np.roll(x, -1)).sum()
 
@@ -104,9 +104,10 @@ class _Runs:
         self._follow(stops, np.concatenate([signs, falls]), np.concatenate([ends - starts, bottoms - tops]), joined)
 
     def _follow(self, stops, signs, lengths, joined):
-        """Link each run to the run after it.
+        """Link each run to the run after it (self.next), and find the pinches where diagonal pixels stay apart.
 
-        A corner has one horizontal and one vertical run, a pinch two of each kind.
+        A corner has one horizontal and one vertical run, a pinch two of each kind. stops: corner at the end of each
+        run; signs: direction of each run; lengths [px]: length of each run; joined [px]: as in contours.
         """
         count = self.horizontal
         wide = max(int(self.corners[:, 0].max(initial=0)), 0) + 1
@@ -162,7 +163,7 @@ class _Runs:
                 yield np.array(loop)
 
     def left_of(self, points):
-        """Return the vertical run that bounds, on the left, the solid pixels to the left of a hole.
+        """Return the vertical run to the left of a hole that bounds the solid pixels between it and the hole.
 
         points: the hole's corners.
         """
@@ -176,7 +177,7 @@ class _Runs:
 
 
 def _runs_of(cracks):
-    """Return arrays (line, start, end, sign) of all runs of equal pixel edges (-1 or 1) in cracks[line, position]."""
+    """Return the runs of equal pixel edges (-1 or 1) in cracks[line, position], as arrays (line, start, end, sign)."""
     before = np.zeros((cracks.shape[0], cracks.shape[1] + 1), np.int8)
     before[:, 1:] = cracks
     after = np.zeros_like(before)
@@ -218,18 +219,18 @@ def outline(solid: np.ndarray, smooth: float = 0.5) -> list[Outline]:
     """Return the outline of each connected piece of solid[row, col] bool, smoothed into straight lines.
 
     smooth [px] >= 0: each point of an outline is within `smooth` of the pixels' edges, and each point of these edges is
-    within smooth + 0.21 of the outline; 0: the outline is the pixels' edges. Centres of solid pixels are inside,
-    centres of clear pixels outside. A corner between straight rows of pixel edges of 3 px or more is kept, as are all
-    corners of a rectangle. Two diagonal pixels belong to one piece if the outline can pass from one to the other. This
-    is not possible at a kept corner, nor for smooth < 0.25. Corners lie at the ends and middles of pixel edges; their
-    number is near the least possible for such corners. Pieces are ordered by their topmost, then leftmost corner.
-    O(corners * corners per line).
+    within smooth + 0.21 of the outline. With smooth = 0 the outline is the pixels' edges. Centres of solid pixels are
+    inside, centres of clear pixels outside. Corners between straight rows of pixel edges of 3 px or more are kept, and
+    so are all corners of a rectangle. Two diagonal pixels belong to one piece if the outline can pass from one to the
+    other. The outline cannot pass at a kept corner, nor with smooth < 0.25. Corners lie at the ends and middles of
+    pixel edges; their number is near the least possible for such corners. Pieces are ordered by their topmost, then
+    leftmost corner. O(corners * corners per line).
     """
     return [smoothed_piece(piece, smooth) for piece in pieces_of(solid, smooth)]
 
 
 def pieces_of(solid: np.ndarray, smooth: float) -> list[Contour]:
-    """Return the pieces of solid pixels; diagonal pixels are joined where outline lines lead from one to the other.
+    """Return the pieces of solid[row, col] bool; diagonal pixels are joined if the outline leads from one to the other.
 
     smooth [px] as in outline.
     """
@@ -245,8 +246,8 @@ def smoothed_piece(piece: Contour, smooth: float) -> Outline:
 def smoothed(loop: Loop, reach: float, curves: bool = True) -> np.ndarray:
     """Return the corners (n, 2) float64 [px] of straight lines that replace a loop of pixel edges (cracks).
 
-    reach [px]: largest distance of the lines from the cracks; 0: the corners of the loop. curves: whether the lines
-    follow round curves of the drawing (see curves.py); else there are as few lines as possible.
+    reach [px]: largest distance of the lines from the cracks; with 0 the corners of the loop are returned. curves: True
+    if the lines are to follow round curves of the drawing (see curves.py), False for as few lines as possible.
     """
     if reach <= 0.0:
         return loop.corners.astype(float)

@@ -153,7 +153,10 @@ def read_vertices(found, path, workspace):
 
 @subkernel
 def turn_between(first, second):
-    """Return the angle [rad] from the line after one vertex to the line after another; > 0: clockwise on the screen."""
+    """Return the angle [rad] from the line that starts at vertex `first` to the line that starts at vertex `second`.
+
+    The result is > 0 for a turn that is clockwise on the screen.
+    """
     return math.atan2(
         first.along_x * second.along_y - first.along_y * second.along_x,
         first.along_x * second.along_x + first.along_y * second.along_y,
@@ -162,11 +165,12 @@ def turn_between(first, second):
 
 @subkernel
 def turn_beyond(k, step, count, closed, vertices):
-    """Return (turn [rad] at an end of line k, whether a line follows there).
+    """Return (turn [rad] at an end of line k, whether another line follows there).
 
-    step 1: at the line's end; -1: at its start. No line follows beyond an anchor (a fixed corner) or the end of an open
-    path. Lines shorter than SPIKE px are skipped. The turn is the smallest of the turns to the following lines, up to
-    the first line that is not far shorter than line k.
+    step: 1 for the line's end, -1 for its start; count: number of lines of the path; closed: whether the path is
+    closed. No line follows beyond an anchor (a fixed corner) or the end of an open path. Lines shorter than SPIKE px
+    are skipped. The result is the smallest of the turns from line k to the following lines, up to the first line that
+    is not far shorter than line k.
     """
     j = k
     least = 0.0
@@ -191,7 +195,7 @@ def turn_beyond(k, step, count, closed, vertices):
 
 @subkernel
 def kind_of_line(k, count, closed, vertices):
-    """Return the kind of line k: CURVED_LINE on a round curve, SPIKE_LINE if it is too short, else STRAIGHT_LINE.
+    """Return the kind of line k: CURVED_LINE on a round curve, SPIKE_LINE if the line is too short, else STRAIGHT_LINE.
 
     count: number of lines of the path; closed: whether the path is closed; vertices: VERTEX.
     """
@@ -216,7 +220,7 @@ def kind_of_line(k, count, closed, vertices):
 
 @subkernel
 def write_middles(path, workspace):
-    """Write the middle of pixel edge k of a path to row FIT + k of the middles.
+    """Write the middle of pixel edge k of a path to row FIT + k of workspace.middles.
 
     For a loop the middles of FIT pixel edges before its start and after its end are also written.
     """
@@ -237,9 +241,10 @@ def write_middles(path, workspace):
 
 @subkernel
 def fit_at(row, half, middles, fitted_out):
-    """Fit a parabola to the middles in rows row - half to row + half.
+    """Fit a parabola to the middles of pixel edges in rows row - half to row + half.
 
-    Write its point and direction at `row` to fitted_out. half 0 counts as 1. fitted_out: a row of FITTED.
+    Write the parabola's point and direction at `row` to fitted_out, a row of FITTED. half 0 counts as 1. middles:
+    POINT.
     """
     half = half if half > 0 else 1
     whole = 3.0 * half * (half + 1) - 1.0
@@ -294,9 +299,9 @@ def fit_of(at, curve, fitted):
 
 @subkernel
 def off_corner(x, y, before, run, most):
-    """Return an offset (x, y) [px] from the corner between two runs, shortened to end within `most` px of the runs.
+    """Shorten an offset (x, y) [px] from the corner between two runs, so that its end is within `most` px of the runs.
 
-    before, run: the runs that end and start at the corner.
+    before, run: the runs that end and start at the corner. Return the new offset.
     """
     x, y = min(max(x, -most), most), min(max(y, -most), most)
     ahead = x * right_of(run.direction) + y * down_of(run.direction)
@@ -342,7 +347,11 @@ def put_on_curve(n, k, along, curve, path, workspace):
 
 @subkernel
 def put_vertex(n, vertex, at, k, curve, path, workspace):
-    """Append a vertex as a place on run k, `at` pixel edges along the path. Return the number of places."""
+    """Append a vertex as a place on run k of a path. Return the number of places.
+
+    n: number of places before; at [cracks]: position of the vertex along the path; curve: Curve that gives its
+    direction.
+    """
     put_place(n, vertex.x, vertex.y, at, workspace.runs[k % path.count], False, True, workspace.places)
     place = workspace.places[n]
     _, _, place.along_x, place.along_y = fit_of(at, curve, workspace.fitted)
@@ -363,7 +372,10 @@ def run_at(at, runs, path):
 
 @subkernel
 def put_curve(first, last, curve, path, workspace):
-    """Write the candidate corners (PLACE) of a curve from vertex `first` to vertex `last`. Return their number."""
+    """Write the candidate corners (PLACE) of a curve, from vertex number `first` to vertex number `last`.
+
+    Return the number of places.
+    """
     runs, count = workspace.runs, path.count
     after = max(curve.start + APART, path.begin)
     before = min(curve.end - APART, path.end)
@@ -392,8 +404,8 @@ def put_curve(first, last, curve, path, workspace):
 def widest_fit(first, length, count, path, vertices):
     """Return the number of pixel edges to use on either side of a point for the fit of a curve, at most FIT.
 
-    It is reduced so that directions within a fit differ by at most 2 FIT_TURN. first: line at which the curve starts;
-    length: number of the curve's lines; count: number of lines of the path.
+    The number is reduced so that directions within a fit differ by at most 2 FIT_TURN. first: line at which the curve
+    starts; length: number of the curve's lines; count: number of lines of the path.
     """
     widest = 0.0
     for k in range(first, first + length):
@@ -411,7 +423,7 @@ def widest_fit(first, length, count, path, vertices):
 
 @subkernel
 def span_of(first, length, count, path, workspace):
-    """Return the Curve of `length` lines from vertex `first` on. Its `half` is 0 if it is too narrow for a fit.
+    """Return the Curve of `length` lines from vertex `first` on. Its `half` is 0 if the curve is too narrow for a fit.
 
     count: number of lines of the path.
     """
@@ -450,7 +462,7 @@ def span_of(first, length, count, path, workspace):
 def lay_curve(first, length, count, path, workspace, n, points_out):
     """Compute the lines of a curve again and append their points, except the last. Return the number of points.
 
-    Nothing is appended, and n is returned, if the curve is too narrow. n: number of points before; first: vertex at
+    If the curve is too narrow, no points are appended, and n is returned. n: number of points before; first: vertex at
     which the curve starts; length: number of the curve's lines; count: number of lines of the path.
     """
     curve = span_of(first, length, count, path, workspace)
@@ -475,7 +487,10 @@ def lay_curve(first, length, count, path, workspace, n, points_out):
 
 @subkernel
 def put_points_of(first, length, vertices, n, points_out):
-    """Append the points of `length` vertices from vertex `first` on, unchanged. Return the number of points."""
+    """Append the points of `length` vertices from vertex `first` on, unchanged. Return the number of points.
+
+    n: number of points before.
+    """
     for k in range(first, first + length):
         points_out[n].x, points_out[n].y = vertices[k].x, vertices[k].y
         points_out[n].at = vertices[k].at

@@ -35,18 +35,22 @@ class Walls:
         self.after = following - corners
 
     def near(self, low: np.ndarray, high: np.ndarray) -> "Walls":
-        """Return the sides whose bounding boxes overlap or touch the box from low to high [px]."""
+        """Return Walls with the sides whose bounding boxes overlap or touch the box from `low` to `high` (2,) [px]."""
         meet = (np.minimum(self.corners, self.following) <= high) & (np.maximum(self.corners, self.following) >= low)
         meet = meet.all(axis=1)
         return Walls(self.corners[meet], self.following[meet], self.flat)
 
     def free(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        """Return (m,) bool: whether each line from a (m, 2) to b (m, 2) crosses no side and passes no corner."""
+        """Return (m,) bool: whether the line from each a (m, 2) to its b (m, 2) crosses no side, passes no corner."""
         crossed, passed = self.obstacles(a, b)
         return ~crossed & ~passed.any(axis=1)
 
     def obstacles(self, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return whether lines from a (m, 2) to b (m, 2) cross a side, (m,), and which corners they pass, (m, n)."""
+        """Return (crossed (m,), passed (m, n)) for the lines from each a (m, 2) to its b (m, 2).
+
+        crossed: whether the line crosses any side; passed: whether the line passes through each corner, its ends
+        excluded.
+        """
         along = (b - a)[:, None]
         to = self.corners - a[:, None]
         side, side_after = cross(along, to), cross(along, self.following - a[:, None])
@@ -60,7 +64,7 @@ class Walls:
 
 
 class Ring(Walls):
-    """A closed ring of corners (n, 2) [px], clockwise on the screen, with a test of directions that lead inside."""
+    """A closed ring of corners (n, 2) [px], clockwise on the screen, with a test of which directions lead inside."""
 
     def __init__(self, corners: np.ndarray, flat: float) -> None:
         super().__init__(corners, np.roll(corners, -1, axis=0), flat)
@@ -70,9 +74,9 @@ class Ring(Walls):
         self.convex = turn > flat
 
     def faces(self, k: np.ndarray, toward: np.ndarray, closed: bool) -> np.ndarray:
-        """Return (m,) bool: whether the direction toward (m, 2) leads from corner k (m,) into the ring.
+        """Return (m,) bool: whether the direction `toward` (m, 2) leads from corner k (m,) into the ring.
 
-        closed: whether a direction along a side also counts.
+        closed: whether a direction along a side also counts as leading inside.
         """
         low = self.flat if not closed else -self.flat
         from_after, to_back = cross(self.after[k], toward), cross(toward, self.back[k])
@@ -80,9 +84,10 @@ class Ring(Walls):
         return np.where(~self.reflex[k] & ~self.convex[k], from_after > low, within)
 
     def pairs(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return two (n, n) bool matrices of corner pairs: whether a cut can join them, and whether a line inside can.
+        """Return (cuts, lines), two (n, n) bool matrices: whether a cut, and whether a line, can join two corners.
 
-        A cut lies strictly inside; a line may also lie on sides and pass through corners. O(n^3), vectorised.
+        A cut lies strictly inside the ring. A line may also lie on sides and pass through corners. Only entries [i, j]
+        with i < j are set. O(n^3), vectorised.
         """
         count = len(self.corners)
         i, j = np.triu_indices(count, 2)
@@ -153,9 +158,9 @@ class _Bridges:
         return any(self.group)
 
     def bridge(self):
-        """Join the leftmost group of holes to the outer loop's group, by the shortest free line.
+        """Join one group of touching holes to the group of the outer loop, by the shortest free line.
 
-        It is the leftmost group because no other hole blocks the view to its left.
+        The leftmost hole determines the group, because no other hole blocks the view to its left.
         """
         apart = [k for k, group in enumerate(self.group) if group]
         first = self.group[min(apart, key=lambda k: self.walls[k].corners[:, 0].min())]
@@ -206,7 +211,7 @@ class _Bridges:
     def _onward(self, a, b, ways):
         """Return the end of the side that follows side a -> b around the inside.
 
-        ways: ends of all sides that leave b.
+        ways: the points to which sides from b lead.
         """
         if len(ways) == 1:
             return ways[0]
@@ -331,7 +336,7 @@ class _Edges:
         return f"{tuple(self.start[edge].tolist())} to {tuple(self.end[edge].tolist())}"
 
     def _meet(self, a, b):
-        """Return (m,) bool: whether edges a[i] < b[i] (indices) meet, except in a permitted common corner."""
+        """Return (m,) bool: whether the edges with indices a[i] < b[i] meet, except in a permitted common corner."""
         flat = FLAT * self.size**2
         p, q, r, s = self.start[a], self.end[a], self.start[b], self.end[b]
         sides = [_cross(q - p, r - p), _cross(q - p, s - p), _cross(s - r, p - r), _cross(s - r, q - r)]
@@ -370,9 +375,9 @@ def _cross(a, b):
 
 
 class _End(NamedTuple):
-    """A best convex piece at line (i, k): its first corner after i, its last corner before k, and the piece it extends.
+    """A best convex piece at line (i, k): its first corner after i, its last corner before k, the piece it extends.
 
-    grown is None if the piece extends no other piece: then line (i, last) is a cut or a side.
+    `grown` is the extended piece; None: line (i, last) is a cut or a side.
     """
 
     first: int
@@ -408,7 +413,7 @@ class _Search:
                     self._best(i, i + gap, [j for j in after[i] if j < i + gap])
 
     def _turn(self, a, b, c):
-        """Return whether the path a -> b -> c turns clockwise on the screen or is straight."""
+        """Return whether the path of corners a -> b -> c turns clockwise on the screen or is straight."""
         x, y = self.x, self.y
         return (x[b] - x[a]) * (y[c] - y[b]) - (y[b] - y[a]) * (x[c] - x[b]) >= -self.flat
 
@@ -465,7 +470,7 @@ def shaved(rings: Sequence[np.ndarray], tolerance: float) -> list[np.ndarray]:
     """Return simple rings (n, 2) [px] without shallow bumps and notches (Visvalingam and Whyatt 1993, by distance).
 
     Each removed corner is within tolerance [px] of the side that replaces it. A ring keeps at least three corners, and
-    the removal makes no sides cross or touch.
+    no removal makes sides cross or touch. rings: the outer ring, then holes.
     """
     work = _Work(rings, tolerance)
     return work.shave()
@@ -521,7 +526,10 @@ class _Work:
         return worst
 
     def _free(self, k):
-        """Return whether no other corner lies in or on the triangle that the removal of corner k cuts off or fills."""
+        """Return whether the triangle that the removal of corner k would cut off or fill contains no other corner.
+
+        Corners on the triangle's sides also count.
+        """
         a, b = self.points[self.before[k]], self.points[self.after[k]]
         c = self.points[k]
         x, y = self.points[self.kept].T
@@ -567,7 +575,7 @@ def convex_parts(outer: np.ndarray, holes: Sequence[np.ndarray] = (), tolerance:
 
 
 def partition(rings: Sequence[np.ndarray]) -> list[ConvexPart]:
-    """Return the convex parts (as convex_parts) of rings that are known to be simple; nothing is checked.
+    """Return the convex parts, as in convex_parts, of rings that are known to be simple. The rings are not checked.
 
     The outer ring is clockwise on the screen, holes are counter-clockwise.
     """
@@ -598,7 +606,7 @@ def _sides(piece):
 
 
 def _tidy(corners, inner, flat):
-    """Return a part from its topmost, then leftmost corner on, without collinear corners.
+    """Return a part's corners and `inner` flags without collinear corners, from its topmost, then leftmost corner on.
 
     A collinear corner at which `inner` changes is kept.
     """
@@ -612,7 +620,10 @@ def _tidy(corners, inner, flat):
 
 
 def _halved(points, rings, flat):
-    """Return the rings, split by cuts until each is convex or has at most LARGEST corners."""
+    """Return the rings, split by cuts until each is convex or has at most LARGEST corners.
+
+    points (n, 2) [px]; rings: arrays of indices of points.
+    """
     todo, found = list(rings), []
     while todo:
         ring = todo.pop()
@@ -627,7 +638,10 @@ def _halved(points, rings, flat):
 
 
 def _halving(sides):
-    """Return the two corners (indices) of a short cut from a reflex corner that splits a ring into similar parts."""
+    """Return two corners (indices) whose connection is a short cut that splits a ring into parts of similar size.
+
+    The cut starts at a reflex corner. sides: Ring.
+    """
     count = len(sides.corners)
     starts = np.flatnonzero(sides.reflex)
     for share in (4, 8, 16, 64, count):
@@ -651,7 +665,7 @@ def _halving(sides):
 
 
 def _joined(points, pieces, flat):
-    """Return the pieces, merged across common sides where the union is convex with at most 16 corners.
+    """Return convex pieces merged across their common sides, where the union is convex with at most 16 corners.
 
     The longest common side is tried first.
     """
@@ -679,7 +693,7 @@ def _joined(points, pieces, flat):
 
 
 def _at_most(piece, most):
-    """Return a convex piece split in halves until each has at most `most` corners."""
+    """Return a list of convex pieces: `piece` (indices of corners), halved until each has at most `most` corners."""
     if len(piece) <= most:
         return [piece]
     half = len(piece) // 2

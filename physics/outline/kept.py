@@ -33,7 +33,10 @@ recorded: dict[bytes, Parts] | None = None  # all parts that fitted() returned, 
 
 
 def use(path: Path) -> None:
-    """Look up outlines of further masks in a file made by `write`. A missing or damaged file counts as empty."""
+    """Look up outlines in a file made by `write`, from the next lookup on.
+
+    A missing or damaged file counts as empty.
+    """
     _files.append(path)
 
 
@@ -76,7 +79,7 @@ def code_stamp() -> bytes:
 
 
 def write(path: Path, found: Mapping[bytes, Parts]) -> None:
-    """Write parts with their keys to a file for `use`. Equal parts give a file of equal bytes."""
+    """Write convex parts with their keys to a file that `use` reads. Equal parts give a file of equal bytes."""
     order = sorted(found)
     np.savez_compressed(
         path,

@@ -22,9 +22,9 @@ from physics.settings import MAX_CORNERS
 def few_parts(rings: Sequence[np.ndarray]) -> list[tuple[np.ndarray, np.ndarray]]:
     """Return the convex parts [(corners (k, 2), inner (k,) bool)] of a polygon with holes, in few parts and fast.
 
-    Corners are clockwise on the screen; inner: the side k -> k + 1 is shared with another part. rings: the outer ring
-    (n, 2) [px] clockwise on the screen, then holes counter-clockwise. The rings must be simple, with coordinates whose
-    products have no rounding error; this is not checked.
+    Corners are clockwise on the screen; inner: whether the side k -> k + 1 is shared with another part. rings: the
+    outer ring (n, 2) [px], clockwise on the screen, then holes, counter-clockwise. The rings must be simple, and their
+    coordinates such that products have no rounding error; this is not checked.
     """
     points = np.concatenate(rings)
     counts = np.array([len(ring) for ring in rings])
@@ -43,9 +43,10 @@ def few_parts(rings: Sequence[np.ndarray]) -> list[tuple[np.ndarray, np.ndarray]
 
 @subkernel
 def join_touching(n, sides_inout):
-    """Join rings that touch in a common corner into one ring that passes this corner twice.
+    """Join rings that touch in a common corner into one ring that passes this corner twice. O(n²).
 
-    n: number of sides. O(n²).
+    n: number of sides. The joined ring gets the lower of both numbers SIDE.apart, so it counts as no hole if one of the
+    rings does.
     """
     for a in range(n):
         p = sides_inout[a]
@@ -66,7 +67,7 @@ def join_touching(n, sides_inout):
 
 @kernel
 def cut_rings(points, counts, most, sides_inout, corners_out, inner_out, counts_out):
-    """Write the convex parts of a polygon given by rings.
+    """Write the convex parts of a polygon given by rings, the outer ring first.
 
     points (n, 2) [px]: corners ring after ring; counts (rings,): number of corners of each ring; most: largest number
     of corners of a part; sides_inout: SIDE, scratch; corners_out (n, 2) [px]: corners part after part; inner_out (n,):

@@ -38,7 +38,7 @@ class Stretch(NamedTuple):
         return self.center + self.radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
     def between(self, a: float, b: float) -> "Stretch":
-        """Return the part of the stretch between two fractions of its length, 0 <= a < b <= 1."""
+        """Return the section of the stretch between two fractions of its length, 0 <= a < b <= 1."""
         start, end = self.at(np.array([a, b]))
         return Stretch(start, end, self.center, self.radius, self.first + a * self.turn, (b - a) * self.turn)
 
@@ -74,7 +74,7 @@ def boundary(hulls: Sequence[Hull]) -> list[Stretch]:
 
 
 def line(start: np.ndarray, end: np.ndarray) -> Stretch:
-    """Return a straight stretch between two points."""
+    """Return the straight stretch from `start` to `end`."""
     return Stretch(np.asarray(start, float), np.asarray(end, float), np.zeros(2), 0.0, 0.0, 0.0)
 
 
@@ -106,7 +106,10 @@ def _arc(center, radius, first, turn):
 
 
 def _cuts(side, others, near):
-    """Return the fractions of a stretch's length, from 0 to 1, at which other stretches begin, end or cross it."""
+    """Return the fractions of a stretch's length, from 0 to 1, at which other stretches begin, end or cross it.
+
+    side: the stretch; others: the other stretches; near [px]: a smaller distance counts as 0.
+    """
     shares = [0.0, 1.0]
     for other in others:
         points = [other.start, other.end]
@@ -122,7 +125,7 @@ def _cuts(side, others, near):
 def _share(side, point, near):
     """Return the fraction of a stretch's length at which a point lies; -1: the point is not on its line or circle.
 
-    near [px]: a smaller distance from the line or circle counts as 0.
+    side: the stretch; near [px]: a smaller distance of the point from the line or circle counts as 0.
     """
     if side.radius == 0.0:
         along = side.end - side.start
@@ -163,7 +166,7 @@ def _arc_meets(side, other):
 
 
 def _on_circle(start, along, center, radius):
-    """Return the two points where an infinite line meets a circle.
+    """Return the two points where the infinite line through `start` with the direction `along` meets a circle.
 
     If the line misses the circle, the line's point nearest to the centre is returned twice.
     """
@@ -176,10 +179,11 @@ def _on_circle(start, along, center, radius):
 
 
 def _covered(stretch, hull, earlier, near):
-    """Return whether another hull removes a stretch from the boundary of the union.
+    """Return whether another hull removes a stretch from the boundary of the union of hulls.
 
-    True if the stretch is inside the hull, if it is on the hull's boundary with the hull on the other side, or if it
-    coincides with the boundary of a hull that is earlier in the list. near [px]: a smaller distance counts as 0.
+    A stretch is removed if it is inside the other hull, or if it is on that hull's boundary and the two hulls lie on
+    opposite sides of it. A stretch that coincides with the other hull's boundary, with both hulls on the same side, is
+    removed if that hull is earlier in the list (`earlier`). near [px]: a smaller distance counts as 0.
     """
     point = stretch.at(np.array([0.5]))[0]
     gap, normal = gap_and_normal(hull, point)
@@ -233,7 +237,10 @@ class Moments(NamedTuple):
 
 
 def moments(around: Sequence[Stretch]) -> Moments:
-    """Return the moments of the figure inside a closed boundary; without area, all are 0 and the centre is nan."""
+    """Return the moments of the figure inside a closed boundary; without area, all are 0 and the centre is nan.
+
+    around: stretches of the boundary.
+    """
     if not around:
         return Moments(0.0, math.nan, math.nan, 0.0)
     base = around[0].start  # integrals about a nearby point, which are precise far from the raster's corner
@@ -249,7 +256,10 @@ def moments(around: Sequence[Stretch]) -> Moments:
 
 
 def nodes(around: Sequence[Stretch]) -> tuple[np.ndarray, np.ndarray]:
-    """Return the quadrature points (n, 16, 2) [px] of n stretches, and their derivatives by the fraction of length."""
+    """Return (n, 16, 2) [px] quadrature points on the n stretches `around`, and their derivatives.
+
+    The derivatives are by the fraction of a stretch's length.
+    """
     place = np.array([each.at(NODES) for each in around])
     step = np.empty_like(place)
     for k, each in enumerate(around):
@@ -284,7 +294,7 @@ def hausdorff(a: Sequence[Stretch], b: Sequence[Stretch]) -> float:
 
 
 class _Figure:
-    """A boundary as arrays of its lines and of its arcs, for the distances of many points."""
+    """The lines and the arcs of a boundary as arrays, to compute distances of many points from them."""
 
     def __init__(self, stretches):
         lines = [each for each in stretches if each.radius == 0.0]
@@ -336,8 +346,8 @@ def _farthest(a, b, best):
 def _looked_at(some, other, best):
     """Return (largest distance [px] so far, stretches that may contain a farther point).
 
-    The stretches are [(upper bound [px] of the distance, stretch)]. some: stretches whose ends and middles are
-    measured; other: _Figure; best [px]: largest distance found before.
+    The stretches are [(upper bound [px] of the distance, stretch)]. some: stretches, whose ends and middles are
+    measured; other: _Figure from which distances are measured; best [px]: largest distance found before.
     """
     points = np.array([each.at(np.array([0.0, 0.5, 1.0])) for each in some])
     lines = other.from_lines(points.reshape(-1, 2)).reshape(len(some), 3, -1)
@@ -362,7 +372,7 @@ Box = tuple[float, float, float, float]  # left, top, right, bottom [px]
 
 
 class Cells(NamedTuple):
-    """A grid of unequal cells. The lines of the grid are the pixel edges of all masks in it."""
+    """A grid of unequal cells, whose lines are the pixel edges of several masks."""
 
     x: np.ndarray  # (w + 1,) lines between columns [px], ascending
     y: np.ndarray  # (h + 1,) lines between rows
@@ -416,9 +426,9 @@ def cells_of(masks: Sequence[Placed], window: Box) -> Cells:
 
 
 def _places(lines, first, size):
-    """Return for each two successive grid lines the mask's row (or column) between them; -1: outside the mask.
+    """Return the mask's row (or column) between each two successive grid lines; -1: outside the mask.
 
-    first [px]: position of the mask's first row; size: number of its rows.
+    lines [px]: positions of the grid lines; first [px]: position of the mask's first row; size: number of its rows.
     """
     place = np.floor((lines[:-1] + lines[1:]) / 2.0 - first).astype(np.int64)
     return np.where((place >= 0) & (place < size), place, -1)
@@ -441,7 +451,7 @@ def cell_sums(cells: Cells, weights: np.ndarray, base: tuple[float, float]) -> S
 def shared_sums(around: Sequence[Stretch], cells: Cells, base: tuple[float, float]) -> Sums:
     """Return the Sums, about a base point, of the part of the solid cells that is inside a boundary.
 
-    A cell is solid if a pixel of any mask in it is solid.
+    around: stretches of the boundary. A cell is solid if a pixel of any mask in it is solid.
     """
     parts = [part for each in around for part in _cut_by_lines(each, cells)]
     if not parts or not cells.count.any():
@@ -463,9 +473,9 @@ def shared_sums(around: Sequence[Stretch], cells: Cells, base: tuple[float, floa
 
 
 def _left_of(cells, power, base, row, column, x):
-    """Return the integrals (n, 16) of x ** power over the solid cells to the left of points, each in its point's row.
+    """Return the integrals (n, 16) of x ** power over the solid cells to the left of each point, in the point's row.
 
-    base [px]: x of the base point; row, column (n,): cells of the points; x (n, 16): positions relative to base.
+    base [px]: x of the base point; row, column (n,): cells of the points; x (n, 16): positions relative to `base`.
     """
     lines = cells.x - base
     filled = np.pad(cells.count > 0, ((0, 0), (0, 1)))  # there is no cell to the right of the last line

@@ -37,7 +37,7 @@ RUN = np.dtype(
 
 
 class Window(NamedTuple):
-    """The pixels of a tile and of a margin around it, with the settings of its outline."""
+    """The pixels of a tile and of a margin around the tile, with the settings of the outline."""
 
     pixels: np.ndarray  # [row, col] uint8; not 0: solid
     low: int  # first row and column of the tile, and …
@@ -95,8 +95,8 @@ def length_from(pixels, x, y, direction):
 def is_joined(window, x, y):
     """Return whether paths pass from one to the other of the two diagonal solid pixels at corner (x, y), joining them.
 
-    False where two long runs meet, because such a corner is fixed. False on the border of the tile, because the
-    neighbouring tile would find another path.
+    The result is False where two long runs meet, because such a corner is fixed. It is also False on the border of the
+    tile, because the neighbouring tile would find another path.
     """
     if not window.joins or x == window.low or x == window.high or y == window.low or y == window.high:
         return False
@@ -119,7 +119,7 @@ def onward(window, x, y, direction):
 def backward(window, x, y, direction):
     """Return the direction in which a path arrives at corner (x, y).
 
-    direction: the direction in which the path leaves the corner.
+    direction: direction in which the path leaves the corner.
     """
     if not is_solid(window.pixels, x, y, direction + 1):
         if is_solid(window.pixels, x, y, direction + 2) and is_joined(window, x, y):
@@ -272,8 +272,8 @@ def put_place(n, x, y, at, run, corner, allowed, places_inout):
 def put_run(n, run, start, end, offset, places_inout):
     """Append up to three candidate corners (places) inside a run. Return the number of places.
 
-    Only places between `start` and `end` [cracks along the path] are added. n: number of places before; offset [cracks]
-    is added to the positions of the places along the path.
+    n: number of places before. Only places between `start` and `end` [cracks along the path] are added. offset
+    [cracks]: added to the positions of the places along the path, for the second turn around a loop.
     """
     for step in range(3):
         if step != 1 and run.length == 1:
@@ -288,7 +288,7 @@ def put_run(n, run, start, end, offset, places_inout):
 
 @subkernel
 def put_loop(runs, count, cracks, places_out):
-    """Write the candidate corners (places) of two turns around a loop, and the first place a third time at the end.
+    """Write the candidate corners (places) of two turns around a loop, then the first place once more at the end.
 
     runs: RUN; count: number of runs; cracks: number of pixel edges of the loop. Return (number of places of one turn,
     row of the first fixed corner, which no line may pass; -1: the loop has no fixed corner).
@@ -316,9 +316,10 @@ def put_loop(runs, count, cracks, places_out):
 
 @subkernel
 def faults_of_angles(begin, to):
-    """Return (sin² of a line's angle to the curve at its start + sin² at its end), times the line's length [px].
+    """Return the cost of a line's angles to a curve: (sin² at its start + sin² at its end) · the line's length [px].
 
-    begin, to: rows of PLACE. At an end where the line leads backwards along the curve, sin² counts as 1.
+    begin, to: PLACE rows of the ends, with the direction of the curve. At an end where the line leads backwards along
+    the curve, sin² counts as 1.
     """
     x, y = to.x - begin.x, to.y - begin.y
     squared = x * x + y * y
@@ -335,7 +336,8 @@ def faults_of_angles(begin, to):
 def try_lines(start, last, reach, prices, places_inout):
     """Lower the cost of each place that a line from place `start` reaches at less cost than known (O'Rourke 1981).
 
-    Places up to `last` are tried. reach [px]: largest distance of a line from the pixel edges; prices: Prices.
+    Lines to the places up to place `last` are tried. reach [px]: largest distance of a line from the pixel edges;
+    prices: Prices.
     """
     begin = places_inout[start]
     x, y = begin.x, begin.y
@@ -376,10 +378,10 @@ def try_lines(start, last, reach, prices, places_inout):
 
 @subkernel
 def cheapest(first, last, reach, prices, places_inout, chain_out):
-    """Find the least-cost lines from place `first` to place `last`. Write the places where lines end to chain_out.
+    """Find the least-cost lines from place `first` to place `last`. Return the number of places where lines end.
 
-    chain_out: rows of PLACE, from last to first. reach [px]: largest distance of a line from the pixel edges; prices:
-    Prices. O(places * places of a line). Return the number of rows in chain_out; 0: no lines reach the last place.
+    chain_out: these places as rows of PLACE, from last to first; 0 is returned if no lines reach the last place. reach
+    [px]: largest distance of a line from the pixel edges; prices: Prices. O(places * places of a line).
     """
     for k in range(first, last + 1):
         places_inout[k].cost = math.inf
@@ -399,10 +401,11 @@ def cheapest(first, last, reach, prices, places_inout, chain_out):
 
 @subkernel
 def cheapest_loop(around, anchor, reach, places_inout, chain_out):
-    """Find the least-cost lines around a loop. Write the places where lines end to chain_out, from last to first.
+    """Find the least-cost lines around a loop. Return the number of places where lines end.
 
-    places_inout: as written by put_loop; around: number of places of one turn; anchor: row of a fixed corner, which no
-    line may pass; -1: there is none. Return the number of rows in chain_out.
+    chain_out: these places as rows of PLACE, from last to first. places_inout: as written by put_loop; around: number
+    of places of one turn; anchor: row of a fixed corner, which no line may pass; -1: there is none. reach [px]: as in
+    cheapest.
     """
     begin = anchor
     if anchor < 0:

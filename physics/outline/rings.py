@@ -33,8 +33,8 @@ SIDE = np.dtype(
 def put_side(n, first, x, y, inner, sides_inout):
     """Append a side that starts at (x, y) [px] to the ring that starts at row `first`. Return the number of sides.
 
-    A side without length is not added: if the side before starts at the same point, only that side's `inner` is
-    replaced.
+    n: number of sides before; inner: flag of the side. A side that starts where the side before it starts is not added;
+    `inner` replaces the flag of the side before.
     """
     if n > first and sides_inout[n - 1].x == x and sides_inout[n - 1].y == y:
         sides_inout[n - 1].inner = inner
@@ -91,8 +91,8 @@ def turn_at(sides, a, b, c):
 def is_reflex(sides, k):
     """Return whether the interior angle at corner k is more than half a turn, so that a cut is needed there.
 
-    Also true for exactly half a turn between an inner side and a side that is not inner, because each side of a part is
-    either inner or part of the outline.
+    The result is also True for exactly half a turn between an inner side and a side that is not inner, because each
+    side of a part is either inner or part of the outline.
     """
     side = sides[k]
     turn = turn_at(sides, side.previous, k, side.next)
@@ -117,7 +117,7 @@ def faces(sides, k, m):
 
 @subkernel
 def blocks(sides, k, a, b):
-    """Return whether side k crosses the line between corners a and b, or starts on this line between a and b."""
+    """Return whether side k crosses the line between corners a and b, or starts on this line between these corners."""
     p, q = sides[a], sides[b]
     r = sides[k]
     s = sides[r.next]
@@ -136,7 +136,10 @@ def blocks(sides, k, a, b):
 
 @subkernel
 def sees(sides, a, b):
-    """Return whether the line between corners a and b of a ring lies inside and meets no other side. O(corners)."""
+    """Return whether the line between two corners a and b of one ring lies inside and meets no other side.
+
+    O(corners).
+    """
     if not faces(sides, a, b) or not faces(sides, b, a):
         return False
     k = sides[a].next
@@ -149,9 +152,9 @@ def sees(sides, a, b):
 
 @subkernel
 def sees_through(sides, count, a, b):
-    """Return whether the line between corners a and b of two rings lies inside and meets no other side. O(sides).
+    """Return whether the line between corner a of a ring and corner b of another lies inside and meets no side.
 
-    count: number of sides.
+    O(sides). count: number of sides of all rings.
     """
     if not faces(sides, a, b) or not faces(sides, b, a):
         return False
@@ -163,7 +166,10 @@ def sees_through(sides, count, a, b):
 
 @subkernel
 def put_cut(n, a, b, sides_inout):
-    """Append a cut between corners a and b, as two sides linked into their rings. Return the number of sides."""
+    """Append a cut between corners a and b, as two sides linked into their rings. Return the number of sides.
+
+    n: number of sides before.
+    """
     there = sides_inout[n]
     back = sides_inout[n + 1]
     start = sides_inout[a]
@@ -190,7 +196,7 @@ def put_cut(n, a, b, sides_inout):
 
 @subkernel
 def take_out(k, sides_inout):
-    """Remove the cut of side k, which joins the two pieces that it separated."""
+    """Remove the cut that side k belongs to, which joins the two pieces on its sides."""
     m = sides_inout[k].twin
     for a, b in ((k, m), (m, k)):
         before = sides_inout[a].previous
@@ -223,9 +229,10 @@ def corners_of(sides, first):
 
 @subkernel
 def bridge(n, sides_inout):
-    """Join each hole to the ring around it by a bridge, a cut along the shortest free line.
+    """Join each hole to the ring around it by a bridge: a cut along the shortest line that meets no side.
 
-    Return the number of sides, or -1 if a hole sees no other ring; then the rings are not a polygon.
+    n: number of sides. Return the new number of sides, or -1 if a hole sees no other ring; then the rings are not a
+    polygon.
     """
     while True:
         waiting = 0
@@ -249,10 +256,10 @@ def bridge(n, sides_inout):
 
 @subkernel
 def shortest_bridge(n, start, sides):
-    """Return (corner of a hole, corner of another ring) of the shortest free line between the hole and joined rings.
+    """Return (corner of a hole, corner elsewhere) of the shortest line between them that meets no side.
 
-    n: number of sides; start: a side of the hole. Only rings without unjoined holes count (apart = 0). Return (-1, -1)
-    if no line is free.
+    n: number of sides; start: a side of the hole. The other corner is of a ring that is no hole, or of a hole that has
+    already been joined to such a ring (SIDE.apart is 0). Return (-1, -1) if there is no such line.
     """
     best = math.inf
     best_a, best_b = -1, -1
@@ -273,7 +280,7 @@ def shortest_bridge(n, start, sides):
 
 @subkernel
 def is_resolved(sides, a, b):
-    """Return whether a cut from corner a to corner b leaves angles of at most half a turn on both sides of a."""
+    """Return whether a cut from corner a to corner b leaves no angle above half a turn at corner a."""
     side = sides[a]
     return turn_at(sides, side.previous, a, b) >= 0.0 and turn_at(sides, b, a, side.next) >= 0.0
 
@@ -282,8 +289,8 @@ def is_resolved(sides, a, b):
 def best_partner(sides, a, both):
     """Return the best corner for a cut from reflex corner a; -1: there is no such corner.
 
-    The best is the visible corner whose cut resolves the most reflex corners (a, the other or both); on ties, the
-    nearest. both: whether only a cut that resolves both corners is accepted.
+    The best is the visible corner whose cut resolves the most reflex corners: a, the other corner or both. On ties it
+    is the nearest. both: whether only a cut that resolves both corners is accepted.
     """
     best = -1
     best_score = 1 if both else -1
@@ -343,7 +350,10 @@ def cut_large(n, most, sides_inout):
 
 @subkernel
 def is_needed(sides, k, m):
-    """Return whether the corner at the start of side k of a cut would be reflex without the cut. m: twin of k."""
+    """Return whether side k of a cut must stay, because the corner at its start would be reflex without the cut.
+
+    m: the twin of side k.
+    """
     p, q = sides[sides[k].previous], sides[k]
     after = sides[sides[m].next]
     r = sides[after.next]
@@ -353,7 +363,10 @@ def is_needed(sides, k, m):
 
 @subkernel
 def is_needless(sides, k, most):
-    """Return whether the union of the two pieces on the sides of a cut is convex and has at most `most` corners."""
+    """Return whether the cut of side k can be removed: the union of the pieces on its two sides is then a valid part.
+
+    The union has to be convex, with at most `most` corners.
+    """
     m = sides[k].twin
     if is_needed(sides, k, m) or is_needed(sides, m, k):
         return False
@@ -369,7 +382,10 @@ def is_needless(sides, k, most):
 
 @subkernel
 def merge(n, most, sides_inout):
-    """Remove the cuts that no corner needs, longest first."""
+    """Remove the cuts that are not needed for convex pieces of at most `most` corners, longest first.
+
+    n: number of sides.
+    """
     while True:
         best = -1
         longest = 0.0
@@ -431,7 +447,8 @@ def put_parts(count, low, sides_inout, corners_out, inner_out, counts_out):
 def write_parts(n, most, low, sides_inout, corners_out, inner_out, counts_out):
     """Decompose a polygon with holes, which has `n` sides, and write its convex parts. Return the number of parts.
 
-    most: largest number of corners of a part; low, arrays: as in put_parts. Return -1 if the rings are not a polygon.
+    most: largest number of corners of a part; low and the arrays: as in put_parts. Return -1 if the rings are not a
+    polygon.
     """
     n = bridge(n, sides_inout)
     if n < 0:

@@ -59,7 +59,10 @@ def rounded_core(cracks: Loop, smooth: float) -> Core | None:
 
 
 def _round_ones(outer, corners):
-    """Yield candidate cores: discs around the middle of the bounds and the centre of area, and up to two capsules."""
+    """Yield candidate cores: discs around the middle of the bounds and the centre of area, and up to two capsules.
+
+    outer: outline of the piece; corners: the corners of its pixel edges.
+    """
     area, center, axis = _moments(corners.astype(float))
     yield (corners.min(axis=0) + corners.max(axis=0))[None] / 2.0
     yield center[None]
@@ -75,11 +78,11 @@ def _round_ones(outer, corners):
 
 
 def _several(outer, judge):
-    """Return the core of fewest corners from moving the sides of the outline inward by a radius; None: no core.
+    """Return the core of fewest corners made by moving the sides of the outline inward by a radius; None: no core.
 
-    First, cores with exactly this radius are tried, whose sides lie on the outline's sides, the smallest radius first:
-    sides that protrude a little make stacks rise, and round corners tip early. Other radii and moved corners are used
-    only if they save corners; of these the largest radius is tried first.
+    First, cores with exactly this radius are tried, whose rounded sides lie on the outline's sides, the smallest radius
+    first: sides that protrude a little make stacks rise, and round corners tip early. Other radii and moved corners are
+    used only if they save corners; of these the largest radius is tried first. judge: _Judge.
     """
     hull = convex_hull(outer)
     radii = np.linspace(1.0, 0.0, RADII, endpoint=False) * _widest(hull)
@@ -147,7 +150,7 @@ def _inset(hull, radius):
 
 
 class _Judge:
-    """Test of rounded cores: distances from the pixel edges of a piece, and separation from clear pixels."""
+    """Test of rounded cores against one piece: distances from its pixel edges, and separation from clear pixels."""
 
     def __init__(self, corners, reach):
         self.corners, self.reach = corners, reach
@@ -170,7 +173,7 @@ class _Judge:
         self.down[tuple(ends[~level].T)] = True
 
     def fitted(self, core):
-        """Return (core, radius) within the tolerances, its corners moved if necessary; None: none was found."""
+        """Return (core, radius) within the tolerances, with the core's corners moved if necessary; None: not found."""
         room = self._room(core)
         found = self._measured(core) if room > 0.0 else None
         if found is not None or room < (-1.0 if len(core) < 3 else -0.1):
@@ -204,7 +207,7 @@ class _Judge:
     def disc(self, core):
         """Return (core, radius) of the smallest disc around the core's corner that contains the solid pixels' centres.
 
-        None: the disc is not accurate enough.
+        Return None if the disc is not accurate enough. core: (1, 2) [px].
         """
         if self._room(core) > 0.0:
             return self._measured(core)
@@ -218,7 +221,7 @@ class _Judge:
         return (core, float(radius)) if off <= self.reach + DISC_SPARE - SLACK else None
 
     def _room(self, core):
-        """Return the width [px] of the range of radii that separate solid from clear centres; negative: no radius."""
+        """Return the width [px] of the range of radii that separate solid from clear centres; negative: none does."""
         return _beyond(core, self.outside).min() - _beyond(core, self.inside).max()
 
     def _measured(self, core):
@@ -240,7 +243,10 @@ class _Judge:
         return core, float(radius)
 
     def _from_cracks(self, points):
-        """Return the distance (m,) [px] of each of the points (m, 2) from the nearest pixel edge, exact below 1 px."""
+        """Return the distance (m,) [px] of each of the points (m, 2) from the nearest pixel edge.
+
+        Distances below 1 px are exact.
+        """
         cells = np.floor(points).astype(np.int64)
         least = np.full(len(points), math.inf)
         for axis, cracks in enumerate((self.across, self.down)):
@@ -256,7 +262,7 @@ class _Judge:
 
 
 def _beyond(core, points):
-    """Return the distance (m,) [px] of each of the points (m, 2) from a core of radius 0; negative: depth inside."""
+    """Return the distance (m,) [px] of each of the points (m, 2) from a core without radius; negative: depth inside."""
     if len(core) == 1:
         return np.hypot(*(points - core[0]).T)
     sides = np.roll(core, -1, axis=0) - core
@@ -270,7 +276,7 @@ def _beyond(core, points):
 
 
 def _moves(core):
-    """Return the moves (m, k, 2) of a core to try: each corner to the right or down.
+    """Return the moves (m, k, 2) of a core of k corners to try: each corner to the right or down.
 
     A core of two corners is also lengthened, rotated, and shifted along and across its line.
     """

@@ -50,9 +50,9 @@ def survey(parts: TileParts, at: tuple[int, int], size: int, number: int, origin
 def movings(before: np.ndarray, after: np.ndarray, row: int, column: int, size: int) -> list[tuple[int, int]]:
     """Return (row, column) of the tiles on which a change of one tile has an effect through border corners.
 
-    before, after (m, 5): Survey.meetings of the tile before and after its change. A tile is listed if it has a border
-    corner that is in only one of the two, even if the tile is outside the mask. row, column: position of the changed
-    tile; size [px]: side of a tile.
+    before, after (m, 5): Survey.meetings of the tile before and after its change. A tile is listed if a corner on its
+    border is in only one of these two arrays, even if the tile is outside the mask. row, column: position of the
+    changed tile; size [px]: side of a tile.
     """
     found = np.zeros(9, bool)
     mark_moved(before, after, (column * size, row * size, size), found)
@@ -74,7 +74,8 @@ def inner_bits(parts: TileParts, known: Survey, around: np.ndarray, number: int,
 def find_seams(parts, angles_out, seams_out):
     """Write the interior angle [rad] at each corner of a tile's parts, and whether exactly one side there is inner.
 
-    angles_out (n,) float64, seams_out (n,) bool; parts: TileParts.
+    "There" means at the corner, where two sides of the part meet. angles_out (n,) float64, seams_out (n,) bool; parts:
+    TileParts.
     """
     corners = parts.corners
     inner = parts.inner
@@ -163,7 +164,7 @@ def seam_turn(angle):
 
 @subkernel
 def corner_bits(k, turn):
-    """Return the flags (bits of `inner` in SHAPE) of corner k of a part. turn [rad]: turn of the outline there."""
+    """Return the flags of corner k of a part, as bits of SHAPE.inner. turn [rad]: turn of the outline at the corner."""
     if turn == COVERED:
         return 1 << (k + 16)
     return 1 << (k + 32) if turn <= SHARPEST else 0
@@ -171,13 +172,13 @@ def corner_bits(k, turn):
 
 @subkernel
 def turn_bits(turn):
-    """Return the bits of `inner` in SHAPE that store `turn` [rad], the largest turn of the outline at blunt corners."""
+    """Return the bits of SHAPE.inner that store `turn` [rad], the largest turn of the outline at blunt corners."""
     return (math.floor(turn * TURNS) + 1) << 48
 
 
 @subkernel
 def first_of(around, number):
-    """Return the index in meetings (m, 5) of the first row whose tile number is `number` or higher. O(log m)."""
+    """Return the index in meetings `around` (m, 5) of the first row with tile number `number` or higher. O(log m)."""
     low, high = 0, len(around)
     while low < high:
         middle = (low + high) // 2
@@ -192,9 +193,11 @@ def first_of(around, number):
 def cover_corners(corners, known, around, place, turns_out):
     """Write to turns_out (n,) the turn [rad] of the outline at each corner of a tile's parts.
 
-    The turn is pi where no other part meets the corner, and COVERED where the parts leave no convex corner or the
-    corner belongs to another part. around (m, 5): as in inner_bits; place: (number of the tile, tiles per row). O(n²),
-    plus the meetings of neighbouring tiles.
+    Only corners between an inner side and a side of the outline (known.seams) are computed; at all others the turn is
+    pi. At a computed corner the interior angles of all parts that share the corner are summed. The turn is COVERED if
+    the sum is HALF_TURN or more, or if an earlier part has a seam at the corner, else it is pi minus the sum. corners
+    (n, 2) [px]; known, around: as in inner_bits; place: (number of the tile, tiles per row). O(n²), plus the meetings
+    of neighbouring tiles.
     """
     there = known.seams
     number, columns = place
@@ -224,7 +227,7 @@ def cover_corners(corners, known, around, place, turns_out):
 
 @subkernel
 def first_turn(angles, first):
-    """Return the index of the first corner from `first` on at which the part turns (a corner that is not collinear)."""
+    """Return the index of the first corner, from `first` on, that is not collinear (angle below HALF_TURN)."""
     while angles[first] >= HALF_TURN:
         first += 1
     return first
@@ -271,11 +274,11 @@ def survey_tile(parts, box, number, origin, survey_out):
 
 @kernel
 def tell_inner(parts, known, around, place, turns_out, inner_out):
-    """Write the flags of inner sides and corners of each part to inner_out (parts,), in the format of `inner` in SHAPE.
+    """Write which edges and corners of each part are inner, covered or blunt, as flags in the format of SHAPE.inner.
 
-    Hull edges are numbered without collinear corners; a hull edge of several collinear sides is inner if all its sides
-    are. known, around: as in inner_bits; place: (number of the tile, tiles per row); turns_out (n,): as in
-    cover_corners.
+    inner_out (parts,) int64: the flags. Edges are counted without collinear corners. An edge is inner if all collinear
+    sides that it consists of are inner. A corner between two inner sides is covered. parts: TileParts; known, around:
+    as in inner_bits; place: (number of the tile, tiles per row); turns_out (n,): see cover_corners.
     """
     cover_corners(parts.corners, known, around, place, turns_out)
     first = 0

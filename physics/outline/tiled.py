@@ -57,7 +57,10 @@ def whole_grains(length):
 
 @subkernel
 def to_border(window, x, y, direction):
-    """Return the distance [px] from a corner on the border to the next border line ahead; KNOWN + 1: none is ahead."""
+    """Return the distance [px] from a corner on the tile's border to the next border line in a direction.
+
+    The result is KNOWN + 1 if no border line is ahead.
+    """
     at = y if direction & 1 else x
     ahead = window.high - at if direction < 2 else at - window.low
     return ahead if ahead > 0 else KNOWN + 1
@@ -67,9 +70,9 @@ def to_border(window, x, y, direction):
 def stretch(runs, count, at, seen, x, y):
     """Fit a line (least squares) to the middles of a path's pixel edges within `seen` edges of a corner (x, y).
 
-    at: number of edges of the path before the corner. Return (x, y, slope, steep, straight): x, y [px] of a point on
-    the line, relative to the corner; slope of the line; whether the slope is dx / dy instead of dy / dx; whether all
-    middles are near the line.
+    runs: RUN, `count` of them; at: number of edges of the path before the corner. Return (x, y, slope, steep,
+    straight). x, y [px]: a point on the line, relative to the corner; steep: whether the slope is dx / dy instead of dy
+    / dx; straight: whether all middles are near the line.
     """
     n = 0
     sum_x = sum_y = sum_xx = sum_yy = sum_xy = 0.0
@@ -117,9 +120,9 @@ def stretch(runs, count, at, seen, x, y):
 def is_straight(runs, count, at):
     """Return whether one straight line separates the solid pixels along a path near a corner from the clear pixels.
 
-    at: number of pixel edges of the path before the corner; edges within SEEN of the corner count. Such a line exists
-    if the directions from centres of solid pixels to centres of clear pixels span less than half a turn; only ends of
-    runs need to be tested.
+    runs: RUN, `count` of them; at: number of pixel edges of the path before the corner; edges within SEEN of the corner
+    count. Such a line exists if the directions from centres of solid pixels to centres of clear pixels span less than
+    half a turn; only ends of runs need to be tested.
     """
     first_x = first_y = last_x = last_y = 0.0
     for k in range(count):
@@ -156,8 +159,8 @@ def is_straight(runs, count, at):
 def bend(runs, count, at, x, y):
     """Fit a parabola (least squares) to the middles of a path's pixel edges within SEEN edges of a corner (x, y).
 
-    at: number of edges of the path before the corner. Return the tangent at the corner, in the format of `stretch`; the
-    last value is whether all middles are near the parabola.
+    runs: RUN, `count` of them; at: number of edges of the path before the corner. Return the tangent at the corner, in
+    the format of `stretch`; the last value is whether all middles are near the parabola.
     """
     sum_x = sum_y = u_x = u_y = uu_x = uu_y = 0.0
     for part in range(2):
@@ -195,7 +198,8 @@ def bend(runs, count, at, x, y):
 def line_at(runs, count, at, x, y):
     """Return (x, y, slope, steep) of the line that a path follows at a corner, in the format of `stretch`.
 
-    The line is fitted to the longest straight stretch around the corner, or is the tangent of a curve.
+    The line is fitted to the longest straight stretch around the corner, or is the tangent of a curve. runs, count, at,
+    x, y: see stretch.
     """
     for seen in range(SEEN, 1, -1):
         line_x, line_y, slope, steep, straight = stretch(runs, count, at, seen, x, y)
@@ -213,7 +217,8 @@ def line_at(runs, count, at, x, y):
 def meets(runs, count, at, x, y, level):
     """Return the signed distance [px] from a corner to the point where the path meets the corner's row or column.
 
-    The path is replaced by the result of line_at. level: True for the row, False for the column.
+    The path is replaced by the line of line_at. runs, count, at: see stretch; x, y: the corner; level: True for the
+    row, False for the column.
     """
     line_x, line_y, slope, steep = line_at(runs, count, at, x, y)
     if level == steep:
@@ -225,9 +230,9 @@ def meets(runs, count, at, x, y, level):
 
 @subkernel
 def room_in(window, runs, count, k, x, y, after):
-    """Return the distance [px] by which a crossing is moved from corner (x, y) along run k of a path.
+    """Return the distance [px] by which a border crossing is moved from corner (x, y) along run k of a path.
 
-    after: whether run k starts at the corner; else it ends there.
+    runs: RUN, `count` of them; after: True if run k starts at the corner, False if it ends there.
     """
     run = runs[k]
     direction = run.direction if after else (run.direction + 2) & 3
@@ -254,8 +259,8 @@ def room_in(window, runs, count, k, x, y, after):
 def aside(window, runs, count, k, distance):
     """Return the distance [px] from a point of run k to the line that the path follows, perpendicular to the run.
 
-    The distance is positive in the direction of run k - 1, and at most window.reach. distance [cracks]: position of the
-    point from the start of the run.
+    The distance is positive in the direction of run k - 1, and at most window.reach. runs: RUN, `count` of them;
+    distance [cracks]: position of the point from the start of the run.
     """
     run = runs[k]
     if k == 0 or k == count - 1 or distance > KNOWN or run.length - distance > KNOWN:
@@ -273,11 +278,12 @@ def aside(window, runs, count, k, distance):
 
 @subkernel
 def crossing(window, runs, count, at, after):
-    """Return the point where the outline crosses the tile's border near the corner `at` pixel edges along a path.
+    """Return the point where the outline crosses the tile's border near a corner of a path.
 
-    The result is (position along the path, offset x, y from the path) [px]. runs: RUN of the path, with SEEN edges on
-    either side of the corner; after: at a corner of the tile, move along the run after the corner, not the run before
-    it.
+    The result is (position along the path, offset x, offset y from the path) [px]. runs: RUN of the path, `count` of
+    them, with SEEN edges on either side of the corner; at: number of pixel edges before the corner. after: where the
+    path corner is also a corner of the tile, whether the crossing moves along the run after the corner, not the run
+    before.
     """
     k = 0
     while k + 1 < count and runs[k + 1].at <= at:
@@ -364,7 +370,10 @@ def along_border(window, x, y):
 
 @subkernel
 def put_end(n, runs, count, at, off_x, off_y, places_inout):
-    """Write row n of places: a border crossing, `at` pixel edges along the path, with an offset [px] from the path."""
+    """Write row n of places: a border crossing, `at` pixel edges along the path, with an offset [px] from the path.
+
+    runs: RUN, `count` of them; off_x, off_y: the offset.
+    """
     k = 0
     while k + 1 < count and runs[k + 1].at <= at:
         k += 1
@@ -398,7 +407,10 @@ def put_points(window, found, path, workspace):
 
 @subkernel
 def path_within(window, count, cracks, begin, end):
-    """Return the Path of `count` runs. begin, end [cracks]: its part inside the tile, infinite for a loop."""
+    """Return the Path of `count` runs and `cracks` pixel edges. begin, end [cracks]: range of the path inside the tile.
+
+    For a loop the range is infinite.
+    """
     low, high = float(window.low), float(window.high)
     return Path(count, cracks, math.isinf(end), window.reach, low, high, begin, end, window.joins)
 
@@ -407,8 +419,8 @@ def path_within(window, count, cracks, begin, end):
 def add_open(window, x, y, direction, cracks, workspace):
     """Append the outline of a path from border to border of the tile. Return whether lines were found.
 
-    x, y, direction: corner and direction at which the path enters the tile; cracks: number of its pixel edges inside
-    the tile; 0: the path only passes the tile's corner, from one border to another.
+    x, y, direction: corner at which the path enters the tile, and its direction there; cracks: number of the path's
+    pixel edges inside the tile; 0: the path only passes the tile's corner, from one border to another.
     """
     runs, places = workspace.lines.runs, workspace.lines.places
     x, y, direction = walked_back(window, x, y, direction, SEEN)
@@ -524,9 +536,10 @@ def put_piece(n, first, piece, points, sides_inout):
 
 @subkernel
 def next_piece(pieces, count, at, around):
-    """Return (piece, distance [px]) of the open piece whose start is the next along the border, clockwise.
+    """Return (piece, distance [px]) of the open piece whose start is the next one along the border, clockwise.
 
-    at [px]: position along the border from which the distance is measured; around [px]: length of the border.
+    pieces: PIECE, `count` of them; at [px]: position along the border from which the distance is measured; around [px]:
+    length of the border.
     """
     best = -1
     nearest = math.inf
@@ -544,9 +557,10 @@ def next_piece(pieces, count, at, around):
 
 @subkernel
 def put_border(window, n, first, start, length, sides_inout):
-    """Append the tile's corners that lie on a stretch of its border to a ring. Return the number of sides.
+    """Append the tile's corners that lie on a section of its border to a ring. Return the number of sides.
 
-    start, length [px]: start of the stretch along the border, and its length; corners at its ends are not added.
+    n: number of sides before; first: row of the ring's first side; start [px]: start of the section along the border;
+    length [px]: its length. Corners of the tile at the ends of the section are not added.
     """
     size = float(window.high - window.low)
     number = math.floor(start / size) + 1
@@ -559,7 +573,10 @@ def put_border(window, n, first, start, length, sides_inout):
 
 @subkernel
 def put_open(window, n, number, workspace, sides_inout):
-    """Append the ring that contains open piece `number`, with the border between pieces. Return the number of sides."""
+    """Append the ring that contains open piece `number`, with the parts of the border between pieces.
+
+    n: number of sides before. Return the number of sides.
+    """
     around = 4.0 * (window.high - window.low)
     pieces = workspace.pieces
     first = n
@@ -574,7 +591,10 @@ def put_open(window, n, number, workspace, sides_inout):
 
 @subkernel
 def is_hole(piece, points):
-    """Return whether a closed piece of the outline bounds a hole: it is then counter-clockwise on the screen."""
+    """Return whether a closed piece of the outline bounds a hole: it is then counter-clockwise on the screen.
+
+    piece: PIECE; points: POINT.
+    """
     doubled = 0.0
     before = points[piece.first + piece.count - 1]
     for k in range(piece.first, piece.first + piece.count):
@@ -681,7 +701,7 @@ def _fit(window, size, smooth):
 
 
 def _is_cornered(near):
-    """Return whether the outline cuts a corner of a clear tile: a corner at which the three pixels outside are solid.
+    """Return whether the outline cuts a corner of a clear tile: at this corner the three pixels outside are solid.
 
     near: the tile's pixels with a margin of 1 px.
     """

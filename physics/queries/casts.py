@@ -105,7 +105,7 @@ def bounds_of(world: IndexedWorld, identity: int) -> tuple[float, float, float, 
 
 
 def with_content(world: IndexedWorld, rows: np.ndarray) -> np.ndarray:
-    """Return the given shape rows without empty masks and empty grids."""
+    """Return those of the shape rows `rows` that are not empty masks or empty grids."""
     shapes, library = world.shapes[rows], world.library
     kinds = np.where(shapes["kind"] == BOUNDS, shapes["wrapped"], shapes["kind"])
     keep = np.ones(len(rows), bool)
@@ -124,7 +124,10 @@ def with_content(world: IndexedWorld, rows: np.ndarray) -> np.ndarray:
 
 @subkernel
 def write_hit(row, fraction, nx, ny, found, hits_out):
-    """Write (row, fraction, normal) of a hit to row `found` of hits_out. Return found + 1."""
+    """Write the hit (row, fraction, normal) to row `found` of hits_out. Return found + 1.
+
+    row: SHAPE row that was hit; fraction: fraction of the translation.
+    """
     hits_out[found, 0] = float(row)
     hits_out[found, 1] = fraction
     hits_out[found, 2] = nx
@@ -176,7 +179,7 @@ def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out,
 
     The normal points from the shape to the hull. rows: indices of SHAPE rows, without masks. hull: a Hull, its corners
     relative to its centre of rotation. workspace: RotationalWorkspace that holds the hull's motion. hits_out (rows, 4).
-    If a shape touches the hull at the start, it is hit at 0 if the hull approaches.
+    A shape that touches the hull at the start counts as hit at fraction 0 if the hull approaches the shape.
     """
     r = workspace.advance
     corners, count, radius, _ = hull
@@ -216,11 +219,11 @@ def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out,
 
 @kernel
 def nearest_hull(geometry, bodies, shapes, rows, point, workspace, nearest_out, work_inout):
-    """Write (distance, x, y) [px] of the point nearest to a given point on the listed hulls.
+    """Write (distance, x, y) [px] of the point nearest to `point` on the listed hulls.
 
-    Return -1 if no hull is listed. rows: indices of SHAPE rows in ascending order; tiles, masks and chains are left
-    out. If the given point lies in a hull, the distance is 0 and the nearest point is the given point. workspace:
-    AdvanceWorkspace. Return the row of this hull.
+    Return the SHAPE row of its hull. Return -1 if no hull is listed. rows: indices of SHAPE rows in ascending order;
+    tiles, masks and chains are left out. If `point` lies in a hull, the distance is 0 and the nearest point is `point`.
+    workspace: AdvanceWorkspace.
     """
     x, y = point
     own, corners = workspace.local_a, workspace.local_b
@@ -271,9 +274,10 @@ def ray_cast_all(
 ) -> list[RayHit]:
     """Return all hits of a ray, nearest first, on ties in the order of shape ids; with `first` only the nearest hit.
 
-    A ray that starts inside a shape hits it at fraction 0, with the normal against the ray's direction. A ray of zero
-    length is a point query with normals (0, -1). Raises TypeError for values of other types, ValueError for numbers
-    that are not finite or an origin too far away.
+    translation [px]: vector from the origin to the end of the ray. A ray that starts inside a shape hits it at fraction
+    0, with the normal against the ray's direction. A ray of zero length is a point query with normals (0, -1). filter:
+    Filter of the ray; sensors: whether sensors are also hit. Raises TypeError for values of other types, ValueError for
+    numbers that are not finite or an origin too far away.
     """
     x, y = checks.position("origin", origin)
     dx, dy = checks.vector("translation", translation)
@@ -311,7 +315,10 @@ def ray_cast_all(
 
 
 def _beside(world, rows, x, y, dx, dy, beyond) -> np.ndarray:
-    """Return the SHAPE rows whose AABBs, enlarged by `beyond` [px], cross the infinite line through a ray."""
+    """Return those of the shape rows whose AABBs, enlarged by `beyond` [px], cross the infinite line through a ray.
+
+    x, y, dx, dy [px]: start and vector of the ray.
+    """
     if not len(rows):
         return rows
     left, top, right, bottom = (world.shapes[name][rows] for name in ("min_x", "min_y", "max_x", "max_y"))
@@ -321,7 +328,10 @@ def _beside(world, rows, x, y, dx, dy, beyond) -> np.ndarray:
 
 
 def _rays_at_outlines(world, rows, x, y, dx, dy) -> list[np.ndarray]:
-    """Return (row, fraction, normal) of each mask that a ray hits, as arrays (1, 4). The rays are cast at outlines."""
+    """Return (row, fraction, normal) of each mask whose outline the ray x, y, dx, dy hits, as arrays (1, 4).
+
+    rows: SHAPE rows of the parts of masks.
+    """
     hits, corners = [], np.zeros((16, 2))
     for row in rows.tolist():
         parts = _swept_parts(world, row, x, y, math.inf)
@@ -337,11 +347,11 @@ def shape_cast(world: AskedWorld, shape: Shape, pose: Pose, translation: Pair, f
     """Return the first hit of a shape that moves from a pose by a translation [px]; None without a hit.
 
     On ties the shape with the smallest id is returned. Sensors are left out. The normal points from the hit shape to
-    the cast shape, and the point lies midway between them. If the shapes touch or overlap at the start, that is a hit
-    at fraction 0 if the cast shape approaches; otherwise the cast continues. A cast of zero length returns the first
-    shape that it overlaps. A PixelMask is cast as its outline at the exact pose, and a grazing contact is not a hit. A
-    Chain is hit from its front, a one-way tile or mask from above. Raises TypeError for values of other types,
-    ValueError for numbers that are not finite or a pose that the shape cannot have.
+    the cast shape, and the point lies midway between them. Shapes that touch or overlap at the start give a hit at
+    fraction 0 if the cast shape approaches; otherwise the cast continues. A cast of zero length returns the first shape
+    that it overlaps. A PixelMask is cast as its outline at the exact pose, and a grazing contact is not a hit. A Chain
+    is hit from its front, a one-way tile or mask from above. Raises TypeError for values of other types, ValueError for
+    numbers that are not finite or a pose that the shape cannot have.
     """
     pose, filter = checked_pose("shape", shape, "pose", pose), _checked(filter)
     dx, dy = checks.vector("translation", translation)
@@ -414,8 +424,8 @@ def _sweep(world, shape, probe, rows, motion, feet) -> np.ndarray:
 def _outline_at(world, rows, x, y, probe, way, feet) -> Parts:
     """Return the convex parts of one shape, relative to (x, y) [px], that a cast shape may hit during its motion.
 
-    rows: SHAPE rows of the one shape; probe: Parts of the cast shape; way: its translation [px]; feet: y [px] of its
-    lowest point.
+    rows: SHAPE rows of this one shape; probe: Parts of the cast shape; way: translation of the cast shape [px]; feet: y
+    [px] of the lowest point of the cast shape.
     """
     every = [_swept_parts(world, row, x, y, feet) for row in rows.tolist()]
     parts = Parts(*(np.concatenate(columns) for columns in zip(*every, strict=True)))
@@ -429,7 +439,7 @@ def _outline_at(world, rows, x, y, probe, way, feet) -> Parts:
 def _swept_parts(world, row, x, y, feet) -> Parts:
     """Return the convex parts of a SHAPE row for casts, relative to (x, y) [px].
 
-    feet: y [px] of the lowest point of the cast shape; a one-way tile counts only if it lies below this.
+    feet: y [px] of the lowest point of the cast shape; a one-way tile counts only if it lies below this point.
     """
     placed = Placed(world.library.tables, world.bodies, world.shapes, row, x, y, feet, True)
     return world.library.shape_of(world.shapes[row])._parts_at(placed)
@@ -538,7 +548,7 @@ def _first_contact(world, bodies, shapes, rows):
 
 
 def _probe(world, shape, pose):
-    """Return the BODY and SHAPE rows of a query shape at a pose.
+    """Return the BODY and SHAPE rows of a query shape at a pose, in tables of their own.
 
     The geometry of the shape is removed at the end of library.visited().
     """
@@ -555,7 +565,7 @@ def _checked(filter):
 
 
 def _allowed(world, rows, filter, sensors, leave=PIXELS):
-    """Return the SHAPE rows that pass the filter of a query, with sensors only if `sensors` is True.
+    """Return the SHAPE rows that the filter of a query admits, with sensors only if `sensors` is True.
 
     leave: role of the mask rows to leave out: PIXELS for queries of outlines, PART for queries of pixels.
     """

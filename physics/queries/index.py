@@ -34,9 +34,10 @@ def is_found(body):
 
 @kernel
 def find_moved(rows, bodies, poses_inout, moved_out):
-    """List in moved_out the body rows whose pose differs from the pose last read. Return their number.
+    """List in moved_out the bodies of `rows` whose pose differs from the pose last read. Return their number.
 
-    The new poses are stored. rows: body rows to compare; poses_inout (bodies, 3): poses last read. O(rows).
+    The new poses are stored in poses_inout. rows: indices of BODY rows; poses_inout (bodies, 3): poses last read.
+    O(rows).
     """
     found = 0
     for n in range(len(rows)):
@@ -113,7 +114,7 @@ def rows_meeting(shapes, row_of_slot, slots, loose, box, rows_out, work_inout):
 
 
 def is_same(now: tuple, before: tuple) -> bool:
-    """Return whether two tuples hold the same objects. Ints are compared by value."""
+    """Return whether the tuples `now` and `before` hold the same objects. Ints are compared by value."""
     return len(now) == len(before) and all(
         a is b or (type(a) is int and a == b) for a, b in zip(now, before, strict=True)
     )
@@ -127,7 +128,7 @@ class IndexedWorld(WorldTables, Protocol):
 
     @property
     def broadphase(self) -> Strategy:
-        """The strategy whose data structure is searched."""
+        """The broad phase whose data structure is searched."""
         ...
 
 
@@ -175,21 +176,21 @@ class QueryIndex:
         return dict(zip(COUNTERS, self.work.tolist(), strict=True))
 
     def begin(self, world: IndexedWorld) -> None:
-        """Start a query: reset the counters, and refresh the index to the present poses."""
+        """Start a query: reset the counters, and refresh the index to the present poses of the world."""
         self.work[:] = 0
         self.asked.clear()
         self.refresh(world)
 
     def asks_broadphase(self, world: IndexedWorld) -> bool:
-        """Return whether a query searches the broad phase: it has data, and it can find at least one shape."""
+        """Return whether a query searches the broad phase, because this has data and can find at least one shape."""
         return not world.pairs.everything and self.loose_count < len(world.shapes)
 
     def refresh(self, world: IndexedWorld) -> None:
         """Refresh the AABBs of shapes at the present poses, and the list of loose shapes.
 
         Loose shapes are shapes that the broad phase may miss. world: a World, or the StepState of its step. After a
-        step of a world with sleeping, only bodies are read that were awake before or after the step, have moved or were
-        edited; otherwise all bodies are read. If no body moved since the last call, nothing else is done.
+        step of a world with sleeping, only bodies are read that were awake before or after the step, have been moved,
+        or were edited; otherwise all bodies are read. If no body has moved since the last call, nothing else is done.
         """
         bodies, shapes, pairs, awake = world.bodies, world.shapes, world.pairs, world.awake
         newest = int(shapes["id"][-1]) if len(shapes) else -1
@@ -236,7 +237,10 @@ class QueryIndex:
             self.loose, self.rows = np.zeros(2 * len(shapes), np.int64), np.zeros(2 * len(shapes), np.int64)
 
     def rows_in(self, world: IndexedWorld, lower: Pair, upper: Pair) -> np.ndarray:
-        """Return the shape rows, in order, whose AABBs meet a closed box [px]. Quarantined bodies are left out."""
+        """Return the shape rows, in order, whose AABBs meet the closed box from `lower` to `upper` [px].
+
+        Quarantined bodies are left out.
+        """
         reach = ROUNDING * max(abs(lower[0]), abs(lower[1]), abs(upper[0]), abs(upper[1]))
         box = (float(lower[0]) - reach, float(lower[1]) - reach, float(upper[0]) + reach, float(upper[1]) + reach)
         self.asked.append(box)
@@ -257,7 +261,7 @@ CORNERS = ("lower_x", "lower_y", "upper_x", "upper_y")
 
 
 class Visited(NamedTuple):
-    """The boxes [px] that a query searched, and the boxes that it compared with them, in order, with repetitions."""
+    """The boxes [px] that a query searched, and the boxes that it compared with them; in order, with repetitions."""
 
     kind: str  # brute, sweep, hash, tree
     asked: np.ndarray  # (k, 4) min_x min_y max_x max_y
@@ -295,7 +299,7 @@ def _boxes(rows):
 
 
 def _nodes(tree, box):
-    """Return the boxes of the tree nodes that a search visits: roots, and the children of nodes that meet the box."""
+    """Return the boxes of the tree nodes that a search visits: the roots, and the children of nodes that meet `box`."""
     boxes, children, height = _boxes(tree.nodes), tree.nodes[["child_a", "child_b"]], tree.nodes["height"]
     found, level = [], tree.state[ROOT_MOVING:]
     level = level[level >= 0]
@@ -307,7 +311,7 @@ def _nodes(tree, box):
 
 
 def _cells(grid, proxies, box):
-    """Return, for each level, the cells that the box covers, or the AABBs of the level's proxies if these are fewer."""
+    """Return, for each level of a grid, the cells that `box` covers, or the AABBs of its proxies if these are fewer."""
     found, (x0, y0, x1, y1) = [np.zeros((0, 4))], box
     for level in np.flatnonzero(grid.lists.level_counts).tolist():
         size = grid.base * 2.0**level

@@ -46,7 +46,7 @@ class PairRows(NamedTuple):
 
 
 class HullRow(NamedTuple):
-    """The table rows of a hull, cached as bytes: joining two of them costs a tenth of joining structured arrays."""
+    """The table rows of a hull, cached as bytes: joining two HullRows takes a tenth of the time of joining arrays."""
 
     first: bytes  # its SHAPE row as the first shape of a pair
     second: bytes  # its SHAPE row as the second shape of a pair
@@ -55,7 +55,7 @@ class HullRow(NamedTuple):
 
 
 def kept_with_shape(make: Callable[[Shape], Kept]) -> Callable[[Shape], Kept]:
-    """Return a function of a shape that caches its result with the shape. Used as a decorator.
+    """Return `make`, a function of a shape, with a cache of its results in the shape. Used as a decorator.
 
     All shapes that differ only in material, filter or sensor flag share one result.
     """
@@ -85,14 +85,17 @@ def hull_row(shape: Shape) -> HullRow | None:
 
 @kept_with_shape
 def order_of(shape: Shape) -> tuple:
-    """Return a sort key of a shape. Pairs are measured in sorted order, so that a swap changes only signs."""
+    """Return a sort key of a shape.
+
+    Two shapes are measured in sorted order, so that swapping them changes only signs.
+    """
     inside = () if shape._inner is shape else (rank_of(shape._inner),)
     return (rank_of(shape), *inside, *shape._inner._key)
 
 
 @kept_with_shape
 def name_of(shape: Shape) -> tuple:
-    """Return a sort key of a shape for collide(), made from its constructor call."""
+    """Return a sort key of a shape for collide(), made from the shape's constructor call."""
     return rank_of(shape), repr(shape), order_of(shape)
 
 
@@ -159,10 +162,10 @@ class Manifold:
 def collide(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose, margin: float = 0.0) -> Manifold:
     """Return the contact of two shapes at poses (x, y) or (x, y, angle), with points if they are within margin [px].
 
-    In the other order of shapes the points and separations are the same, and the normal is reversed. Against a TileGrid
-    or a Chain the points of all tiles or links are listed, with the normal of the deepest point. Two shapes that are
-    each a TileGrid or a Chain never collide. Raises TypeError for values that are not shapes, poses or numbers,
-    ValueError for a pose that the shape cannot have or a margin < 0.
+    If the two shapes are swapped, the points and separations are the same, and the normal is reversed. Against a
+    TileGrid or a Chain the points of all tiles or links are listed, with the normal of the deepest point. Two shapes
+    that are each a TileGrid or a Chain never collide. Raises TypeError for values that are not shapes, poses or
+    numbers, ValueError for a pose that the shape cannot have or a margin < 0.
     """
     poses = [checked_pose("shape_a", shape_a, "pose_a", pose_a), checked_pose("shape_b", shape_b, "pose_b", pose_b)]
     margin = checks.number("margin", margin, low=0.0)
@@ -175,9 +178,9 @@ def collide(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose, margin: 
 
 
 def _collide_hulls(rows, margin, swapped) -> Manifold:
-    """Return the Manifold of two convex shapes.
+    """Return the Manifold of two convex shapes. rows: PairRows.
 
-    swapped: whether the shapes are tested in the other order and the normal is reversed.
+    swapped: whether the shapes are in the reverse order, so that the normal has to be reversed.
     """
     low, high = sorted(rows.shapes["kind"].tolist())
     kind = kind_of_pair(low, high)
@@ -252,13 +255,13 @@ class Distance:
 def distance(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> Distance:
     """Return the distance of two shapes at poses (x, y) or (x, y, angle).
 
-    It is <= 0 if `collide` finds a contact, and < 0 if masks have a contact. Convex shapes: exact up to rounding.
-    Concave shapes: the distance of the nearest parts, or for an overlap minus the depth of `collide`. A shape that
-    touches a mask without shared area has distance 0 and no contact. Other shapes may touch or cross without a contact
-    (a Chain from behind, tiles on tiles): then their distance is the smallest positive number. A mask is measured by
-    its pixels, a snapped mask as it is drawn on the pixel grid. The distance to an empty shape is infinite, with the
-    normal (1, 0). Raises TypeError for values that are not shapes or poses, ValueError for a pose that the shape cannot
-    have.
+    The distance is <= 0 if `collide` finds a contact, and < 0 if masks have a contact. Convex shapes: exact up to
+    rounding. Concave shapes: the distance of the nearest parts, or for an overlap minus the depth of `collide`. A shape
+    that touches a mask without shared area has distance 0 and no contact. Other shapes may touch or cross without a
+    contact (a Chain from behind, tiles on tiles): then their distance is the smallest positive number. A mask is
+    measured by its pixels, a snapped mask as it is drawn on the pixel grid. The distance to an empty shape is infinite,
+    with the normal (1, 0). Raises TypeError for values that are not shapes or poses, ValueError for a pose that the
+    shape cannot have.
     """
     pose_a = checked_pose("shape_a", shape_a, "pose_a", pose_a)
     pose_b = checked_pose("shape_b", shape_b, "pose_b", pose_b)
@@ -338,7 +341,7 @@ def size_of(corners, count, radius):
 
 
 def _separate_any(shape_a, pose_a, shape_b, pose_b, workspace):
-    """Return (separation, size, rounds) as separate_hulls, for any two shapes; infinite for an empty shape."""
+    """Return (separation, size, rounds), as separate_hulls does, for any two shapes; infinite for an empty shape."""
     parts_a, parts_b = parts_of_pair(shape_a, pose_a, shape_b, pose_b, pose_a[0], pose_a[1])
     totals = np.zeros(2)
     found = separate_parts(parts_a, parts_b, np.zeros((16, 2)), np.zeros((16, 2)), workspace, totals)
@@ -454,7 +457,10 @@ def _motion(move):
 
 
 def _local(shape, move) -> tuple[Parts, np.ndarray]:
-    """Return (parts in body space, motion) of a shape. A Bounds that does not rotate is the box at its angle."""
+    """Return (parts in body space, motion) of a shape. move: start and end pose.
+
+    A Bounds that does not rotate is the box at its angle.
+    """
     motion = _motion(move)
     if shape._kind != BOUNDS:
         return shape._parts, motion
@@ -479,7 +485,10 @@ def _parts_at(shape, move, fraction, x, y) -> Parts:
 
 
 def _point(a, move_a, b, move_b, fraction):
-    """Return the point [px] midway between the nearest points of two moving shapes at a fraction of their motion."""
+    """Return the point [px] midway between the nearest points of two moving shapes at a fraction of their motion.
+
+    a, b: the shapes; move_a, move_b: start and end pose of each.
+    """
     x, y = move_a[0][:2]
     gap = _gap_at(*(_parts_at(each, move, fraction, x, y) for each, move in ((a, move_a), (b, move_b))))
     return Vec2(float(x + 0.5 * (gap[AX] + gap[BX])), float(y + 0.5 * (gap[AY] + gap[BY])))
@@ -492,9 +501,10 @@ def _gap_at(parts_a, parts_b):
 
 
 def _advance_boxes(a, move_a, b, move_b):
-    """Return (fraction or MISS, normal) of the impact of Bounds whose size changes with rotation.
+    """Return (fraction or MISS, normal) of the first impact of two shapes, if a Bounds among them changes size.
 
-    Method: conservative advancement with a bound of the speed.
+    A Bounds changes size when its shape rotates. Method: conservative advancement with a bound of the speed. move_a,
+    move_b: start and end pose of each shape.
     """
     x, y = move_a[0][:2]
     parts = [each._inner._pixel_parts if each._kind == BOUNDS else each._parts for each in (a, b)]

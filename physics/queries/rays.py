@@ -20,8 +20,9 @@ from physics.tables.shape import CHAIN, CIRCLE, MASK, TILES
 def cast_on_line(ax, ay, bx, by, x, y, dx, dy):
     """Return the fraction at which a ray from (x, y) by (dx, dy) [px] hits the closed line from a to b, or MISS.
 
-    The test compares the sides of the ray on which the two ends lie, so no ray passes between two lines that share an
-    end. A ray along the line hits the nearer end; a start on the line is a hit at 0.
+    ax, ay, bx, by: coordinates of a and b. The test compares on which side of the ray the two ends of the line lie, so
+    no ray passes between two lines that share an end. A ray along the line hits the nearer end. A ray that starts on
+    the line hits at 0.
     """
     side_a, side_b = dx * (ay - y) - dy * (ax - x), dx * (by - y) - dy * (bx - x)
     if (side_a > 0.0 and side_b > 0.0) or (side_a < 0.0 and side_b < 0.0):
@@ -43,7 +44,10 @@ def cast_on_line(ax, ay, bx, by, x, y, dx, dy):
 
 @subkernel
 def cast_on_segment(corners, x, y, dx, dy):
-    """Return (fraction or MISS, normal against the ray) of a ray at a two-sided segment [px]."""
+    """Return (fraction or MISS, normal against the ray) of a ray at a two-sided segment [px].
+
+    corners: its first two rows are the ends; x, y, dx, dy: start and vector of the ray.
+    """
     back_x, back_y = unit(-dx, -dy, 0.0, -1.0)
     if distance_to_edge(corners[0, 0], corners[0, 1], corners[1, 0], corners[1, 1], x, y) == 0.0:
         return 0.0, back_x, back_y
@@ -57,9 +61,9 @@ def cast_on_segment(corners, x, y, dx, dy):
 
 @subkernel
 def cast_on_disc(x, y, dx, dy, radius):
-    """Return (fraction or MISS, normal) of a ray at a closed disc. (x, y) [px] is relative to the disc's centre.
+    """Return (fraction or MISS, normal) of a ray from (x, y) by (dx, dy) [px] at a closed disc around (0, 0).
 
-    A start inside is a hit at 0, with the normal against the ray.
+    A ray that starts inside hits at 0, with the normal against the ray.
     """
     if x * x + y * y <= radius * radius:
         back_x, back_y = unit(-dx, -dy, 0.0, -1.0)
@@ -71,7 +75,8 @@ def cast_on_disc(x, y, dx, dy, radius):
 def cast_on_hull(corners, count, radius, x, y, dx, dy):
     """Return (fraction or MISS, normal) of a ray at a closed hull of two or more corners with a rounding radius [px].
 
-    A start inside is a hit at 0, with the normal against the ray. A ray of zero length tests its point.
+    x, y, dx, dy [px]: start and vector of the ray. A ray that starts inside hits at 0, with the normal against the ray.
+    A ray of zero length tests its point.
     """
     if radius == 0.0 and count == 2:
         return cast_on_segment(corners, x, y, dx, dy)
@@ -111,7 +116,10 @@ def cast_on_hull(corners, count, radius, x, y, dx, dy):
 
 @subkernel
 def crosses_box(x, y, dx, dy, min_x, min_y, max_x, max_y):
-    """Return whether a ray [px] may meet a closed box, with a margin for rounding."""
+    """Return whether the ray from (x, y) by (dx, dy) [px] may meet the closed box from min_x, min_y to max_x, max_y.
+
+    The box is enlarged by a margin for rounding.
+    """
     rim = 1e-9 * (max_x - min_x + max_y - min_y + abs(dx) + abs(dy)) + 1e-15 * (abs(x) + abs(y))
     enter = 0.0
     leave = 1.0
@@ -173,7 +181,8 @@ def cast_on_chain(geometry, chain, body, ray):
 def enter_box(x, y, dx, dy, width, height):
     """Return the fractions at which a ray enters and leaves the box from (0, 0) to (width, height).
 
-    If the ray misses the box, the first fraction is greater than the second.
+    x, y, dx, dy [px]: start and vector of the ray. If the ray misses the box, the first fraction is greater than the
+    second.
     """
     enter = 0.0
     leave = 1.0
@@ -194,7 +203,10 @@ def enter_box(x, y, dx, dy, width, height):
 
 @subkernel
 def next_border(position, step, cell, size):
-    """Return the fraction at which a ray leaves a cell along one axis; infinite if it does not move along this axis."""
+    """Return the fraction at which a ray leaves a cell along one axis; infinite if it does not move along this axis.
+
+    position, step: start of the ray and its change along the axis; cell: index of the cell; size [px]: size of a cell.
+    """
     if step > 0.0:
         return ((cell + 1) * size - position) / step
     if step < 0.0:
@@ -206,7 +218,8 @@ def next_border(position, step, cell, size):
 def start_cell(position, step, size, count):
     """Return the index, along one axis, of the cell in which a ray starts or which it enters first.
 
-    If the position is on a border, it is the cell into which the ray moves.
+    A ray that starts on a border belongs to the cell into which it moves. position, step: start of the ray and its
+    change along the axis; size [px]: size of a cell; count: number of cells.
     """
     at = position / size
     cell = math.floor(at)

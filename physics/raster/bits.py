@@ -65,19 +65,19 @@ def sum_of_places(value):
 
 @subkernel
 def without_lowest(value):
-    """Return the word with its lowest set bit cleared."""
+    """Return a word with its lowest set bit cleared."""
     return word(value & word(value - word(1)))
 
 
 @subkernel
 def both(a, b):
-    """Return the pixels set in both words."""
+    """Return the pixels set in both words a and b."""
     return word(a & b)
 
 
 @subkernel
 def either(a, b):
-    """Return the pixels set in at least one of the words."""
+    """Return the pixels set in at least one of the words a and b."""
     return word(a | b)
 
 
@@ -97,7 +97,7 @@ def run_bits(start, end):
 
 @subkernel
 def minus(a, b):
-    """Return the pixels set in the first word and not in the second."""
+    """Return the pixels set in word a and not in word b."""
     return word(a & word(b ^ word(0xFFFFFFFFFFFFFFFF)))
 
 
@@ -137,7 +137,7 @@ def shared_word(words, word_a, shift_a, word_b, shift_b):
 
 @subkernel
 def shifts_to(columns):
-    """Return the arguments (up, down, kept) of `moved` that shift a word by -64 to 64 columns to the right."""
+    """Return the arguments (up, down, kept) with which `moved` shifts a word by -64 to 64 columns to the right."""
     kept = word(0xFFFFFFFFFFFFFFFF) if abs(columns) < 64 else word(0)
     return word(max(columns, 0) & 63), word(max(-columns, 0) & 63), kept
 
@@ -150,11 +150,11 @@ def moved(value, up, down, kept):
 
 @subkernel
 def shared_row(words, word_a, shift_a, word_b, shift_b, rows):
-    """Return (row, shared pixels) of the first row in which two rasters of one word per row overlap.
+    """Return (row, shared pixels) of the first row in which two rasters of one word per row overlap; (rows, 0): none.
 
     rows: number of compared rows; word_*: index of each raster's word in the first compared row; shift_*: number of
     columns that are skipped on the left of each raster. The right end needs no mask, because words are clear beyond
-    their solid bounds. Return (rows, 0) if no row overlaps. O(rows).
+    their solid bounds. O(rows).
     """
     for row in range(rows):
         shared = shared_word(words, word_a + row, shift_a, word_b + row, shift_b)
@@ -235,7 +235,7 @@ def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
 
 @subkernel
 def line_shared(words, row_a, box_a, row_b, box_b, dx, dy, guess):
-    """Return the number of a row of raster A with a pixel that raster B shares; -1: the rasters share no pixel.
+    """Return a row of raster A that contains a pixel shared with raster B; -1: the rasters share no pixel.
 
     Both rasters are one word wide. row_*: index of the first word of each raster; box_*: solid bounds (left, top,
     right, bottom) of each raster; dx, dy [px]: top left corner of B in A; guess: row of A that is tested first. O(1) if
@@ -261,7 +261,8 @@ def line_moments(words, row_a, box_a, row_b, box_b, dx, dy):
     """Return (area, sum of x, sum of y, difference) over the shared pixels of rasters A and B, one word wide.
 
     x, y: column and row in A. difference [px2]: the shared area with B moved one pixel to the left minus the shared
-    area with B moved one pixel to the right. The solid bounds must overlap. Arguments as line_shared. O(rows).
+    area with B moved one pixel to the right. The solid bounds of A and B must overlap. Arguments as in line_shared.
+    O(rows).
     """
     up, down, kept = shifts_to(dx)
     left_up, left_down, left_kept = shifts_to(dx - 1)
@@ -422,11 +423,11 @@ def _any_turn(solid, origin, angle):
 
 
 def _sampled(padded, mixed, base_x, base_y, cosine, sine):
-    """Return for each rotated pixel (whether its centre is solid, number of its solid samples, source index).
+    """Return arrays (solid, samples, source) with an entry for each rotated pixel.
 
-    source index: flat index, in the padded source, of the pixel under the first solid sample; -1: no sample is solid.
-    padded: source with a clear border; base_x, base_y [px]: first corner of each rotated pixel in the padded source;
-    mixed: result of _mixed.
+    solid: whether the pixel's centre is solid; samples: number of its solid samples; source: flat index, in the padded
+    source, of the pixel under the first solid sample, -1 if no sample is solid. padded: source with a clear border;
+    mixed: result of _mixed; base_x, base_y [px]: first corner of each rotated pixel in the padded source.
     """
     rows, columns = padded.shape
 
@@ -455,7 +456,7 @@ def _sampled(padded, mixed, base_x, base_y, cosine, sine):
 
 
 def _mixed(padded):
-    """Return for each pixel whether the 3 x 3 pixels around it are neither all solid nor all clear."""
+    """Return for each pixel of `padded` whether the 3 x 3 pixels around it are neither all solid nor all clear."""
     wide = np.pad(padded, 1).view(np.uint8)
     row = wide[:, :-2] + wide[:, 1:-1] + wide[:, 2:]
     count = row[:-2] + row[1:-1] + row[2:]
@@ -465,8 +466,9 @@ def _mixed(padded):
 def _as_many(centered, coverage, wanted):
     """Return the solid pixels of a rotated mask, `wanted` in number if possible.
 
-    They are the pixels whose centres are solid. If these are too few, the most covered other pixels are added. If they
-    are too many, the least covered pixels are removed, except pixels whose removal would disconnect others.
+    At first these are the pixels whose centres are solid (`centered`). If they are too few, the most covered other
+    pixels are added. If they are too many, the least covered pixels are removed, except pixels whose removal would
+    disconnect others. coverage: number of solid samples of each pixel.
     """
     kept = centered.copy()
     missing = wanted - int(kept.sum())

@@ -46,10 +46,10 @@ def slack_of(a, b):
 
 @subkernel
 def reach_of(cosine, sine):
-    """Return the separating distance [px] of two unit squares.
+    """Return the distance [px] at which two unit squares stop sharing area, along each axis of either square.
 
-    The squares share area if, on each axis of either square, their centres are nearer than this. cosine, sine: cosine
-    and sine of the angle between the squares.
+    The squares share area if, on all of these axes, their centres are nearer than this. cosine, sine: cosine and sine
+    of the angle between the squares.
     """
     return 0.5 + 0.5 * (abs(cosine) + abs(sine))
 
@@ -59,7 +59,7 @@ def do_squares_meet(dx, dy, cosine, sine, near):
     """Return whether two unit squares share area (separating axis test).
 
     dx, dy [px]: centre of the second square relative to the first; cosine, sine: cosine and sine of the angle between
-    the squares; near [px]: result of reach_of, less the rounding error.
+    the squares; near [px]: result of reach_of, minus the rounding error.
     """
     return (
         abs(dx) < near
@@ -110,9 +110,9 @@ def box_in_raster(a, b, u, v, cosine, sine):
 
 @subkernel
 def clip_run(low, high, start, step, least, most):
-    """Return the part (low, high) of an interval of t in which least <= start + step * t <= most.
+    """Return the part (low, high) of an interval low <= t <= high in which least <= start + step * t <= most.
 
-    low > high: the part is empty.
+    The part is empty if the returned low > high.
     """
     if step > 0.0:
         return max(low, (least - start) / step), min(high, (most - start) / step)
@@ -201,11 +201,11 @@ def first_squares(pair, u, v):
 
 @subkernel
 def squares_way_out(pair, nx, ny, most):
-    """Return the least distance [px] that mask B must move along (nx, ny) to end the overlap.
+    """Return the least distance [px] that mask B must move along (nx, ny) to end the overlap with mask A.
 
-    A result above `most` [px] means that no move up to `most` ends it. nx, ny: unit vector in the raster of mask A. Two
-    squares overlap on one interval of the move. Each overlapping pair that is found advances the move to the end of the
-    pair's interval, so no pair is found twice. O(first_squares · pairs found).
+    A result above `most` [px] means that no move up to `most` ends the overlap. pair: SquaresPair; nx, ny: unit vector
+    in the raster of mask A. Two squares overlap on one interval of the move. Each overlapping pair that is found
+    advances the move to the end of the pair's interval, so no pair is found twice. O(first_squares · pairs found).
     """
     cosine, sine = pair.cosine, pair.sine
     reach = reach_of(cosine, sine)
@@ -234,10 +234,10 @@ def squares_way_out(pair, nx, ny, most):
 
 @subkernel
 def line_share(px, py, qx, qy, width, height):
-    """Return what a straight line adds to (area, moment of x, moment of y) of the part of a region inside a box.
+    """Return the contribution of a line to (area, moment of x, moment of y) of the part of a region inside a box.
 
-    The line from p to q [px] belongs to the region's outline; the box is 0..width x 0..height. The sides of the box cut
-    the line into up to three pieces; along each piece the clamped x is linear.
+    The straight line from p to q [px] belongs to the region's outline; the box is 0..width x 0..height. The sides of
+    the box cut the line into up to three pieces; along each piece the x that is clamped to the box is linear.
     """
     area = 0.0
     moment_x, moment_y = 0.0, 0.0
@@ -308,7 +308,7 @@ def next_cut(x, y, radius, width, height, after, until):
 
 @subkernel
 def arc_share(x, y, radius, start, end, width, height):
-    """Return what an arc adds to (area, moment of x, moment of y) of the part of a region inside a box.
+    """Return the contribution of an arc to (area, moment of x, moment of y) of the part of a region inside a box.
 
     The arc belongs to the region's outline; x, y [px]: its centre; start, end [rad]: its angles, start < end. The box
     is 0..width x 0..height.

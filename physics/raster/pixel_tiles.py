@@ -150,8 +150,8 @@ def pick_node(words, first, runs_out, parents_out, picked_out):
 def link_nodes(nodes, starts, tile, other, across, down, parents_inout):
     """Join touching nodes of two adjacent tiles in a union-find forest.
 
-    nodes NODE; starts (tiles + 1,): first node of each tile; across, down: columns and rows from `tile` to the tile
-    `other`; parents_inout (nodes,): parent of each node.
+    nodes: NODE; starts (tiles + 1,): first node of each tile; tile, other: numbers of the two tiles; across, down:
+    columns and rows from `tile` to `other`; parents_inout (nodes,): parent of each node.
     """
     for i in range(starts[tile], starts[tile + 1]):
         a = nodes[i]
@@ -207,7 +207,7 @@ def label_pieces(nodes, starts, columns, labels_out):
 
 @kernel
 def measure_pieces(nodes, labels, width, counts_inout, firsts_inout):
-    """Add each node's pixels to the count of its piece, and lower each piece's first pixel to the first of its nodes.
+    """Add each node's pixels to the count of its piece, and lower the piece's first pixel to the node's first pixel.
 
     nodes NODE; labels (nodes,): piece of each node; width [px]: width of the raster; counts_inout (pieces,) [px];
     firsts_inout (pieces,): first pixel in reading order, row * width + column. O(nodes).
@@ -396,7 +396,7 @@ class PixelTiles:
         return unpacked(words[y : y + size])[:, x : x + size]
 
     def differences(self, other: "PixelTiles", tiles: Iterable[int]) -> list[tuple[int, int, int, int]]:
-        """Return a box around the differing pixels for each compared tile that differs from another raster.
+        """Return a box around the pixels that differ from another raster, for each tile of `tiles` with such pixels.
 
         A box is (left, top, right, bottom) [px]; right and bottom are exclusive. other: a raster of the same size;
         tiles: numbers of the compared tiles.
@@ -457,7 +457,7 @@ Box = tuple[float, float, float, float]  # min_x, min_y, max_x, max_y [px]
 
 
 class Loose(NamedTuple):
-    """A piece that a cut separated: its pixels solid[row, column] bool in its bounds.
+    """A piece that a cut separated: solid[row, column] bool, the piece's pixels within its bounds.
 
     (left, top) [px]: top left pixel of the bounds.
     """
@@ -478,11 +478,12 @@ class Cut(NamedTuple):
 
 
 def cut(tiles: PixelTiles, tool: Tool, box: Box, one_piece: bool, crumb: int) -> Cut:
-    """Remove the pixels that a tool finds, and the pieces that this separates from the rest. Return a Cut.
+    """Remove the pixels that a tool covers, and the pieces that this separates from the rest. Return a Cut.
 
-    box [px]: bounds of the tool in the raster. one_piece: whether only the largest of all pieces stays; else each piece
-    that existed before the cut keeps its largest part. Of parts of equal size, the part with the first pixel stays. The
-    result lists the separated pieces, except pieces of fewer than `crumb` pixels. O(tiles + runs of changed tiles).
+    box [px]: bounds of the tool in the raster. one_piece: True if only the largest of all pieces stays, False if each
+    piece that existed before the cut keeps its largest part. Of parts of equal size, the part with the first pixel
+    stays. The result lists the separated pieces, except pieces of fewer than `crumb` pixels. O(tiles + runs of changed
+    tiles).
     """
     changed, removed = _taken(tiles, tool, box)
     if not removed:
@@ -511,7 +512,10 @@ def cut(tiles: PixelTiles, tool: Tool, box: Box, one_piece: bool, crumb: int) ->
 
 
 def _taken(tiles, tool, box):
-    """Return ({tile number: words without the pixels that the tool finds}, number of pixels found)."""
+    """Return ({tile number: words without the pixels that the tool finds}, number of pixels found).
+
+    box [px]: bounds of the tool in the raster.
+    """
     first_column, first_row = (max(0, int(each // TILE)) for each in box[:2])
     last_column, last_row = int(min(box[2] // TILE, tiles.columns - 1)), int(min(box[3] // TILE, tiles.rows - 1))
     changed, removed, found = {}, 0, np.empty(TILE, np.uint64)
@@ -527,7 +531,10 @@ def _taken(tiles, tool, box):
 
 
 def _pieces_before(before, after, changed):
-    """Return for each piece after a cut the number of the piece before the cut that contained it: (pieces,) int64."""
+    """Return for each piece after a cut the number of the piece before the cut that contained it: (pieces,) int64.
+
+    changed: numbers of the tiles that the cut changed.
+    """
     labels, parts, last = before.pieces.labels, [], 0
     for tile in sorted(changed):
         # The nodes of unchanged tiles are the same, in the same order.

@@ -89,9 +89,9 @@ def fit(mask: PixelMask, tier: str, tolerance: float = 1.0) -> tuple:
     smallest oriented box; "capsule": the smallest capsule around all pixels; "hull": the convex hull, with 16 corners
     at most; "parts": convex polygons that ignore bumps and notches of up to tolerance [px], in addition to the
     smoothing of the outline; "outline": mask.outline, in convex parts, rounded where the sprite is round; "pixels": the
-    mask as it is drawn (snap=True); "mask": the pixels at the exact pose (snap=False). The shapes keep the mask's
-    material, filter and sensor. Raises TypeError for a mask that is not a PixelMask, ValueError for an unknown tier or
-    a tolerance <= 0.
+    mask tested as it is drawn (snap=True); "mask": the mask tested at its exact pose (snap=False). The shapes keep the
+    mask's material, filter and sensor. Raises TypeError for a mask that is not a PixelMask, ValueError for an unknown
+    tier or a tolerance <= 0.
     """
     if not isinstance(mask, PixelMask):
         raise TypeError(f"mask must be a PixelMask (got {checks.shown(mask)})")
@@ -131,7 +131,7 @@ def _fit(mask, tier, tolerance):
 
 
 def _snapped(mask, snap):
-    """Return a mask with its `snap` set to this value; the mask itself if it already has the value."""
+    """Return a mask with its `snap` set to this value, or the mask itself if it already has the value."""
     if mask.snap == snap:
         return mask
     if snap not in mask.fitted:
@@ -144,7 +144,7 @@ def _snapped(mask, snap):
 
 
 class Fit(NamedTuple):
-    """Accuracy and cost of shapes that replace a mask, as `measure` returns and describes them."""
+    """Accuracy and cost of shapes that replace a mask: the result of `measure`, which describes the fields."""
 
     over: float
     missed: float

@@ -53,7 +53,7 @@ class Bounds(EqualByValue):
         return self.shape.mass_of(density)
 
     def reach(self, x: float, y: float) -> float:
-        """Return an upper bound, at any angle, of the distance [px] from (x, y) to the farthest point of the AABB."""
+        """Return an upper bound of the distance [px] from (x, y) to the farthest point of the AABB at any angle."""
         return math.sqrt(2.0) * self.shape.reach(0.0, 0.0) + math.hypot(x, y)
 
     def _hulls(self) -> list[tuple[np.ndarray, float]]:
@@ -95,7 +95,7 @@ def names_of(types: Iterable[type[Shape]]) -> str:
 
 
 def checked_shapes(name: str, values: Iterable[Any]) -> tuple[Shape, ...]:
-    """Return the values as a tuple.
+    """Return `values` as a tuple of shapes.
 
     Raises TypeError for a value that is not a shape; the message contains `name`, the name of the argument.
     """
@@ -109,8 +109,8 @@ def checked_shapes(name: str, values: Iterable[Any]) -> tuple[Shape, ...]:
 def checked_pose(shape_name: str, shape: Any, pose_name: str, pose: Pose) -> tuple[float, float, float]:
     """Return a pose as (x, y, angle) [px, px, rad].
 
-    Raises TypeError or ValueError if it is not a pose, or not one that the shape can have; TypeError for a value that
-    is not a shape.
+    shape_name, pose_name: names of the arguments, for messages. Raises TypeError or ValueError if `pose` is not a pose,
+    or not one that the shape can have; TypeError if `shape` is not a shape.
     """
     if not isinstance(shape, tuple(SHAPES)):
         raise TypeError(f"{shape_name} must be a shape such as Circle(8) (got {checks.shown(shape)})")
@@ -121,7 +121,10 @@ def checked_pose(shape_name: str, shape: Any, pose_name: str, pose: Pose) -> tup
 
 
 def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike) -> None:
-    """Raise TypeError for a value that is not a shape, ValueError for shapes that bodies of this kind cannot have."""
+    """Raise TypeError for a value that is not a shape, ValueError for shapes that bodies of this kind cannot have.
+
+    angles [rad]: the angles of these bodies.
+    """
     for shape in checked_shapes("shapes", shapes):
         shape._check_body(kind, angles)
     if kind == DYNAMIC and shapes and not any(shape._has_mass for shape in shapes):
@@ -132,7 +135,7 @@ def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike) -> None:
 
 
 def rank_of(shape: Shape) -> int:
-    """Return the index of a shape's type in SHAPES, which orders the two shapes of a test."""
+    """Return the index of a shape's type in SHAPES. It determines which of two tested shapes comes first."""
     return next(k for k, each in enumerate(SHAPES) if isinstance(shape, each))
 
 

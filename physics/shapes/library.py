@@ -61,9 +61,10 @@ class Geometries(NamedTuple):
 
 
 class Library:
-    """Flat arrays with the geometry of shapes, each stored once.
+    """Flat arrays with the geometry of shapes. Each distinct geometry is stored once.
 
-    Convex shapes and chains are recognised by equal values, tile grids and masks by identity of the object.
+    Convex shapes and chains are the same geometry if their values are equal; tile grids and masks only if they are the
+    same object.
     """
 
     def __init__(self) -> None:
@@ -81,7 +82,7 @@ class Library:
 
     @property
     def grown(self) -> tuple[Table, ...]:
-        """The tables to which adding a shape may append rows."""
+        """The tables that adding a shape may extend by rows."""
         return (
             self.polygons,
             self.corners,
@@ -102,13 +103,16 @@ class Library:
     def may_be_half_unused(self, shapes: int) -> bool:
         """Return whether half of the geometry may be unused, so that copying the used half is worth its time.
 
-        True if more SHAPE rows were removed than `shapes`, the number of rows left, or if the size has more than
-        doubled.
+        The result is True if more SHAPE rows were removed than `shapes`, the number of rows left, or if the size has
+        more than doubled since the last copy.
         """
         return self.gone > shapes + (FEW if shapes else 0) or self.size > 2 * self.least + SLACK
 
     def without_unused(self, shapes: np.ndarray) -> "Library":
-        """Return a library with only the geometry that these SHAPE rows use; renumber their `geometry` and `raster`."""
+        """Return a library with only the geometry that these SHAPE rows use.
+
+        Renumber the rows' `geometry` and `raster`.
+        """
         fresh = Library()
         kinds = np.where(shapes["kind"] == BOUNDS, shapes["wrapped"], shapes["kind"])
         rasters = np.zeros(self.rasters.count + 1, np.int64)
@@ -143,15 +147,15 @@ class Library:
     def add(self, shape: Shape) -> tuple[int, int, int]:
         """Add the geometry of a shape unless it is present. Return (kind, geometry row, wrapped kind).
 
-        The geometry row is -1 for a circle, which needs none. The wrapped kind is the kind of the shape in a Bounds; -1
-        for any other shape.
+        The geometry row is -1 for a circle, which needs none. The wrapped kind is the kind of the shape that a Bounds
+        wraps; -1 for any other shape.
         """
         inner = shape._inner.bare
         row = -1 if isinstance(inner, Circle) else self._row_of(inner)
         return shape._kind, row, inner._kind if shape._inner is not shape else -1
 
     def _row_of(self, shape):
-        """Return the geometry row of a shape; add its geometry if the shape is new."""
+        """Return the geometry row of a shape. Its geometry is added if the shape is new."""
         if shape not in self.shapes:
             add = {TILES: self._add_grid, MASK: self._add_mask, CHAIN: self._add_chain}.get(shape._kind)
             self.shapes[shape] = add(shape) if add else self._add_hulls([shape])[0]
@@ -169,9 +173,9 @@ class Library:
         return rows
 
     def _add_known_hulls(self, library, rows):
-        """Add the convex shapes in these rows of another library, in one pass. Return their new rows.
+        """Add the convex shapes with the geometry rows `rows` of another library, in one pass. Return their new rows.
 
-        `add` then recognises the shapes that it recognised in the other library.
+        Equal shapes that `library` finds again are also found again by `add` of this library.
         """
         new = self._add_hulls([library.outlines[row] for row in rows.tolist()])
         place = dict(zip(rows.tolist(), new.tolist(), strict=True))
@@ -246,7 +250,7 @@ class Library:
     def add_parts(self, shapes: Sequence[Shape]) -> np.ndarray:
         """Add shapes, such as the parts of a mask's outline. Return the results of `add` as an array (n, 3).
 
-        Faster than `add`: a convex shape is stored even if an equal one is present.
+        This is faster than `add`, because a convex shape is stored even if an equal one is present.
         """
         kinds = [shape._kind for shape in shapes]
         if CHAIN in kinds:
@@ -261,7 +265,7 @@ class Library:
 
     @classmethod
     def of(cls, shapes: Geometries) -> "Library":
-        """Return a library in which the geometry row of each shape is its index in its list."""
+        """Return a library in which the geometry row of each shape is its index in its list of `shapes`."""
         library = cls()
         library.add_parts(shapes.outlines)
         for row, shape in reversed([*enumerate(shapes.outlines)]):
@@ -271,7 +275,7 @@ class Library:
         return library
 
     def replace(self, old: Shape, new: PixelMask, changed: Sequence[int] | None, shapes: np.ndarray) -> int:
-        """Store a mask that replaces another mask in one of the SHAPE rows. Return its geometry row.
+        """Store the mask `new`, which replaces the mask `old` in one of the SHAPE rows. Return its geometry row.
 
         changed: numbers of the tiles in which the two masks differ; None: unknown. If the new mask is large and has
         snap=True, and no other SHAPE row uses the old mask, only these tiles are written, in place: O(changed words).
@@ -300,10 +304,10 @@ class Library:
         return row
 
     def _add_exact(self, shape):
-        """Add the hull of a mask, for its tight AABB, and with snap=False its halo words, for tests at the exact pose.
+        """Add the hull of a mask, for its tight AABB. For a mask with snap=False also add its halo words.
 
-        Return the values that the raster at the angle 0 holds: (first word of the halo or -1, words per row, first
-        corner of the hull, number of corners).
+        The halo is for tests at the exact pose. Return the values that the raster at the angle 0 holds: (first word of
+        the halo or -1, words per row, first corner of the hull, number of corners).
         """
         hull = _hull_of(shape)
         around = np.zeros((0, 0), np.uint64) if shape.snap else halo(shape.solid)
@@ -335,11 +339,11 @@ class Library:
         self.tables = self._tables()
 
     def shapes_by_row(self) -> Geometries:
-        """Return the shapes of the library for a snapshot: from them `of` makes a library with equal geometry rows."""
+        """Return the shapes of the library for a snapshot. From them `of` makes a library with equal geometry rows."""
         return Geometries([*self.outlines], [*self.chain_shapes], [*self.tile_grids], [*self.masks])
 
     def shape_of(self, row: np.void) -> Shape:
-        """Return the shape that a SHAPE row describes, without material, filter and sensor."""
+        """Return a shape equal to the one that a SHAPE row describes, without material, filter and sensor."""
         kind, geometry = int(row["kind"]), int(row["geometry"])
         inner = int(row["wrapped"]) if kind == BOUNDS else kind
         if geometry < 0:
@@ -351,7 +355,7 @@ class Library:
 
     @contextmanager
     def visited(self) -> Iterator[None]:
-        """At the end of the with block, remove all geometry added inside it: for shapes that only a query uses."""
+        """Remove, at the end of the with block, all geometry added inside it: for shapes that only a query uses."""
         kept = [(table, table.count) for table in self.grown]
         lists = [(each, len(each)) for each in (self.masks, self.tile_grids, self.outlines, self.chain_shapes)]
         known = len(self.shapes)
@@ -404,8 +408,8 @@ def _hull_of(shape):
 def draw_masks(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray) -> None:
     """Rasterise masks at the present poses of their bodies, and write the columns raster, left and top of their rows.
 
-    Of the SHAPE rows `rows`, those with the role PIXELS and snap=True are drawn. A mask is skipped if its body is
-    beyond POSITION_LIMIT.
+    rows: indices of SHAPE rows, of which those with the role PIXELS and snap=True are drawn. A mask is skipped if its
+    body is beyond POSITION_LIMIT.
     """
     _draw(library, rows[(shapes["role"][rows] == PIXELS) & shapes["snap"][rows]], bodies, shapes)
 
@@ -413,7 +417,7 @@ def draw_masks(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: n
 def draw_pictures(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray) -> None:
     """Rasterise masks for a picture at the present poses of their bodies, and write the columns raster, left and top.
 
-    Of the SHAPE rows `rows`, all masks with the role PIXELS or with snap=False are drawn.
+    rows: indices of SHAPE rows, of which all masks with the role PIXELS or with snap=False are drawn.
     """
     pictured = (shapes["role"][rows] == PIXELS) | ~shapes["snap"][rows]
     _draw(library, rows[(shapes["kind"][rows] == MASK) & pictured], bodies, shapes)
@@ -449,7 +453,8 @@ def rounding_of(shape: Shape) -> tuple[float, float, float]:
 def weigh(shapes: Sequence[Shape], density: float, mass: float) -> Mass:
     """Return the mass of a body with these shapes, sensors included.
 
-    mass: the body's total mass; 0: computed from densities.
+    density [mass per px2]: density of shapes without a material; mass: the body's total mass; 0: computed from
+    densities.
     """
     found = mass_of(tuple(shapes), density)
     if mass == 0.0:
@@ -458,7 +463,7 @@ def weigh(shapes: Sequence[Shape], density: float, mass: float) -> Mass:
 
 
 def set_mass(rows: np.ndarray, mass: Mass, shapes: Sequence[Shape], in_parts: bool) -> None:
-    """Write mass, inertia and size of BODY rows whose bodies have the same shapes.
+    """Write mass, inertia and size to BODY rows whose bodies all have the shapes `shapes`.
 
     in_parts: whether masks collide by the convex parts of their outlines; then `inradius` is the inradius of the
     thinnest part.
@@ -481,7 +486,7 @@ def place(
 ) -> None:
     """Fill the BODY row and the SHAPE row at index `row` for the shape of a query, which has no body in the world.
 
-    pose: (x, y, angle) [px, px, rad].
+    The SHAPE row gets the geometry of `shape` in the library. pose: (x, y, angle) [px, px, rad].
     """
     b = bodies[row : row + 1]
     describe(library, shape, shapes[row : row + 1], row, row, pose[2:3])
@@ -492,10 +497,10 @@ def place(
 def describe(
     library: Library, shape: Shape, rows: np.ndarray, ids: ArrayLike, body_rows: ArrayLike, angles: Sequence[float]
 ) -> None:
-    """Fill SHAPE rows, a view, with one shape of a query at several poses.
+    """Fill SHAPE rows with one shape of a query at several poses.
 
-    ids, body_rows: one number for all rows or one each; angles [rad]: angles of the poses. A mask with snap=True is
-    rasterised at each of the angles.
+    rows: a view of the SHAPE rows; ids, body_rows: one number for all rows or one each; angles [rad]: angles of the
+    poses. A mask with snap=True is rasterised at each of the angles.
     """
     kind, geometry, wrapped = library.add(shape)
     rows["id"], rows["body"], rows["body_row"] = ids, body_rows, body_rows

@@ -73,9 +73,9 @@ class PixelMask(Shape):
         self.fitted = {}  # (tier, tolerance) -> the shapes that replace the mask, cached by approximate.fit
 
     def with_tiles(self, tiles: PixelTiles) -> "PixelMask":
-        """Return a mask with other pixels, in a raster of the same size, and all other values of this mask.
+        """Return a mask with other pixels in a raster of the same size. All other values are those of this mask.
 
-        Used by carving.
+        Carving uses it. tiles: the pixels.
         """
         found = object.__new__(PixelMask)
         kept = {name: vars(self)[name] for name in ("snap", "smooth", "one_way", "size", "origin")}
@@ -90,7 +90,7 @@ class PixelMask(Shape):
         sensor: bool | None = None,
         one_way: bool | None = None,
     ) -> "PixelMask":
-        """Return the mask with these values of its own; None: the value of the body that has the mask.
+        """Return the mask with these values as its own; None: the body's value applies.
 
         one_way: whether bodies pass through the mask from below; None: as in this mask. Raises TypeError for a value of
         another type.
@@ -101,7 +101,7 @@ class PixelMask(Shape):
         return self._opened(wanted).with_(material, filter, sensor)
 
     def _opened(self, wanted):
-        """Return the mask with one_way = wanted, and without own material, filter and sensor.
+        """Return the mask with one_way = wanted, and without a material, filter and sensor of its own.
 
         Repeated calls return the same object, so that a library stores it once.
         """
@@ -114,7 +114,7 @@ class PixelMask(Shape):
         return pair[wanted]
 
     def with_values_of(self, other: Shape) -> "PixelMask":
-        """Return this mask with the own material, filter and sensor of another shape.
+        """Return this mask with the material, filter and sensor that another shape has as its own.
 
         If the other shape is a mask, its one_way is also copied.
         """
@@ -122,7 +122,7 @@ class PixelMask(Shape):
         return self.with_(other.material, other.filter, other.sensor, one_way)
 
     def like(self, solid: np.ndarray, origin: Pair) -> "PixelMask":
-        """Return a mask of other pixels with this mask's snap, smooth, one_way, material, filter and sensor."""
+        """Return a mask of other pixels (solid[row, col], origin [px]) with all other values of this mask."""
         return PixelMask(solid, origin, self.snap, self.smooth).with_values_of(self)
 
     @property
@@ -139,7 +139,7 @@ class PixelMask(Shape):
         return PixelTiles.of(self.solid)
 
     def window(self, left: int, top: int, size: int) -> np.ndarray:
-        """Return the (size, size) bool pixels from column `left` and row `top` on; clear outside the mask."""
+        """Return the (size, size) bool pixels from column `left` and row `top` on; clear pixels outside the mask."""
         if self._solid is None:
             return self.tiles.window(left, top, size)
         found = np.zeros((size, size), bool)
@@ -342,7 +342,7 @@ class PixelMask(Shape):
 
     @property
     def _thinnest_half(self) -> float:
-        """Smallest inradius [px] of the outline's convex parts: a body that moves farther in a step needs a sweep.
+        """Smallest inradius [px] of the outline's convex parts: a body that moves farther in a step has to be swept.
 
         A thin arm passes a wall before the middle of the sprite does: sprites of 3 px blocks passed 1 px walls at half
         their size per step (measured). A part thinner than 1 px counts as 1 px thick, because it adjoins a thicker
@@ -392,7 +392,7 @@ class PixelMask(Shape):
         return parts_of([rectangle(dx + left, dy + top, dx + right, dy + down) for left, top, right, down in blocks])
 
     def _response_parts(self) -> Sequence[tuple[int, Sequence[OutlinePart | Stretch]]]:
-        """Return [(tile number, outline parts)] that collide in place of the mask; if one-way, only its upper side."""
+        """Return [(tile number, outline parts)] that collide in place of the mask; if one-way, its upper side only."""
         return [(WHOLE_MASK, surfaces_of(self))] if self.one_way else outline_by_tile(self)
 
     def _check_body(self, kind: int, angles: ArrayLike) -> None:
@@ -407,6 +407,9 @@ class PixelMask(Shape):
 
 
 def _nearest(size: int, factor: float) -> np.ndarray:
-    """Return for each column (or row) of a scaled mask the source column that contains its centre: (n,) int64."""
+    """Return for each column (or row) of a scaled mask the source column that contains its centre: (n,) int64.
+
+    size: number of columns of the source; factor: scale.
+    """
     wanted = max(1, math.floor(size * factor + 0.5)) if size else 0
     return np.minimum(((np.arange(wanted) + 0.5) / factor).astype(np.int64), size - 1)

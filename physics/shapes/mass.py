@@ -60,7 +60,10 @@ def together(parts: Iterable[Mass]) -> Mass:
 
 
 def polygon_mass(points: Points, density: float) -> Mass:
-    """Return the mass of a polygon, points (n, 2) clockwise on the screen, by shoelace integrals."""
+    """Return the mass of a polygon, points (n, 2) clockwise on the screen, by shoelace integrals.
+
+    density [mass per px2].
+    """
     base = np.array(points[0])
     a = np.array(points) - base
     b = np.roll(a, -1, axis=0)
@@ -74,7 +77,10 @@ def polygon_mass(points: Points, density: float) -> Mass:
 
 
 def rounded_mass(points: Points, radius: float, density: float) -> Mass:
-    """Return the mass of a rounded polygon: the polygon, a rectangle along each side, a sector at each corner."""
+    """Return the mass of a rounded polygon: the polygon, a rectangle along each side, a sector at each corner.
+
+    points (n, 2) [px]: corners, clockwise on the screen; radius [px]; density [mass per px2].
+    """
     parts = [polygon_mass(points, density)]
     count = len(points)
     edges = [
@@ -110,7 +116,7 @@ def rounded_mass(points: Points, radius: float, density: float) -> Mass:
 
 
 def disc_mass(center: Pair, radius: float, density: float) -> Mass:
-    """Return the mass of a disc."""
+    """Return the mass of a disc. center, radius [px]; density [mass per px2]."""
     mass = density * math.pi * radius * radius
     return Mass(mass, Vec2(*center), mass * radius * radius / 2.0)
 
@@ -194,7 +200,7 @@ def _box_of(figure: Weighed) -> Box:
 
 
 def _groups(figures):
-    """Return the sets of figures connected by overlaps. Equal figures overlap, and count as one member of their set."""
+    """Return the sets of figures connected by overlaps. Of equal figures only one is listed, because they overlap."""
     groups: list[set] = [{each} for each in dict.fromkeys(figures) if figures.count(each) > 1]
     different = list(dict.fromkeys(figures))
     for i, k in _near(different):
@@ -255,7 +261,7 @@ def _outline(hulls: Sequence[Hull]) -> list[Stretch]:
 
 
 def _common(a: Box, b: Box) -> Box:
-    """Return the intersection of two boxes; if they do not overlap, right < left or bottom < top."""
+    """Return the intersection of two boxes. If they do not overlap, right < left or bottom < top in the result."""
     return max(a[0], b[0]), max(a[1], b[1]), min(a[2], b[2]), min(a[3], b[3])
 
 
@@ -279,8 +285,8 @@ def _layered(group: Sequence[Weighed], found_of: Callable[[list], Moments]) -> M
     """Return the mass of overlapping shapes, in which shared area has the density of the densest shape.
 
     The mass is a sum of layers. For each density in ascending order, the union of all shapes with at least this density
-    is weighed with the increase over the density before. found_of(shapes): function that returns the Moments of their
-    union.
+    is weighed with the increase over the previous density. group: the shapes; found_of(shapes): function that returns
+    the Moments of their union.
     """
     densities = sorted({each.density for each in group})
     layers = []

@@ -58,14 +58,17 @@ class Sprite(Protocol):
 
 
 class OutlinePart(NamedTuple):
-    """A convex part of an outline in body space, with flags of its hull edges and corners inside the whole outline."""
+    """A convex part of an outline in body space, with flags of the edges and corners inside the whole outline."""
 
     shape: Circle | Capsule | Polygon
     inner: int  # flags in the format of the column `inner` of SHAPE
 
 
 class Tile:
-    """The outline inside one tile of a mask. It depends on the pixels of the tile and HALO px around the tile."""
+    """The outline inside one tile of a mask.
+
+    It depends on the pixels of the tile and on those up to HALO px around the tile.
+    """
 
     def __init__(self, mask: Sprite, number: int) -> None:
         down, across = divmod(number, tiles_of(mask)[1])
@@ -136,12 +139,12 @@ def tiled_parts(mask: Sprite, numbers: Sequence[int]) -> TiledParts:
 
 
 def keep_tiles(mask: Sprite, old: Sprite, boxes: Iterable[Box]) -> list[int]:
-    """Copy the cached outline tiles of `old`, a mask that differs from `mask` only inside boxes; recompute the others.
+    """Copy the cached outline tiles of the mask `old`, and recompute the tiles near the boxes in which `mask` differs.
 
-    Both masks have the same size, origin and smooth; old may be the mask itself with changed pixels. boxes: left, top,
-    right, bottom [px] in the raster, right and bottom exclusive. Only tiles within HALO px of a box are recomputed.
-    Return the sorted numbers of the tiles whose outline may differ: tiles with other parts, and the neighbours of such
-    a tile if corners on their common border changed.
+    Both masks have the same size, origin and smooth; `old` may be the mask itself with changed pixels. boxes: left,
+    top, right, bottom [px] in the raster, right and bottom exclusive. Only tiles within HALO px of a box are
+    recomputed. Return the sorted numbers of the tiles whose outline may differ: tiles with other parts, and the
+    neighbours of such a tile if corners on their common border changed.
     """
     tiles, inner = (_known(old, name).copy() for name in KEPT)
     mask.fitted.update(tiles=tiles, inner=inner)
@@ -186,7 +189,7 @@ def _tiles(mask, numbers) -> list[Tile]:
 
 
 def _inner(mask, numbers) -> list[np.ndarray]:
-    """Return for each tile the flags of its parts' inner sides and corners (see SHAPE), computed at the first use."""
+    """Return for each tile the flags of its parts' inner sides and corners (SHAPE.inner), computed at the first use."""
     known, (rows, columns) = _known(mask, "inner"), tiles_of(mask)
     missing = [number for number in numbers if known[number] is None]
     if missing:
@@ -231,7 +234,11 @@ def outline_by_tile(mask: Sprite) -> list[tuple[int, tuple[OutlinePart, ...]]]:
 
 
 def _placed(part, outline_turns, origin):
-    """Return a part in body space with collinear sides merged; a merged side is inner if neighbours cover all of it."""
+    """Return a part as an OutlinePart in body space, with collinear sides merged.
+
+    A merged side is inner if all sides that it consists of are inner. outline_turns [rad]: see corner_turns; origin
+    [px]: origin of body space in the raster.
+    """
     turns = np.flatnonzero(np.array(_angles(part.corners)) < HALF_TURN)
     corners, inner = part.corners - np.array(origin), np.asarray(part.inner, bool)
     if len(corners) == 1:
@@ -251,9 +258,10 @@ def _bits(sides, turns):
 def corner_turns(parts: Sequence[Part]) -> list[np.ndarray]:
     """Return for each part the angle [rad] by which the whole outline turns at each corner of the part.
 
-    The angle is pi where no other part meets the corner. Where several parts share a corner (equal coordinates), only
-    the first part that has a side of the outline there gets the turn; the others get COVERED. All get COVERED if
-    together they leave no convex corner.
+    The angle is pi between two sides of the outline, and COVERED between two inner sides. At a corner between an inner
+    side and a side of the outline the interior angles of all parts that share the corner (equal coordinates) are
+    summed: the angle is pi minus the sum, or COVERED if this leaves no convex corner. It is also COVERED if an earlier
+    part already has the angle of this corner.
     """
     angles: defaultdict[tuple, float] = defaultdict(float)
     for part in parts:
@@ -306,7 +314,10 @@ def surfaces_of(mask: Sprite) -> tuple[Stretch, ...]:
 
 
 def _joined(ring, most):
-    """Return a closed outline in which each vertical step of at most `most` px between upper sides is one point."""
+    """Return a closed outline in which each short vertical step between two upper sides is replaced by its middle.
+
+    ring (n, 2) [px]; most [px]: greatest height of such a step. An upper side leads right.
+    """
     way = np.roll(ring, -1, axis=0) - ring
     right = way[:, 0] > 0.0
     step = (way[:, 0] == 0.0) & (np.abs(way[:, 1]) <= most) & np.roll(right, 1) & np.roll(right, -1)
@@ -315,7 +326,10 @@ def _joined(ring, most):
 
 
 def _runs(ring):
-    """Return the points (k, 2) [px] of each run of sides that lead right; the ring has the solid on its right."""
+    """Return the points (k, 2) [px] of each run of consecutive sides that lead right.
+
+    ring (n, 2) [px]: closed outline with the solid on its right, so these are its upper sides.
+    """
     right = np.roll(ring[:, 0], -1) > ring[:, 0]
     first = int(np.flatnonzero(~right)[0])  # start at a side that does not lead right, so that no run crosses the start
     ring, right = np.roll(ring, -first, axis=0), np.roll(right, -first)

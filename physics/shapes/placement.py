@@ -42,7 +42,10 @@ def exact_aabb(rasters, corners, raster, x, y, angle):
 
 @subkernel
 def into_raster(raster, body, cosine, sine, x, y):
-    """Return world point (x, y) [px] in coordinates of a mask's raster. cosine, sine: rotation of the mask's body."""
+    """Return the world point (x, y) [px] in the coordinates of a mask's raster.
+
+    cosine, sine: rotation of the mask's body.
+    """
     u, v = rotate(x - body.x, y - body.y, cosine, -sine)
     return u + raster.origin_x, v + raster.origin_y
 
@@ -75,9 +78,10 @@ def box_as_tested(geometry, shape):
 
 @subkernel
 def raster_in_raster(geometry, frame_body, frame_shape, body, shape):
-    """Return the pose of one mask's raster in the raster space of another mask (the frame), which has snap=False.
+    """Return the pose of one mask's raster in the raster space of another mask, the frame.
 
-    The result is (x, y of the top left corner [px], cosine, sine of the angle). The first mask may have either snap.
+    The result is (x, y of the top left corner [px], cosine, sine of the angle). frame_body, frame_shape: BODY and SHAPE
+    row of the frame, which has snap=False; body, shape: rows of the first mask, with any `snap`.
     """
     frame = geometry.rasters[raster_of_shape(geometry, frame_shape)]
     cosine, sine = cosine_and_sine(frame_body.angle, frame_body.angle)
@@ -94,7 +98,7 @@ def raster_in_raster(geometry, frame_body, frame_shape, body, shape):
 
 @kernel
 def turn_of_mask(angle):
-    """Return (cosine, sine) of an angle [rad] as exact tests of masks compute them."""
+    """Return (cosine, sine) of an angle [rad], computed as in the exact tests of masks."""
     return cosine_and_sine(angle, angle)
 
 
@@ -130,10 +134,10 @@ def raster_at(geometry, mask, angle):
 
 @subkernel
 def snapped(coordinate, origin):
-    """Return the pixel column at which a raster's left side is drawn; likewise the row of its top side.
+    """Return the pixel column at which the left side of a raster is drawn, or the pixel row of its top side.
 
-    The column is coordinate - origin, rounded half up; NOWHERE if it is not finite or too large. coordinate [px]: x (or
-    y) of the body; origin [px]: position of the body's origin in the raster.
+    The result is coordinate - origin, rounded half up; NOWHERE if it is not finite or too large. coordinate [px]: x of
+    the body for the column, y for the row; origin [px]: position of the body's origin in the raster.
     """
     at = coordinate - origin + 0.5
     return math.floor(at) if abs(at) < WHOLE else NOWHERE
@@ -150,7 +154,7 @@ def is_drawn_when_asked(shape):
 
 @subkernel
 def drawn_beyond(body, shape):
-    """Return the distance [px] by which drawn pixels of a mask may exceed the AABB in its SHAPE row; 0: they do not."""
+    """Return the distance [px] by which a mask's pixels as drawn may exceed the AABB in its SHAPE row, or 0."""
     return DRAWN + BUCKET_TURN * body.extent if is_drawn_when_asked(shape) else 0.0
 
 
@@ -171,7 +175,7 @@ def raster_aabb(geometry, raster, x, y):
 def upright_aabb(raster, x, y):
     """Return the AABB [px] of an unrotated mask's solid pixels with its body exactly at (x, y), not at whole pixels.
 
-    The AABB of an empty mask is the point (x, y).
+    raster: RASTER row at the angle 0. The AABB of an empty mask is the point (x, y).
     """
     if raster.area == 0:
         return x, y, x, y
@@ -181,7 +185,10 @@ def upright_aabb(raster, x, y):
 
 @subkernel
 def box_corners(min_x, min_y, max_x, max_y, corners_out):
-    """Write the corners [px] of a box, clockwise on the screen from the top left. Return their number."""
+    """Write the corners [px] of the box from min_x, min_y to max_x, max_y. Return their number.
+
+    They are clockwise on the screen from the top left.
+    """
     corners_out[0, 0] = min_x
     corners_out[0, 1] = min_y
     corners_out[1, 0] = max_x
@@ -235,13 +242,16 @@ def is_hull(kind):
 
 @subkernel
 def rounding(shapes, row):
-    """Return the rounding radius [px] of a SHAPE row that is a hull; 0 for a BOUNDS, even of a round shape."""
+    """Return the rounding radius [px] of a SHAPE row that is a hull; 0 for a BOUNDS, even if it wraps a round shape."""
     return 0.0 if shapes[row].kind == BOUNDS else shapes[row].radius
 
 
 @subkernel
 def chain_aabb(geometry, chain, cosine, sine):
-    """Return the AABB [px] of a chain in a rotated body at (0, 0). O(links); without rotation O(blocks of links)."""
+    """Return the AABB [px] of a chain in a body at (0, 0) rotated by (cosine, sine).
+
+    chain: row of geometry.chains. O(links); without rotation O(blocks of links).
+    """
     span = geometry.chains[chain]
     min_x, min_y = math.inf, math.inf
     max_x, max_y = -math.inf, -math.inf
@@ -264,8 +274,8 @@ def chain_aabb(geometry, chain, cosine, sine):
 def aabb_at(geometry, shapes, row, x, y, angle):
     """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a shape with its body at a pose. O(corners).
 
-    For a mask it is the AABB of the solid pixels, at whole pixels if the row is drawn (snap=True, not the role PIXELS);
-    for an empty mask it is the point (x, y).
+    The AABB of a mask is that of its solid pixels, at whole pixels if the row is drawn (snap=True, not the role
+    PIXELS). The AABB of an empty mask is the point (x, y).
     """
     s = shapes[row]
     kind = s.kind
@@ -326,7 +336,7 @@ def write_hull(geometry, shapes, row, x, y, angle, corners_out):
 
 @kernel
 def missing_rasters(rows, bodies, shapes, rasters, raster_of, dt, missing_out):
-    """List rasters of masks (snap=True) that are needed now or at the end of the step and are not drawn yet.
+    """List the rasters of masks (snap=True) that are needed now or at the end of the step and have not been drawn yet.
 
     rows: indices of SHAPE rows; dt [s]: length of the step; missing_out (capacity, 2) int64: (geometry row of the mask,
     angle bucket), possibly with duplicates. O(rows). Return the number found, which may exceed the capacity.

@@ -112,7 +112,10 @@ def turned_parts(parts: Parts, x: float, y: float, cosine: float, sine: float) -
 
 
 def parts_near(parts: Parts, left: float, top: float, right: float, bottom: float) -> Parts:
-    """Return the parts whose AABBs overlap or touch a box [px], enlarged by a margin for rounding errors."""
+    """Return the parts whose AABBs overlap or touch a box [px], enlarged by a margin for rounding errors.
+
+    left, top, right, bottom: the box.
+    """
     reach = NEAR * max(map(abs, (left, top, right, bottom)))
     low, high = parts.boxes[:, :2], parts.boxes[:, 2:]
     keep = (low <= (right + reach, bottom + reach)).all(axis=1) & (high >= (left - reach, top - reach)).all(axis=1)
@@ -120,12 +123,15 @@ def parts_near(parts: Parts, left: float, top: float, right: float, bottom: floa
 
 
 def rectangle(left: float, top: float, right: float, bottom: float) -> list[tuple[float, float]]:
-    """Return the corners of a box, clockwise on the screen."""
+    """Return the corners of the box left, top, right, bottom, clockwise on the screen."""
     return [(left, top), (right, top), (right, bottom), (left, bottom)]
 
 
 class Placed(NamedTuple):
-    """A shape of a world at its pose, and the point (x, y) to which its coordinates are relative, for precision."""
+    """A shape of a world at its pose, with a point (x, y) near it.
+
+    Coordinates are relative to this point, for precision.
+    """
 
     geometry: Geometry
     bodies: np.ndarray  # BODY
@@ -148,7 +154,7 @@ class Placed(NamedTuple):
 
     @property
     def offset(self) -> tuple[float, float]:
-        """Position [px] of the body relative to the point (x, y) of this object."""
+        """Position [px] of the body relative to the point (x, y)."""
         body = self.body
         return float(body["x"]) - self.x, float(body["y"]) - self.y
 
@@ -182,7 +188,7 @@ class Shape:
 
     @property
     def bounds(self) -> tuple[float, float, float, float] | None:
-        """Bounds (min_x, min_y, max_x, max_y) in body space [px] of a shape with mass; None for an empty shape."""
+        """Bounds (min_x, min_y, max_x, max_y) [px] in body space of a shape with mass; None for an empty shape."""
         return None
 
     @property
@@ -201,12 +207,12 @@ class Shape:
 
     @property
     def _inner(self) -> "Shape":
-        """The shape inside a Bounds; else the shape itself."""
+        """The shape that a Bounds wraps; for any other shape, the shape itself."""
         return self
 
     @property
     def _key(self) -> tuple:
-        """Sort key among shapes of the same type: numbers and bytes."""
+        """Sort key of the shape among shapes of its type, made of numbers and bytes."""
         return (self.radius, len(self.points), *(each for point in self.points for each in point))
 
     def _hulls(self) -> list[tuple[np.ndarray, float]]:
@@ -215,7 +221,7 @@ class Shape:
 
     @property
     def _pixel_parts(self) -> Parts:
-        """The hulls of `_hulls` as Parts in body space; for a mask, rectangles of pixels."""
+        """The result of `_hulls` as Parts in body space; for a mask, rectangles of pixels."""
         hulls = self._hulls()
         return parts_of([corners for corners, _ in hulls], [radius for _, radius in hulls])
 
@@ -230,7 +236,7 @@ class Shape:
         return parts_of([rectangle(*boxes[:, :2].min(axis=0), *boxes[:, 2:].max(axis=0))] if len(boxes) else [])
 
     def _rotation(self, angle: float) -> tuple[float, float]:
-        """Return (cosine, sine) of an angle [rad] as the kernels compute them for this type of shape."""
+        """Return (cosine, sine) of an angle [rad], computed as the kernels do for this type of shape."""
         return math.cos(angle), math.sin(angle)
 
     def _parts_at(self, placed: Placed) -> Parts:
@@ -247,7 +253,7 @@ class Shape:
         """Raise ValueError if bodies of this kind at these angles [rad] cannot have the shape."""
 
     def with_(self, material: Material | None = None, filter: Filter | None = None, sensor: bool | None = None) -> Self:
-        """Return the shape with these values of its own; None: the value of the body that has the shape.
+        """Return the shape with these values as its own; None: the body's value applies.
 
         Own values do not change when the body's values change. An own density counts in the body's mass. Raises
         TypeError for a value of another type.
@@ -265,14 +271,14 @@ class Shape:
 
     @property
     def bare(self) -> Self:
-        """The shape without own material, filter and sensor.
+        """The shape without material, filter and sensor of its own.
 
         A library stores it once for all shapes that differ only in these values.
         """
         return vars(self).get("_bare", self)
 
     def with_values_of(self, other: "Shape") -> Self:
-        """Return this shape with the own material, filter and sensor of another shape."""
+        """Return this shape with the material, filter and sensor that another shape has as its own."""
         return self.with_(other.material, other.filter, other.sensor)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Self:

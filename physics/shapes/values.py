@@ -34,8 +34,8 @@ SHORTEST = 1e-9  # share of the hull's size: a shorter edge loses its direction 
 class Convex(EqualByValue):
     """Base of the convex shapes: the hull of `points`, 1 to 16 corners clockwise on the screen, rounded by `radius`.
 
-    A subclass is a frozen dataclass that has `points`. A hull of one corner collides as a circle, of two as a capsule
-    or a segment, of more as a polygon.
+    A subclass is a frozen dataclass that has `points`. A hull of one corner collides as a circle, a hull of two as a
+    capsule or a segment, a hull of more as a polygon.
     """
 
     radius = 0.0  # a subclass declares a field `radius` without a default with field(), else 0.0 would be its default
@@ -79,9 +79,9 @@ class Convex(EqualByValue):
 
     @classmethod
     def _load(cls, points: Points, facts: dict[str, Any]) -> Self:
-        """Return the shape stored in a snapshot. facts: the result of `_facts`.
+        """Return the shape stored in a snapshot. points: its corners; facts: the result of `_facts`.
 
-        Raises TypeError, ValueError for arguments that the constructor rejects.
+        Raises TypeError or ValueError for arguments that the constructor rejects.
         """
         given = {"points": points} if any(each.name == "points" for each in fields(cls)) else {}
         return cls(**given, **facts)
@@ -391,7 +391,7 @@ class Segment(Convex):
 class Chain(EqualByValue):
     """Connected one-sided lines (links) from point to point, without mass; for static and kinematic bodies.
 
-    A link of direction (dx, dy) is solid from the side to which (dy, -dx) points: the points of a floor are listed left
+    A link of direction (dx, dy) is solid on the side to which (dy, -dx) points: the points of a floor are listed left
     to right, of a solid island clockwise on the screen, of a room counter-clockwise. loop: whether the last point is
     linked to the first. ghosts: (before, after), neighbours of the first and last point, which only smooth collisions
     at the ends; each may be None. materials: one Material per link; None: the body's. Raises ValueError for too few

@@ -1,8 +1,8 @@
 """Blocking: a body that would overlap another keeps its old pose, as in the movement loop of simple arcade games.
 
-Unlike `projection`, only kinematic bodies push. A body that would overlap keeps its old pose and loses its velocity
-towards the obstacle. Such a body may block other bodies, so the test is repeated until no further body overlaps: at
-most once per body, two or three rounds in practice.
+Unlike in `projection`, only kinematic bodies push other bodies. A dynamic body that would overlap keeps its old pose
+and loses its velocity towards the obstacle. At its old pose it may block other bodies, so the test is repeated until no
+further body overlaps: at most once per body, two or three rounds in practice.
 """
 
 import math
@@ -32,8 +32,8 @@ IGNORED = ("rotation", "friction", "restitution", "stacking", "sleeping", "conve
 def stay_behind(bodies_inout, manifolds_inout, work_inout):
     """Move overlapping dynamic bodies back to their old poses if they moved in this step. O(manifolds).
 
-    Return the number of bodies that were moved back. Manifolds that stopped a body are marked as `swept`. A separation
-    of 0 stops no body.
+    Return the number of bodies that were moved back. Manifolds that stopped a body are marked as `swept`. A manifold
+    with a separation of 0 stops no body.
     """
     put_back = 0
     for i in range(len(manifolds_inout)):
@@ -62,7 +62,10 @@ def stay_behind(bodies_inout, manifolds_inout, work_inout):
 
 @subkernel
 def stop_at_point(x, y, nx, ny, a_inout, b_inout):
-    """Remove the approach speed of two BODY rows at a point [px]. Return the impulse, which rotates no body."""
+    """Remove the approach speed of two BODY rows at a point (x, y) [px], along the normal (nx, ny). Return the impulse.
+
+    The impulse changes no angular velocity.
+    """
     inverse_masses = a_inout.inverse_mass + b_inout.inverse_mass
     if inverse_masses == 0.0:
         return 0.0
@@ -88,9 +91,9 @@ def stop_approach(bodies_inout, manifolds_inout):
 
 
 def _make_way(state, stayed):
-    """Let kinematic bodies push the dynamic bodies that overlap or that were moved back to their old poses.
+    """Let kinematic bodies push the dynamic bodies that overlap them, or that would overlap them at their old poses.
 
-    stayed: CONTACT rows that stopped a body.
+    stayed: CONTACT rows that stopped a body; its dynamic body was moved back to its old pose.
     """
     bodies, contacts, sweeper = state.bodies, state.contact_rows, state.workspace.sweep
     overlaps = (contacts["separation_1"] < 0.0) | ((contacts["count"] == 2) & (contacts["separation_2"] < 0.0))
@@ -112,7 +115,7 @@ def _make_way(state, stayed):
 def solve(state: StepState, contacts: PushSet) -> float:
     """Move overlapping bodies back to their old poses until no body that moved overlaps. Return the step length [s].
 
-    contacts: unused; the solver works on state.contact_rows.
+    contacts: unused, because the solver works on state.contact_rows.
     """
     bodies, stopped = state.bodies, []
     while True:

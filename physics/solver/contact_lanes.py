@@ -79,7 +79,7 @@ class Plan(NamedTuple):
     """The constraints to solve and their order.
 
     The lengths (edges), (motions) and (joints) are capacities: at least the numbers of constraints, MOTION rows and
-    JOINT rows. A node is a MOTION row, an edge a constraint.
+    JOINT rows in use. A node of the graph is a MOTION row, an edge a constraint.
     """
 
     edges: Edges  # one edge for each contact to solve, then one for each joint
@@ -107,7 +107,10 @@ class Plan(NamedTuple):
 
 
 def new_plan(edges: int, motions: int, joints: int) -> Plan:
-    """Return a Plan with capacities for contacts and joints together (edges), MOTION rows and joints."""
+    """Return a Plan with capacities.
+
+    edges: for contacts and joints together; motions: for MOTION rows; joints: for joints.
+    """
     slots = len(AUTO_SUBSTEPS) * (COLORS + 1) + 1
     return Plan(
         edges=new_edges(edges),
@@ -168,9 +171,9 @@ ALIKE = math.sqrt(0.5 + 0.5 * FACING) + 1e-6
 
 @inlined
 def traits_of(row_a, row_b, lists):
-    """Return the bits of what graph.color_edges reads of the bodies of a contact: both ranks, and both finite masses.
+    """Return the traits of the two bodies of a contact on which graph.color_edges depends, as bits of one number.
 
-    row_a, row_b: MOTION rows; lists: MotionLists.
+    The traits of a body are its rank and whether it has finite mass. row_a, row_b: MOTION rows; lists: MotionLists.
     """
     a = lists.rank[row_a] << 1 | int(lists.has_finite_mass[row_a])
     b = lists.rank[row_b] << 1 | int(lists.has_finite_mass[row_b])
@@ -182,9 +185,11 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, plan_
     """List the contacts to solve as graph edges between MOTION rows. O(contacts).
 
     Return (number of edges, whether islands may be squeezed, greatest overlap [px], whether the colours of the last
-    step are valid: same edges between bodies of the same rank). Sensors, pairs without a body of finite mass, and
-    contacts under a character's feet are left out. No island is squeezed unless the overlapped faces of bodies of
-    infinite mass point in different directions, or move.
+    step are valid). They are valid if the edges connect the same MOTION rows with the same traits, see traits_of.
+    Sensors, contacts without a body of finite mass, and contacts under a character's feet are left out. Islands may be
+    squeezed only if overlapped faces of bodies of infinite mass point in different directions, or if such a face moves.
+    limits: see settings.Limits; lists_inout: MotionLists, whose reserves of energy grow for bodies created inside
+    others.
     """
     edges_out, traits_out = plan_out.edges, plan_out.traits
     motion_of = lists_inout.motion_of
@@ -249,9 +254,9 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, plan_
 
 @subkernel
 def list_joint_edges(joints, count, edges_out):
-    """List the joints to solve as graph edges after the edges of contacts. Return the number of all edges. O(joints).
+    """Write the joints to solve as graph edges, after the edges of contacts. Return the number of all edges. O(joints).
 
-    joints: see list_joints; count: number of edges of contacts.
+    joints: result of joint_rows.list_joints; count: number of edges of contacts; edges_out: Edges of the graph.
     """
     for k in range(len(joints)):
         edge = count + k
@@ -270,8 +275,8 @@ def list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, pla
     """List the constraints to solve as graph edges, and colour the edges of contacts. O(constraints + motions).
 
     Return (number of contacts, whether their edges and colours are those of the last step). Also find islands that are
-    squeezed between faces, see energy.find_squeezed, and clear MOTION.halves of bodies with contacts.
-    lists_inout: see MotionLists.
+    squeezed between faces (see energy.find_squeezed), and clear MOTION.halves of bodies with contacts. dt [s]: step
+    length; limits: see settings.Limits; lists_inout: see MotionLists; plan_out: see Plan.
     """
     nodes = len(motions_inout)
     count, may_squeeze, deepest, unchanged = list_contact_edges(
@@ -301,8 +306,8 @@ def list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, pla
 def order_joints(joints, classes, starts_out, rows_out):
     """Write the JOINT rows sorted by the class of their islands (stable). O(classes · joints).
 
-    joints: see list_joints; classes (motions,): int32; starts_out: index of the first joint of each class, then the
-    number of joints; rows_out: the sorted JOINT rows.
+    joints: result of joint_rows.list_joints; classes (motions,): class of each MOTION row; starts_out: index of the
+    first joint of each class, then the number of joints; rows_out: the sorted JOINT rows.
     """
     found = 0
     for group in range(len(starts_out) - 1):
@@ -318,7 +323,7 @@ def order_joints(joints, classes, starts_out, rows_out):
 def order_in_one_group(contacts, bodies, dt, limits, motions_inout, lists_inout, plan_out):
     """List the constraints to solve as one group, with contacts sorted by colour. O(constraints + motions).
 
-    Return (number of contacts to solve, number of these without a colour).
+    Return (number of contacts to solve, number of these without a colour). Arguments: see list_and_color.
     """
     count, unchanged = list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, plan_out)
     plan, starts = plan_out, plan_out.starts[: COLORS + 2]
@@ -330,9 +335,10 @@ def order_in_one_group(contacts, bodies, dt, limits, motions_inout, lists_inout,
 
 @kernel
 def order_by_load(contacts, bodies, islands, dt, limits, motions_inout, lists_inout, plan_out):
-    """List the constraints to solve, sorted by the number of substeps of their islands, then contacts by colour.
+    """List the constraints in groups by the number of substeps of their islands, with contacts sorted by colour.
 
-    Return the number of contacts to solve. islands: see Islands; limits: see settings.Limits. O(constraints + motions).
+    Return the number of contacts to solve. islands: see Islands; other arguments: see list_and_color. O(constraints +
+    motions).
     """
     plan, motions = plan_out, motions_inout
     nodes = len(motions)
@@ -409,8 +415,8 @@ class Selection:
 def add_estimates(blocks, count, substeps, rules, motions_inout):
     """Raise MOTION.estimate to the square of the number of substeps that the contacts of a body need. O(contacts).
 
-    Also set MOTION.capped if a load needs more than the present `substeps` and more than most_by_load. count: number of
-    blocks; rules: see LoadRules.
+    Also set MOTION.capped if a load needs more substeps than both the present number and most_by_load. blocks: the
+    contacts, in `count` blocks; substeps: the present number; rules: see LoadRules.
     """
     reach = max(substeps, rules.most_by_load)
     reach_squared = float(reach * reach)
@@ -449,9 +455,9 @@ def add_estimates(blocks, count, substeps, rules, motions_inout):
 def choose_by_load(blocks, count, group, links_islands, rules, plan_inout, motions_inout):
     """Write the number of substeps that each island of a group takes in the next step. O(members + constraints).
 
-    Return the number of islands that needed more substeps than allowed for rules.patience [s]; a short impact does not
-    count. count: number of blocks; links_islands: see find_roots; rules: see LoadRules. Islands are determined only if
-    a body needs another number than in this step.
+    Return the number of islands that have needed more substeps than allowed for at least rules.patience [s]; a short
+    impact does not count. blocks: the contacts of the group, in `count` blocks; links_islands: see MotionLists; rules:
+    see LoadRules; plan_inout: see Plan. Islands are determined only if a body needs another number than in this step.
     """
     plan = plan_inout
     substeps = group.substeps
@@ -466,7 +472,10 @@ def choose_by_load(blocks, count, group, links_islands, rules, plan_inout, motio
 
 
 def estimate_substeps(state: StepState, motions: Motions, plan: Plan, group: Group, blocks: Blocks, count: int) -> None:
-    """Estimate the substeps of the next step from the loads of a group. count: number of blocks."""
+    """Write the number of substeps of the next step to the MOTION rows of a group, from the loads in this step.
+
+    blocks: the contacts of the group, in `count` blocks.
+    """
     rate = estimate_rate(state)
     rules = LoadRules(
         rate,
@@ -493,7 +502,7 @@ def estimate_substeps(state: StepState, motions: Motions, plan: Plan, group: Gro
 def limit_friction(count, motions_inout, blocks_inout):
     """Limit the friction impulses of the step to the friction coefficient times the final normal impulse. O(lanes).
 
-    count: number of blocks.
+    The excess is taken back from the bodies. blocks_inout: the contacts, in `count` blocks.
     """
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
@@ -515,9 +524,9 @@ def limit_friction(count, motions_inout, blocks_inout):
 def store_lanes(blocks, count, inverse_h, share, contacts_inout):
     """Write the impulses of the step, and the cached forces for the next step, to the contacts. O(lanes).
 
-    count: number of blocks; inverse_h [1/s]: inverse of a substep; share: weight of this step in the cached forces. A
-    very short step has a small weight: an impulse that stops a small motion in it would count as a large force in a
-    step of usual length.
+    blocks: the contacts, in `count` blocks; inverse_h [1/s]: inverse of the length of a substep; share: weight of this
+    step's forces in the cached forces. A very short step has a small weight, because an impulse that stops a small
+    motion in it would count as a large force in a step of usual length.
     """
     rest = 1.0 - share
     for block in range(count):
@@ -544,7 +553,7 @@ def make_finish_lanes(restitution: bool, friction: bool) -> Callable:
     def finish_lanes(count, context, impacts_inout, motions_inout, blocks_inout, contacts_inout, work_inout):
         """Apply restitution, limit friction, and write the impulses back to the contacts. O(lanes).
 
-        count: number of blocks; impacts_inout: scratch, as long as the contacts.
+        count: number of blocks; context: see StepContext; impacts_inout: scratch IMPACT rows, as many as contacts.
         """
         if restitution:
             # Impact speeds are measured at the start of the step, so its normals and moment arms are used.
@@ -593,7 +602,10 @@ class ContactLanes:
         return blocks, prepare(state.bodies, motions.used, plan, group, context, contacts, blocks, state.work)
 
     def joints(self, state: StepState, motions: Motions, group: Group, h: float) -> JointSet:
-        """Begin the step of a group's joints with substeps of h [s], and find their trees. Return the JointSet."""
+        """Begin the step of a group's joints with substeps of h [s], and find their trees. Return the JointSet.
+
+        motions: Motions of the world; group: see Group.
+        """
         if len(group.joints):
             begin_joints(group.joints, state.bodies, h, state.joints)
         return self.trees.build(group.joints, state.joints, motions.used, state.joint_solver)

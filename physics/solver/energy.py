@@ -31,7 +31,7 @@ SHARE_BACK = 1e-3  # fraction of its energy that a set of bodies may take back f
 def work_of_surfaces(c, lane, a, b):
     """Return the work that conveyors and moving kinematic bodies did through the impulses of a contact.
 
-    c: the fields of a block; a, b: MOTION rows.
+    c: the fields of a block; lane: lane of the contact in the block; a, b: MOTION rows of its bodies.
     """
     nx, ny = c[at.NX + lane], c[at.NY + lane]
     work = abs(c[at.SURFACE + lane] * (c[at.TANGENT_TOTAL_1 + lane] + c[at.TANGENT_TOTAL_2 + lane]))
@@ -56,9 +56,10 @@ def work_of_surfaces(c, lane, a, b):
 
 @inlined
 def work_of_lift(c, lane, a, b, context):
-    """Return the work of the impulses of a contact while its points separate, each by at most a slop.
+    """Return the work of the impulses of a contact on the way by which its points separated, at most a slop per point.
 
-    A contact spring that sagged under a load gives this energy back. a, b: MOTION rows; context: see StepContext.
+    A contact spring that sagged under a load gives this energy back. c: the fields of a block; lane: lane of the
+    contact in the block; a, b: MOTION rows; context: see StepContext.
     """
     along = (b.dx - a.dx) * c[at.NX + lane] + (b.dy - a.dy) * c[at.NY + lane]
     first = along + b.turn * c[at.B_1 + lane] - a.turn * c[at.A_1 + lane]
@@ -74,10 +75,11 @@ def work_of_lift(c, lane, a, b, context):
 
 @inlined
 def note_direction(nx, ny, rubs, motion, balance_inout):
-    """Record the directions in which contacts act on a body: one normal, or all directions (`in_all`).
+    """Add the normal of a contact to the recorded directions in which contacts act on a body.
 
-    `in_all` is set by friction, or by a normal that is not parallel to the first normal. nx, ny: normal of a contact;
-    rubs: whether friction acted; motion: MOTION row; balance_inout: BALANCE row.
+    The record is one normal, or all directions (`in_all`). Friction sets `in_all`, and so does a normal that is not
+    parallel to the first one. nx, ny: normal; rubs: whether friction acted; motion, balance_inout: MOTION and BALANCE
+    row of the body.
     """
     e = balance_inout
     if motion.inverse_mass == 0.0:
@@ -89,7 +91,10 @@ def note_direction(nx, ny, rubs, motion, balance_inout):
 
 @inlined
 def energy_along(motion, balance):
-    """Return the kinetic energy of a body along the only normal of its contacts; 0 if `in_all` is set."""
+    """Return the kinetic energy of a body along the only normal of its contacts; 0 if `in_all` is set.
+
+    motion, balance: MOTION and BALANCE row of the body; see note_direction.
+    """
     if balance.in_all or motion.inverse_mass == 0.0:
         return 0.0
     along = motion.vx * balance.normal_x + motion.vy * balance.normal_y
@@ -98,9 +103,9 @@ def energy_along(motion, balance):
 
 @subkernel
 def scale_without(energy, whole):
-    """Return the factor on velocities that reduces their kinetic energy `whole` by `energy`.
+    """Return the factor on velocities that reduces their kinetic energy from `whole` to whole - energy.
 
-    The result is 0 if `whole` is not greater than `energy`.
+    The result is 1 for energy <= 0, and 0 if `energy` is at least `whole`.
     """
     if energy <= 0.0:
         return 1.0
@@ -111,10 +116,10 @@ def scale_without(energy, whole):
 def scale_motion(root, balance, motion_inout):
     """Scale the velocities of a body, to remove energy that contacts added.
 
-    root: BALANCE row with the factors for the set of touching bodies; balance: BALANCE row of the body. If no body of
-    the set touches a body of infinite mass, only the velocity relative to the common motion of the set is scaled.
-    Otherwise `along_scale` is applied to the velocity along the only normal of the body's contacts, and then `scale` to
-    the whole velocity.
+    root: BALANCE row with the factors for the set of touching bodies that contains this body; balance, motion_inout:
+    BALANCE and MOTION row of the body. If no body of the set touches a body of infinite mass (not `anchored`), only the
+    velocity relative to the common motion of the set is scaled. Otherwise root.along_scale is applied to the velocity
+    along the only normal of the body's contacts. Then root.scale is applied to the whole velocity.
     """
     m = motion_inout
     if not root.anchored:
@@ -141,10 +146,11 @@ def scale_motion(root, balance, motion_inout):
 
 @inlined
 def note_face(c, lane, a, b, root_inout):
-    """Record the normal of a contact, and the speed of its kinematic body, in the BALANCE row of the set's root.
+    """Record the normal of a contact, and the speed of its kinematic body, for the set of touching bodies.
 
-    `oblique` is set if the normal is neither parallel nor perpendicular to the first recorded normal, if the contact
-    has restitution, or if the kinematic body rotates. a, b: MOTION rows.
+    root_inout: BALANCE row of the set's root. `oblique` is set in three cases: the normal is neither parallel nor
+    perpendicular to the first recorded normal, the contact has restitution, or the kinematic body rotates. c: the
+    fields of a block; lane: lane of the contact in the block; a, b: MOTION rows.
     """
     e = root_inout
     nx, ny = c[at.NX + lane], c[at.NY + lane]
@@ -162,10 +168,11 @@ def note_face(c, lane, a, b, root_inout):
 
 @inlined
 def limit_speed(root, push_speed, motion_inout):
-    """Limit the speed of a body between parallel faces, one of which moves.
+    """Limit the speed of a body in a set of touching bodies without oblique faces, if one of the faces moves.
 
     The limit is the greatest speed of the faces and of the bodies before the step, plus push_speed [px/s], which the
-    separation of overlaps may add. root: BALANCE row of the set's root.
+    separation of overlaps may add. root: BALANCE row of the set's root, see note_face; motion_inout: MOTION row of the
+    body.
     """
     m = motion_inout
     speed = norm(m.vx, m.vy)
@@ -182,9 +189,11 @@ def limit_speed(root, push_speed, motion_inout):
 def balance_bodies(group, degrees, floor, lift, keep, motions, balance_inout):
     """Write the energy that each body of a group gained. Return whether a body in contact gained more than allowed.
 
-    The allowed gain per mass [px2/s2] is `floor`, or a greater gain from the reserve of the body. A body may take from
-    its reserve SHARE_BACK of its energy, or the energy of a lift by `lift` [px] against its acceleration. degrees:
-    number of contacts of each body; keep: fraction of the reserve that remains after this step.
+    The allowed gain per mass [px2/s2] is the greater of `floor` and the gain that the body may take from its reserve.
+    This is the whole reserve at most, and at most the greater of two amounts: SHARE_BACK of the body's energy, and the
+    energy of a lift by `lift` [px] against its acceleration. A body with a joint always counts as having gained more.
+    degrees: number of contacts of each body; keep: fraction of the reserve that remains after this step; group: see
+    contact_lanes.Group.
     """
     suspect = False
     for k in range(len(group.members)):
@@ -212,7 +221,7 @@ def balance_bodies(group, degrees, floor, lift, keep, motions, balance_inout):
 
 @inlined
 def reset_balance(balance_out):
-    """Clear the fields of a BALANCE row for sums over a set of touching bodies and for the normals of contacts."""
+    """Clear the fields of a BALANCE row that hold sums over a set of touching bodies, or normals of contacts."""
     e = balance_out
     e.lift, e.surfaces = 0.0, 0.0
     e.face_x, e.face_y, e.fastest = 0.0, 0.0, 0.0
@@ -230,11 +239,13 @@ def reset_balance(balance_out):
 
 @subkernel
 def join_touching(blocks, count, group, joints, links_islands, motions, parents_out, balance_inout):
-    """Join the bodies of a group that exchanged impulses in this step into sets, by union-find.
+    """Write the sets of touching bodies of a group: bodies that exchanged impulses in this step (union-find).
 
-    Only such bodies can have exchanged energy. joints: the joints of all groups, see joint_rows.list_joints. count:
-    number of blocks; parents_out (motions) int32: the root of each body, which is the body that represents its set.
-    Also record in which directions contacts act on each body.
+    Only such bodies can have exchanged energy. Contacts and joints join two bodies, unless one of them has infinite
+    mass. Also record the directions in which contacts and joints act on each body (balance_inout, BALANCE rows).
+    parents_out (motions) int32: the root of each body, a body that represents its set. blocks: the contacts, in `count`
+    blocks; joints: the joints of all groups, see joint_rows.list_joints; links_islands: see MotionLists; motions:
+    MOTION rows.
     """
     for k in range(len(joints)):  # also of the other groups, whose bodies are reset before their turn
         parents_out[joints[k, 1]] = joints[k, 1]
@@ -277,7 +288,8 @@ def join_touching(blocks, count, group, joints, links_islands, motions, parents_
 def add_momentum(motion, balance, root_inout):
     """Add the mass, momentum and angular momentum of a body to the sums of its set of touching bodies.
 
-    root_inout: BALANCE row of the set's root, with the sums. Their origin is the root's centre of mass before the step.
+    motion, balance: MOTION and BALANCE row of the body; root_inout: BALANCE row of the set's root, with the sums.
+    Positions in the sums are relative to the root's centre of mass before the step.
     """
     m = motion
     e = root_inout
@@ -320,8 +332,8 @@ def energy_in_common(balance_inout):
 def sum_balances(blocks, count, group, links_islands, parents, context, motions, balance_inout):
     """Sum the energy balances of each set of touching bodies, and the work of moving surfaces on the set.
 
-    The BALANCE row of each root receives the sums. count: number of blocks; links_islands: see MotionLists; parents
-    (motions) int32: the root of each body.
+    The BALANCE row of each root receives the sums. blocks: the contacts, in `count` blocks; links_islands: see
+    MotionLists; parents (motions) int32: the root of each body, see join_touching; context: see StepContext.
     """
     for block in range(count):
         c = blocks.lines[block * SIZE : (block + 1) * SIZE]
@@ -358,13 +370,14 @@ def sum_balances(blocks, count, group, links_islands, parents, context, motions,
 
 @subkernel
 def draw_on_reserve(slop, balance_inout):
-    """Write the factors on velocities that remove the gain of energy of a set of touching bodies beyond its reserve.
+    """Write the factors on velocities that remove a gain of energy, as far as the reserve does not cover this gain.
 
-    Return 1 if there was such a gain, otherwise 0. balance_inout: BALANCE row with their sums. Errors of the integrator
-    alternate, so bodies may take back what they lost before: slowly, or as far as their load rises by a slop [px]. Work
-    of surfaces that did not speed up a body is not added to the reserve. With joints they may take back all of it in a
-    step, and do not forget it: light links under tension exchange much of their energy with the error of the
-    integrator. Bodies with motors, springs or joints to kinematic bodies keep what they gained.
+    Return 1 if there was such a gain, otherwise 0. balance_inout: BALANCE row of the root of a set of touching bodies,
+    with the sums of sum_balances. Errors of the integrator alternate in sign, so bodies may take back energy that they
+    lost before. Per step this is at most SHARE_BACK of their energy, or the energy of a lift by a slop [px]. Sets with
+    joints may take back all of their reserve in one step, because light links under tension exchange much of their
+    energy with the error of the integrator. Work of surfaces that did not speed up a body is not added to the reserve.
+    Bodies with motors, springs or joints to kinematic bodies keep all that they gained.
     """
     e = balance_inout
     allowed = e.reserve
@@ -386,8 +399,8 @@ def draw_on_reserve(slop, balance_inout):
 def limit_squeezed(most, before, motion_inout):
     """Limit the speed of a body squeezed between faces to `most` [px/s], or to its speed before the step if greater.
 
-    most: 0 for no limit; before: kinetic energy of the body before the step, plus the work done. Both limit the kinetic
-    energy, which includes rotation.
+    most: 0 for no limit; before: kinetic energy of the body before the step, plus the work done on the body in the
+    step. The limit applies to the kinetic energy, so that rotation is included. motion_inout: MOTION row.
     """
     m = motion_inout
     if most == 0.0 or m.inverse_mass == 0.0:
@@ -458,9 +471,11 @@ def keep_losses(group, parents, motions, balance_inout):
 
 @subkernel
 def remove_gains(blocks, count, group, links_islands, moving, context, plan_inout, balance_inout, motions_inout):
-    """Remove the energy that contacts have added. Return the number of sets of touching bodies with such a gain.
+    """Remove the energy that contacts have added. Return the number of sets of touching bodies that had gained energy.
 
-    count: number of blocks; links_islands: see MotionLists; moving: number of kinematic bodies that move.
+    blocks: the contacts, in `count` blocks; group, plan_inout: see contact_lanes.Group and Plan; links_islands: see
+    MotionLists; moving: number of kinematic bodies that move; context: see StepContext; balance_inout: BALANCE rows,
+    one for each MOTION row.
     """
     plan, motions, parents_out = plan_inout, motions_inout, plan_inout.touching
     joints = plan.joints[: plan.joint_count[0]]
@@ -500,10 +515,11 @@ def remove_gains(blocks, count, group, links_islands, moving, context, plan_inou
 def limit_energy(blocks, count, group, links_islands, moving, context, plan_inout, balance_inout, motions_inout):
     """Remove the energy that the contacts of a group have added. O(members + lanes).
 
-    Return the number of sets of touching bodies with such a gain. In islands squeezed between faces, the speed of a
-    body is limited to the speed of the faces plus push-out, or to its speed before the step if that was greater. count:
-    number of blocks; links_islands: see MotionLists; moving: number of kinematic bodies that move; balance_inout:
-    BALANCE rows, one for each MOTION row.
+    Return the number of sets of touching bodies that had gained energy. In islands squeezed between faces, the speed of
+    a body is limited to the speed of the faces plus the push-out speed, or to its own speed before the step if that was
+    greater. blocks: the contacts, in `count` blocks; group, plan_inout: see contact_lanes.Group and Plan;
+    links_islands: see MotionLists; moving: number of kinematic bodies that move; context: see StepContext;
+    balance_inout: BALANCE rows, one for each MOTION row.
     """
     plan = plan_inout
     floor = 0.5 * context.limits.calm_speed * context.limits.calm_speed
@@ -532,8 +548,9 @@ OPPOSITE = -0.5  # cosine between normals of two faces below which the faces opp
 def note_faces(edges, count, lists, slop, parents, squeeze_out):
     """Write the greatest overlaps of each island, and whether faces of bodies of infinite mass oppose each other there.
 
-    edges: constraints as graph edges; count: number of edges; lists: MotionLists; slop [px]: smaller overlaps with a
-    face do not count; parents (motions) int32: the root of the island of each body; squeeze_out: SQUEEZE rows of roots.
+    A face is the side of a body of infinite mass at a contact. edges: constraints as graph edges, `count` of them;
+    lists: MotionLists; slop [px]: smaller overlaps with a face do not count; parents (motions) int32: the root of the
+    island of each body; squeeze_out: SQUEEZE rows, of which the rows of roots are written.
     """
     for turn in range(2):
         for i in range(count):
@@ -565,8 +582,9 @@ def find_squeezed(edges, count, lists, motions, limits, parents_out, squeeze_out
     """Find the islands without room, and write the bounds of their impulses as SQUEEZE rows. O(count + motions).
 
     Return whether there are any. An island has no room if it is deeply overlapped and, in addition, overlapping faces
-    point in different directions or a moving face is opposite to another face. edges: constraints as graph edges;
-    count: number of edges; lists: MotionLists; limits: see settings.Limits.
+    point in different directions or a moving face is opposite to another face. edges: constraints as graph edges,
+    `count` of them; lists: MotionLists; motions: MOTION rows; limits: see settings.Limits; parents_out (motions) int32:
+    the root of the island of each body.
     """
     for i in range(len(motions)):
         s = squeeze_out[i]

@@ -51,8 +51,9 @@ SLOW = 0.01  # [rad²] square of a turn in a substep, from which on bend() is no
 def list_tree_joints(rows, joints, order_out, counts_out, motion_a_out, motion_b_out):
     """List the joints of a group of which a tree can solve at least one part. Return their number. O(rows).
 
-    rows: JOINT rows of the group, in the order of ids; order_out: indices into `rows` of the listed joints. For every
-    joint of `rows`: counts_out: number of tree rows, 0 to 3; motion_a_out, motion_b_out: MOTION rows of its two bodies.
+    rows: JOINT rows of the group, in the order of ids; joints: all JOINT rows; order_out: indices into `rows` of the
+    listed joints. counts_out receives the number of tree rows, 0 to 3, of every joint of `rows`; motion_a_out and
+    motion_b_out receive the MOTION rows of its two bodies.
     """
     found = 0
     for k in range(len(rows)):
@@ -77,11 +78,11 @@ def list_tree_joints(rows, joints, order_out, counts_out, motion_a_out, motion_b
 def drop_meshes(order, motion_a, motion_b, taken, parents_inout, sums_out, order_inout):
     """Remove the joints of meshes from the list of joints for trees. Return the number of remaining joints.
 
-    A mesh is a component in which the joints outside the tree are more than a quarter of the joints in the tree. In a
-    mesh the passes converge better without trees, which would undo the work of the passes on the loops. O(joints +
-    motions). order, motion_a, motion_b, taken: see joint_trees.build_forest, after its call; order_inout: the same
-    array as order; parents_inout: Forest.parents; sums_out (motions, 2) int32: numbers of joints in the tree and
-    outside, at the root of each component.
+    A mesh is a connected component with more than a quarter as many joints outside its tree as in its tree. In a mesh
+    the passes converge better without trees, because a tree would undo the work of the passes on the loops. O(joints +
+    motions). order, motion_a, motion_b, taken: arguments of joint_trees.build_forest, after its call; order_inout: the
+    same array as `order`; parents_inout: Forest.parents; sums_out (motions, 2) int32: for the root of each component,
+    the numbers of joints in its tree and outside.
     """
     for i in range(len(sums_out)):
         sums_out[i, 0] = 0
@@ -104,7 +105,10 @@ def drop_meshes(order, motion_a, motion_b, taken, parents_inout, sums_out, order
 
 @kernel
 def mark_direct(rows, taken, joints_inout):
-    """Write JOINT.direct: which joints of a group, JOINT rows, are in a tree (`taken`, by index in rows). O(rows)."""
+    """Write JOINT.direct of the joints of a group: whether each of them is in a tree. O(rows).
+
+    rows: indices of JOINT rows; taken: the values, in the order of `rows`.
+    """
     for k in range(len(rows)):
         joints_inout[rows[k]].direct = taken[k]
 
@@ -114,7 +118,10 @@ def mark_direct(rows, taken, joints_inout):
 
 @subkernel
 def write_line(joint, nx, ny, row_out):
-    """Write the Jacobian of the speed of B's anchor relative to A's anchor along a unit vector (nx, ny)."""
+    """Write the Jacobian of the speed of B's anchor relative to A's anchor along a unit vector (nx, ny).
+
+    joint: JOINT row; row_out: JOINT_ROW.
+    """
     j, r = joint, row_out
     r.ax, r.ay, r.aw = -nx, -ny, j.ay * nx - j.ax * ny
     r.bx, r.by, r.bw = nx, ny, j.bx * ny - j.by * nx
@@ -122,7 +129,7 @@ def write_line(joint, nx, ny, row_out):
 
 @subkernel
 def write_turn(row_out):
-    """Write the Jacobian of the angular velocity of B relative to A."""
+    """Write the Jacobian of the angular velocity of B relative to A. row_out: JOINT_ROW."""
     r = row_out
     r.ax, r.ay, r.aw = 0.0, 0.0, -1.0
     r.bx, r.by, r.bw = 0.0, 0.0, 1.0
@@ -130,7 +137,7 @@ def write_turn(row_out):
 
 @subkernel
 def soften(hertz, damping, h, inverse_mass, row_out):
-    """Write the compliance of a row: 0 for hertz 0, a rigid row.
+    """Write the compliance of a JOINT_ROW that a spring holds; 0 (a rigid row) for hertz 0.
 
     hertz [1/s], damping: frequency and damping ratio of the spring; h [s]: length of a substep; inverse_mass: inverse
     effective mass of the row without other joints.
@@ -143,9 +150,10 @@ def soften(hertz, damping, h, inverse_mass, row_out):
 
 @subkernel
 def write_rows(joint, h, a, b, first, rows_out):
-    """Write the Jacobians and compliances of the rows of a joint at its present arms.
+    """Write the Jacobians and compliances of the rows of a joint at its present moment arms.
 
-    h [s]: length of a substep; a, b: MOTION rows; first: index of the first row of the joint in rows_out.
+    joint: JOINT row; h [s]: length of a substep; a, b: MOTION rows; first: index of the first row of the joint in
+    rows_out (JOINT_ROW).
     """
     j = joint
     at = first
@@ -177,10 +185,11 @@ def write_rows(joint, h, a, b, first, rows_out):
 
 @subkernel
 def draw(error, hertz, damping, impulse, rate, most, h, row_inout):
-    """Write the wanted velocity of a row, from its error of position.
+    """Write the wanted velocity of a JOINT_ROW (rhs) that removes an error of position.
 
-    A rigid row (hertz 0) removes the error at `rate` [1/s], with a speed of at most `most`. A spring also uses
-    `impulse`, the accumulated impulse of the row in this substep of h [s].
+    error [px or rad]. A rigid row (hertz 0) removes the error at `rate` [1/s], with a speed of at most `most` [px/s or
+    rad/s]. A spring (hertz [1/s], damping ratio) takes its rate from softness_of instead, and also uses `impulse`, the
+    accumulated impulse of the row in this substep of h [s].
     """
     row_inout.rhs = -bounded(rate * error, most)
     if hertz > 0.0:
@@ -190,11 +199,12 @@ def draw(error, hertz, damping, impulse, rate, most, h, row_inout):
 
 @inlined
 def bend(joint, a, b, h):
-    """Return (x, y) of the velocity that makes up for the turning of arms: on straight ways anchors would part.
+    """Return a correction (x, y) [px/s] of the wanted velocity of B's anchor relative to A's, for arms that rotate.
 
-    In a substep of h [s] an arm r that turns with w ends w² h² r / 2 nearer to its centre than its velocity leads.
-    Under tension, and in fast turns, that would feed back on the oscillation of light links, see add_inertia: there it
-    is left to the next substep.
+    Velocities move anchors along straight lines, but an arm r [px] that rotates at w [rad/s] bends the path of its
+    anchor. In a substep of h [s] the anchor ends w² h² r / 2 nearer to the body's centre, so the anchors would
+    separate. The correction fades to 0 for light bodies under tension and for fast rotation, where it would amplify
+    oscillations, see add_inertia. There the next substep removes the separation. joint: JOINT row; a, b: MOTION rows.
     """
     j = joint
     growth = max(a.tension * a.own_inverse_inertia, b.tension * b.own_inverse_inertia)
@@ -205,10 +215,11 @@ def bend(joint, a, b, h):
 
 @subkernel
 def write_targets(joint, rate, context, a, b, first, rows_inout):
-    """Write the wanted velocities of the rows of a joint. a, b: MOTION rows.
+    """Write the wanted velocities of the rows of a joint.
 
-    rate [1/s]: fraction of the errors of position that is removed per second; 0 in the solve at the end of a substep.
-    first: index of the first row of the joint in rows_inout.
+    joint: JOINT row; a, b: MOTION rows; rate [1/s]: fraction of the errors of position that is removed per second, 0 in
+    the solve at the end of a substep; context: see StepContext; first: index of the first row of the joint in
+    rows_inout (JOINT_ROW).
     """
     j = joint
     at = first
@@ -239,12 +250,12 @@ def write_targets(joint, rate, context, a, b, first, rows_inout):
 
 @subkernel
 def add_inertia(rows, order, h, joints_inout, motions_inout):
-    """Raise the inertia of light bodies in trees under tension, so that substeps of h [s] can follow them. O(order).
+    """Raise the inertia of light bodies in trees under tension, so that substeps can follow their oscillations.
 
-    A light link between heavy bodies oscillates like a string. A tension F at an arm r turns it back by F r per angle:
-    with an inertia of at least h² Σ F r it advances by no more than one radian of an oscillation in a substep
-    (geometric stiffness: Andrews, Teichmann and Kövecses, 2017). F is the greatest force of the last quarter of a
-    second, because a chain that jerks is slack in between.
+    O(order). A light link between heavy bodies oscillates like a string. A tension F at an arm r turns the link back by
+    a torque F r per radian. With an inertia of at least h² Σ F r, the oscillation advances by at most one radian in a
+    substep of h [s] (geometric stiffness: Andrews, Teichmann and Kövecses, 2017). F is the greatest force of the last
+    quarter of a second, because a chain that jerks is slack in between. rows, order: see JointSet.
     """
     fade = max(1.0 - h / FADING, 0.0)
     for k in range(len(order)):
@@ -282,7 +293,11 @@ def place_trees(rows, order, h, motions, joints_inout, tree_rows_out):
 
 @subkernel
 def aim_trees(rows, order, rate, context, joints, motions, tree_rows_out):
-    """Write the wanted velocities of the rows of trees. rate: see write_targets. O(order)."""
+    """Write the wanted velocities of the rows of all trees. O(order).
+
+    rows, order: see JointSet; rate: see write_targets; context: see StepContext; joints: all JOINT rows; tree_rows_out:
+    JOINT_ROW.
+    """
     for k in range(len(order)):
         j = joints[rows[order[k]]]
         if j.direct:
@@ -292,7 +307,10 @@ def aim_trees(rows, order, rate, context, joints, motions, tree_rows_out):
 
 @subkernel
 def collect_trees(rows, order, tree_rows, joints_inout):
-    """Add the impulses of the rows of trees to the impulses of the joints. rows, order: see JointSet. O(order)."""
+    """Add the impulses of the rows of trees (JOINT_ROW) to the impulses of the joints. O(order).
+
+    rows, order: see JointSet.
+    """
     for k in range(len(order)):
         j = joints_inout[rows[order[k]]]
         if not j.direct:
@@ -332,7 +350,10 @@ class JointSet(NamedTuple):
 
 @subkernel
 def begin_trees(context, joints_inout, motions_inout):
-    """Place the joints of trees at the present poses, and factor the trees. Return the number of redundant rows."""
+    """Place the joints of trees at the present poses, and factor the trees. Return the number of redundant rows.
+
+    context: see StepContext; joints_inout: JointSet; motions_inout: MOTION rows.
+    """
     s = joints_inout
     if len(s.order) == 0:
         return 0
@@ -343,7 +364,10 @@ def begin_trees(context, joints_inout, motions_inout):
 
 @subkernel
 def solve_all_trees(biased, context, joints_inout, motions_inout):
-    """Solve the trees exactly. biased: True to also remove errors of position, up to the greatest push-out speed."""
+    """Solve the trees exactly. biased: True to also remove errors of position, up to the greatest push-out speed.
+
+    context: see StepContext; joints_inout: JointSet; motions_inout: MOTION rows.
+    """
     s = joints_inout
     if len(s.order) > 0:
         aim_trees(s.rows, s.order, context.inverse_h if biased else 0.0, context, s.table, motions_inout, s.tree_rows)
@@ -353,7 +377,10 @@ def solve_all_trees(biased, context, joints_inout, motions_inout):
 
 @subkernel
 def solve_once(biased, context, joints_inout, motions_inout):
-    """Solve all joints once. The trees are last, so that their joints are exact. biased: see solve_joints."""
+    """Solve all joints of a JointSet once. The trees come last, so that their joints are exact at the end.
+
+    biased: see solve_all_trees; context: see StepContext; motions_inout: MOTION rows.
+    """
     s = joints_inout
     solve_joints(s.rows, biased, context, s.table, motions_inout)
     solve_all_trees(biased, context, s, motions_inout)
@@ -361,7 +388,10 @@ def solve_once(biased, context, joints_inout, motions_inout):
 
 @subkernel
 def start_joints(context, joints_inout, motions_inout):
-    """Warm start the joints with the impulses of the last substep, and solve them. context: see StepContext."""
+    """Warm start the joints of a JointSet with the impulses of the last substep, and solve them.
+
+    context: see StepContext; motions_inout: MOTION rows.
+    """
     s = joints_inout
     warm_joints(s.rows, s.table, motions_inout)
     solve_once(True, context, s, motions_inout)
@@ -369,7 +399,10 @@ def start_joints(context, joints_inout, motions_inout):
 
 @subkernel
 def finish_joints(context, joints_inout, motions_inout):
-    """Solve the velocities of the joints at the end poses of a substep, and add the impulses to the totals."""
+    """Solve the velocities of the joints at the end poses of a substep, and add the impulses to the totals of the step.
+
+    context: see StepContext; joints_inout: JointSet; motions_inout: MOTION rows.
+    """
     s = joints_inout
     begin_trees(context, s, motions_inout)
     solve_once(False, context, s, motions_inout)
@@ -393,8 +426,8 @@ class Trees:
     def build(self, rows: np.ndarray, joints: np.ndarray, motions: np.ndarray, tier: str) -> JointSet:
         """Find the trees among the joints of a group, and return the JointSet.
 
-        rows: JOINT rows of the group, in the order of ids; tier: "iterative": no trees; "direct": all trees; "auto":
-        trees except in meshes, see drop_meshes.
+        rows: JOINT rows of the group, in the order of ids; joints: all JOINT rows; motions: MOTION rows; tier:
+        "iterative": no trees; "direct": all trees; "auto": trees except in meshes, see drop_meshes.
         """
         n = len(rows)
         if len(self.taken) < n:

@@ -31,8 +31,9 @@ def is_idle(joint):
 def list_joints(motion_of, motions_inout, joints_inout, links_out, work_inout):
     """List the joints to solve in this step, in the order of ids. Return their number. O(joints).
 
-    motion_of (bodies): MOTION row of each body, 0 for a body that does not move. MOTION.jointed of the bodies is set.
-    links_out (joints, 3) int32: JOINT row, MOTION row of A, MOTION row of B of each listed joint.
+    motion_of (bodies): MOTION row of each body, 0 for a body that does not move; MOTION.jointed of listed bodies is
+    set. links_out (joints, 3) int32: JOINT row, MOTION row of A, MOTION row of B of each listed joint. work_inout:
+    counters.
     """
     found = 0
     for i in range(len(joints_inout)):
@@ -77,9 +78,9 @@ def arm_of(body, x, y):
 
 @subkernel
 def begin_joint(bodies, h, joint_inout):
-    """Write the anchors, axis and angle of a joint at the start of a step, and its cached impulses for a substep.
+    """Write the anchors, axis and angle of a joint at the start of a step, and its warm-start impulses for a substep.
 
-    bodies: BODY rows; h [s]: length of the substep.
+    bodies: BODY rows; h [s]: length of the substep, by which the cached forces are multiplied.
     """
     j = joint_inout
     angle_a, angle_b = 0.0, 0.0
@@ -118,7 +119,10 @@ def begin_joints(rows, bodies, h, joints_inout):
 
 @subkernel
 def place_joint(a, b, joint_inout):
-    """Write moment arms, axis, offset of the anchors and angle of a joint at the present poses. a, b: MOTION rows."""
+    """Write moment arms, axis, offset of the anchors and angle of a joint at the present poses.
+
+    a, b: MOTION rows; joint_inout: JOINT row.
+    """
     j = joint_inout
     ax, ay = a.cosine * j.arm_ax - a.sine * j.arm_ay, a.sine * j.arm_ax + a.cosine * j.arm_ay
     bx, by = b.cosine * j.arm_bx - b.sine * j.arm_by, b.sine * j.arm_bx + b.cosine * j.arm_by
@@ -146,8 +150,9 @@ def place_joint(a, b, joint_inout):
 def push(joint, x, y, torque, a_inout, b_inout):
     """Apply an impulse (x, y) at B's anchor and an angular impulse `torque` to B, and the opposite impulses to A.
 
-    free_vx, free_vy and free_w change by the same amounts. So the warm start of contacts does not apply the impulses
-    again: joints are warm started separately, at their new arms. a_inout, b_inout: MOTION rows.
+    free_vx, free_vy and free_w, the velocities without contact impulses, change by the same amounts. So the warm start
+    of contacts does not repeat these impulses; joints have a warm start of their own. joint: JOINT row; a_inout,
+    b_inout: MOTION rows.
     """
     j = joint
     a, b = a_inout, b_inout
@@ -159,7 +164,7 @@ def push(joint, x, y, torque, a_inout, b_inout):
 
 @subkernel
 def push_coordinate(joint, impulse, a_inout, b_inout):
-    """Apply an impulse that increases the coordinate of a joint: along its axis, or as an angular impulse."""
+    """Apply an impulse on the coordinate of a joint, along the axis or as an angular impulse; > 0 increases it."""
     j = joint
     if j.coordinate == ANGLE:
         push(j, 0.0, 0.0, impulse, a_inout, b_inout)
@@ -169,7 +174,7 @@ def push_coordinate(joint, impulse, a_inout, b_inout):
 
 @subkernel
 def speed_across(joint, nx, ny, a, b):
-    """Return the speed [px/s] of B's anchor relative to A's anchor along (nx, ny). a, b: MOTION rows."""
+    """Return the speed [px/s] of B's anchor relative to A's anchor along a unit vector (nx, ny). a, b: MOTION rows."""
     j = joint
     speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
     speed += b.angular_velocity * (j.bx * ny - j.by * nx)
@@ -178,7 +183,7 @@ def speed_across(joint, nx, ny, a, b):
 
 @subkernel
 def inverse_mass_along(joint, nx, ny, a, b):
-    """Return the inverse effective mass of a joint along a unit vector (nx, ny). a, b: MOTION rows."""
+    """Return the inverse effective mass of a joint at its anchors along a unit vector (nx, ny). a, b: MOTION rows."""
     j = joint
     on_a, on_b = j.ax * ny - j.ay * nx, j.bx * ny - j.by * nx
     return a.inverse_mass + b.inverse_mass + a.inverse_inertia * on_a * on_a + b.inverse_inertia * on_b * on_b
@@ -186,21 +191,24 @@ def inverse_mass_along(joint, nx, ny, a, b):
 
 @subkernel
 def coordinate_of(joint):
-    """Return the coordinate of a joint at the present poses [px or rad]."""
+    """Return the coordinate of a joint (angle, translation or length) at the present poses [px or rad]."""
     j = joint
     return j.turn if j.coordinate == ANGLE else j.apart_x * j.nx + j.apart_y * j.ny
 
 
 @subkernel
 def coordinate_speed(joint, a, b):
-    """Return the rate at which the coordinate of a joint changes [px/s or rad/s]."""
+    """Return the rate at which the coordinate of a joint changes [px/s or rad/s]. a, b: MOTION rows."""
     j = joint
     return b.angular_velocity - a.angular_velocity if j.coordinate == ANGLE else speed_across(j, j.nx, j.ny, a, b)
 
 
 @subkernel
 def coordinate_inverse_mass(joint, a, b):
-    """Return the inverse effective mass, or inertia, of the coordinate of a joint. a, b: MOTION rows."""
+    """Return the inverse effective mass of the coordinate of a joint, or its inverse inertia for an angle.
+
+    a, b: MOTION rows.
+    """
     j = joint
     return a.inverse_inertia + b.inverse_inertia if j.coordinate == ANGLE else inverse_mass_along(j, j.nx, j.ny, a, b)
 
@@ -209,7 +217,7 @@ def coordinate_inverse_mass(joint, a, b):
 def softness_of(hertz, damping, h):
     """Return (bias rate [1/s], factor on the effective mass, fraction of the impulse given up) of an implicit spring.
 
-    hertz [1/s]: frequency; damping: damping ratio; h [s]: length of a substep. The two factors add up to 1.
+    hertz [1/s]: frequency; damping: damping ratio; h [s]: length of a substep. The last two results add up to 1.
     """
     omega = math.tau * hertz
     rate = 2.0 * damping + h * omega
@@ -220,9 +228,10 @@ def softness_of(hertz, damping, h):
 
 @inlined
 def rigid_softness(biased, context):
-    """Return the softness of a rigid part of a joint as softness_of does: without bias in the relaxing pass.
+    """Return the softness of a rigid part of a joint, in the format of softness_of.
 
-    biased: False in the relaxing pass, which has neither bias nor softness; context: see StepContext.
+    biased: False in the relaxing pass, in which the part has neither bias nor softness; context: see StepContext, whose
+    `joint` is the softness in the pass with bias.
     """
     if not biased:
         return 0.0, 1.0, 0.0
@@ -259,7 +268,10 @@ def holds_coordinate(joint):
 
 @subkernel
 def solve_motor(context, joint_inout, a_inout, b_inout):
-    """Solve the motor of a joint, which drives the coordinate, or the angle, at motor_speed with a bounded force."""
+    """Solve the motor of a joint, which drives the coordinate or the angle at motor_speed, with a bounded force.
+
+    For an angle the force is a torque. context: see StepContext; a_inout, b_inout: MOTION rows.
+    """
     j, a, b = joint_inout, a_inout, b_inout
     if j.turns_motor:
         inverse = a.inverse_inertia + b.inverse_inertia
@@ -281,8 +293,9 @@ def solve_motor(context, joint_inout, a_inout, b_inout):
 def limit_change(gap, speed, old, mass, soft, most, inverse_h):
     """Return the change of the impulse of a limit that keeps gap >= 0. The accumulated impulse stays at least 0.
 
-    speed: rate of change of the gap; old: accumulated impulse; mass: effective mass; soft: see softness_of; most:
-    greatest speed of a correction. A positive gap may close completely in a substep.
+    gap [px or rad]: distance of the coordinate from the limit; speed: rate of change of the gap; old: accumulated
+    impulse; mass: effective mass; soft: result of softness_of; most: greatest speed of a correction; inverse_h [1/s]:
+    inverse of a substep. A positive gap may close completely in a substep.
     """
     bias_rate, mass_share, give = soft
     if gap > 0.0:
@@ -294,7 +307,10 @@ def limit_change(gap, speed, old, mass, soft, most, inverse_h):
 
 @subkernel
 def solve_coordinate(biased, context, joint_inout, a_inout, b_inout):
-    """Solve the spring, the motor and the limits on the coordinate of a joint. biased: see solve_joints."""
+    """Solve the spring, the motor and the limits on the coordinate of a joint.
+
+    biased: see solve_joints; context: see StepContext; a_inout, b_inout: MOTION rows.
+    """
     j, a, b = joint_inout, a_inout, b_inout
     inverse = coordinate_inverse_mass(j, a, b)
     if inverse <= 0.0:
@@ -333,7 +349,10 @@ def solve_coordinate(biased, context, joint_inout, a_inout, b_inout):
 
 @subkernel
 def solve_hold_of_angle(biased, context, joint_inout, a_inout, b_inout):
-    """Solve the hold of the angle of a joint: rigid, soft, or only of the angular velocity; with a bounded torque."""
+    """Solve the hold of the angle of a joint, with a bounded torque: rigid, soft, or of the angular velocity alone.
+
+    biased: see solve_joints; context: see StepContext; a_inout, b_inout: MOTION rows.
+    """
     j, a, b = joint_inout, a_inout, b_inout
     inverse = a.inverse_inertia + b.inverse_inertia
     if inverse <= 0.0:
@@ -351,7 +370,10 @@ def solve_hold_of_angle(biased, context, joint_inout, a_inout, b_inout):
 
 @subkernel
 def solve_hold_across(biased, context, joint_inout, a_inout, b_inout):
-    """Solve the hold of B's anchor on the axis of A: prevent motion across the axis."""
+    """Solve the hold of B's anchor on the axis of A: prevent motion of the anchor perpendicular to the axis.
+
+    biased: see solve_joints; context: see StepContext; a_inout, b_inout: MOTION rows.
+    """
     j, a, b = joint_inout, a_inout, b_inout
     inverse = inverse_mass_along(j, -j.ny, j.nx, a, b)
     if inverse <= 0.0:
@@ -366,9 +388,10 @@ def solve_hold_across(biased, context, joint_inout, a_inout, b_inout):
 
 @subkernel
 def solve_hold_of_point(biased, context, joint_inout, a_inout, b_inout):
-    """Solve the hold of two anchors: rigid, soft, or only of their relative velocity; with a bounded force.
+    """Solve the hold of two anchors, with a bounded force: rigid, soft, or of their relative velocity alone.
 
-    Both directions are solved together. biased: see solve_joints.
+    Both directions are solved together. biased: see solve_joints; context: see StepContext; a_inout, b_inout: MOTION
+    rows.
     """
     j, a, b = joint_inout, a_inout, b_inout
     k_11 = a.inverse_mass + b.inverse_mass + a.inverse_inertia * j.ay * j.ay + b.inverse_inertia * j.by * j.by
@@ -446,8 +469,8 @@ def warm_joints(rows, joints_inout, motions_inout):
 def solve_joints(rows, biased, context, joints_inout, motions_inout):
     """Solve every joint once. O(rows).
 
-    rows: JOINT rows; biased: True to also remove errors of position, False to solve only velocities, at the present
-    poses. Parts that trees solve are left out.
+    rows: JOINT rows; biased: True to also remove errors of position, False to solve only the velocities at the present
+    poses; context: see StepContext. Parts that trees solve are left out.
     """
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
@@ -470,7 +493,7 @@ def solve_joints(rows, biased, context, joints_inout, motions_inout):
 
 @subkernel
 def sum_joints(rows, joints_inout):
-    """Add the impulses of a substep to the totals of the step. rows: JOINT rows. O(rows)."""
+    """Add the impulses of a substep to the totals of the step. rows: indices of JOINT rows. O(rows)."""
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
         x, y, torque = impulse_of(j)
@@ -507,9 +530,10 @@ def store_joints(rows, context, joints_inout):
 def estimate_joints(rows, joints, rate, dt, accuracy, motions_inout):
     """Raise MOTION.estimate to the square of the number of substeps that the joints of a body need. O(rows).
 
-    rows: JOINT rows; rate: see substeps.estimate_rate; dt [s]: step length; accuracy [px]. In the iterative tier
-    the spring of a joint has twice the frequency of the spring of a contact, so it sags by a quarter. In either tier an
-    anchor on an arm r that rotates by an angle φ in a substep leaves the joint by r φ² / 2.
+    rows: indices of JOINT rows; rate: see substeps.estimate_rate; dt [s]: step length; accuracy [px]: greatest
+    accepted error. In the iterative tier the spring of a joint has twice the frequency of the spring of a contact, so
+    the joint sags by a quarter as much. In both tiers, an anchor on an arm r that rotates by an angle φ in a substep
+    leaves the joint by r φ² / 2.
     """
     for k in range(len(rows)):
         j = joints[rows[k]]
@@ -553,7 +577,10 @@ def velocity_at(body, x, y):
 
 @kernel
 def report_joints(bodies, joints_inout):
-    """Write angle, translation, speed, separation and `broken` of all joints at the present poses. O(joints)."""
+    """Write angle, translation, speed, separation and `broken` of all joints at the present poses. O(joints).
+
+    bodies: BODY rows; joints_inout: JOINT rows.
+    """
     for k in range(len(joints_inout)):
         j = joints_inout[k]
         ax, ay, bx, by = j.local_ax, j.local_ay, j.local_bx, j.local_by

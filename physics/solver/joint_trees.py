@@ -135,7 +135,8 @@ def new_forest(joints: int, motions: int) -> Forest:
 def with_room(forest: Forest, joints: int, motions: int) -> Forest:
     """Return the forest if its capacities suffice, otherwise an empty forest with greater capacities.
 
-    joints, motions: required capacities; a capacity that is too small is at least doubled.
+    joints, motions: required capacities. If one of them is greater than the present capacity, that capacity becomes the
+    greater of the required one and twice the present one.
     """
     has_joints, has_motions = len(forest.nexts) // 2, len(forest.parents)
     if joints <= has_joints and motions <= has_motions:
@@ -159,7 +160,7 @@ def has_infinite_mass(motion):
 def take_joints(order, motion_a, motion_b, motions, forest_inout, taken_out):
     """Choose the joints of the forest and link their half-edges by body. Return the number of chosen joints.
 
-    Arguments: see build_forest.
+    Arguments as in build_forest; a half-edge is one side of a joint, see Forest.
     """
     f = forest_inout
     for i in range(len(motions)):
@@ -190,7 +191,10 @@ def take_joints(order, motion_a, motion_b, motions, forest_inout, taken_out):
 
 @inlined
 def write_body(motion, parent, joint, parent_is_a, is_fixed, body_out):
-    """Write the links of a TREE_BODY row: motion (MOTION row), parent (slot), joint to the parent, and flags."""
+    """Write the links of a TREE_BODY row: motion (MOTION row), parent (slot), joint to the parent, and flags.
+
+    parent_is_a: whether the parent is body A of the joint; is_fixed: whether the body has infinite mass.
+    """
     body_out.motion = motion
     body_out.parent = parent
     body_out.joint = joint
@@ -203,7 +207,7 @@ def write_body(motion, parent, joint, parent_is_a, is_fixed, body_out):
 def order_bodies(motion_a, motion_b, motions, forest_inout):
     """Write the bodies of all trees, breadth-first from the roots. O(MOTION rows + joints).
 
-    Arguments: see build_forest. The written rows are also the queue of the search. All roots are first, so that
+    Arguments as in build_forest. The written rows are also the queue of the search. All roots are first, so that
     adjacent rows belong to different trees, and the processor can work on several joints at the same time.
     """
     f = forest_inout
@@ -261,9 +265,10 @@ def build_forest(
 
 @inlined
 def load_row(joint_row, parent_is_a, parent_mass, child_mass, inertia, number):
-    """Return a row of a joint as a tuple.
+    """Return a JOINT_ROW as the tuple in which a row is factored; see the comment under "factor" for its fields.
 
-    parent_mass, child_mass: (inverse mass, inverse inertia); inertia: factors D and U of the child; number: 0..2.
+    parent_is_a: whether the parent is body A of the joint; parent_mass, child_mass: (inverse mass, inverse inertia);
+    inertia: factors (D, U) of the child's inverse inertia; number: index of the row in the joint, 0..2.
     """
     j = joint_row
     px, py, pw = (j.ax, j.ay, j.aw) if parent_is_a else (j.bx, j.by, j.bw)
@@ -279,17 +284,22 @@ def load_row(joint_row, parent_is_a, parent_mass, child_mass, inertia, number):
 
 @inlined
 def moves_more(row, other):
-    """Return whether the child's part of the pivot, relative to its scale, is greater for `row` than for `other`."""
+    """Return whether the child's share of the pivot is greater for `row` than for `other`, two tuples of load_row.
+
+    The share is relative to the pivot that the row has without other joints.
+    """
     return row[9] * other[10] > other[9] * row[10]
 
 
 @inlined
 def independent(row, lead, inertia, common, is_second):
-    """Return (`row` made uncorrelated with an earlier row `lead`, subtracted multiple of `lead`).
+    """Make `row` uncorrelated with an earlier row `lead` of the joint. Return (new row, subtracted multiple of `lead`).
 
-    The response of the child correlates the rows; inertia: factors D and U of the child. Nothing is subtracted if the
-    child does not respond to `lead`. common: compliance of the first row; is_second: whether `lead` is the second row,
-    so that both rows may contain multiples of the first row.
+    Two rows are correlated if an impulse along one of them changes the velocity of the child along the other. Nothing
+    is subtracted if the child does not respond to `lead`. row, lead: tuples of load_row; inertia: factors (D, U) of the
+    child's inverse inertia; common: compliance of the first row in the order of elimination. is_second: whether `lead`
+    is the second row in this order; then `row` and `lead` may each contain a multiple of the first row, so they also
+    share its compliance.
     """
     d_x, d_y, d_w, _, _, _ = inertia
     px, py, pw, cx, cy, cw, gx, gy, gw, child, scale, compliance, of_first, number = row
@@ -313,10 +323,11 @@ def independent(row, lead, inertia, common, is_second):
 
 @inlined
 def apply_row(row, inertia):
-    """Apply a row to the articulated inverse inertia of its parent (Bierman's update).
+    """Apply a row to the articulated inverse inertia of the parent (Bierman's update).
 
-    Return (new D and U of the parent, gain of the parent, inverse pivot, inverse of the child's part of the pivot, 1 if
-    the row is redundant, else 0). A redundant row gets its scale as compliance. inertia: factors D and U of the parent.
+    Return (new factors D and U of the parent, gain of the parent, inverse pivot, inverse of the child's part of the
+    pivot, 1 if the row is redundant, else 0). A redundant row gets its scale (the pivot without other joints) as
+    compliance. row: tuple of load_row; inertia: factors (D, U) of the parent's inverse inertia.
     """
     d_x, d_y, d_w, u_xy, u_xw, u_yw = inertia
     x, y, w = row[0], row[0] * u_xy + row[1], row[0] * u_xw + row[1] * u_yw + row[2]
@@ -354,7 +365,8 @@ def apply_row(row, inertia):
 def finish_row(row, of_second, inertia, child_inertia, row_out):
     """Apply a row to its parent and write it as a TREE_ROW. Return (new D and U of the parent, 1 if redundant, else 0).
 
-    of_second: subtracted multiple of the second row; inertia, child_inertia: factors D and U of parent and child.
+    row: tuple of load_row; of_second: multiple of the second row that was subtracted from the row; inertia,
+    child_inertia: factors (D, U) of the inverse inertias of parent and child.
     """
     inertia, gain, inverse_pivot, inverse_child, singular = apply_row(row, inertia)
     d_x, d_y, d_w, u_xy, u_xw, u_yw = child_inertia
@@ -375,9 +387,10 @@ def factor_joint(joint_rows, motions, body, at, rows_out, parent_inout):
     """Factor the joint of a body to its parent, and update the articulated inverse inertia of the parent.
 
     Return the number of redundant rows. The rows are made uncorrelated in the response of the child, S = L D Lᵀ, by
-    modified Gram-Schmidt. The row with the greatest relative part of the child in its pivot comes first, so that the
-    multiples stay small if the child can hardly move. body, parent_inout: TREE_BODY rows; at: index of the first row of
-    the joint in rows_out, TREE_ROW rows.
+    modified Gram-Schmidt. The row in whose pivot the child has the greatest relative part comes first. So the
+    subtracted multiples stay small, even if the child can hardly move. joint_rows: see factor_trees; body,
+    parent_inout: TREE_BODY rows of the child and of the parent; at: index of the first row of the joint in rows_out
+    (TREE_ROW).
     """
     p = parent_inout
     count, is_a, j = body.count, body.parent_is_a, MOST_ROWS * body.joint
@@ -456,9 +469,9 @@ def factor_trees(
 def gather_violations(child, first, rows, joint_rows_inout, parent_inout, violations_out):
     """Update the velocity of a parent by the joint to a child whose subtree has been processed.
 
-    child, parent_inout: TREE_BODY rows; first: index of the first row of the joint; rows: TREE_ROW. violations_out
-    receives the violations of the rows for a parent at rest. JOINT_ROW.impulse receives the impulses of the factored
-    rows, without the effect of the other impulses on the parent that are found later.
+    child, parent_inout: TREE_BODY rows; first: index of the first row of the joint in `rows` (TREE_ROW). violations_out
+    receives the violation of each row for a parent at rest. JOINT_ROW.impulse receives the impulses of the factored
+    rows from the violations known so far; spread_impulses adds the effect of the impulses that act on the parent later.
     """
     c, p = child, parent_inout
     rhs_1, rhs_2 = 0.0, 0.0
@@ -481,11 +494,11 @@ def gather_violations(child, first, rows, joint_rows_inout, parent_inout, violat
 
 @inlined
 def follow_parent(parent, first, rows, violations, body_inout):
-    """Write the final velocity of a child, from the final velocity of its parent.
+    """Write the final velocity of a child, given the final velocity of its parent.
 
-    It is computed from the remaining violations of the rows, not from the impulses. So joints hold to the last digit,
-    even if impulses with long arms nearly cancel. parent, body_inout: TREE_BODY rows; first: index of the first row of
-    the joint.
+    The velocity follows from the violations of the rows that the parent leaves, not from the impulses. So joints hold
+    to the last digit, even if impulses with long arms nearly cancel. parent, body_inout: TREE_BODY rows of parent and
+    child; first: index of the first row of the joint in `rows` (TREE_ROW) and `violations` (see gather_violations).
     """
     p, c = parent, body_inout
     for r in range(c.count):
@@ -498,10 +511,11 @@ def follow_parent(parent, first, rows, violations, body_inout):
 
 @subkernel
 def spread_impulses(first, rows, joint_rows_inout, parent_inout, body_inout):
-    """Write the final impulses of the rows of a joint, given the impulse fx, fy, fw on its parent.
+    """Write the final impulses of the rows of a joint, given the impulse fx, fy, fw on the parent in parent_inout.
 
-    The impulses are added to the impulse on the parent, for the next joint of the parent, and to the impulse on the
-    child. parent_inout, body_inout: TREE_BODY rows; first: index of the first row of the joint; rows: TREE_ROW.
+    The final impulses are added to the impulse on the parent, for the next joint of the parent, and to the impulse on
+    the child. parent_inout, body_inout: TREE_BODY rows of parent and child; first: index of the first row of the joint
+    in `rows` (TREE_ROW); joint_rows_inout: JOINT_ROW, see gather_violations.
     """
     p, c = parent_inout, body_inout
     impulse_1, impulse_2 = 0.0, 0.0
@@ -536,7 +550,7 @@ def move_body(body, motion_inout):
 
 @inlined
 def place_body(motion, body_out):
-    """Copy the velocity of a MOTION row to its TREE_BODY row, and clear the impulse of the row."""
+    """Copy the velocity of a MOTION row to a TREE_BODY row, and clear the impulse of the TREE_BODY row."""
     b, m = body_out, motion
     b.vx = 0.0 if abs(m.vx) < AT_REST else m.vx
     b.vy = 0.0 if abs(m.vy) < AT_REST else m.vy
@@ -546,7 +560,10 @@ def place_body(motion, body_out):
 
 @subkernel
 def sweep_trees(count, forest_inout, joint_rows_inout):
-    """Solve all trees for the velocities in the first `count` slots, from leaves to roots and back. O(joints)."""
+    """Solve all trees for the velocities in the first `count` slots, from the leaves to the roots and back.
+
+    O(joints).
+    """
     f = forest_inout
     for slot in range(count - 1, -1, -1):
         body = f.bodies[slot]

@@ -172,7 +172,7 @@ def lay_out(starts, blocks_out):
     """Assign blocks to the contacts of each colour, and clear the unused lanes. Return the number of blocks. O(blocks).
 
     starts (colours + 2) int64: index of the first contact of each slot, then the number of contacts. Slot 0 holds the
-    contacts without a colour, and each of these gets a separate block. Slot k + 1 holds colour k.
+    contacts without a colour, each of which gets a separate block. Slot k + 1 holds the contacts of colour k.
     """
     found = 0
     for slot in range(len(starts) - 1):
@@ -216,9 +216,9 @@ FLAT = 1e-3  # determinant relative to k_11 · k_22 below which the two points c
 
 @inlined
 def block_factor(off_diagonal_1, off_diagonal_2):
-    """Return 1 / (1 - off_diagonal_1 · off_diagonal_2), the factor of solve_two for the case that both points press.
+    """Return 1 / (1 - off_diagonal_1 · off_diagonal_2), which solve_two needs if both points have an impulse.
 
-    The result is 0 if the points nearly coincide.
+    The result is 0 if the points nearly coincide. off_diagonal_1, off_diagonal_2: see solve_two.
     """
     apart = 1.0 - off_diagonal_1 * off_diagonal_2
     return 1.0 / apart if apart > FLAT else 0.0
@@ -228,9 +228,9 @@ def block_factor(off_diagonal_1, off_diagonal_2):
 def solve_two(change_1, change_2, off_diagonal_1, off_diagonal_2, factor, old_1, old_2):
     """Return the accumulated impulses >= 0 of two points, such that each point gets its velocity change or separates.
 
-    change_1, change_2: change of the impulse of each point if the other point did not exist. off_diagonal_1,
-    off_diagonal_2: k_12 / k_11 and k_12 / k_22. factor: see block_factor. old_1, old_2: accumulated impulses before. If
-    the points nearly coincide, or rounding excludes all four cases, the points are solved in sequence. All cases are
+    change_1, change_2: change of impulse that each point would need alone. off_diagonal_1, off_diagonal_2: k_12 / k_11
+    and k_12 / k_22, of the inverse effective masses k. factor: see block_factor. old_1, old_2: impulses before. If the
+    points nearly coincide, or rounding excludes all four cases, one point is solved after the other. All cases are
     computed and one is selected, so that the loop has no branch and vectorises.
     """
     only_1 = old_1 + change_1 + off_diagonal_1 * old_2
@@ -269,7 +269,7 @@ def gather_velocities(a, b, lane, s_out):
 
 @inlined
 def gather_poses(a, b, lane, s_out):
-    """Copy the displacements and rotations of MOTION rows a and b since the start of the step to a lane of s_out.
+    """Copy displacements and rotations since the start of the step from MOTION rows a and b to a lane of s_out.
 
     s_out: gathered values, see GATHERED.
     """
@@ -294,9 +294,9 @@ def scatter_velocities(s, lane, a_out, b_out):
 
 @inlined
 def measure_gaps(lane, s, c_inout):
-    """Write the separations [px] at both points of a contact at the present poses.
+    """Write the separations [px] at both points of a contact at the present poses. s: gathered poses, see GATHERED.
 
-    Both points rotate with their bodies. On a rounded shape the point on the core (the shape without its radius)
+    Both points rotate with their bodies. On a rounded shape, the point on the core (the shape without its radius)
     rotates, and the distance from the core to the surface is constant.
     """
     c = c_inout
@@ -321,11 +321,11 @@ def measure_gaps(lane, s, c_inout):
 
 @inlined
 def arms_of(x, y, radius, cosine, sine, start_nx, start_ny, nx, ny):
-    """Return (moment arm of an impulse along the normal, along the tangent) [px] at a point of a rotated body.
+    """Return the moment arms [px] of an impulse at a point of a rotated body: (along the normal, along the tangent).
 
-    x, y [px]: the point relative to the centre of mass before the rotation (cosine, sine). radius [px]: distance of the
-    point from the core of the shape, in the direction of the normal. (start_nx, start_ny), (nx, ny): normal before and
-    after the rotation.
+    x, y [px]: the point relative to the centre of mass before the rotation by (cosine, sine). radius [px]: distance of
+    the point from the core of the shape, in the direction of the normal. (start_nx, start_ny), (nx, ny): normal before
+    and after the rotation.
     """
     x -= radius * start_nx
     y -= radius * start_ny
@@ -339,7 +339,7 @@ def write_arms(lane, cos_a, sin_a, cos_b, sin_b, c_inout):
     """Write the moment arms of both points of a contact, for bodies rotated since the start of the step.
 
     cos_a, sin_a, cos_b, sin_b: the rotations. The point on the core of a shape rotates with the body; the radius from
-    the core to the surface is along the normal.
+    the core to the surface stays along the normal.
     """
     c = c_inout
     nx = c[NX + lane]
@@ -381,7 +381,7 @@ def write_masses(lane, c_inout):
 
 @inlined
 def clamp(impulse, limit):
-    """Return an impulse clamped to ± limit."""
+    """Return an impulse clamped to the range from -limit to limit."""
     impulse = impulse if impulse < limit else limit
     return impulse if impulse > -limit else -limit
 
@@ -389,7 +389,7 @@ def clamp(impulse, limit):
 def make_friction(second: bool, rotation: bool, sums: bool) -> Any:
     """Return the function that applies friction at one point of a contact, in a world with or without rotation.
 
-    second: True for the second point; sums: True to add each impulse to the total of the step (several substeps).
+    second: True for the second point; sums: True to also add each impulse to the total of a step of several substeps.
     """
     a_line, b_line = (TANGENT_A_2, TANGENT_B_2) if second else (TANGENT_A_1, TANGENT_B_1)
     mass_line, impulse_line = (TANGENT_MASS_2, TANGENT_2) if second else (TANGENT_MASS_1, TANGENT_1)
@@ -443,7 +443,7 @@ def relative_speed(c, lane, second, a, b):
 
 @subkernel
 def push_pair(c, lane, second, impulse, a_inout, b_inout):
-    """Apply an impulse along the normal at a contact point: to B along the normal, to A in the opposite direction."""
+    """Apply an impulse along the normal at a contact point: `impulse` to B along the normal, the opposite one to A."""
     x, y = impulse * c[NX + lane], impulse * c[NY + lane]
     a_inout.vx -= a_inout.inverse_mass * x
     a_inout.vy -= a_inout.inverse_mass * y
@@ -487,7 +487,7 @@ TURNING = 1e-5  # [rad] rotation in a step above which the arms of a round conta
 
 @subkernel
 def touches_slowly(separation, speed, limits):
-    """Return whether a contact point is within the slop, and slower than impact_speed in both directions."""
+    """Return whether a contact point is within the slop, with a normal speed of at most impact_speed, up or down."""
     return separation <= limits.slop and abs(speed) <= limits.impact_speed
 
 
@@ -495,8 +495,8 @@ def touches_slowly(separation, speed, limits):
 def limit_impulses(count, motions, squeeze, h, blocks_inout):
     """Limit the normal impulses of the contacts in islands squeezed between faces, for a substep of h [s]. O(lanes).
 
-    The cached impulses in the lanes are limited immediately. count: number of blocks; squeeze: SQUEEZE rows, one for
-    each MOTION row.
+    The cached impulses in the lanes are limited at once. count: number of blocks; motions: MOTION rows; squeeze:
+    SQUEEZE rows with the limits, one for each MOTION row.
     """
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
@@ -516,11 +516,11 @@ def limit_impulses(count, motions, squeeze, h, blocks_inout):
 
 @inlined
 def sticks(a, b, contact, distance):
-    """Return whether two faces stick: the normal and the moment arms of the detection are then used in the step.
+    """Return whether two faces stick: the step then uses the normal and moment arms from the time of detection.
 
     Two faces stick if the contact carries a load, neither shape is round, neither body has rotated by more than
     STICKING_TURN since detection, and the relative displacement of the centres is at most `distance` [px]. An unloaded
-    contact never sticks, because it has to leave its overlap. a, b: BODY rows.
+    contact never sticks, because it has to leave its overlap. a, b: BODY rows; contact: CONTACT row.
     """
     c = contact
     x, y = b.center_x - a.center_x - c.apart_x, b.center_y - a.center_y - c.apart_y
@@ -564,8 +564,8 @@ def speed_of_drift(a, b, rate, slop, contact_inout):
     """Return the surface speed [px/s] that undoes the tangential drift of a sticking contact since its last slip.
 
     Without this speed a light plank under a heavy load creeps, because the passes leave a small tangential speed. A
-    drift of more than DRIFT_SLOPS slops counts as slipping, and is not undone. a, b: BODY rows; rate [1/s]: fraction of
-    the drift that is undone per second; slop [px].
+    drift of more than DRIFT_SLOPS · slop [px] counts as a slip, and is not undone. a, b: BODY rows; rate [1/s]:
+    fraction of the drift that is undone per second.
     """
     c = contact_inout
     drift = tangential_drift(a, b, c)
@@ -581,8 +581,8 @@ def speed_of_drift(a, b, rate, slop, contact_inout):
 def how_it_turns(contact, a, b, dt, lane, c):
     """Return how the normal and moment arms of a contact follow its bodies in the step: FIXED, ARMS or NORMAL_OF_….
 
-    The result is FIXED if no shape is round, if the bodies (MOTION rows a, b) hardly rotate, or for an elastic impact:
-    restitution uses the arms at the start of the step.
+    The result is FIXED if no shape is round, if the bodies (MOTION rows a, b) hardly rotate in dt [s], or if the impact
+    is elastic, because restitution uses the arms at the start of the step. c, lane: the contact's lane in a block.
     """
     m = contact
     elastic = m.restitution > 0.0 and (c[LOADED + lane] == 0.0 or c[BOUNCING + lane] > 0.0)
@@ -602,7 +602,7 @@ def rocks(body):
 
 @inlined
 def rolling_limit(contact, p, q, limits):
-    """Return the greatest rolling resistance torque of a contact per normal impulse [px]. p, q: BODY rows."""
+    """Return the greatest torque of rolling resistance per normal impulse of a contact [px]. p, q: its BODY rows."""
     is_round = contact.radius_a > 0.0 or contact.radius_b > 0.0
     still = is_round and contact.friction > 0.0 and rocks(p) and rocks(q)
     return max(contact.rolling_resistance, limits.rocking_resistance if still else 0.0)
@@ -612,8 +612,8 @@ def rolling_limit(contact, p, q, limits):
 def write_softness(contact, sticking, a, b, degrees, context, lane, c_out):
     """Write the lane fields that determine how a contact separates, from PUSH_OUT_SHARE to STRIKE_LIMIT and STIFFNESS.
 
-    Also write whether the contact is resting, loaded and bouncing. a, b: MOTION rows; degrees: numbers of contacts of A
-    and of B.
+    Also write whether the contact is resting, loaded and bouncing. sticking: see sticks; a, b: MOTION rows; degrees:
+    numbers of contacts of A and of B; context: see StepContext.
     """
     m = contact
     limits = context.limits
@@ -660,7 +660,7 @@ def make_write_point(second: bool) -> Callable:
     def write_point(contact, p, q, sticking, h, lane, c_out):
         """Write one point of a contact, its separation, and its cached impulses for a substep of h [s].
 
-        p, q: BODY rows of A and B; sticking: see sticks.
+        contact: CONTACT row; p, q: BODY rows of A and B; sticking: see sticks.
         """
         m = contact
         c = c_out
@@ -696,7 +696,7 @@ write_first, write_second = make_write_point(False), make_write_point(True)
 
 @inlined
 def copy_first(lane, c_inout):
-    """Write the second point of a contact with one point: a copy of the first point, without impulses."""
+    """Write the second point of a contact that has one point: a copy of the first point, without impulses."""
     c = c_inout
     c[AX_2 + lane] = c[AX_1 + lane]
     c[AY_2 + lane] = c[AY_1 + lane]
@@ -729,8 +729,8 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
     def prepare_lanes(bodies, motions, plan, group, context, contacts_inout, blocks_out, work_inout):
         """Write the contacts of a group into the lanes of blocks, each block with contacts of one colour. O(edges).
 
-        plan: see contact_lanes.Plan; group: see contact_lanes.Group. Return the number of blocks. Contacts are read in
-        memory order, which the processor prefetches. The blocks being filled, one for each colour, fit into its cache.
+        plan, group: see contact_lanes.Plan and Group. Return the number of blocks. Contacts are read in memory order,
+        which the processor prefetches. The blocks being filled, one for each colour, fit into its cache.
         """
         starts = group.starts
         count = lay_out(starts, blocks_out)

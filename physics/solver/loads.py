@@ -1,8 +1,8 @@
-"""Release of cached forces under a heavy load that is removed or moved; these forces would throw the bodies below.
+"""Removal of the cached forces under a heavy load that is removed or moved; they would throw the bodies below.
 
-A contact starts from its force at the end of the last step. After a load of a thousand times the mass of a body is
-removed, the cached force is a thousand times the force needed. A solver pass removes only a part of the excess, which
-depends on the order of the contacts; the rest becomes velocity.
+The solver starts a contact from its force at the end of the last step. After a load of a thousand times the mass of a
+body is removed, the cached force is a thousand times the force needed. A solver pass removes only a part of the excess,
+which depends on the order of the contacts; the rest becomes velocity.
 """
 
 import math
@@ -39,10 +39,11 @@ def link_contacts(contacts, heads_out, nexts_out):
 def forget_below(rows, size, bodies, blow, stamp, lists_inout, contacts_inout):
     """Clear the cached forces of the bodies that rest under groups of bodies about to be removed or moved.
 
-    rows: BODY rows of the groups, `size` rows per group. If a body of the group presses on a body outside the group
-    with more than `blow` [px/s2], force per mass, all contacts of the outer body lose their forces. So do all contacts
-    of the dynamic bodies that contacts connect to the outer body. lists_inout: see Lists; stamp: at least as great as
-    all marks. Return the greatest stamp used. O(contacts of the groups and of the connected bodies).
+    rows: BODY rows of the groups, `size` rows per group. If bodies of the group press on an outer body with a force per
+    mass of more than `blow` [px/s2], all contacts of the outer body lose their forces. So do all contacts of the
+    dynamic bodies that are connected to the outer body by contacts. bodies: all BODY rows; stamp: a number not less
+    than any mark in lists_inout (see Lists). Return the greatest stamp used. O(contacts of the groups and of the
+    connected bodies).
     """
     heads, nexts = lists_inout.heads, lists_inout.nexts
     marks, reached = lists_inout.marks, lists_inout.reached
@@ -105,7 +106,7 @@ class ContactLists:
         self.__init__()
 
     def _refresh(self, contacts, bodies, step):
-        """Rebuild the lists if they were built for other contacts or another step."""
+        """Rebuild the lists, unless they were built for these contacts in this step. step: number of the step."""
         lists = self.lists
         if contacts is self.contacts and step == self.step and len(lists.heads) >= len(bodies):
             return
@@ -137,15 +138,15 @@ class ContactLists:
 def blow_of(tables: WorldTables) -> float:
     """Return the force per mass [px/s2] above which a cached force would throw a body after its load is removed.
 
-    It is BLOW times gravity, and 0 in a world without gravity.
+    The result is BLOW times gravity, and 0 in a world without gravity.
     """
     return BLOW * math.hypot(*tables.gravity) if tables.effects.gravity else 0.0
 
 
 def is_any_blow(bodies: np.ndarray, contacts: np.ndarray, ids: np.ndarray, blow: float) -> bool:
-    """Return whether any contact of these bodies has a cached force per mass of the other body above `blow` [px/s2].
+    """Return whether a contact of these bodies presses on its other body with more than `blow` [px/s2], force per mass.
 
-    ids: ids of the bodies.
+    The forces are the cached contact forces. ids: ids of the bodies.
     """
     force = contacts["normal_force_1"] + np.where(contacts["count"] == 2, contacts["normal_force_2"], 0.0)
     for side, other in (("body_a", "body_b"), ("body_b", "body_a")):

@@ -35,7 +35,7 @@ def kinetic_energy(motion):
 
 @subkernel
 def reset_motion(motion_out):
-    """Write the values that every MOTION row has at the start of a step: no displacement, no mass, no contact."""
+    """Write the values that every MOTION row has at the start of a step: no displacement, infinite mass, no contact."""
     m = motion_out
     m.pseudo_vx, m.pseudo_vy, m.pseudo_w = 0.0, 0.0, 0.0
     m.dx, m.dy = 0.0, 0.0
@@ -73,7 +73,7 @@ def write_fixed(motions_out, lists_out):
 
 
 class MotionLists(NamedTuple):
-    """Arrays with one entry for each MOTION row, and lists of rows by kind."""
+    """The kind of each MOTION row in arrays, the MOTION row of each body, and lists of MOTION rows by kind."""
 
     motion_of: np.ndarray  # (bodies) int32 MOTION row of each body; 0: the body does not move
     has_finite_mass: np.ndarray  # (motions) bool an impulse changes the velocity of the body
@@ -98,9 +98,10 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
 
     @kernel
     def gather_motions(rows, bodies, air, motions_out, lists_out, work_inout):
-        """Write a MOTION row for each body of `rows`, from row 1 on. O(rows).
+        """Write a MOTION row for each BODY row listed in `rows`, from MOTION row 1 on. O(rows).
 
-        Return (number of dynamic bodies, number of moving kinematic bodies). air: see Air; lists_out: see MotionLists.
+        Return (number of dynamic bodies, number of moving kinematic bodies). air: see Air; lists_out: see MotionLists;
+        work_inout: counters.
         """
         write_fixed(motions_out, lists_out)
         dynamic = 0
@@ -160,10 +161,10 @@ def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
     def integrate_substep_velocities(members, h, drag_rate, motions_inout):
         """Integrate the velocities of island bodies over a substep of h [s], and warm start their contacts. O(members).
 
-        members: MOTION rows. Accelerations are added first (a half of them if `halves`, see accelerate_again), then
-        drag_rate [1/s] is applied implicitly, which is stable at any rate. The warm start adds the change of velocity
-        by the contact impulses of the last substep, v - free_v, once more. Impulses and moment arms are unchanged, so
-        no contact is read.
+        members: MOTION rows. Accelerations are added first: half of them for bodies with MOTION.halves, see
+        accelerate_again. Then drag_rate [1/s] is applied implicitly, which is stable at any rate. The warm start
+        repeats the change of velocity by the contact impulses of the last substep, v - free_v. Impulses and moment arms
+        are unchanged, so no contact is read.
         """
         keep = 1.0 / (1.0 + drag_rate * h)
         for i in range(len(members)):
@@ -191,7 +192,7 @@ def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
 
 @subkernel
 def change_velocity(vx, vy, w, motion_inout):
-    """Add to the velocity of a MOTION row, and as much to its velocity before contacts (free_vx, free_vy, free_w).
+    """Add (vx, vy) [px/s] and w [1/s] to the velocity of a MOTION row and to its velocity before contacts (free_…).
 
     So the warm start of contacts in the next substep does not add the change again.
     """
@@ -208,9 +209,9 @@ def change_velocity(vx, vy, w, motion_inout):
 def accelerate_again(members, h, motions_inout):
     """Add the second half of the acceleration of a substep of h [s] to bodies with MOTION.halves. O(members).
 
-    These bodies have rigid joints and no contacts. Half of the acceleration acts before the positions are integrated,
-    half afterwards, so errors of energy are of second order in h: Verlet integration with constraints (RATTLE, Andersen
-    1983).
+    members: MOTION rows. Bodies with MOTION.halves have rigid joints and no contacts. Half of the acceleration acts
+    before the positions are integrated, half afterwards, so errors of energy are of second order in h: Verlet
+    integration with constraints (RATTLE, Andersen 1983).
     """
     for i in range(len(members)):
         m = motions_inout[members[i]]
@@ -270,7 +271,7 @@ def move_kinematic(kinematic, time, motions_inout):
 def is_usable(body, speed_limit):
     """Return whether the numbers of a BODY row are finite and within limits, so that the next step can use them.
 
-    Quarantined bodies are not tested and count as usable. speed_limit [px/s].
+    Bodies in quarantine are not tested and count as usable. speed_limit [px/s]: greatest permitted speed.
     """
     return body.quarantined or (is_within_limits(body) and is_finite_in_step(body, 0.0, 0.0, speed_limit, 0.0))
 
@@ -279,8 +280,8 @@ def is_usable(body, speed_limit):
 def scatter_motions(rows, motions, speed_limit, lists_inout, bodies_inout):
     """Write velocities, poses and centres of mass back to the bodies, and store the poses before the step. O(rows).
 
-    rows: BODY rows, in the order of MOTION rows from 1 on. Return the number of bodies that are not usable, see
-    is_usable.
+    rows: indices of BODY rows, in the order of the MOTION rows from 1 on; speed_limit [px/s]: see is_usable. Return the
+    number of bodies that are not usable.
     """
     non_finite_count = 0
     for k in range(len(rows)):
@@ -357,7 +358,7 @@ class Motions:
             self.lists.rank[characters] = np.where(state.characters["wedged"], STATIC_RANK, 0)
 
     def scatter(self, state: StepState) -> None:
-        """Write the MOTION rows back to the bodies."""
+        """Write velocities and poses from the MOTION rows back to the bodies."""
         rows, bodies, limit = state.awake.bodies, state.bodies, state.tolerances.speed_limit
         state.non_finite_count = scatter_motions(rows, self.used, limit, self.lists, bodies)
         # A rotated mask may be at an angle for which no raster has been drawn yet.
@@ -380,7 +381,7 @@ WRITES = (
 def run_solver(state: StepState, solve: Callable[[StepState, Any], float]) -> None:
     """Run a stacking solver: gather the motions, call solve(state, contacts), and write the motions back.
 
-    solve is not called in a step of length 0; without awake bodies nothing is done.
+    `solve` is not called in a step of length 0, and its result is not used. Without awake bodies nothing is done.
     """
     if not len(state.awake.bodies):
         return

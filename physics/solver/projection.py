@@ -1,4 +1,7 @@
-"""Projection: overlapping bodies are pushed apart by their inverse masses; PUSH rows for solvers without warm start."""
+"""Projection: contacts move overlapping bodies apart in proportion to their inverse masses, without warm start.
+
+A PUSH row holds one contact point, in the order in which the solver works on the points.
+"""
 
 import math
 from collections.abc import Callable
@@ -38,9 +41,10 @@ class Press(NamedTuple):
 
 @subkernel
 def press_of(press, body, nx, ny):
-    """Return the acceleration [px/s2] of a BODY row by gravity and wind along a normal (nx, ny).
+    """Return the acceleration [px/s2] that gravity and wind give a BODY row along a normal (nx, ny).
 
-    The result is 0 for a body that is not dynamic, and infinite if a force acted on the body in this step.
+    The result is 0 for a body that is not dynamic, and infinite if a force acted on the body in this step. press: see
+    Press.
     """
     if body.kind != DYNAMIC:
         return 0.0
@@ -55,7 +59,8 @@ def press_of(press, body, nx, ny):
 def restitution_threshold(press, a, b, nx, ny):
     """Return the approach speed [px/s] up to which two BODY rows do not bounce along a normal (nx, ny).
 
-    It is 0 if no acceleration presses the bodies together; see step_context.restitution_threshold.
+    The speed is 0 if no acceleration presses the bodies together; see step_context.restitution_threshold. press: see
+    Press.
     """
     into = max(press_of(press, a, nx, ny), 0.0) + max(press_of(press, b, -nx, -ny), 0.0)
     if into == 0.0:
@@ -102,8 +107,9 @@ def prepare_pushes(geometry, bodies, shapes, manifolds, conveyor, press, pushes_
 def limit_pushes(pushes, bodies, push_speed, dt, reach_out):
     """Write the greatest displacement [px] by which contacts may push each body in this step. O(pushes).
 
-    It is dt · (push_speed + v), where v is the greatest of the speed of the body and the approach speeds of its
-    contacts. push_speed [px/s]; dt [s]; reach_out (bodies): written for the bodies of PUSH rows.
+    The displacement is dt · (push_speed + v), where v is the greatest of the speed of the body and the approach speeds
+    of its contacts. push_speed [px/s]: speed at which overlaps are removed; dt [s]: step length; reach_out (bodies)
+    [px]: result, written only for the bodies of PUSH rows.
     """
     for i in range(len(pushes)):
         r = pushes[i]
@@ -163,7 +169,7 @@ class PushSet:
         write_caches(tables, state.bodies, state.shapes, state.contact_rows)
 
     def solve(self, state: StepState, run: Callable, *settings: Any) -> None:
-        """Run one solver pass over the PUSH rows. run: kernel; settings: first arguments of the kernel."""
+        """Run one solver pass over the PUSH rows, kernel `run`. settings: the first arguments of this kernel."""
         run(*settings, state.bodies, self.rows, state.work)
 
     def store(self, state: StepState) -> None:
@@ -185,8 +191,7 @@ IGNORED = ("stacking", "sleeping", "joints")  # effects that this solver ignores
 def push(x, y, anchor_x, anchor_y, rotation, body_inout):
     """Apply an impulse (x, y) to a BODY row at a point.
 
-    anchor_x, anchor_y [px]: the point relative to the centre of mass; rotation: whether the impulse also rotates the
-    body.
+    anchor_x, anchor_y [px]: the point relative to the centre of mass; rotation: whether bodies rotate in this world.
     """
     body_inout.vx += body_inout.inverse_mass * x
     body_inout.vy += body_inout.inverse_mass * y
@@ -315,9 +320,9 @@ def solve(state: StepState, contacts: PushSet) -> float:
 
 
 def _moves(bodies, rows, before):
-    """Return (displacements (n, 2) [px] of the bodies in these rows since `before`, their lengths (n,) [px]).
+    """Return (displacements (n, 2) [px] of bodies since the positions `before`, their lengths (n,) [px]).
 
-    before: positions (n, 2) [px].
+    rows: indices of the BODY rows; before (n, 2) [px].
     """
     moves = np.column_stack([bodies["x"][rows], bodies["y"][rows]]) - before
     return moves, np.hypot(moves[:, 0], moves[:, 1])
@@ -326,8 +331,8 @@ def _moves(bodies, rows, before):
 def _slow_down(bodies, rows, before, reach):
     """Limit the displacement of each body by contacts to `reach` (n,) [px], however many contacts push the body.
 
-    Only the sum over all passes is limited, because pushes in opposite directions cancel. before (n, 2) [px]: positions
-    of these rows before the passes.
+    Only the sum over all passes is limited, because pushes in opposite directions cancel. rows: indices of the BODY
+    rows; before (n, 2) [px]: their positions before the passes.
     """
     moves, ways = _moves(bodies, rows, before)
     far = ways > reach
@@ -339,8 +344,8 @@ def _slow_down(bodies, rows, before, reach):
 def _hold_back(state, rows, before):
     """Stop bodies that contacts pushed through a wall: move them back, then forward until a resting body blocks them.
 
-    before (n, 2) [px]: positions of these rows before the passes. Only pushes longer than CORE times the least half
-    extent of a body are tested.
+    rows: indices of the BODY rows; before (n, 2) [px]: their positions before the passes. Only bodies that were pushed
+    by more than CORE times their least half extent are tested.
     """
     bodies = state.bodies
     moves, ways = _moves(bodies, rows, before)
@@ -365,7 +370,7 @@ def _hold_back(state, rows, before):
     ),
 )  # fmt: skip
 def projection(state: StepState) -> None:
-    """Separate the bodies that overlap after their motion. A step of length 0 changes nothing."""
+    """Move bodies apart that overlap after their motion. A step of length 0 changes nothing."""
     if state.dt > 0.0:
         solve(state, state.workspace.contacts)
         place_shapes(state)

@@ -62,13 +62,13 @@ def make_impacts(room: int) -> np.ndarray:
 
 @inlined
 def line_of(blocks, impact, line):
-    """Return a lane field of the contact of an impact. line: offset of the field in a block, such as lanes.NX."""
+    """Return a lane field of the contact of an IMPACT row. line: offset of the field in a block, such as lanes.NX."""
     return blocks.lines[impact.block * SIZE + line + impact.lane]
 
 
 @inlined
 def points_of(blocks, impact):
-    """Return the number of contact points of an impact."""
+    """Return the number of contact points of an IMPACT row, 1 or 2."""
     return 2 if line_of(blocks, impact, at.MASS_2) > 0.0 else 1
 
 
@@ -131,7 +131,7 @@ def is_against_static(blocks, impact):
 
 @subkernel
 def mover_of(blocks, impact, motions):
-    """Return (MOTION row of the body of finite mass in an impact on a static body, its side: 1.0 for B, -1.0 for A)."""
+    """Return (MOTION row of the body of finite mass in an impact on a static body, sign: 1.0 for B, -1.0 for A)."""
     row = blocks.motion_b[impact.block, impact.lane]
     if motions[row].inverse_mass > 0.0:
         return row, 1.0
@@ -143,8 +143,8 @@ def link_impacts(blocks, count, impacts_inout, motions_inout):
     """Link the impacts of each body on static bodies into a list. O(count).
 
     MOTION.last_impact, in other functions `last`, is the index of the last impact of the body, plus one. IMPACT.before
-    is the index of the previous impact of the same body, plus one. A body with an impact on a body of finite mass, or
-    with a resting contact among the impacts, gets LEFT_OUT. count: number of impacts.
+    is the index of the previous impact of the same body, plus one. last_impact is LEFT_OUT for a body with an impact on
+    a body of finite mass, or with a resting contact among its impacts. count: number of IMPACT rows.
     """
     for i in range(count):
         r = impacts_inout[i]
@@ -183,8 +183,8 @@ def arm_of(blocks, impact, second, sign):
 def is_simulated(blocks, impacts, last, contacts):
     """Return whether the impacts of a body have to be simulated in the order of their times.
 
-    This is the case if impulses acted at two or more points of the body, and at least one of these points approached
-    fast enough to bounce. Exception: a single manifold with two such fast points. last: see link_impacts.
+    They have to if impulses acted at two or more points of the body, and at least one of these points approached fast
+    enough to bounce. Exception: a single manifold, both points of which are fast. last: see link_impacts.
     """
     points = 0
     rows = 0
@@ -207,7 +207,8 @@ def is_simulated(blocks, impacts, last, contacts):
 def speed_now(blocks, impact, second, sign, change):
     """Return the present approach speed [px/s] of a point, after the simulated impulses on the body.
 
-    change: the last IMPACT row of the body, with the sum of the changes of velocity; sign: see mover_of.
+    second: True for the second point of the impact; sign: see mover_of; change: the last IMPACT row of the body, with
+    the sum of the changes of its velocity.
     """
     r = impact
     along = change.vx * line_of(blocks, r, at.NX) + change.vy * line_of(blocks, r, at.NY)
@@ -217,9 +218,9 @@ def speed_now(blocks, impact, second, sign, change):
 
 @inlined
 def strike(blocks, impact, second, sign, impulse, mover, change_inout):
-    """Add the change of velocity by an impulse at a point to the sum of the body.
+    """Add the change of velocity by an impulse at a point to the sum in the last IMPACT row of the body, change_inout.
 
-    mover: MOTION row of the body; sign: see mover_of; change_inout: the last IMPACT row of the body.
+    mover: MOTION row of the body; second, sign: see speed_now.
     """
     r = impact
     change_inout.vx += mover.inverse_mass * sign * impulse * line_of(blocks, r, at.NX)
@@ -229,7 +230,7 @@ def strike(blocks, impact, second, sign, impulse, mover, change_inout):
 
 @subkernel
 def soonest_impact(blocks, impacts, last, motions):
-    """Return (time [s] to the next hit of a body, approach speed [px/s], 0: no hit). last: see link_impacts."""
+    """Return (time [s] to the next hit of a body, approach speed [px/s] then; 0: no hit). last: see link_impacts."""
     soonest = math.inf
     hit_speed = 0.0
     k = last
@@ -261,7 +262,7 @@ def close_gaps(blocks, last, time, motions, impacts_inout):
 
 @subkernel
 def list_hits(blocks, last, span, motions, impacts_inout):
-    """Write which points of a body hit within a span [s], and their separation speeds. last: see link_impacts."""
+    """Write which points of a body hit within `span` [s], and their separation speeds. last: see link_impacts."""
     k = last
     while k != NO_IMPACT:
         r = impacts_inout[k - 1]
@@ -280,7 +281,7 @@ def list_hits(blocks, last, span, motions, impacts_inout):
 
 @inlined
 def hits_at(impact, second):
-    """Return (whether the first or second point hits now, its impulse of this moment, its separation speed [px/s])."""
+    """Return for a point (whether it hits now, its impulse in the present moment, separation speed [px/s] to reach)."""
     r = impact
     if second:
         return r.bounces_2, r.blow_2, r.wanted_2
@@ -289,7 +290,7 @@ def hits_at(impact, second):
 
 @inlined
 def add_blow(second, change, impact_inout):
-    """Add a change of impulse at a point to its impulse of this moment and to its impulse of the step."""
+    """Add `change` to the impulse of a point in the present moment, and to its impulse in the step."""
     if second:
         impact_inout.blow_2 += change
         impact_inout.impulse_2 += change
@@ -302,8 +303,8 @@ def add_blow(second, change, impact_inout):
 def solve_pair(blocks, i, first_point, j, second_point, last, motions, impacts_inout):
     """Solve two points of one body that hit at the same time. Return the greater change of a normal speed [px/s].
 
-    i, j: IMPACT rows of the first and the second point; first_point, second_point: True for the second point of the
-    row. If both arguments name the same point, it is solved alone. last: see link_impacts.
+    i, j: IMPACT rows of the first and of the other point; first_point, second_point: True if it is the second point of
+    its row. If both points are the same, this point is solved alone. last: see link_impacts.
     """
     r = impacts_inout[i]
     o = impacts_inout[j]
@@ -393,7 +394,7 @@ def solve_alone(blocks, last, motions, impacts_inout):
 def simulate_impacts(blocks, last, dt, contacts, motions, impacts_inout):
     """Simulate the impacts of a body over dt [s] in the order of their times, and write their impulses.
 
-    Return (time [s] of the step after the last hit, whether MOST_IMPACTS and MOST_ROUNDS were enough). last: see
+    Return (time [s] left of the step after the last hit, whether MOST_IMPACTS and MOST_ROUNDS were enough). last: see
     link_impacts; the IMPACT row last - 1 receives the displacement of the body up to the last hit.
     """
     k = last
@@ -425,8 +426,8 @@ def simulate_impacts(blocks, last, dt, contacts, motions, impacts_inout):
 def rub(impact, second, to_rest, motions_inout, blocks_inout):
     """Remove the friction impulse at a point of an impact, or apply friction for the simulated normal impulse.
 
-    Return the change of the tangential speed [px/s]. to_rest: False to remove, True to apply. As in the substeps, only
-    the part of the normal impulse that stops the approach counts for the limit of friction.
+    Return the change of the tangential speed [px/s]. to_rest: True to apply friction, False to remove it. As in the
+    substeps, only the part of the normal impulse that stops the approach counts for the limit of friction.
     """
     r = impact
     lane = r.lane
@@ -551,8 +552,8 @@ def bounces(speed, threshold, total):
 def bounce_once(wanted, c, lane, second, total, a_inout, b_inout):
     """Apply an impulse at one point of a contact, so that the point separates at `wanted` [px/s].
 
-    Return the change of the impulse. c: the fields of a block; second: True for the second point; total: impulse of the
-    point before.
+    Return the change of the impulse. c, lane: the contact's lane in a block; second: True for the second point; total:
+    impulse of the point before.
     """
     mass = c[(at.MASS_2 if second else at.MASS_1) + lane]
     missing = wanted - relative_speed(c, lane, second, a_inout, b_inout)
@@ -587,8 +588,8 @@ def bounce_together(wanted_1, wanted_2, old_1, old_2, c, lane, a_inout, b_inout)
 def list_bounces(contacts, count, motions_inout, impacts_inout, blocks_inout, work_inout):
     """Keep the IMPACT rows with a point that bounces, and write their separation speeds [px/s] after the impact.
 
-    Return (number of rows kept, whether two of these share a dynamic body). Simulated impacts are dropped. The bodies
-    are marked in MOTION.last_impact. count: number of rows before.
+    Return (number of rows kept, whether two of these share a body of finite mass). Simulated impacts are dropped. The
+    bodies of the kept rows are marked in MOTION.last_impact. count: number of rows before.
     """
     blocks = blocks_inout
     kept = 0
@@ -621,7 +622,7 @@ def list_bounces(contacts, count, motions_inout, impacts_inout, blocks_inout, wo
 
 @subkernel
 def mark_bodies(blocks, block, lane, motions_inout):
-    """Mark the bodies of finite mass of a contact. Return whether one of them was already marked."""
+    """Mark the bodies of finite mass of the contact in a lane (last_impact). Return whether one was already marked."""
     shared = False
     for side in range(2):
         m = motions_inout[(blocks.motion_a if side == 0 else blocks.motion_b)[block, lane]]
@@ -635,9 +636,9 @@ def mark_bodies(blocks, block, lane, motions_inout):
 def list_handed_on(blocks_count, count, motions_inout, impacts_inout, blocks_inout):
     """Append the contacts that can pass an impact on: contacts of marked bodies with an impulse in this step.
 
-    Return the number of IMPACT rows. The bodies of these contacts are also marked, until no further contact is found.
-    Such a contact does not bounce: its approach speed may remain, but not increase. blocks_count: number of blocks;
-    count: number of IMPACT rows before.
+    The bodies of an appended contact are marked too, and the search is repeated until it finds no further contact. An
+    appended contact does not bounce: its approach speed may remain, but not increase. blocks_count: number of blocks;
+    count: number of IMPACT rows before. Return the number of IMPACT rows.
     """
     blocks = blocks_inout
     grown = True
@@ -718,7 +719,7 @@ def are_unloaded(blocks, impacts, count, contacts, speed, dt):
 def bounce_in_rounds(count, hits_alone, least, impacts_inout, motions_inout, blocks_inout):
     """Solve IMPACT rows in rounds, until a round changes no normal speed by more than `least` [px/s].
 
-    There are at most ROUNDS rounds. count: number of rows; hits_alone: whether to skip rows without a bouncing point.
+    There are at most ROUNDS rounds. count: number of rows; hits_alone: True to solve only rows with a bouncing point.
     """
     for _ in range(ROUNDS):
         changed = 0.0
@@ -733,9 +734,9 @@ def bounce_in_rounds(count, hits_alone, least, impacts_inout, motions_inout, blo
 def hand_on(count, fastest, impacts_inout, motions_inout, blocks_inout):
     """Replace the impulses of contacts without loads by a sequence of impacts, as in Newton's cradle.
 
-    Return whether the sequence ended within MOST_BLOWS. All contacts that approach are solved together; contacts that
-    approach afterwards are the next impacts. So the impact passes through contacts that only touch. count: number of
-    IMPACT rows; fastest [px/s]: greatest separation speed of the first impacts.
+    In each impact all contacts that approach are solved together; contacts that approach after it form the next impact.
+    So an impact passes through contacts that only touch. Return whether the sequence ended within MOST_BLOWS impacts.
+    count: number of IMPACT rows; fastest [px/s]: greatest separation speed of the first impact.
     """
     for i in range(count):
         r = impacts_inout[i]

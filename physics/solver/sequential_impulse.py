@@ -1,12 +1,12 @@
 """Sequential impulses: one step, several passes, warm start, Baumgarte stabilisation.
 
-Unlike `soft_step`, bodies move once, after all passes, and contacts are rigid: stacks are livelier and sag by the slop.
-Unloaded contacts separate by a pseudo-velocity (split impulses). A step takes ITERATIONS_PER_SUBSTEP
-passes for each substep that soft_step would take. As in soft_step, the loads determine their number. Each pass
-transmits a load by one or two rows of a stack. With ten passes for all islands, a pyramid of 45 rows moves at 8 to
-60 px/s for over a minute, and a plank with a hundredth of the mass of its load creeps by 0.4 to 5 m in that time. With
-passes by load both come to rest, and a step takes 1.5 times as long. Source: Catto, Iterative Dynamics with Temporal
-Coherence, GDC 2005, and Box2D-Lite, 2006.
+Unlike in `soft_step`, bodies move once, after all passes, and contacts are rigid: stacks are livelier and sag by the
+slop. Unloaded contacts separate by a pseudo-velocity (split impulses). A step takes ITERATIONS_PER_SUBSTEP passes for
+each substep that soft_step would take, and in both solvers the loads determine this number. Each pass transmits a load
+by one or two rows of a stack. With ten passes for all islands, a pyramid of 45 rows moves at 8 to 60 px/s for over a
+minute, and a plank with a hundredth of the mass of its load creeps by 0.4 to 5 m in that time. With passes by load both
+come to rest, and a step takes 1.5 times as long. Source: Catto, Iterative Dynamics with Temporal Coherence, GDC 2005,
+and Box2D-Lite, 2006.
 """
 
 import math
@@ -66,8 +66,8 @@ class Passes(NamedTuple):
 def bias_speed(gap, inverse_h, slop, rate, most):
     """Return the separation speed [px/s] of a point of a loaded contact; negative: the speed at which a gap may close.
 
-    gap [px]: negative for an overlap; rate [1/s]: speed per px of overlap beyond the slop [px]; most [px/s]: greatest
-    result.
+    gap [px]: negative for an overlap; inverse_h [1/s]: inverse of the step length; rate [1/s]: speed per px of overlap
+    beyond the slop [px]; most [px/s]: greatest result.
     """
     beyond = -gap - slop
     speed = rate * (beyond if beyond > 0.0 else 0.0)
@@ -91,9 +91,9 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
     ):
         """Solve every contact once: friction first, then both normal impulses together. O(count).
 
-        count: number of blocks; context: see StepContext; passes: see Passes. A loaded contact separates by the
-        velocities of its bodies. The separation impulses are in every pass and in the cached impulses, otherwise
-        columns would sag.
+        count: number of blocks; context: see StepContext; passes: see Passes. Loaded contacts separate by the
+        velocities of their bodies, not by pseudo-velocities. The impulses that separate them act in every pass and are
+        cached, otherwise columns would sag.
         """
         s = blocks_inout.gathered
         for block in range(count):
@@ -179,8 +179,8 @@ def make_push_point(second: bool, rotation: bool) -> Callable:
     def push_point(lane, a_arm, b_arm, context, rate, s_inout, c_inout):
         """Change the gathered pseudo-velocities of two bodies so that one point of their unloaded contact separates.
 
-        a_arm, b_arm [px]: moment arms of the normal impulse; rate [1/s]: see separation_speed. A loaded contact is left
-        unchanged.
+        lane: lane of the contact in the block c_inout; a_arm, b_arm [px]: moment arms of the normal impulse; context:
+        see StepContext; rate [1/s]: see separation_speed; s_inout: gathered values. A loaded contact is left unchanged.
         """
         c = c_inout
         s = s_inout
@@ -228,8 +228,8 @@ def make_push_pass(rotation: bool) -> Callable:
     ):
         """Give bodies pseudo-velocities that separate their unloaded contacts. O(count).
 
-        count: number of blocks; rate [1/s]: see separation_speed. The impulses of the pseudo-velocities accumulate
-        separately from the contact impulses.
+        count: number of blocks; context: see StepContext; rate [1/s]: see separation_speed. The impulses that cause the
+        pseudo-velocities are summed separately from the contact impulses.
         """
         s = blocks_inout.gathered
         for block in range(count):
@@ -266,9 +266,9 @@ def make_push_pass(rotation: bool) -> Callable:
 def stop_impacts(count, motions_inout, blocks_inout):
     """Remove the approach speed that remains after the passes at points of contacts that are BOUNCING. O(lanes).
 
-    count: number of blocks. Only points with a normal impulse are changed; otherwise they would hit again in the next
-    step. Slow contacts are excluded: the passes leave a small approach speed in loaded stacks, which the next step
-    removes.
+    count: number of blocks. Only points with a normal impulse are changed: if they still approached, they would hit
+    again in the next step. Slow contacts are excluded: the passes leave a small approach speed in loaded stacks, which
+    the next step removes.
     """
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
@@ -285,7 +285,10 @@ def stop_impacts(count, motions_inout, blocks_inout):
 
 @subkernel
 def sum_up(count, blocks_inout):
-    """Copy the contact impulses to the totals of the step, which has one substep. count: number of blocks. O(lanes)."""
+    """Copy the contact impulses to the totals of the step, because this step has only one substep. O(lanes).
+
+    count: number of blocks.
+    """
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
         for lane in range(lanes_of(blocks_inout.contact, block)):
@@ -308,8 +311,8 @@ def turns_any(count, blocks):
 def foresee_turns(members, kinematic, time, count, motions_inout, blocks_inout):
     """Write the normals and moment arms of round contacts at the predicted poses after `time` [s]. O(members + lanes).
 
-    members, kinematic: MOTION rows; count: number of blocks. The bodies are moved back to the start of the step
-    afterwards.
+    members, kinematic: MOTION rows; count: number of blocks. The bodies are moved for this, and then back to their
+    poses at the start of the step.
     """
     for k in range(len(members)):
         m = motions_inout[members[k]]
@@ -393,8 +396,8 @@ PASSES = {
 def solve(state: StepState, contacts: ContactLanes, passes: int | None = None, warm: bool = True) -> float:
     """Solve the constraints of a step and move the bodies. Return the step length [s].
 
-    For measurements (studied_solvers.py): passes: number of passes, None: see ITERATIONS_PER_SUBSTEP; warm: whether the
-    passes start from the cached impulses.
+    The last two arguments are for measurements (studied_solvers.py). passes: number of passes, None: as many as the
+    loads need, see ITERATIONS_PER_SUBSTEP; warm: whether the passes start from the cached impulses.
     """
     effects, motions, tolerances, dt = state.effects, state.workspace.motions, state.tolerances, state.dt
     run = PASSES[effects.drag, effects.rotation, effects.friction, effects.joints]

@@ -51,7 +51,8 @@ BOTH = (False, True)
 def push_out_unloaded(c, lane, context, rotation, a_inout, b_inout):
     """Separate two bodies at both points of an unloaded contact, by pseudo-velocities.
 
-    rotation: whether bodies rotate; a_inout, b_inout: MOTION rows.
+    c, lane: the contact's lane in a block; context: see StepContext; rotation: whether bodies rotate; a_inout, b_inout:
+    MOTION rows.
     """
     nx = c[at.NX + lane]
     ny = c[at.NY + lane]
@@ -96,8 +97,8 @@ def push_out_unloaded(c, lane, context, rotation, a_inout, b_inout):
 def rigid_change(speed, gap, mass, inverse_h):
     """Return the change of the normal impulse of a rigid contact that stops the approach of a point.
 
-    speed [px/s]: negative for an approach; mass: effective mass. If there is a gap [px], the point keeps the approach
-    speed that closes the gap at the end of this substep.
+    speed [px/s]: negative for an approach; mass: effective mass; inverse_h [1/s]: inverse of a substep. If there is a
+    gap [px], the point keeps the approach speed that closes the gap at the end of this substep.
     """
     return -mass * (speed + gap * inverse_h if gap > 0.0 else speed)
 
@@ -118,10 +119,10 @@ def soft_change(speed, gap, mass, old, bias_rate, impulse_scale, most):
 
 @inlined
 def greatest_separation_speed(c, lane, gap_1, gap_2, context):
-    """Return the greatest separation speed [px/s] of a contact with gaps [px] at its two points.
+    """Return the greatest speed [px/s] at which a contact with gaps gap_1, gap_2 [px] at its points may separate.
 
-    With many substeps a deep overlap separates no faster than with the fewest substeps. A shallow overlap may separate
-    faster, so that the contact carries its load.
+    A deep overlap separates no faster with many substeps than with the fewest substeps. A shallow overlap may separate
+    faster, so that the contact carries its load. c, lane: the contact's lane in a block; context: see StepContext.
     """
     most = context.push_speed * abs(c[at.PUSH_OUT_SHARE + lane])
     deep = -gap_2 if gap_2 < gap_1 else -gap_1
@@ -132,9 +133,10 @@ def greatest_separation_speed(c, lane, gap_1, gap_2, context):
 
 @inlined
 def angular_impulses(lane, c):
-    """Return (angular impulse of a contact about A's centre, about B's centre), without rolling resistance.
+    """Return the angular impulse of a contact about the centres of A and of B, without rolling resistance.
 
-    Both are for the impulse in the direction of B; the impulse on A is the opposite one.
+    Both are for the impulse in the direction of B; the impulse on A is the opposite one. c, lane: the contact's lane in
+    a block.
     """
     n_1 = c[at.NORMAL_1 + lane]
     n_2 = c[at.NORMAL_2 + lane]
@@ -200,9 +202,9 @@ def make_warm_lanes(rotation: bool) -> Callable:
 
 @subkernel
 def clear_impulses(members, count, motions_inout, blocks_inout):
-    """Clear the impulses with which a substep would start, to measure the effect of warm starting.
+    """Clear the impulses with which a substep would start, to measure the effect of warm starting. O(members + count).
 
-    count: number of blocks. O(members + count).
+    members: MOTION rows; count: number of blocks.
     """
     for i in range(len(members)):
         m = motions_inout[members[i]]
@@ -221,10 +223,11 @@ def clear_impulses(members, count, motions_inout, blocks_inout):
 
 
 def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = False) -> Callable:
-    """Return the function of one pass over all contacts: with bias, to separate overlaps, or without, to relax.
+    """Return the function of one pass over all contacts, with bias or without.
 
-    The relaxing pass measures gaps, applies friction and sums impulses. alone: the pass with bias does so instead,
-    because there is no relaxing pass.
+    The pass with bias separates overlaps. The pass without bias (relaxing pass) measures gaps, applies friction and
+    sums impulses. alone: True if there is no relaxing pass, so that the pass with bias does all of this. rotation,
+    friction: whether the world has these effects.
     """
     last = alone or not biased
     rubs = friction and last
@@ -372,7 +375,8 @@ WARM_LANES = {r: make_warm_lanes(rotation=r) for r in BOTH}
 def turn_normal(lane, s, c_inout):
     """Write the normal of a round contact at the present poses, and adapt BASE_1 and BASE_2 to the new normal.
 
-    The field lanes.TURNS determines how the normal follows the bodies.
+    The field lanes.TURNS determines how the normal follows the bodies. lane: lane of the contact in the block c_inout;
+    s: gathered poses, see lanes.GATHERED.
     """
     c = c_inout
     turns = c[at.TURNS + lane]
@@ -411,7 +415,8 @@ def follow_core(lane, s, c_inout):
     """Write the moment arms of the body with the face (A or B), in a contact of a face with a round shape.
 
     The arms follow the core of the round shape (the shape without its radius), which may have moved along the face.
-    Contacts whose lanes.TURNS is neither NORMAL_OF_A nor NORMAL_OF_B keep their arms.
+    Contacts whose lanes.TURNS is neither NORMAL_OF_A nor NORMAL_OF_B keep their arms. lane, s, c_inout: see
+    turn_normal.
     """
     c = c_inout
     turns = c[at.TURNS + lane]
@@ -473,8 +478,9 @@ def turn_arms(count, motions_inout, blocks_inout):
 def turn_impulses(count, motions_inout, blocks_inout):
     """Turn the impulses that remain after the relaxing pass to the present normals of round contacts. O(count).
 
-    count: number of blocks. The next substep starts with these impulses. The removed impulses had been applied along
-    the former normals, but the relaxing pass removed them along the present normals: the difference is corrected here.
+    count: number of blocks. The next substep starts with these impulses. The impulses that the relaxing pass removed
+    had been applied along the former normals, but were removed along the present normals. The velocities are corrected
+    by the difference.
     """
     for block in range(count):
         if not blocks_inout.turns[block]:
@@ -521,9 +527,10 @@ def make_substeps(
 ) -> Callable:
     """Return the kernel that runs all substeps of a step, for a world with or without these effects.
 
-    For measurements (studied_solvers.py): iterations: number of passes with bias in a substep; warm: whether each
-    substep starts from the impulses of the last substep; relaxed: whether a relaxing pass follows, otherwise the pass
-    with bias applies friction.
+    drag, rotation, friction, joints: whether the world has them. The last three arguments are for measurements
+    (studied_solvers.py). iterations: number of passes with bias in a substep; warm: whether each substep starts from
+    the impulses of the last substep; relaxed: whether a relaxing pass follows, otherwise the pass with bias applies
+    friction.
     """
     velocities, positions = SUBSTEP_VELOCITIES[drag, rotation], SUBSTEP_POSITIONS[rotation]
     warm_start, push_out, relax = WARM_LANES[rotation], PUSH_OUT[rotation], RELAX[rotation, friction]

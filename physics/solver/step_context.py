@@ -82,8 +82,9 @@ def context_of(
 ) -> StepContext:
     """Return the constants of a step of dt [s] that is divided into `substeps` substeps.
 
-    by_load: whether the number of substeps was chosen from the loads. drag [1/s]. span [s]: length of the step for
-    which springs are tuned, at least dt; a step shorter than span does not separate overlaps faster.
+    by_load: whether the number of substeps was chosen from the loads; span [s]: length of the step for which springs
+    are tuned, at least dt, so that a step shorter than `span` does not separate overlaps faster; drag [1/s];
+    tolerances: see settings.Tolerances.
     """
     h = dt / substeps
     # With substeps by load, springs are as stiff as the substeps allow.
@@ -127,9 +128,9 @@ def context_of(
 def separation_speed(separation, inverse_h, slop, rate, push_speed):
     """Return the separation speed [px/s] of an unloaded point; negative: the speed at which a gap may close.
 
-    separation [px]: negative for an overlap. rate [1/s]: speed per px of overlap beyond half a slop; push_speed [px/s]:
-    greatest result. Overlaps of up to a slop are not removed (Jolt's penetration slop), otherwise unloaded contacts
-    would creep.
+    separation [px]: negative for an overlap; inverse_h [1/s]: inverse of a substep; rate [1/s]: speed per px of overlap
+    beyond half a slop; push_speed [px/s]: greatest result. Overlaps of up to a slop are not removed (Jolt's penetration
+    slop), otherwise unloaded contacts would creep.
     """
     beyond = rate * (-separation - 0.5 * slop)
     beyond = beyond if beyond < push_speed else push_speed
@@ -142,10 +143,10 @@ def separation_speed(separation, inverse_h, slop, rate, push_speed):
 
 @subkernel
 def speed_of_impact(speed, separation, acceleration):
-    """Return the approach speed [px/s] at the moment of impact.
+    """Return the approach speed [px/s] at the moment of impact, predicted from the state before the step.
 
-    speed [px/s]: approach speed; acceleration [px/s2] of the approach; separation [px]: all three before the step. The
-    result is `speed` if the sides already overlap or separate.
+    speed [px/s]: approach speed; separation [px]: gap; acceleration [px/s2]: growth of the approach speed. The result
+    is `speed` if the shapes already overlap, or if they move apart.
     """
     if speed <= 0.0 or separation <= 0.0:
         return speed
@@ -156,11 +157,11 @@ def speed_of_impact(speed, separation, acceleration):
 def restitution_threshold(contact, a, b, degrees, context):
     """Return the approach speed [px/s] up to which a contact does not bounce.
 
-    It is context.restitution_speed, with two exceptions. A new contact bounces at any speed if no acceleration presses
-    its bodies together: otherwise a slow ball would stick to a wall in space. A contact that touched in the last step
-    bounces only above the speed that acceleration adds in two steps, if that is greater. a, b: MOTION rows; degrees:
-    numbers of contacts of A and of B. Two bodies without other contacts fall together: only the difference of their
-    accelerations presses them.
+    The result is context.restitution_speed, with two exceptions. A new contact bounces at any speed if no acceleration
+    presses its bodies together: otherwise a slow ball would stick to a wall in space. A contact that touched in the
+    last step bounces only above the speed that acceleration adds in two steps, if that speed is greater. contact:
+    CONTACT row; a, b: MOTION rows; degrees: numbers of contacts of A and of B. Two bodies without other contacts fall
+    together, so only the difference of their accelerations presses them.
     """
     m = contact
     on_a = a.acceleration_x * m.normal_x + a.acceleration_y * m.normal_y

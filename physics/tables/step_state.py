@@ -188,7 +188,7 @@ class StepState:
 
 
 class Stage(Protocol):
-    """A function of a StepState that declares which fields it reads and writes."""
+    """A function of a StepState that declares which fields of the state it reads and writes."""
 
     stage: str
     reads: tuple[str, ...]
