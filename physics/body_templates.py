@@ -70,7 +70,11 @@ def key_of(
 
 
 def find(world: WorldState, key: tuple | None) -> Template | None:
-    """Return the template of a key if it fits the world's present effects, library and sleeping, else None."""
+    """Return the template stored under `key`; None if there is none, or if it does not fit the world any more.
+
+    A template fits the effects, the library and the setting of sleeping with which it was stored. key: see key_of; None
+    has no template.
+    """
     try:
         found = world._templates.get(key)
     except TypeError:  # an argument is not hashable, so it is not a Shape

@@ -175,8 +175,8 @@ def _values_of(world, identity) -> edit.BodyDef:
 def _add_fragment(world, mask: PixelMask, loose: Loose, frame, given: _Given, wanted: edit.BodyDef) -> int:
     """Add a body for a loose piece of a mask. Its pixels keep their positions and velocities. Return the body's id.
 
-    mask: the carved mask; loose: the piece (Loose); frame: pose of the carved body; given: its _Given; wanted: BodyDef
-    of the fragment.
+    mask: the carved mask; loose: the piece; frame: pose (x, y, angle) of the carved body; given: values of the carved
+    body, see _Given; wanted: definition of the new body.
     """
     # The origin of the fragment is a corner of the mask's pixel grid near the middle of the piece, so that its pixels
     # stay on whole pixels.

@@ -50,7 +50,10 @@ def over(ground, bullets, planes=0):
 
 
 def bombed(frame):
-    """Return a predicate: a bomb was just dropped in the fight against the leader with picture `frame`."""
+    """Return a predicate of a scene: a bomb was just dropped in a fight against a leader.
+
+    frame: see leader().
+    """
     fights = leader(frame)
     return lambda scene: scene.bomb.body is not None and scene.bomb.age < 3 and fights(scene)
 

@@ -50,8 +50,10 @@ def _put(out, x, y, colour):
 
 
 def _part(out, stone, left, width, height, kind):
-    """Draw a wall or a tower into `out`, from its top down to the picture's edge. left, width, height [px]; kind:
-    "spire", ...; stone: noise (HEIGHT, WIDTH).
+    """Draw a wall or a tower into `out`, from its top down to the picture's edge.
+
+    left, width, height [px]; kind: "wall", "spire" for a tower with a roof, anything else for a tower without; stone:
+    noise (HEIGHT, WIDTH).
     """
     top = HEIGHT - height
     for column in range(width):

@@ -59,7 +59,10 @@ class Frame(Canvas):
         return min(self.text_scale, self.scale)
 
     def scale_for(self, width: int) -> int:
-        """Return the whole-number scale at which a text of `width` font px is no wider than the game's picture."""
+        """Return the largest scale, a whole number, at which a text of `width` font px fits the game's picture.
+
+        The result is at least 1 and at most the usual scale of texts.
+        """
         return max(1, min(self.text_scale, self.area.width // width))
 
     def lens(self, camera: View) -> Lens:

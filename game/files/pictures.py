@@ -31,10 +31,10 @@ def png_size(path: str | Path, most: int) -> tuple[int, int]:
 def picture_of(level: Path, place: str, name: str, own: Path) -> Path:
     """Return the path of the picture that a level names: a file in the level's folder, or one of the program's own.
 
-    name: path relative to the level's folder, with slashes or backslashes. A path that leads out of the folder is never
-    followed. If it does, or if no such file exists, the file of the same name in the folder `own` is used, because
-    editors write paths that are valid only where the level was made. If that file does not exist either, raises
-    FileError with `place`, the place in the level.
+    level: path of the level's file. name: path relative to the level's folder, with slashes or backslashes. If `name`
+    leads out of that folder, or names no file, the file of the same name in the folder `own` is used instead, because
+    editors write paths that are valid only where the level was made. Raises FileError with `place`, the place in the
+    level, if that file does not exist either.
     """
     parts = PurePosixPath(name.replace("\\", "/"))
     leads_out = parts.is_absolute() or ".." in parts.parts or PureWindowsPath(name).anchor != ""

@@ -50,8 +50,9 @@ def overlaps(proxies, a, b, work_inout):
 def may_meet(proxies, a, b, work_inout):
     """Return whether two proxies whose boxes touch may pair. O(1).
 
-    Pairs of two static proxies, of two sleeping proxies, of two proxies of one body, of planes that avoid each other,
-    and filtered pairs are excluded. proxies: PROXY rows; a, b: slots.
+    Excluded are pairs of two static proxies, of two sleeping proxies, of two proxies of one body, of proxies whose
+    `plane` and `avoids` exclude each other, and pairs that a filter excludes. The last are counted in work_inout
+    (FILTERED). proxies: PROXY rows; a, b: slots.
     """
     p, q = proxies[a], proxies[b]
     if (p.still and q.still) or p.body == q.body or not (p.awake or q.awake) or (p.plane & q.avoids) != 0:

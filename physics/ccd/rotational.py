@@ -478,7 +478,7 @@ def sweep_chain_seen_from(geometry, chain, local, middle, mover, but, workspace)
 
 @subkernel
 def shrink_to_middle(count, mover_inout):
-    """Replace the corners of a hull by their mean, a point to be swept as a ray. Return the number of corners, 1."""
+    """Replace the `count` corners of the mover by their mean, a point to be swept as a ray. Return 1, its corners."""
     mover_inout[0, 0], mover_inout[0, 1] = middle_of(mover_inout, count)
     return 1
 

@@ -124,8 +124,8 @@ WORD_MASK = 0xFFFFFFFFFFFFFFFF
 class Builtin:
     """A function that kernels call and that has separate forms for plain and compiled kernels.
 
-    plain: the Python function. make: function that returns the form for numba. sources: functions whose code identifies
-    the form.
+    plain: the Python function. make: function that returns the form for numba. sources: functions whose source text is
+    part of the cache key of every kernel that calls this function.
     """
 
     def __init__(self, plain: Callable, make: Callable[[], Any], *sources: Callable) -> None:
@@ -169,7 +169,10 @@ def _as_word(value):
 
 
 def _total(function):
-    """Return a function of one number that gives NaN at infinity, as compiled code does; `math` raises an error."""
+    """Return `function`, a function of `math`, changed to return NaN at infinity, as compiled code does.
+
+    `math` itself raises an error there.
+    """
 
     def total(x):
         return function(x) if abs(x) < math.inf else math.nan

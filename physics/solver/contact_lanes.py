@@ -76,10 +76,10 @@ BY_LOAD = AUTO_SUBSTEPS.index(LOAD_SUBSTEPS)  # index of the most substeps that 
 
 
 class Plan(NamedTuple):
-    """The constraints to solve and their order.
+    """The constraints to solve and their order, as a graph: a node is a MOTION row, an edge is a constraint.
 
-    The lengths (edges), (motions) and (joints) are capacities: at least the numbers of constraints, MOTION rows and
-    JOINT rows in use. A node of the graph is a MOTION row, an edge a constraint.
+    An array marked (edges), (motions) or (joints) is at least as long as the number of constraints, MOTION rows or
+    JOINT rows in use.
     """
 
     edges: Edges  # one edge for each contact to solve, then one for each joint

@@ -410,7 +410,7 @@ def finish_joints(context, joints_inout, motions_inout):
 
 
 class Trees:
-    """The joint trees of one group of islands after another. The arrays grow and are reused."""
+    """Arrays for the joint trees of a group of islands. They are filled anew for each group, and grow as needed."""
 
     def __init__(self) -> None:
         self.forest: Forest = new_forest(0, 0)

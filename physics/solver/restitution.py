@@ -544,7 +544,7 @@ MOST_BLOWS = 256  # greatest number of successive impacts between bodies without
 
 @subkernel
 def bounces(speed, threshold, total):
-    """Return whether a point bounces: impact speed above the threshold [px/s], and an impulse `total` in the step."""
+    """Return whether a point bounces: speed > threshold [px/s], and its impulse in the step, `total`, is above 0."""
     return speed > threshold and total > 0.0
 
 

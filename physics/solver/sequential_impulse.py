@@ -350,8 +350,8 @@ def make_passes(drag: bool, rotation: bool, friction: bool, joints: bool) -> Cal
     ):
         """Advance island bodies and kinematic bodies by one step. O(members + passes · constraints).
 
-        members, kinematic: MOTION rows; count: number of blocks; context: see StepContext; passes: see Passes;
-        joints_inout: a JointSet, 0 for a world without joints.
+        members, kinematic: MOTION rows; blocks_inout: the contacts, in `count` blocks; context: see StepContext;
+        passes: see Passes; joints_inout: a JointSet, 0 for a world without joints.
         """
         if not passes.warm:
             clear_impulses(members, count, motions_inout, blocks_inout)

@@ -164,7 +164,7 @@ class CardHouse(Scene):
         return hypot(card.center[0] - x, card.center[1] - y)
 
     def stands(self, cards):
-        """Return whether every card is nearer to its start than half of REACH."""
+        """Return whether each of these Bodies is less than REACH / 2 away from its start."""
         return all(self.moved(card) < REACH / 2 for card in cards)
 
     @property

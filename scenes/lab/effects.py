@@ -52,9 +52,9 @@ class Outcome(NamedTuple):
     work: int  # further bodies moved, pairs tested and rows solved with it; below 0: fewer
 
     def shows(self, name):
-        """Return whether the effect `name` makes a difference.
+        """Return whether the effect `name` makes the difference that it should make.
 
-        Sleeping is not to change positions or to report more, so it must save work.
+        Sleeping should save work. Every other effect should change positions, or the events that are reported.
         """
         return self.work < 0 if name == "sleeping" else self.apart > VISIBLE or self.kinds > 0
 

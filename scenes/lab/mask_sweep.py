@@ -319,7 +319,7 @@ class MaskSweep(Scene):
 
 
 def middle(lane):
-    """Return the y of a lane's middle [px] in its world."""
+    """Return the world y [px] of the middle of lane number `lane`."""
     return lane * LANE_HEIGHT + MIDDLE - 1.0
 
 

@@ -156,7 +156,7 @@ class Measuring:
         return f"the race: {now.label(setting)} against {setting.label(now)}"
 
     def end_race(self) -> None:
-        """End the race."""
+        """End the race between the scene and its rival with other settings, and drop both of its pictures."""
         self.race = self.split = None
 
     def toggle_split(self) -> str:
