@@ -72,6 +72,20 @@ def pyramids():
     )
 
 
+def moving():
+    """Three moving scenes beside pymunk, by load and with four substeps."""
+    some = {
+        name: [ratios("moving", rf"({name}.*), substeps {each} / pymunk").popitem()[1] for each in ("auto", "4")]
+        for name in ("rain of 1,500", "pyramid", "tumbler")
+    }
+    (auto, four), hit, tumbler = (some[name] for name in some)
+    return (
+        f"`python -m tests.bench moving` measures {auto:.1f} times its time by load and {four:.1f} with four substeps "
+        f"in a rain of 1,500 boxes, {hit[0]:.1f} and {hit[1]:.1f} where a ball hits a pyramid, {tumbler[0]:.1f} and "
+        f"{tumbler[1]:.1f} in a tumbler"
+    )
+
+
 def crater():
     (share,) = ratios("masks", r"(carve of a terrain / pygame's erase)").values()
     return (
@@ -143,6 +157,7 @@ SENTENCES = {
     "README.md": (
         sweeps_lead,
         pyramids,
+        moving,
         crater,
         sinks,
         study,
