@@ -68,12 +68,12 @@ def class_motions(motions, degrees, islands, classes_out):
 
 
 @subkernel
-def expect_impacts(edges, count, motions, degrees, rate, choices, classes_inout):
+def expect_impacts(edges, count, motions, rate, choices, classes_inout):
     """Raise the class of bodies that collide in this step to the number of substeps that the impact needs. O(count).
 
-    count: number of contacts; degrees: number of contacts of each body; rate: see estimate_rate; choices: numbers of
-    substeps; classes_inout: see class_motions. The number rises with the ratio of the masses: a light body has to
-    transmit the momentum of a heavy body. An impact on a heap does not count: all bodies of the heap would pay for it.
+    The number rises with the ratio of the masses, because a light body has to transmit the momentum of a heavy body.
+    count: number of contacts, the first entries of `edges`; motions: MOTION rows; rate: see estimate_rate; choices:
+    numbers of substeps, ascending; classes_inout: see class_motions.
     """
     for i in range(count):
         speed = edges.impact_speeds[i]
@@ -82,17 +82,12 @@ def expect_impacts(edges, count, motions, degrees, rate, choices, classes_inout)
         square = speed * rate
         least = math.inf
         most = 0.0
-        heap = False
         for k in range(MOST_NODES):
-            node = edges.nodes[i, k]
-            if node < 0:
+            if edges.nodes[i, k] < 0:
                 break
-            inverse_mass = motions[node].inverse_mass
+            inverse_mass = motions[edges.nodes[i, k]].inverse_mass
             least = min(least, inverse_mass)
             most = max(most, inverse_mass)
-            heap = heap or (motions[node].is_dynamic and degrees[node] > 2)
-        if heap:
-            continue
         if least > 0.0:
             square *= most / least
         for k in range(MOST_NODES):
@@ -149,9 +144,8 @@ def are_mixed(motions, degrees, classes):
 # F / (m ω²), and with twice the substeps by a quarter. The loads of the last step give the number for the next step.
 # The number rises immediately. It is halved after half the number has been enough for the whole island for a while,
 # with a sag of at most half the accuracy, so that islands do not alternate. Loads alone, and heaps, take at most
-# LOAD_SUBSTEPS. A leaning column takes more, because its lean would increase and not stop. A heap in motion takes at
-# most MOVING_SUBSTEPS: its greatest loads last for a step or two, and come from single contacts among hundreds. Source
-# of the spring: Catto, Soft Constraints, GDC 2011.
+# LOAD_SUBSTEPS. A leaning column takes more, because its lean would increase and not stop. Source of the spring: Catto,
+# Soft Constraints, GDC 2011.
 
 
 class LoadRules(NamedTuple):
@@ -164,8 +158,6 @@ class LoadRules(NamedTuple):
     most: int  # … and for a leaning stack
     dt: float  # [s]
     patience: float  # [s] time for which fewer substeps must have been enough
-    most_moving: int  # greatest number of substeps of a heap in motion, whose bodies move past each other …
-    still: float  # [px/s] … faster than this
 
 
 @subkernel
@@ -199,24 +191,18 @@ def choose_substeps(members, degrees, substeps, rules, motions_inout):
                 wanted = substeps // 2
         m.cooldown = cooldown
         m.substeps = wanted
-        most = rules.most_moving if m.sliding else rules.most_by_load
-        content = content and wanted == substeps and not (m.branching and substeps > most)
+        content = content and wanted == substeps and not (m.branching and substeps > rules.most_by_load)
     return content
 
 
 @subkernel
-def share_substeps(members, parents, substeps, rules, motions_inout):
+def share_substeps(members, parents, substeps, most_by_load, motions_inout):
     """Give each body the greatest number of substeps that a body of its island needs. O(members).
 
     Return the number of islands that are reported as capped. An island in which a body has more than two contacts is a
-    heap. It takes at most most_by_load substeps, because some body of a heap always leans; if more than half of its
-    bodies slide, at most most_moving, because a sag below a tenth of a pixel does not show in motion. members: MOTION
-    rows; parents (motions) int32: the lowest row of the island of each body; substeps: number of substeps in this step.
+    heap. A heap takes at most most_by_load substeps, because some body of a heap always leans. members: MOTION rows;
+    parents (motions) int32: the lowest row of the island of each body; substeps: number of substeps in this step.
     """
-    for k in range(len(members)):
-        motions_inout[members[k]].unrest = 0
-    for k in range(len(members)):
-        motions_inout[parents[members[k]]].unrest += 1 if motions_inout[members[k]].sliding else -1
     for k in range(len(members)):
         m = motions_inout[members[k]]
         root = motions_inout[parents[members[k]]]
@@ -228,8 +214,7 @@ def share_substeps(members, parents, substeps, rules, motions_inout):
         i = members[k]
         m = motions_inout[i]
         root = motions_inout[parents[i]]
-        most = rules.most_moving if root.unrest > 0 else rules.most_by_load
-        m.substeps = min(root.substeps, most) if root.branching else root.substeps
+        m.substeps = min(root.substeps, most_by_load) if root.branching else root.substeps
         if m.substeps != substeps:
             m.cooldown = 0.0
         capped += int(parents[i] == i and root.estimate == math.inf)

@@ -36,16 +36,7 @@ from physics.islands.substeps import (
 )
 from physics.jit import inlined, kernel, subkernel
 from physics.math2d import norm
-from physics.settings import (
-    AUTO_SUBSTEPS,
-    COLORS,
-    EASE_TIME,
-    LEAN,
-    LOAD_SUBSTEPS,
-    MOVING_SPEED,
-    MOVING_SUBSTEPS,
-    STILL_STIFFNESS,
-)
+from physics.settings import AUTO_SUBSTEPS, COLORS, EASE_TIME, LEAN, LOAD_SUBSTEPS, STILL_STIFFNESS
 from physics.solver import lanes as at
 from physics.solver.energy import FACING, find_squeezed
 from physics.solver.joint_direct import JointSet, Trees
@@ -347,7 +338,7 @@ def order_by_load(contacts, bodies, islands, dt, limits, motions_inout, lists_in
     plan.in_one_group[0] = False
     choices, by_load = islands.choices, islands.by_load
     unknown = class_motions(motions, plan.degrees, islands, classes)
-    expect_impacts(plan.edges, count, motions, plan.degrees, islands.rate, choices[: by_load + 1], classes)
+    expect_impacts(plan.edges, count, motions, islands.rate, choices[: by_load + 1], classes)
     if unknown:
         expect_columns(plan.edges, count, motions, plan.degrees, len(choices) - 1, classes)
     plan.joined[0] = are_mixed(motions, plan.degrees, classes)
@@ -446,9 +437,6 @@ def add_estimates(blocks, count, substeps, rules, motions_inout):
             b.capped = b.capped or capped
             a.estimate = max(a.estimate, estimate)
             b.estimate = max(b.estimate, estimate)
-            moving = norm(b.vx - a.vx, b.vy - a.vy) > rules.still
-            a.sliding = a.sliding or moving
-            b.sliding = b.sliding or moving
 
 
 @kernel
@@ -468,7 +456,7 @@ def choose_by_load(blocks, count, group, links_islands, rules, plan_inout, motio
     if not plan.joined[0]:
         find_roots(plan.edges, group.edges + plan.joint_count[0], links_islands, parents)
         plan.joined[0] = True
-    return share_substeps(group.members, parents, substeps, rules, motions_inout)
+    return share_substeps(group.members, parents, substeps, rules.most_by_load, motions_inout)
 
 
 def estimate_substeps(state: StepState, motions: Motions, plan: Plan, group: Group, blocks: Blocks, count: int) -> None:
@@ -478,15 +466,7 @@ def estimate_substeps(state: StepState, motions: Motions, plan: Plan, group: Gro
     """
     rate = estimate_rate(state)
     rules = LoadRules(
-        rate,
-        rate / STILL_STIFFNESS**2,
-        AUTO_SUBSTEPS[0],
-        LOAD_SUBSTEPS,
-        AUTO_SUBSTEPS[-1],
-        state.dt,
-        EASE_TIME,
-        MOVING_SUBSTEPS,
-        MOVING_SPEED * state.tolerances.sleep_speed,
+        rate, rate / STILL_STIFFNESS**2, AUTO_SUBSTEPS[0], LOAD_SUBSTEPS, AUTO_SUBSTEPS[-1], state.dt, EASE_TIME
     )
     if len(group.joints):
         estimate_joints(group.joints, state.joints, rate, state.dt, state.accuracy, motions.used)

@@ -52,7 +52,6 @@ def reset_motion(motion_out):
     m.estimate = 0.0
     m.branching = False
     m.capped = False
-    m.sliding = False
     m.last_impact = 0
 
 

@@ -190,8 +190,6 @@ MOTION = in_lines(
         ("last_impact", np.int64),  # see restitution.link_impacts
         ("branching", np.bool_),  # the body, or at the root a body of the island, has more than two contacts
         ("capped", np.bool_),  # a load needs more substeps than allowed
-        ("sliding", np.bool_),  # a touching body moves past this one
-        ("unrest", np.int32),  # bodies of the island that slide, minus those that do not; at the root
     ]
 )
 
