@@ -218,8 +218,10 @@ def list_awake(state: StepState) -> None:
     """
     awake, bodies = state.awake, state.bodies
     awake.take_in(state)
-    moving = np.empty(len(awake.kinematic), np.int64)
-    moving = moving[: list_active(bodies, awake.kinematic, moving)]
+    moving = awake.kinematic
+    if len(moving):
+        moving = np.empty(len(moving), np.int64)
+        moving = moving[: list_active(bodies, awake.kinematic, moving)]
     wanted = [awake.dynamic, moving]
     if len(awake.fresh):
         bodies["dirty"] = False  # left by a step that raised an error
@@ -234,7 +236,10 @@ def list_awake(state: StepState) -> None:
         wanted.append(state.characters["body_row"])
     more = sum(map(len, wanted)) > len(awake.dynamic)
     rows = distinct(np.concatenate(wanted), len(bodies)) if more else awake.dynamic
+    if rows is awake.bodies:
+        return
     if len(rows) == len(awake.bodies) and np.array_equal(rows, awake.bodies):
+        awake.bodies = rows  # the next step compares no numbers
         return
     flags = bodies["active"]
     begun = rows[~flags[rows]]
