@@ -48,28 +48,12 @@ def stages_now(world, spent):
     return stages | {"between stages": spent - sum(stages.values())}
 
 
-class Ours:
-    """A scene in one of our worlds. edit(self, n): called before step n, counted as `edits`."""
+class Timed:
+    """A world whose steps are timed. edit(self, n), if given, is called before step n, and counted as `edits`."""
 
-    def __init__(self, items, substeps, effects=EFFECTS, gravity=(0.0, GRAVITY), edit=None, shapes=None):
-        gravity = gravity if effects.gravity else None
-        self.world = World(effects, gravity=gravity, substeps=substeps)
-        self.edit, self.edits, self.n, self.ids = edit, 0.0, 0, []
-        for item in items:
-            self.add(item, None if shapes is None else shapes[len(self.ids) % len(shapes)])
+    def __init__(self, world, edit=None):
+        self.world, self.edit, self.n = world, edit, 0
         self.stages: list[dict[str, float]] = []
-
-    def add(self, item, shape=None):
-        shape = shape_of(item.size) if shape is None or item.kind != "dynamic" else shape
-        material = SURFACE if item.density == 1.0 else Material(friction=FRICTION, density=item.density)
-        where, velocity = (item.x, item.y), (item.vx, item.vy)
-        body = self.world.add_body(shape, position=where, velocity=velocity, kind=item.kind, material=material)
-        self.ids.append(body.id)
-        return body
-
-    def remove_first(self, first):
-        """Remove the body that was added at place `first` of those that are left."""
-        self.world.remove_body(self.ids.pop(first))
 
     def step(self):
         """Return the seconds of one step with its edits."""
@@ -82,6 +66,29 @@ class Ours:
         self.n += 1
         self.stages.append(stages_now(self.world, end - edited) | {"edits": edited - start})
         return end - start
+
+
+class Ours(Timed):
+    """A scene in one of our worlds."""
+
+    def __init__(self, items, substeps, effects=EFFECTS, gravity=(0.0, GRAVITY), edit=None, shapes=None):
+        gravity = gravity if effects.gravity else None
+        super().__init__(World(effects, gravity=gravity, substeps=substeps), edit)
+        self.ids = []
+        for item in items:
+            self.add(item, None if shapes is None else shapes[len(self.ids) % len(shapes)])
+
+    def add(self, item, shape=None):
+        shape = shape_of(item.size) if shape is None or item.kind != "dynamic" else shape
+        material = SURFACE if item.density == 1.0 else Material(friction=FRICTION, density=item.density)
+        where, velocity = (item.x, item.y), (item.vx, item.vy)
+        body = self.world.add_body(shape, position=where, velocity=velocity, kind=item.kind, material=material)
+        self.ids.append(body.id)
+        return body
+
+    def remove_first(self, first):
+        """Remove the body that was added at place `first` of those that are left."""
+        self.world.remove_body(self.ids.pop(first))
 
 
 class Pymunk:
@@ -302,27 +309,9 @@ def bullets(steps):
             angles = rng.uniform(0, 2 * np.pi, count)
             velocities = speed * np.stack([np.cos(angles), np.sin(angles)], axis=1)
             world.add_bodies(shape, rng.uniform((-800, -450), (800, 450), (count, 2)), velocities)
-        return Worlds(world)
+        return Timed(world)
 
     return in_turns({"pixels": make("pixels"), "boxes": make("boxes")}, steps)
-
-
-class Worlds:
-    """A world that steps; before(n), if given, is part of the time."""
-
-    def __init__(self, world, before=None):
-        self.world, self.before, self.n, self.stages = world, before, 0, []
-
-    def step(self):
-        start = perf_counter()
-        if self.before:
-            self.before(self.n)
-        edited = perf_counter()
-        self.world.step()
-        end = perf_counter()
-        self.n += 1
-        self.stages.append(stages_now(self.world, end - edited) | {"edits": edited - start})
-        return end - start
 
 
 def carving(steps):
@@ -335,10 +324,10 @@ def carving(steps):
             world.add_body(Circle(8.0), position=(18.0 * k - 540.0, -140.0 - 20.0 * (k % 3)), material=SURFACE)
         rng = np.random.default_rng(6)
 
-        def before(n):
+        def edit(run, n):
             earth.carve(Circle(10.0), (float(rng.uniform(-560, 560)), float(rng.uniform(-95, 60)), 0.0))
 
-        return Worlds(world, before if carves else None)
+        return Timed(world, edit if carves else None)
 
     return in_turns({"carved": make(True), "whole": make(False)}, steps)
 
