@@ -246,7 +246,10 @@ def crowd(count, moving):
     def scene(make):
         rng, side = np.random.default_rng(3), int(count**0.5)
         velocities = rng.uniform(-60, 60, (count, 2)) if moving else np.full((count, 2), 60.0)
-        discs = [Item((8.0,), 24.0 * (k % side), 24.0 * (k // side), *map(float, velocities[k])) for k in range(count)]
+        discs = [
+            Item((8.0,), 24.0 * (k % side), 24.0 * (k // side), float(vx), float(vy))
+            for k, (vx, vy) in enumerate(velocities)
+        ]
         return make(discs, gravity=(0.0, 0.0))
 
     return scene
