@@ -94,6 +94,26 @@ def begin_step(geometry, p, q, a, b, contact_inout):
     approach(p, q, c)
 
 
+@subkernel
+def complete_contact(geometry, bodies, shapes, previous, first, contact_inout):
+    """Write the cache of a contact detected in this step, and the forces of equal features in the last step.
+
+    previous: CONTACT rows of the last step; first: index in previous of the first row of the same pair of shapes, or of
+    the row that follows the place of the pair, if the pair had no contact.
+    """
+    c = contact_inout
+    reset_impulses(c)
+    c.of_new_pair = first == len(previous) or not is_of(previous[first], c.shape_a, c.shape_b)
+    write_cache(geometry.polygons, geometry.corners, bodies, shapes, c)
+    c.touched = False
+    k = first
+    while k < len(previous) and is_of(previous[k], c.shape_a, c.shape_b):
+        c.touched = c.touched or touches(previous[k])
+        k += 1
+    transfer_impulses(previous, first, c)
+    begin_step(geometry, bodies[c.body_row_a], bodies[c.body_row_b], shapes[c.row_a], shapes[c.row_b], c)
+
+
 @kernel
 def match_contacts(geometry, bodies, shapes, previous, stale, found, contacts_out):
     """Merge recycled and newly detected contacts into contacts_out. Return their number. O(previous + found).
@@ -123,20 +143,36 @@ def match_contacts(geometry, bodies, shapes, previous, stale, found, contacts_ou
                 copy_head(found[i], c, MANIFOLD_BYTES)
                 while j < len(previous) and is_before(previous[j], c.shape_a, c.shape_b):
                     j += 1
-                reset_impulses(c)
-                c.of_new_pair = j == len(previous) or not is_of(previous[j], c.shape_a, c.shape_b)
-                write_cache(geometry.polygons, geometry.corners, bodies, shapes, c)
-                c.touched = False
-                k = j
-                while k < len(previous) and is_of(previous[k], c.shape_a, c.shape_b):
-                    c.touched = c.touched or touches(previous[k])
-                    k += 1
-                transfer_impulses(previous, j, c)
-                begin_step(geometry, bodies[c.body_row_a], bodies[c.body_row_b], shapes[c.row_a], shapes[c.row_b], c)
+                complete_contact(geometry, bodies, shapes, previous, j, c)
             i += 1
         else:
             return count
         count += 1
+
+
+@kernel
+def replace_contacts(geometry, bodies, shapes, stale, found_inout, previous_inout):
+    """Replace the stale contacts by those detected, if each pair has as many as before. Return whether it was done.
+
+    Nothing else is copied, unlike in match_contacts: O(found). 5,050 boxes that settle: 5 % of a step (bench solvers).
+    stale: int32 rows of `previous_inout` that are not recycled, ascending; found_inout: CONTACT rows of this step, in
+    the order of the candidate pairs, used as scratch; previous_inout: CONTACT rows of the last step.
+    """
+    found, previous = found_inout, previous_inout
+    if len(found) != len(stale):
+        return False
+    for i in range(len(found)):
+        same = is_of(previous[stale[i]], found[i].shape_a, found[i].shape_b)
+        if not same or found[i].previous >= 0:
+            return False
+    first = 0
+    for i in range(len(found)):
+        if i == 0 or not is_of(found[i - 1], found[i].shape_a, found[i].shape_b):
+            first = stale[i]
+        complete_contact(geometry, bodies, shapes, previous, first, found[i])
+    for i in range(len(found)):  # after all previous forces have been read
+        copy_row(found[i], previous[stale[i]])
+    return True
 
 
 @kernel
@@ -330,8 +366,11 @@ def find_contacts(state: StepState) -> None:
     news = cache.find(narrow, batch, previous, tolerances.recycle, state.work)
     if news is None or not (len(news.rows) or len(news.stale)):
         return
+    tables = state.library.tables
+    if replace_contacts(tables, state.bodies, state.shapes, news.stale, news.rows, previous):
+        return
     contacts = cache.room_beside(previous, len(previous) - len(news.stale) + len(news.rows))
-    count = match_contacts(state.library.tables, state.bodies, state.shapes, previous, news.stale, news.rows, contacts)
+    count = match_contacts(tables, state.bodies, state.shapes, previous, news.stale, news.rows, contacts)
     state.contact_rows = contacts[:count]
 
 
