@@ -59,6 +59,11 @@ class LogPlot:
             return left, self.strip.centery
         return left, self.area.bottom - self.y.share(y) * self.area.height
 
+    @property
+    def least_y(self) -> float:
+        """The least y on the axis."""
+        return 10.0**self.y.low
+
     def draw_ground(self, frame: Frame) -> None:
         """Draw the ground, the grid and the numbers of both axes."""
         surface, scale, area = frame.surface, self.scale, self.area

@@ -13,7 +13,7 @@ from game.measure.errors import VISIBLE, References
 from game.measure.moment import STEPS, Moment
 from game.measure.pareto_front import cheaper
 from game.measure.setting import Setting, settings_around
-from game.measure.survey import Survey, is_sound, reported_error
+from game.measure.survey import Survey, is_sound
 from game.measure.timing import RUNS
 
 # groups of fields of Setting that are chosen independently
@@ -110,13 +110,14 @@ def share(survey: Survey, setting: Setting, here: Setting) -> float:
 
 
 def settings_within(survey: Survey, error: float) -> list[Setting]:
-    """Return the settings of the survey without failures whose error of every kind is at most `error` [px], the fastest
-    first.
+    """Return the settings of the survey without failures whose error of every kind is within `error`, fastest first.
+
+    error: in pixels, and for tiers in wrong answers per 100 encounters; the upper end of the interval must be within.
     """
     found = {}
     for setting, dot in survey.dots.items():
         errors = [dot.error(kind) for kind in survey.kinds]
-        if dot.cost is not None and all(e is not None and is_sound(e) and reported_error(e) <= error for e in errors):
+        if dot.cost is not None and all(e is not None and is_sound(e) and e.interval[1] <= error for e in errors):
             found[setting] = dot.cost.median
     return sorted(found, key=found.__getitem__)
 

@@ -1,8 +1,9 @@
 """The errors of a setting at a moment, against reference runs and exact tests.
 
-There are three kinds of error, in pixels. `way`: distance of the bodies from their positions in a reference run.
-`overlap`: how deep rigid bodies overlap, which is 0 in an exact solution. `verdict`: by how much a false hit misses, or
-a missed hit overlaps.
+There are three kinds of error. `way` [px]: distance of the bodies from their positions in a reference run. `overlap`
+[px]: how deep rigid bodies overlap, which is 0 in an exact solution. `verdict`: wrong answers (false hits and missed
+hits) per 100 encounters. An encounter is a pair of bodies that the setting or the exact test reports as touching. A
+pair counts once, no matter how long it touches, so that encounters are independent.
 
 The reference run of `way` has 64 times the 4 substeps of a plain run, and the contact stiffness of runs with a fixed
 number of substeps. Erez, Tassa and Todorov (ICRA 2015) compare engines with themselves at smaller steps in this way.
@@ -22,18 +23,42 @@ import numpy as np
 from game.measure.moment import STEPS, Moment, Way, failures_of
 from game.measure.rates import Rate
 from game.measure.setting import Setting
-from physics import World, distance
+from physics import World
 
 VISIBLE = 1.0  # [px] error that a player can see
 AGREED = 0.1  # largest uncertainty of the reference, as a share of the error and of VISIBLE
 FINE, COARSE = 64, 32  # multiples of PLAIN substeps
 PLAIN = 4
 LOOKS = 12  # number of steps of a run in which touching pairs are compared
+Pairs = frozenset[tuple[int, int]]  # ids of two bodies, the smaller first
+
+
+class Verdicts(NamedTuple):
+    """The encounters that a setting reported as hits, and those that were hits."""
+
+    reported: Pairs
+    true: Pairs
+    own: bool  # True if the setting decides by the exact test itself: then no other answer is possible
+
+    @property
+    def wrong(self) -> Rate:
+        """Rate of false hits among the reported hits."""
+        return Rate(len(self.reported - self.true), len(self.reported))
+
+    @property
+    def missed(self) -> Rate:
+        """Rate of missed hits among the true hits."""
+        return Rate(len(self.true - self.reported), len(self.true))
+
+    @property
+    def either(self) -> Rate:
+        """Rate of wrong answers among all encounters."""
+        return Rate(len(self.reported ^ self.true), len(self.reported | self.true))
 
 
 @dataclass(frozen=True)
 class Error:
-    """One kind of error of a setting, in pixels.
+    """One kind of error of a setting: in pixels, or in wrong answers per 100 encounters if it has `verdicts`.
 
     floor: errors below it are within the uncertainty of the reference. steps: number of steps after which the error was
     read. failures: counts of failures during the run.
@@ -43,13 +68,38 @@ class Error:
     floor: float = 0.0
     steps: int = 0
     failures: dict[str, int] = field(default_factory=dict)
-    wrong: Rate | None = None  # false hits, of all reported hits
-    missed: Rate | None = None  # missed hits, of all true hits
+    verdicts: Verdicts | None = None
+
+    @classmethod
+    def of(cls, verdicts: Verdicts, steps: int, failures: dict[str, int]) -> "Error":
+        """Return the error of these verdicts."""
+        return cls(100.0 * verdicts.either.share, 0.0, steps, failures, verdicts)
 
     @property
     def above_floor(self) -> bool:
         """Return whether the error is above the uncertainty of the reference."""
         return self.value > self.floor
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The least and the greatest likely error (95 %); for errors in pixels both are the value, or 0 below the
+        floor.
+        """
+        if self.verdicts is None or self.verdicts.own:
+            value = self.value if self.above_floor else 0.0
+            return value, value
+        low, high = self.verdicts.either.interval
+        return 100.0 * low, 100.0 * high
+
+    @property
+    def wrong(self) -> Rate | None:
+        """Rate of false hits among the reported hits; None for an error in pixels."""
+        return self.verdicts and self.verdicts.wrong
+
+    @property
+    def missed(self) -> Rate | None:
+        """Rate of missed hits among the true hits; None for an error in pixels."""
+        return self.verdicts and self.verdicts.missed
 
 
 class Reference(NamedTuple):
@@ -108,21 +158,16 @@ class References:
         Bodies move alike in both worlds, because there is no collision response.
         """
         world, true = self.moment.world(setting), self.moment.world(self.truth)
-        wrong = missed = hits = reports = 0
-        pixels, failures = 0.0, Counter()
+        reported, hits, failures = set(), set(), Counter()
         for step in range(STEPS):
             world.step()
             true.step()
             failures += failures_of(world)
-            if step % (STEPS // LOOKS):
-                continue
-            reported, actual = pairs_of(world), pairs_of(true)
-            wrong, missed = wrong + len(reported - actual), missed + len(actual - reported)
-            reports, hits = reports + len(reported), hits + len(actual)
-            pixels += sum(abs(gap(true, *pair)) for pair in reported ^ actual)
-        decided = reports + missed
-        value = pixels / decided if decided else 0.0
-        return Error(value, 0.0, STEPS, failures, Rate(wrong, reports), Rate(missed, hits))
+            if step % (STEPS // LOOKS) == 0:
+                reported |= pairs_of(world)
+                hits |= pairs_of(true)
+        own = (setting.tier, setting.narrowphase) == (self.truth.tier, self.truth.narrowphase)
+        return Error.of(Verdicts(frozenset(reported), frozenset(hits), own), STEPS, failures)
 
 
 def pairs_of(world: World) -> set[tuple[int, int]]:
@@ -134,12 +179,3 @@ def pairs_of(world: World) -> set[tuple[int, int]]:
     contacts = world.contacts[world.contacts["separation"] <= 0.0]  # contacts include pairs about to meet
     ids = np.sort(np.stack([contacts["body_a"], contacts["body_b"]], axis=1), axis=1)
     return set(map(tuple, ids.tolist()))
-
-
-def gap(world: World, first: int, second: int) -> float:
-    """Return the separation [px] of the bodies with the ids `first` and `second`: the least over their shapes, negative
-    if they overlap.
-    """
-    a, b = world.body(first), world.body(second)
-    poses = [(body.position.x, body.position.y, body.angle) for body in (a, b)]
-    return min(distance(s, poses[0], t, poses[1]).distance for s in a.shapes for t in b.shapes)

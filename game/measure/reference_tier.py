@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from game.measure.errors import pairs_of
+from game.measure.errors import Verdicts, pairs_of
 from game.measure.moment import Moment
 from game.measure.rates import Rate
 from physics import TIERS, World, debug
@@ -21,16 +21,18 @@ Pairs = set[tuple[int, int]]  # ids of bodies
 class ReferenceTier:
     """Comparison of all tiers with the tier "mask"; call ask(world) once per step.
 
-    `wrong`, `missed`: rates of false and of missed hits, by tier, over all snapshots at which every tier was tested.
-    lit: the tier whose errors are drawn. `seen`: the errors of that tier at the last snapshot, each (True for a false
-    hit, False for a missed hit; outlines of both bodies).
+    `wrong`, `missed`: rates of false hits among the reported hits, and of missed hits among the true hits, by tier.
+    They count encounters over all snapshots at which every tier was tested: a pair of bodies counts once. lit: the tier
+    whose errors are drawn. `seen`: the errors of that tier at the last snapshot, each (True for a false hit, False for
+    a missed hit; outlines of both bodies).
     """
 
     def __init__(self, lit: str, tiers: Sequence[str] = TIERS) -> None:
         self.lit, self.seen = lit, list[tuple[bool, list[Any]]]()
         self.tiers = tuple(tier for tier in tiers if tier != REFERENCE)
-        self.wrong = dict.fromkeys(self.tiers, Rate(0, 0))  # false hits, of all reported hits
-        self.missed = dict.fromkeys(self.tiers, Rate(0, 0))  # missed hits, of all true hits
+        self.wrong = dict.fromkeys(self.tiers, Rate(0, 0))
+        self.missed = dict.fromkeys(self.tiers, Rate(0, 0))
+        self._met: dict[str, set[tuple[int, int]]] = {tier: set() for tier in (*self.tiers, REFERENCE)}
         self.moments = 0
         self._moment: Moment | None = None
         self._hits: dict[str, Pairs] = {}
@@ -47,11 +49,12 @@ class ReferenceTier:
         self._hits[waiting[0]] = self._verdict(self._moment, waiting[0])
         if len(waiting) > 1:
             return False
-        true = self._hits[REFERENCE]
+        for tier, hits in self._hits.items():
+            self._met[tier] |= hits
+        true = frozenset(self._met[REFERENCE])
         for tier in self.tiers:
-            wrong, missed = self._hits[tier] - true, true - self._hits[tier]
-            self.wrong[tier] = _more(self.wrong[tier], len(wrong), len(self._hits[tier]))
-            self.missed[tier] = _more(self.missed[tier], len(missed), len(true))
+            found = Verdicts(frozenset(self._met[tier]), true, own=False)
+            self.wrong[tier], self.missed[tier] = found.wrong, found.missed
         self.moments, self._moment = self.moments + 1, None
         return True
 
@@ -69,10 +72,6 @@ class ReferenceTier:
         """Return the counts so far, as part of the scene's state for the digest."""
         rates = [*self.wrong.values(), *self.missed.values()]
         return self.moments, len(self._hits), *(number for rate in rates for number in rate)
-
-
-def _more(rate, count, total):
-    return Rate(rate.count + count, rate.total + total)
 
 
 def _outlines(world, pair):

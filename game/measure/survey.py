@@ -6,11 +6,12 @@ from collections import Counter
 from dataclasses import dataclass, field
 from typing import Any
 
-from game.measure.errors import VISIBLE, Error
+from game.measure.errors import VISIBLE, Error, Verdicts
 from game.measure.pareto_front import TIE, cheaper, pareto_front
-from game.measure.rates import Rate
 from game.measure.setting import Setting
 from game.measure.timing import RUNS, Cost
+
+LEAST_HITS = 20  # hits that boxes must have reported before their rate of false hits is stated
 
 
 @dataclass
@@ -67,27 +68,14 @@ class Dot:
         found = [errors[kind] for errors in self.errors.values() if kind in errors]
         if not found:
             return None
-        wrong, missed = _pooled(found, "wrong"), _pooled(found, "missed")
-        if wrong is not None and missed is not None:
-            weights = [_decided(each) for each in found]
-            total = sum(weights)
-            value = sum(e.value * w for e, w in zip(found, weights, strict=True)) / total if total else 0.0
-        else:
-            value = sum(each.value for each in found) / len(found)
         failures = sum((Counter(each.failures) for each in found), Counter())
         floor, steps = max(each.floor for each in found), min(each.steps for each in found)
-        return Error(value, floor, steps, failures, wrong, missed)
-
-
-def _pooled(errors, name):
-    rates = [getattr(each, name) for each in errors]
-    if any(rate is None for rate in rates):
-        return None
-    return Rate(sum(rate.count for rate in rates), sum(rate.total for rate in rates))
-
-
-def _decided(error):
-    return (error.wrong.total if error.wrong else 0) + (error.missed.count if error.missed else 0)
+        verdicts = [each.verdicts for each in found if each.verdicts is not None]
+        if verdicts:
+            reported = frozenset().union(*(each.reported for each in verdicts))
+            true = frozenset().union(*(each.true for each in verdicts))
+            return Error.of(Verdicts(reported, true, all(each.own for each in verdicts)), steps, failures)
+        return Error(sum(each.value for each in found) / len(found), floor, steps, failures)
 
 
 class Survey:
@@ -121,25 +109,21 @@ class Survey:
     def finding(self, kind: str, here: Setting) -> str:
         """Return one sentence that compares the setting `here` with the others by cost and by this kind of error; "" if
         too few are measured.
+
+        Two errors count as different only if their intervals are apart.
         """
         known = {s: each for s, each in self.known(kind).items() if self.dots[s].sure}
         if here not in known or len(known) < 2:
             return ""
         cost, error = known[here]
-        as_good = {
-            s: c
-            for s, (c, e) in known.items()
-            if reported_error(e) <= (1.0 + TIE) * reported_error(error) and is_sound(e)
-        }
+        least, most = error.interval
+        sound = {s: (c, e) for s, (c, e) in known.items() if is_sound(e)}
+        as_good = {s: c for s, (c, e) in sound.items() if e.interval[1] <= (1.0 + TIE) * most}
         best = min(as_good, key=lambda s: as_good[s].median, default=here)
         if best != here and cheaper(as_good[best][:2], cost[:2]):
             share = as_good[best].median / cost.median
             return f"{best.label(here)}: as exact in {share:.2f} x the time"
-        exacter = {
-            s: (c, e)
-            for s, (c, e) in known.items()
-            if reported_error(e) < (1.0 - TIE) * reported_error(error) and is_sound(e)
-        }
+        exacter = {s: (c, e) for s, (c, e) in sound.items() if e.interval[1] < (1.0 - TIE) * least}
         better = {s: e for s, (c, e) in exacter.items() if not cheaper(cost[:2], c[:2])}
         if better:
             best = min(better, key=lambda s: reported_error(better[s]))
@@ -147,17 +131,44 @@ class Survey:
         if exacter and reported_error(error) > VISIBLE:
             best = min(exacter, key=lambda s: exacter[s][0].median)
             price = exacter[best][0].median / cost.median
-            return f"wrong by {shown(error)}; {best.label(here)} has {shown(known[best][1])} for {price:.2f} x the time"
+            return f"here {shown(error)}; {best.label(here)} has {shown(known[best][1])} for {price:.2f} x the time"
         return f"nothing measured here is as exact ({shown(error)}) for less time"
+
+    def boxes_and_pixels(self) -> str:
+        """Return one sentence on the false hits of boxes, and on the price of pixels; "" in a scene without tiers.
+
+        Until boxes have reported LEAST_HITS encounters, it says how far the measuring is.
+        """
+        tiers = {setting.tier: setting for setting in self.known("verdict") if self._is_tier_alone(setting)}
+        boxes, pixels = tiers.get("aabb"), tiers.get("mask")
+        if boxes is None or pixels is None:
+            return ""
+        (cost, error), (exact, _) = (self.known("verdict")[each] for each in (boxes, pixels))
+        wrong = error.wrong
+        if wrong is None or wrong.total < LEAST_HITS or not (self.dots[boxes].sure and self.dots[pixels].sure):
+            hits = 0 if wrong is None else wrong.total
+            return f"Boxes and pixels: measuring, {min(hits, LEAST_HITS)} of {LEAST_HITS} hits by boxes."
+        low, high = (round(100 * each) for each in wrong.interval)
+        apart = cheaper(cost[:2], exact[:2]) or cheaper(exact[:2], cost[:2])
+        price = f"{exact.median / cost.median:.2f} x the time" if apart else "the same time"
+        false = f"{100 * wrong.share:.0f} of 100 hits are false ({low} to {high})"
+        return f"Boxes: {false}. Pixels: none, for {price}."
+
+    def _is_tier_alone(self, setting):
+        """Return whether a setting differs from the first one, under which the scene ran, by its tier at most."""
+        return set(setting.differs(next(iter(self.dots)))) <= {"tier"}
 
 
 def reported_error(error: Error) -> float:
-    """Return the error [px], or 0 if it is below the floor of its reference."""
+    """Return the error, or 0 if it is below the floor of its reference."""
     return error.value if error.above_floor else 0.0
 
 
 def shown(error: Error) -> str:
-    """Return the error in words."""
+    """Return the error in words: wrong answers of all encounters, or pixels."""
+    if error.verdicts is not None:
+        rate = error.verdicts.either
+        return f"{rate.count} of {rate.total} wrong"
     if error.above_floor:
         return f"{error.value:.2g} px"
     return f"less than {error.floor:.2g} px" if error.floor else "0 px"

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from game.measure.effect_costs import EffectCost
-from game.measure.errors import Error
+from game.measure.errors import Error, Verdicts
 from game.measure.ledger import EFFECTS
 from game.measure.measured_runs import RunFigures
 from game.measure.rates import Rate
@@ -249,5 +249,12 @@ def figures_of(values: list[Any]) -> TierFigures:
 
 def error_of(values: dict[str, Any]) -> Error:
     """Return an Error from its JSON form."""
-    wrong, missed = (None if values[name] is None else Rate(*values[name]) for name in ("wrong", "missed"))
-    return Error(values["value"], values["floor"], values["steps"], values["failures"], wrong, missed)
+    verdicts = values["verdicts"]
+    if verdicts is not None:
+        reported, true, own = verdicts
+        verdicts = Verdicts(_pairs(reported), _pairs(true), own)
+    return Error(**{**values, "verdicts": verdicts})
+
+
+def _pairs(lists):
+    return frozenset((first, second) for first, second in lists)

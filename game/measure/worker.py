@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from game.measure.effect_costs import measure_effects
-from game.measure.errors import References
+from game.measure.errors import Error, References
 from game.measure.measured_runs import measure_runs
 from game.measure.moment import Moment
 from game.measure.setting import settings_around
@@ -29,6 +29,14 @@ from physics import PixelMask, Snapshot
 from physics.jit.workers import end_all, start_module
 
 NICE = 19  # of 0 to 19: the game has priority
+
+
+def sent(error: Error) -> dict[str, Any]:
+    """Return the JSON form of an error, which surveyor.error_of reads."""
+    verdicts = error.verdicts
+    if verdicts is None:
+        return vars(error)
+    return {**vars(error), "verdicts": (sorted(verdicts.reported), sorted(verdicts.true), verdicts.own)}
 
 
 class Orders:
@@ -77,7 +85,7 @@ def measure(order: dict[str, Any], report: Callable[[str], object], goes_on: Cal
         if not goes_on():
             return
         moment.time_run(setting, 2)  # compiles missing kernels
-        send(setting=setting, errors={kind: vars(error) for kind, error in references.errors(setting).items()})
+        send(setting=setting, errors={kind: sent(error) for kind, error in references.errors(setting).items()})
         send(setting=setting, spent=moment.time_run(setting), steps=STEPS)
     chance = Random(number)
     for _ in range(RUNS - 1):

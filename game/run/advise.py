@@ -65,17 +65,21 @@ class Progress:
 
 
 def lines_of(options: Options, error: float, advice: Advice, survey: Survey) -> list[str]:
-    """Return the measured settings of the survey and the advice as lines of text. error: the allowed error [px]."""
+    """Return the measured settings of the survey and the advice as lines of text.
+
+    error: the allowed error, in pixels, or in wrong answers per 100 encounters where tiers are measured.
+    """
     here, best = advice.here, advice.best
+    limit = f"{error:g} wrong of 100 hits" if survey.kinds == ("verdict",) else f"{error:g} px"
     lines = [
         f"{options.scene}: {len(survey.dots)} settings at {survey.moments} moments of {STEPS} steps, {RUNS} runs each",
         _line("now", here, here, survey),
     ]
     if best is None:
-        return [*lines, f"nothing that was measured is within {error:g} px"]
+        return [*lines, f"nothing that was measured is within {limit}"]
     lines += [_line("within", each, here, survey) for each in advice.within if each not in (here, best)]
     if best == here:
-        return [*lines, f"advice: leave it; within {error:g} px nothing is surely cheaper"]
+        return [*lines, f"advice: leave it; within {limit} nothing is surely cheaper"]
     lines.append(_line("advice", best, here, survey))
     least, most = interval(survey, best, here)
     times = f"{share(survey, best, here):.2f} x the time ({least:.2f} to {most:.2f})"
@@ -109,11 +113,17 @@ def as_json(options: Options, error: float, advice: Advice, survey: Survey) -> d
             {
                 **setting._asdict(),
                 "cost": None if dot.cost is None else dot.cost._asdict(),
-                "errors": {kind: vars(found) for kind in survey.kinds if (found := dot.error(kind)) is not None},
+                "errors": {kind: _as_dict(found) for kind in survey.kinds if (found := dot.error(kind)) is not None},
             }
             for setting, dot in survey.dots.items()
         ],
     }
+
+
+def _as_dict(error):
+    found = {"value": error.value, "interval": error.interval, "floor": error.floor, "steps": error.steps}
+    rates = {"wrong": error.wrong, "missed": error.missed}
+    return found | {"failures": error.failures} | {name: rate and rate._asdict() for name, rate in rates.items()}
 
 
 def _line(word, setting, here, survey):

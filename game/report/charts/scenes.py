@@ -19,7 +19,8 @@ from game.run.warmup import warm_up_scene
 from physics.step import ignored_effects
 
 FRAME = 300  # frame whose state is measured: five seconds into the bot's run
-VISIBLE = 1.0  # [px]
+VISIBLE = 1.0  # [px], or wrong answers per 100 encounters
+UNITS = {"verdict": "wrong hits and misses per 100 encounters"}
 FEW = ("shooter", "lab/pyramid")
 
 
@@ -44,7 +45,7 @@ def measure(scene: str, where: str) -> list[Row]:
                     "panel": f"{scene}, {kind}",
                     "setting": setting._asdict(),
                     "ignored_effects": list(ignored_effects(moment.effects, setting.solver or world.solver)),
-                    "error": [max(0.0, error.value - error.floor), reported_error(error), error.value + error.floor],
+                    "error": _with_interval(error),
                     "floor": error.floor,
                     "wrong": None if error.wrong is None else counted(error.wrong),
                     "missed": None if error.missed is None else counted(error.missed),
@@ -53,6 +54,14 @@ def measure(scene: str, where: str) -> list[Row]:
                 }
             )
     return rows
+
+
+def _with_interval(error):
+    """Return (least, reported, greatest) of an error: its interval, or in pixels the value with its floor."""
+    if error.verdicts is None:
+        return [max(0.0, error.value - error.floor), reported_error(error), error.value + error.floor]
+    least, most = error.interval
+    return [least, error.value, most]
 
 
 def _jobs(scope: ReportScope) -> list[Job]:
@@ -73,10 +82,12 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
         good = {
             row["label"]: pair(row["cost"])
             for row in rows
-            if row["panel"] == panel and row["error"][1] <= VISIBLE and not any(row["failures"].values())
+            if row["panel"] == panel
+            and row["error"][2 if panel.endswith("verdict") else 1] <= VISIBLE
+            and not any(row["failures"].values())
         }
         if len(good) > 1:
-            found.append(ordering(f"{panel} within a pixel", good))
+            found.append(ordering(f"{panel}, error at most 1", good))
     return found
 
 
@@ -85,7 +96,7 @@ def _panels(rows: Sequence[Row]) -> list[Panel]:
         Panel(
             panel.replace(",", ":"),
             Axis("us a step", time("cost")),
-            Axis(f"{panel.split(', ')[1]} [px]", value("error"), mark=VISIBLE),
+            Axis(UNITS.get(panel.split(", ")[1], f"{panel.split(', ')[1]} [px]"), value("error"), mark=VISIBLE),
             panel_is(panel),
         )
         for panel in dict.fromkeys(row["panel"] for row in rows)

@@ -20,9 +20,9 @@ from game.screens.parts.advice_rows import AdviceRows
 from game.screens.parts.switches import following
 
 TITLES = {
-    "verdict": "wrong verdicts: by how much, on average",
-    "overlap": "bodies in each other: the deepest place",
-    "way": "bodies astray from a reference run",
+    "verdict": "wrong of 100 hits",
+    "overlap": "deepest overlap of bodies [px]",
+    "way": "bodies astray from a reference run [px]",
 }
 # Changed part of a setting -> (name, colour, form) of its dot; forms differ, so that colour is not needed. If a setting
 # differs in several parts, the first one here counts.
@@ -176,7 +176,7 @@ class CostPanel:
         lines = wrap(self._state(), width, SMALL, scale)
         if kind := self.shown_kind():
             more = f"  ({len(self.survey.kinds)} kinds, \u2190 \u2192)" if len(self.survey.kinds) > 1 else ""
-            lines = [*wrap(f"up: {TITLES[kind]} [px]{more}; right: time of a step [us]", width, SMALL, scale), *lines]
+            lines = [*wrap(f"up: {TITLES[kind]}{more}; right: time of a step [us]", width, SMALL, scale), *lines]
         self.head = pygame.Rect(left, y, width, len(lines) * 7 * scale)
         for row, line in enumerate(lines):
             frame.text(line, left, y + row * 7 * scale, FOG, SMALL, scale)
@@ -195,9 +195,12 @@ class CostPanel:
     def _draw_plot(self, frame, rect, known, now, scale):
         x = Axis([1e6 * value for cost, _ in known.values() for value in (cost.least, cost.upper)])
         errors = [reported_error(error) for _, error in known.values()]
-        plot = LogPlot(rect, x, Axis([*errors, VISIBLE]), any(error <= 0.0 for error in errors), scale)
+        in_pixels = self.shown_kind() != "verdict"
+        levels = [VISIBLE] if in_pixels else [100.0]
+        plot = LogPlot(rect, x, Axis([*errors, *levels]), any(error <= 0.0 for error in errors), scale)
         plot.draw_ground(frame)
-        plot.draw_level(frame, VISIBLE, PAPER, "a pixel: seen above")
+        if in_pixels:
+            plot.draw_level(frame, VISIBLE, PAPER, "a pixel: seen above")
         places = {s: plot.place(1e6 * cost.median, reported_error(error)) for s, (cost, error) in known.items()}
         pareto_front = [places[setting] for setting in self.survey.pareto_front(self.shown_kind())]
         if len(pareto_front) > 1:
@@ -216,6 +219,9 @@ class CostPanel:
         low, high = (plot.place(1e6 * value, 1.0)[0] for value in (cost.least, cost.upper))
         if high - low > 2:
             pygame.draw.line(frame.surface, faded(color, 0.4), (low, place[1]), (high, place[1]), 1)
+        least, most = (plot.place(1.0, max(value, plot.least_y))[1] for value in error.interval)
+        if reported_error(error) > 0.0 and least - most > 2:
+            pygame.draw.line(frame.surface, faded(color, 0.4), (place[0], least), (place[0], most), 1)
         draw_form(frame.surface, form, place, 2.2 * scale, color, error.above_floor or not error.floor)
         if setting == now:
             pygame.draw.circle(frame.surface, GOLD, place, 5 * scale, max(1, scale // 2))

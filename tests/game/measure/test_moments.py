@@ -6,7 +6,7 @@ import json
 import numpy as np
 import pytest
 
-from game.measure.errors import References, gap, pairs_of
+from game.measure.errors import References, pairs_of
 from game.measure.moment import Moment, here_of
 from game.measure.setting import Setting, settings_around
 from game.measure.survey import Survey, reported_error
@@ -113,7 +113,7 @@ def test_verdicts_are_wrong_by_what_the_shapes_say():
     for tier in ("circle", "aabb", "mask"):
         setting = moment.here._replace(tier=tier)
         error = references.errors(setting)["verdict"]
-        reported_world, wrong, missed, pixels, decided = moment.world(setting), 0, 0, 0.0, 0
+        reported_world, reported, hits = moment.world(setting), set(), set()
         exact = moment.world(moment.here._replace(tier="mask"))
         for step in range(60):
             reported_world.step()
@@ -124,18 +124,14 @@ def test_verdicts_are_wrong_by_what_the_shapes_say():
             for i, a in enumerate(bodies):
                 for b in bodies[i + 1 :]:
                     poses = [(*body.position, body.angle) for body in (a, b)]
-                    true = len(collide(a.shapes[0], poses[0], b.shapes[0], poses[1])) > 0
-                    says = (a.id, b.id) in pairs_of(reported_world)
-                    wrong, missed, decided = (
-                        wrong + (says and not true),
-                        missed + (true and not says),
-                        decided + (says or true),
-                    )
-                    if says != true:
-                        pixels += abs(gap(exact, a.id, b.id))
-        assert error.wrong is not None and error.missed is not None
-        assert (error.wrong.count, error.missed.count) == (wrong, missed)
-        assert error.value == pytest.approx(pixels / decided if decided else 0.0)
+                    if len(collide(a.shapes[0], poses[0], b.shapes[0], poses[1])) > 0:
+                        hits.add((a.id, b.id))
+                    if (a.id, b.id) in pairs_of(reported_world):
+                        reported.add((a.id, b.id))
+        assert error.wrong is not None and error.missed is not None and hits
+        assert error.wrong == (len(reported - hits), len(reported)), "a pair counts once, however long it touches"
+        assert error.missed == (len(hits - reported), len(hits))
+        assert error.value == pytest.approx(100 * len(reported ^ hits) / len(reported | hits))
         assert (error.value > 0.0) == (tier != "mask")
 
 

@@ -35,22 +35,21 @@ def asked():
     """(reference tier, {tier: (hits, wrong, missed)} counted slowly) after some moments of the shooter."""
     scene = make_scene("shooter")
     session, reference = Session(scene, BotSource()), ReferenceTier("aabb")
-    counts = dict.fromkeys(reference.tiers, (0, 0, 0))
+    met = {tier: set() for tier in TIERS}
     for _ in range(QUIET):
         session.step()
     while reference.moments < ASKED:
         bodies = list(scene.world)
         filters = {body.id: (body.filter.membership, body.filter.mask) for body in bodies}
-        true = slow_verdict(bodies, filters, "mask")
-        for tier in reference.tiers:
-            hits, (all_hits, wrong, missed) = slow_verdict(bodies, filters, tier), counts[tier]
-            counts[tier] = all_hits + len(hits), wrong + len(hits - true), missed + len(true - hits)
+        for tier in TIERS:
+            met[tier] |= slow_verdict(bodies, filters, tier)
         while not reference.ask(scene.world):
             session.step()  # the moment that is being judged stays as it was taken
         session.step()
         while not len(scene.world.contacts):
             session.step()
-    return reference, counts
+    true = met["mask"]
+    return reference, {tier: (len(hits), len(hits - true), len(true - hits)) for tier, hits in met.items()}
 
 
 def test_every_tier_is_counted_as_a_slow_look_counts(asked):
@@ -71,8 +70,9 @@ def test_what_the_lit_tier_reported_wrongly_is_there_to_be_drawn():
         session.step()
         if reference.ask(scene.world):
             wrong = reference.wrong["circle"].count - before
-            assert sum(false_hit for false_hit, _ in reference.seen) == wrong and all(
-                outlines for _, outlines in reference.seen
+            drawn = sum(false_hit for false_hit, _ in reference.seen)
+            assert drawn >= wrong and all(outlines for _, outlines in reference.seen), (
+                "a pair is drawn as often as seen"
             )
             before += wrong
     assert before > 0
