@@ -6,7 +6,7 @@ from collections import Counter
 from dataclasses import dataclass, field
 from typing import Any
 
-from game.measure.errors import VISIBLE, Error, Verdicts
+from game.measure.errors import VISIBLE, Error, Verdicts, exact_tier
 from game.measure.pareto_front import TIE, cheaper, pareto_front
 from game.measure.setting import Setting
 from game.measure.timing import RUNS, Cost
@@ -36,6 +36,10 @@ class Dot:
     def erred(self, moment: int, errors: dict[str, Error]) -> None:
         """Set the errors at a moment, by kind."""
         self.errors[moment] = errors
+        self._known.clear()
+
+    def forget(self) -> None:
+        """Drop the cached results, because `spent` or `errors` was replaced."""
         self._known.clear()
 
     @property
@@ -86,6 +90,11 @@ class Survey:
         self.kinds: tuple[str, ...] = ()
         self.moments = 0
         self.planned = 0  # settings that are being measured
+
+    @property
+    def first(self) -> Setting:
+        """The setting that was measured first: the one under which the scene ran."""
+        return next(iter(self.dots))
 
     def dot(self, setting: Setting) -> Dot:
         """Return the dot of a setting; a new one if there is none."""
@@ -140,7 +149,7 @@ class Survey:
         Until boxes have reported LEAST_HITS encounters, it says how far the measuring is.
         """
         tiers = {setting.tier: setting for setting in self.known("verdict") if self._is_tier_alone(setting)}
-        boxes, pixels = tiers.get("aabb"), tiers.get("mask")
+        boxes, pixels = tiers.get("aabb"), tiers.get(exact_tier(self.first.tier or "")) if self.dots else None
         if boxes is None or pixels is None:
             return ""
         (cost, error), (exact, _) = (self.known("verdict")[each] for each in (boxes, pixels))
@@ -156,7 +165,7 @@ class Survey:
 
     def _is_tier_alone(self, setting):
         """Return whether a setting differs from the first one, under which the scene ran, by its tier at most."""
-        return set(setting.differs(next(iter(self.dots)))) <= {"tier"}
+        return set(setting.differs(self.first)) <= {"tier"}
 
 
 def reported_error(error: Error) -> float:

@@ -1,53 +1,58 @@
-"""`--advise SCENE`: let the bot play the scene, measure each setting at several moments of the run, and print the
-recommended setting.
+"""`--advise SCENE`: let the bot play the scene, measure each setting over the recorded run, and print the recommended
+setting once it has proved itself on the whole run.
 """
 
 import json
 import sys
 from time import perf_counter
 
-from game.measure.advice import Advice, advise, share
+from game.errors import UsageError
+from game.measure.advice import APPLIED_RUNS, Advice, Applied, advise_on_run
 from game.measure.errors import VISIBLE
-from game.measure.moment import STEPS, Moment
+from game.measure.moment import STEPS
+from game.measure.recorded_run import SECOND, Overview, RecordedRun
 from game.measure.setting import Setting
 from game.measure.survey import Survey, shown
 from game.measure.timing import RUNS
 from game.registry import Registry
 from game.run.headless import start_dummy_display
 from game.run.options import DEFAULT_FRAMES, Options, make_scene, scene_class_of
+from game.run.replay import Recorder
 from game.run.session import Session
 from game.run.sources import BotSource
 from game.run.warmup import warm_up_scene
 
-MOMENTS = 3  # measured states of the world, evenly spaced over the bot's run, the last at the end of the run
 EVERY = 2.0  # [s] between two lines of progress
 
 
 def run_advice(options: Options, registry: Registry) -> int:
-    """Measure the settings, and print the advice. Return the exit code: 1 if no setting is within the allowed error."""
+    """Measure the settings, and print the advice. Return the exit code: 1 if no setting is within the allowed error.
+
+    Raises UsageError for a run that is shorter than SECOND steps.
+    """
+    frames = options.frames or DEFAULT_FRAMES
+    if frames < SECOND:
+        raise UsageError(f"--frames {frames}: too short a run to advise on; valid: {SECOND} or more")
     start_dummy_display()
     warm_up_scene(scene_class_of(options, registry), options.broadphase, options.solver)
     error = VISIBLE if options.error is None else options.error
-    moments = moments_of(options, registry)
-    advice, survey = advise(moments, error, Progress(), options.seed or 0)
+    run = recorded_run(options, registry, frames)
+    advice, survey, overview = advise_on_run(run, error, Progress(), options.seed or 0)
     if options.json:
-        print(json.dumps(as_json(options, error, advice, survey)))
+        print(json.dumps(as_json(options, error, advice, survey, overview)))
     else:
-        print("\n".join(lines_of(options, error, advice, survey)))
+        print("\n".join(lines_of(options, error, advice, survey, overview)))
     return 0 if advice.best is not None else 1
 
 
-def moments_of(options: Options, registry: Registry) -> list[Moment]:
-    """Return MOMENTS states of the scene's first visible world, evenly spaced over the bot's run."""
-    scene, frames, found = make_scene(options, registry), options.frames or DEFAULT_FRAMES, []
-    session = Session(scene, BotSource())
-    at = {frames * (number + 1) // MOMENTS for number in range(MOMENTS)} - {0}
-    for frame in range(1, frames + 1):
+def recorded_run(options: Options, registry: Registry, frames: int) -> RecordedRun:
+    """Let the bot play the scene for a number of steps, and return the recording."""
+    scene = make_scene(options, registry)
+    recorder = Recorder(scene, bot=True, every=frames)
+    session = Session(scene, BotSource(), recorder)
+    for _ in range(frames):
         session.step()
-        if frame in at:
-            world = scene.views()[0][0]
-            found.append(Moment(world.snapshot(), world.broadphase.name))
-    return found
+    return RecordedRun.of(scene, recorder)
 
 
 class Progress:
@@ -64,50 +69,77 @@ class Progress:
             print(f"{done} of {of} runs, about {left:.0f} s more", file=sys.stderr, flush=True)
 
 
-def lines_of(options: Options, error: float, advice: Advice, survey: Survey) -> list[str]:
-    """Return the measured settings of the survey and the advice as lines of text.
+def lines_of(options: Options, error: float, advice: Advice, survey: Survey, overview: Overview) -> list[str]:
+    """Return what was looked at, the measured settings of the survey, and the advice as lines of text.
 
     error: the allowed error, in pixels, or in wrong answers per 100 encounters where tiers are measured.
     """
     here, best = advice.here, advice.best
     limit = f"{error:g} wrong of 100 hits" if survey.kinds == ("verdict",) else f"{error:g} px"
+    steps = options.frames or DEFAULT_FRAMES
     lines = [
-        f"{options.scene}: {len(survey.dots)} settings at {survey.moments} moments of {STEPS} steps, {RUNS} runs each",
+        f"{options.scene}: the bot's run of {steps} steps; {len(survey.dots)} settings at {survey.moments} moments of "
+        f"{STEPS} steps, {RUNS} runs each",
+        f"moments from steps {', '.join(map(str, overview.at))}; the busiest second begins at {overview.busiest}",
+        *_encounters(overview),
         _line("now", here, here, survey),
     ]
     if best is None:
-        return [*lines, f"nothing that was measured is within {limit}"]
+        lines += [_tried(each, here) for each in advice.applied]
+        return [*lines, f"nothing with which the scene can play is within {limit}"]
     lines += [_line("within", each, here, survey) for each in advice.within if each not in (here, best)]
+    lines += [_tried(each, here) for each in advice.applied]
     if best == here:
-        return [*lines, f"advice: leave it; within {limit} nothing is surely cheaper"]
+        return [*lines, f"advice: leave it; within {limit} nothing is surely cheaper over the whole run"]
     lines.append(_line("advice", best, here, survey))
-    least, most = interval(survey, best, here)
-    times = f"{share(survey, best, here):.2f} x the time ({least:.2f} to {most:.2f})"
-    return [*lines, f"advice: {best.label(here)}: {times}"]
+    applied = advice.applied[-1]
+    least, most = applied.interval
+    return [*lines, f"advice: {best.label(here)}: {applied.mean:.2f} x the time ({least:.2f} to {most:.2f})"]
 
 
-def interval(survey: Survey, setting: Setting, here: Setting) -> tuple[float, float]:
-    """Return (least, most) time of `setting` as a share of the time of `here`, by the survey.
-
-    least: from the fastest run of `setting` and the upper quartile of `here`; most: from the upper quartile of
-    `setting` and the fastest run of `here`.
-    """
-    cost, now = survey.dots[setting].cost, survey.dots[here].cost
-    assert cost is not None and now is not None
-    return cost.least / now.upper, cost.upper / now.least
+def _encounters(overview):
+    boxes = overview.encounters.get("aabb")
+    if boxes is None:
+        return []
+    low, high = (round(100 * each) for each in boxes.wrong.interval)
+    wrong = boxes.wrong
+    return [f"boxes over the run: {wrong.count} of {wrong.total} hits are false ({low} to {high} of 100)"]
 
 
-def as_json(options: Options, error: float, advice: Advice, survey: Survey) -> dict:
-    """Return the allowed error [px], the advice and the survey as a dict for JSON."""
+def _tried(applied: Applied, here: Setting) -> str:
+    """Return a line on a setting that was applied to the whole run."""
+    if applied.refused:
+        return f"tried   {applied.setting.label(here)}: {applied.refused}"
+    least, most = applied.interval
+    measured = f"measured {applied.mean:.2f} ({least:.2f} to {most:.2f}), p99 {applied.p99:.2f}, {APPLIED_RUNS} runs"
+    end = "holds" if applied.holds else "withdrawn"
+    return f"tried   {applied.setting.label(here)}: predicted {applied.predicted:.2f}, {measured}: {end}"
+
+
+def as_json(options: Options, error: float, advice: Advice, survey: Survey, overview: Overview) -> dict:
+    """Return the allowed error, the advice, the survey and what was looked at as a dict for JSON."""
     best, here = advice.best, advice.here
+    applied = advice.applied[-1] if advice.applied and best != here else None
     return {
+        "looked_at": {
+            "steps": options.frames or DEFAULT_FRAMES,
+            "moments": overview.at,
+            "busiest_second_from": overview.busiest,
+            "encounters": {
+                tier: {"wrong": found.wrong._asdict(), "missed": found.missed._asdict()}
+                for tier, found in overview.encounters.items()
+            },
+        },
+        "tried": [
+            {**each._asdict(), "setting": each.setting._asdict(), "holds": each.holds} for each in advice.applied
+        ],
         "scene": options.scene,
         "error": error,
         "here": here._asdict(),
         "best": None if best is None else best._asdict(),
         "changes": [] if best is None else list(best.differs(here)),
-        "share": None if best is None else share(survey, best, here),
-        "interval": None if best is None else interval(survey, best, here),
+        "share": None if best is None else 1.0 if applied is None else applied.mean,
+        "interval": None if best is None else (1.0, 1.0) if applied is None else applied.interval,
         "within": [setting._asdict() for setting in advice.within],
         "settings": [
             {

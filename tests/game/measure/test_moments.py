@@ -110,11 +110,11 @@ def test_verdicts_are_wrong_by_what_the_shapes_say():
     """The tier's own world beside single calls of collide() on exact masks: another way to the same counts."""
     moment = moment_of(sprites(), "sweep")
     references = References(moment)
-    for tier in ("circle", "aabb", "mask"):
+    for tier in ("circle", "aabb", "pixels"):
         setting = moment.here._replace(tier=tier)
         error = references.errors(setting)["verdict"]
         reported_world, reported, hits = moment.world(setting), set(), set()
-        exact = moment.world(moment.here._replace(tier="mask"))
+        exact = moment.world(moment.here._replace(tier="pixels"))
         for step in range(60):
             reported_world.step()
             exact.step()
@@ -132,7 +132,7 @@ def test_verdicts_are_wrong_by_what_the_shapes_say():
         assert error.wrong == (len(reported - hits), len(reported)), "a pair counts once, however long it touches"
         assert error.missed == (len(hits - reported), len(hits))
         assert error.value == pytest.approx(100 * len(reported ^ hits) / len(reported | hits))
-        assert (error.value > 0.0) == (tier != "mask")
+        assert (error.value > 0.0) == (tier != "pixels")
 
 
 def test_a_worker_reports_every_setting_five_times(tmp_path):

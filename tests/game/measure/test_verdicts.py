@@ -13,7 +13,7 @@ from game.measure.surveyor import error_of
 from game.measure.timing import RUNS
 from game.measure.worker import sent
 
-HERE = Setting("hash", True, None, None, "mask")
+HERE = Setting("hash", True, None, None, "pixels")
 BOXES = HERE._replace(tier="aabb")
 
 

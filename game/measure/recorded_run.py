@@ -1,0 +1,178 @@
+"""Recorded runs: a scene played again from its inputs, with its rules, under any setting that it can play with.
+
+What is said of a scene is measured over the whole of such a run: its busiest second, the encounters of its bodies under
+every tier, and the time of its steps with a setting applied.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from importlib import import_module
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from game.drawing.number_text import plain_name
+from game.input.inputs import InputFrame, InputState
+from game.measure.errors import Pairs, Verdicts, exact_tier, pairs_of
+from game.measure.moment import Moment, here_of
+from game.measure.setting import Setting
+from game.measure.timing import undisturbed
+from game.run.replay import Recorder
+from game.scene import SUBSTEPS, Scene
+from physics import TIERS
+
+SECOND = 60  # steps
+STRATA = 4  # equal parts of a run; a moment is taken in the middle of each
+LOOK_EVERY = 6  # steps between two looks at the touching pairs
+WORK = ("bodies_integrated", "candidates", "contacts")  # counters that tell how busy a step is
+Changes = Sequence[tuple[str, Any]]
+Report = Callable[[int, int], object]  # called with (steps done, steps in all)
+
+
+class RecordedRun(NamedTuple):
+    """The inputs of a run, and the arguments of the scene that was run."""
+
+    scene: str  # "module:class"
+    arguments: tuple[Any, ...]  # seed, broad phase, solver, tier, path of the level file or None
+    inputs: tuple[tuple[int, InputFrame], ...]  # (number of steps, the input of each)
+
+    @classmethod
+    def of(cls, scene: Scene, recorder: Recorder) -> "RecordedRun":
+        """Return the run that a recorder has recorded so far from the start of a scene."""
+        head, level = recorder.head, scene.level_file
+        arguments = (head["seed"], head["broadphase"], head["solver"], head["tier"], level and str(level))
+        inputs = tuple((count, frame) for count, frame in recorder.runs)
+        return cls(f"{type(scene).__module__}:{type(scene).__qualname__}", arguments, inputs)
+
+    @property
+    def steps(self) -> int:
+        """Number of recorded steps."""
+        return sum(count for count, _ in self.inputs)
+
+    def make(self) -> Scene:
+        """Return a new scene, at the start of the run. Raises ValueError if its class cannot be found."""
+        module, name = self.scene.split(":")
+        found: Any = import_module(module)
+        for part in name.split("."):
+            found = getattr(found, part, None)
+        if found is None:
+            raise ValueError(f"there is no scene {self.scene}")
+        *first, level = self.arguments
+        return found(*first, level and Path(level))
+
+    def play(self, changes: Changes = ()) -> Iterator[Scene]:
+        """Play the run. Yield the scene after each step.
+
+        changes: (name, value) pairs for Scene.change, applied before the first step; later changes of the same names in
+        the inputs are left out.
+        """
+        scene, state, fixed = self.make(), InputState(), {name for name, _ in changes}
+        for name, value in changes:
+            scene.change(name, value)
+        for count, frame in self.inputs:
+            frame = replace(frame, changes=tuple(each for each in frame.changes if each[0] not in fixed))
+            for _ in range(count):
+                state.set(frame)
+                scene.step(state)
+                scene.observe()
+                yield scene
+
+
+def changes_to(setting: Setting, scene: Scene) -> Changes | str:
+    """Return the (name, value) changes that bring a scene to a setting, or a sentence on why that is impossible."""
+    changes = []
+    for name in setting.differs(here_of(scene.views()[0][0], scene.tier)):
+        change = _change(scene, name, getattr(setting, name))
+        if isinstance(change, str):
+            return change
+        changes += change
+    return changes
+
+
+def _change(scene, name, value):
+    """Return the (name, value) changes for one part of a setting, or a sentence that says why the scene cannot change
+    it.
+    """
+    if value is None:
+        return []
+    if name == "broadphase" and not scene.switches_broadphase:
+        return "each world here has a broad phase of its own"
+    if name == "solver" and value not in scene.solver_choices():
+        slider = next((each for each in scene.sliders if each.name == "solver" and value in each.choices), None)
+        if slider is None:
+            return f"each world here has a solver of its own: {plain_name(value)} is only measured"
+        return [("slider:solver", slider.low + slider.choices.index(value))]
+    if name == "tier" and value not in scene.tiers:
+        return f"this scene does not play with the tier {value}: it is only measured"
+    if name == "substeps" and value not in SUBSTEPS:
+        return f"{value} substeps are those that the scene began with: restart it"
+    return [(name, value)]
+
+
+class Overview(NamedTuple):
+    """A look over a whole run."""
+
+    moments: list[Moment]  # in the middle of each of STRATA parts, and at the start of the busiest second
+    at: list[int]  # the steps after which they were taken
+    busiest: int  # the step after which the busiest second begins
+    encounters: dict[str, Verdicts]  # by tier, over the whole run; {} for a scene without tiers
+
+
+def look_over(run: RecordedRun, report: Report = lambda done, of: None) -> Overview:
+    """Play a run twice: first to find its busiest second, then to take the moments and to count the encounters.
+
+    Raises ValueError for a run without steps.
+    """
+    if not run.steps:
+        raise ValueError("a run must have a step at least (got none)")
+    work = np.array([_work_of(scene) for scene in run.play()])
+    most = busiest(work)
+    wanted = sorted({max(1, (2 * part + 1) * run.steps // (2 * STRATA)) for part in range(STRATA)} | {most})
+    moments, met, last = [], {}, None
+    for step, scene in enumerate(run.play(), 1):
+        last = scene
+        world = scene.views()[0][0]
+        if step in wanted:
+            moments.append(Moment(world.snapshot(), world.broadphase.name))
+        if scene.tier is not None and step % LOOK_EVERY == 0:
+            for tier, pairs in touching(Moment(world.snapshot(), world.broadphase.name)).items():
+                met.setdefault(tier, set()).update(pairs)
+        report(step, run.steps)
+    assert last is not None
+    exact = exact_tier(moments[0].here.tier)
+    true = frozenset(met.get(exact, ()))
+    encounters = {tier: Verdicts(frozenset(pairs), true, tier == exact) for tier, pairs in met.items()}
+    return Overview(moments, wanted, most, encounters)
+
+
+def touching(moment: Moment) -> dict[str, Pairs]:
+    """Return {tier: pairs of touching bodies} at a moment, for every tier."""
+    found = {}
+    for tier in TIERS:
+        world = moment.world(moment.here._replace(tier=tier, narrowphase=True))
+        world.step(0.0)
+        found[tier] = frozenset(pairs_of(world))
+    return found
+
+
+def _work_of(scene):
+    return sum(int(world.profile.counters[name]) for world in scene.worlds for name in WORK)
+
+
+def busiest(work: np.ndarray) -> int:
+    """Return the step after which the busiest second begins: the SECOND steps with the most work.
+
+    work (steps,): work of each step. For a run of up to a second the result is the first step.
+    """
+    if len(work) <= SECOND:
+        return 1
+    sums = np.convolve(work, np.ones(SECOND), "valid")
+    return max(1, int(np.argmax(sums)))
+
+
+def seconds_of_steps(run: RecordedRun, changes: Changes) -> np.ndarray:
+    """Return (steps,) seconds that the physics of each step of a run took, with these changes applied."""
+    with undisturbed():
+        spent = [sum(sum(w.profile.stages.values()) for w in scene.worlds) for scene in run.play(changes)]
+    return np.array(spent)
