@@ -1,4 +1,8 @@
-"""First impact of each fast body on its path in a step, and the pose at which it stops there."""
+"""First impact of each fast body on its path in a step, and the pose at which it stops there.
+
+An impact of a sweep is a fraction of the motion (0 to 1), or the constant MISS, and a unit normal. Functions return it
+as (fraction, nx, ny).
+"""
 
 import math
 
@@ -16,10 +20,10 @@ from physics.tables.step_state import TOI_CALLS
 
 @subkernel
 def is_fast(bodies, paths, row, other):
-    """Return whether a dynamic body moves so far relative to a kinematic body that the two may pass through each other.
+    """Return whether a dynamic body moves so far relative to a kinematic body that it may pass through it.
 
-    They may if a point can move by more than the dynamic body's inradius. row, other: rows of BODY, of the dynamic and
-    the kinematic body; paths: see Sweep.
+    This is so if a point may move by more than the dynamic body's inradius. row, other: row numbers in BODY of the
+    dynamic and the kinematic body; paths: see Sweep.
     """
     b = bodies[row]
     if b.kind != DYNAMIC or bodies[other].kind != KINEMATIC or b.continuous == OFF or b.quarantined:
@@ -36,7 +40,7 @@ def is_fast(bodies, paths, row, other):
 def cut_path(paths, row, start, end, cut_out):
     """Write to cut_out[row] the part of a body's path between the fractions `start` and `end` of the step.
 
-    paths, cut_out (bodies, 6): see Sweep.paths.
+    row: row number of the body; paths, cut_out (bodies, 6): see Sweep.paths.
     """
     for k in range(3):
         whole = paths[row, 3 + k] - paths[row, k]
@@ -51,7 +55,7 @@ def cut_path(paths, row, start, end, cut_out):
 
 @subkernel
 def is_straight(shape):
-    """Return whether a shape has a sweep in closed form: a circle, box or sharp polygon. shape: SHAPE row."""
+    """Return whether a SHAPE row can be swept in closed form: a circle, a box or a polygon without rounding."""
     return shape.kind == CIRCLE or shape.kind == BOUNDS or (shape.kind == POLYGON and shape.radius == 0.0)
 
 
@@ -69,10 +73,10 @@ def has_closed_form(mover, other, mode):
 
 @subkernel
 def sweep_disc(x, y, radius, move, outline, slack):
-    """Return (fraction of the move until impact or MISS, normal from the Hull) of a moving disc and a resting Hull.
+    """Return the first impact (fraction of the move, nx, ny) of a moving disc with a Hull at rest; MISS without one.
 
-    x, y, radius [px]: centre and radius of the disc; move: (dx, dy) [px]; outline: the Hull. The result is MISS if the
-    overlap at the start is deeper than slack [px].
+    x, y, radius [px]: centre and radius of the disc; move: (dx, dy) [px]; outline: the Hull; the normal points from it
+    to the disc. The result is also MISS if the overlap at the start is deeper than slack [px].
     """
     corners, count, _, edges = outline
     fraction, nx, ny = sweep_circle_polygon(corners, count, edges, x, y, move[0], move[1], radius)
@@ -85,10 +89,10 @@ def sweep_disc(x, y, radius, move, outline, slack):
 
 @subkernel
 def sweep_pair(row, other, dt, sweep, scratch):
-    """Return (fraction or MISS, normal from `other` to `row`) of the first impact of two shapes within dt [s].
+    """Return the first impact (fraction of dt, nx, ny) of two shapes within dt [s]; MISS without one.
 
-    row, other: rows of SHAPE; both bodies move at their velocities without rotation. fraction: share of dt; scratch: a
-    Workspace.
+    The normal points from `other` to `row`. row, other: row numbers in SHAPE; both bodies move at their velocities
+    without rotation. scratch: a Workspace.
     """
     geometry, bodies, shapes, slack = sweep.geometry, sweep.bodies, sweep.shapes, sweep.slack
     s, o = shapes[row], shapes[other]
@@ -131,10 +135,10 @@ def sweep_pair(row, other, dt, sweep, scratch):
 
 @subkernel
 def asks_sweep(body, dt, only_straight):
-    """Return whether a body is swept without rotation in this step of dt [s].
+    """Return whether a body needs a sweep without rotation in this step of dt [s].
 
-    A body in mode "ray" or "swept" is always swept so. A body in mode "auto" is swept so if it moves by more than its
-    inradius and only_straight is false. body: BODY row.
+    A body in mode "ray" or "swept" always does. A body in mode "auto" does if it moves by more than its inradius, and
+    only_straight is False. body: BODY row.
     """
     if body.continuous == OFF or body.continuous == TOI or body.kind == STATIC or body.quarantined:
         return False
@@ -145,11 +149,11 @@ def asks_sweep(body, dt, only_straight):
 
 @subkernel
 def write_impact(pair, impact, from_a, stops, found, impacts_out):
-    """Append an impact of a candidate pair. Return the new number of impacts, which may exceed the capacity.
+    """Append an impact to impacts_out unless it is full.
 
-    pair: index of the candidate; impact: (fraction of the step, normal x and y from the obstacle to the mover, feature
+    pair: index of the candidate pair; impact: (fraction of the step, nx and ny from the obstacle to the mover, feature
     id of the tile or link, or -1); from_a: whether the mover is A; stops: whether the impact stops the mover; found:
-    number of impacts before.
+    number of impacts before the call. Return the new number of impacts, counted also when it is full.
     """
     if found < impacts_out.shape[0]:
         fraction, nx, ny, feature = impact
@@ -166,10 +170,11 @@ def write_impact(pair, impact, from_a, stops, found, impacts_out):
 def find_impacts(dt, only_straight, sweep_inout, scratch, impacts_out):
     """Find the impacts of fast bodies within dt [s] by sweeps in closed form. Return their number. O(candidates).
 
-    impacts_out (n, 8) float64, columns: candidate, fraction of the step, normal from A to B, 1.0 if the body stops, -1;
-    the last two are not written. An impact does not stop the body if its motion into the obstacle within dt is at most
-    a quarter of its smallest half extent: then the contact solver resolves the overlap, and a body that slides on the
-    ground is not held. only_straight: leave bodies in mode "auto" to the sweep with rotation. scratch: a Workspace.
+    impacts_out (n, 8) float64, columns: index of the candidate pair, fraction of the step, nx and ny from A to B, 1.0
+    if the body stops, -1; the last two are not written. The body does not stop if its motion into the obstacle within
+    dt is at most a quarter of its smallest half extent. Then the contact solver resolves the overlap, so that a body
+    that slides on the ground is not held. only_straight: leave out bodies in mode "auto", which are swept with
+    rotation. scratch: a Workspace.
     """
     bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
     found = 0
@@ -204,9 +209,9 @@ def find_impacts(dt, only_straight, sweep_inout, scratch, impacts_out):
 
 @kernel
 def stop_at_impacts(shapes, candidates, impacts, bodies_inout):
-    """Stop each dynamic body at its first impact that stops, by lowering its `fraction` of the step. O(impacts).
+    """Lower BODY.fraction of each dynamic body to the fraction of its first impact that stops it. O(impacts).
 
-    Impacts with sensors are ignored. impacts (n, 8): see find_impacts; candidates (n, 2): SHAPE rows.
+    Impacts with sensors are ignored. impacts (n, 8): see find_impacts; candidates (n, 2): row numbers in SHAPE.
     """
     for i in range(len(impacts)):
         pair = int(impacts[i, 0])
@@ -233,10 +238,10 @@ def stop_at_impacts(shapes, candidates, impacts, bodies_inout):
 
 @subkernel
 def first_meeting(mover, other, slack, sweep_inout):
-    """Return (fraction of the step or MISS, normal from other to mover, feature) of the first impact of two shapes.
+    """Return the first impact (fraction of the step, nx, ny, feature) of two shapes; the fraction is MISS without one.
 
-    mover, other: rows of SHAPE. Each body moves along its path up to its own BODY fraction of the step, and then rests.
-    slack [px]: see Mover.
+    mover, other: row numbers in SHAPE; the normal points from `other` to `mover`; feature: id of the tile or link, or
+    -1. Each body moves along its path up to its BODY.fraction of the step, and then rests. slack [px]: see Mover.
     """
     bodies, paths, cuts = sweep_inout.bodies, sweep_inout.paths, sweep_inout.cuts
     p, q = sweep_inout.shapes[mover].body_row, sweep_inout.shapes[other].body_row
@@ -261,7 +266,7 @@ def first_meeting(mover, other, slack, sweep_inout):
 
 @subkernel
 def stands_still(bodies, paths, row):
-    """Return whether a body is not dynamic and does not move in this step. row: row of BODY."""
+    """Return whether a body is not dynamic and does not move in this step. row: row number in BODY."""
     return bodies[row].kind != DYNAMIC and (
         paths[row, 0] == paths[row, 3] and paths[row, 1] == paths[row, 4] and paths[row, 2] == paths[row, 5]
     )
@@ -269,9 +274,9 @@ def stands_still(bodies, paths, row):
 
 @subkernel
 def rest_where_it_is(bodies, row, paths_inout, fast_inout):
-    """Write a path without motion for a body that is not active in this step, and clear its fast flag.
+    """If a body is not active, write a path without motion for it, and clear its fast flag.
 
-    row: row of BODY.
+    row: row number in BODY; paths_inout: see Sweep.paths; fast_inout: see Sweep.fast.
     """
     b = bodies[row]
     if b.active:
@@ -285,10 +290,11 @@ def rest_where_it_is(bodies, row, paths_inout, fast_inout):
 
 @subkernel
 def goes_on(bodies, paths, mover, other, fraction, nx, ny):
-    """Return the distance [px] that two bodies would move further after an impact at a fraction of the step.
+    """Return how far [px] two bodies would still move into each other after an impact at a fraction of the step.
 
-    The distance is the greater of their motion into each other along the normal (nx, ny), from other to mover, and the
-    motion of their outermost points by rotation. mover, other: rows of BODY; paths: see Sweep.
+    It is the greater of two distances: their relative motion against the normal (nx, ny), which points from other to
+    mover, and the motion of their outermost points by rotation in the whole step. mover, other: row numbers in BODY;
+    paths: see Sweep.
     """
     left_m = max(0.0, bodies[mover].fraction - fraction)
     left_o = max(0.0, bodies[other].fraction - fraction)
@@ -303,10 +309,10 @@ def goes_on(bodies, paths, mover, other, fraction, nx, ny):
 
 @subkernel
 def is_swept(moving, a, b, sweep_inout):
-    """Return whether a pair of SHAPE rows is swept: one body is fast relative to the other.
+    """Return whether a pair of shapes is to be swept: one body is fast relative to the other.
 
-    moving: 0 selects pairs with a resting body, 1 pairs of two moving bodies. With a stacking solver, two dynamic
-    bodies are swept only if at least one is a bullet.
+    a, b: SHAPE rows. moving: 0 selects pairs in which a body that is not dynamic rests, 1 selects all other pairs. With
+    a stacking solver, two dynamic bodies are swept only if at least one is a bullet.
     """
     bodies, paths, fast = sweep_inout.bodies, sweep_inout.paths, sweep_inout.fast
     rest_where_it_is(bodies, a.body_row, paths, fast)
@@ -323,10 +329,10 @@ def is_swept(moving, a, b, sweep_inout):
 
 @subkernel
 def is_first_mover(a, b, bodies, fast):
-    """Return whether the sweep of a pair of SHAPE rows treats A as the mover, and B as the obstacle.
+    """Return whether the sweep of two SHAPE rows treats A as the moving shape, and B as the obstacle.
 
-    If only one of the bodies is dynamic, it is the mover, because it can be stopped. Otherwise A is the mover if it is
-    fast.
+    If only one body is dynamic, it is the mover, because it can be stopped. Otherwise A is the mover if it is fast.
+    fast: see Sweep.fast.
     """
     is_dynamic = bodies[a.body_row].kind == DYNAMIC
     return fast[a.body_row] if is_dynamic == (bodies[b.body_row].kind == DYNAMIC) else is_dynamic
@@ -336,11 +342,10 @@ def is_first_mover(a, b, bodies, fast):
 def find_rotational_impacts(moving, rotation, sweep_inout, impacts_out):
     """Find the impacts of fast bodies along their paths, with rotation. Return their number. O(candidates).
 
-    impacts_out (n, 8), columns: candidate, fraction of the step, normal from A to B, 1.0 if the body stops, feature.
-    moving: 0 for pairs with a resting body, 1 for pairs of two moving bodies. Without a stacking solver a motion into
-    the obstacle by at most a quarter of the smallest half extent does not stop a body, because the contact resolves the
-    overlap in the same step. rotation: whether bodies rotate; if not, pairs with a closed form are left to
-    find_impacts.
+    impacts_out (n, 8), columns: index of the candidate pair, fraction of the step, nx and ny from A to B, 1.0 if the
+    body stops, feature. moving: see is_swept. Without a stacking solver, a body does not stop if it would move into the
+    obstacle by at most a quarter of its smallest half extent, because the contact resolves the overlap in the same
+    step. rotation: whether bodies rotate; if not, pairs with a closed form are left to find_impacts.
     """
     bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
     stacking, slack = sweep_inout.stacking, sweep_inout.slack
@@ -387,9 +392,10 @@ FREELY = 1e-3  # greatest deviation of a path from free fall, as a share of the 
 def lose_fall(lost, path_x, path_y, gravity_x, gravity_y, dt, body_inout):
     """Correct the velocity of a body that is stopped within a step, so that the body gains no energy from gravity.
 
-    The body does not move along the share `lost` of its path, but its velocity includes the gravity of the whole step.
-    A body in free fall gets the velocity of the time at which it stopped. Any other body loses as much kinetic energy
-    as the potential energy of the lost path. path_x, path_y [px]: the whole path; gravity_x, gravity_y [px/s2]; dt [s].
+    The velocity includes the gravity of the whole step, but the body does not move along the last part of its path. A
+    body in free fall gets the velocity of the time at which it stopped. Any other body loses as much kinetic energy as
+    it would have gained by falling along the lost part. lost: this part as a share of the path; path_x, path_y [px]:
+    the whole path; gravity_x, gravity_y [px/s2]; dt [s].
     """
     b = body_inout
     pull = norm(gravity_x, gravity_y) * abs(b.gravity_scale)
@@ -409,10 +415,10 @@ def lose_fall(lost, path_x, path_y, gravity_x, gravity_y, dt, body_inout):
 
 @kernel
 def move_back(rows, paths, gravity_x, gravity_y, dt, bodies_inout):
-    """Move the stopped dynamic bodies back to their first impact. They lose the rest of the step of dt [s]. O(rows).
+    """Move the stopped dynamic bodies back to the pose of their first impact. O(rows).
 
-    rows: rows of BODY; paths (bodies, 6): see Sweep; gravity_x, gravity_y [px/s2]: gravity for which the velocities are
-    corrected, see lose_fall.
+    They lose the rest of their motion in this step. rows: row numbers in BODY; paths (bodies, 6): see Sweep; gravity_x,
+    gravity_y [px/s2] and dt [s], the length of the step: see lose_fall.
     """
     for k in range(len(rows)):
         i = rows[k]
@@ -440,18 +446,18 @@ def move_back(rows, paths, gravity_x, gravity_y, dt, bodies_inout):
 def is_ray(body, other):
     """Return whether a body is swept against another as a ray from its centre, not with its outline.
 
-    body, other: BODY rows.
+    body, other: BODY rows. A static body is not, nor is any body against one in mode "swept" or "toi".
     """
     return body.continuous == RAY and body.kind != STATIC and other.continuous != SWEPT and other.continuous != TOI
 
 
 @subkernel
 def impact_point(body, shape, side, nx, ny, fraction, flew_on):
-    """Return an estimate (x, y) [px] of the point where a shape hit another shape.
+    """Return an estimate (x, y) [px] of the point at which a shape hit another shape.
 
-    The estimate is the point of the shape's AABB farthest along side · (nx, ny); for a ray, the centre of the AABB.
-    body, shape: BODY and SHAPE rows at the end of the step; fraction: fraction of the step at the impact; flew_on:
-    whether the body moved on after the impact without response; then the point is moved back to the time of the impact.
+    It is the point of the shape's AABB farthest along side · (nx, ny), or the centre of the AABB for a ray. body,
+    shape: BODY and SHAPE rows at the end of the step; fraction: fraction of the step at the impact. flew_on: whether
+    the body moved on after the impact; if so, the point is moved back to its place at the impact.
     """
     reach = 0.0 if body.continuous == RAY and body.kind != STATIC else side
     x = 0.5 * (shape.min_x + shape.max_x) + reach * nx * 0.5 * (shape.max_x - shape.min_x)
@@ -465,11 +471,11 @@ def impact_point(body, shape, side, nx, ny, fraction, flew_on):
 
 @kernel
 def write_impacts(bodies, shapes, candidates, impacts, dt, response, manifolds_out):
-    """Write a CONTACT row for each impact that its bodies reached before they stopped. Return the number of rows.
+    """Write a CONTACT row for each impact that both bodies reached before they stopped. Return the number of rows.
 
-    impacts (n, 8): candidate, fraction, normal from A to B, stops, feature, point x and y [px]. An unknown point (nan)
-    is estimated by impact_point, for the shape that is swept as a ray, or without a ray for the shape with the smaller
-    AABB. response: 1: the separation [px] is computed at the final poses, from the motion after the impact; 0: the
+    impacts (n, 8): candidate, fraction, normal from A to B, stops, feature, point x and y [px]. A point that is nan is
+    estimated by impact_point: for the shape that is swept as a ray, otherwise for the shape with the smaller AABB.
+    response 1: the separation [px] is that of the final poses, from the motion after the impact. response 0: the
     separation is 0. dt [s]: step length.
     """
     found = 0

@@ -1,8 +1,8 @@
 """Sweep of masks by their pixels, for worlds without contact response and for sensors: the time of the first overlap.
 
 A mask is the union of its solid pixel squares at the exact pose, even if it is drawn snapped. The pixels are grouped
-into rectangles. A motion that leads no deeper than the overlap at the start is not an impact, as in rotational.py but
-without a slop. So grazing contacts and seams between two rectangles are not impacts.
+into rectangles. If a motion leads no deeper than the overlap at the start, it is not an impact. This is the rule of
+rotational.py, but without a slop. So grazing contacts and seams between two rectangles are not impacts.
 """
 
 import math
@@ -35,7 +35,7 @@ from physics.tables.step_state import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
 
 
 class Squares(NamedTuple):
-    """Cache of the solid pixels of all masks of a library, grouped into rectangles."""
+    """The solid pixels of the masks of a library, grouped into rectangles and computed once."""
 
     spans: np.ndarray  # (masks, 2) first row in boxes, number of rows; -1: not computed yet
     boxes: np.ndarray  # (n, 4) left, top, right, bottom [px] in body space
@@ -45,7 +45,10 @@ NO_SQUARES = Squares(np.zeros((0, 2), np.int64), np.zeros((0, 4)))
 
 
 def squares_of(library: Library, masks: np.ndarray, known: Squares) -> Squares:
-    """Return the cache `known`, extended by the rectangles of the masks in rows `masks` of the library."""
+    """Return Squares with the rectangles of these masks: `known`, or an extended copy if some are missing.
+
+    masks: row numbers of the masks in the library.
+    """
     missing = [row for row in masks.tolist() if row >= len(known.spans) or known.spans[row, 0] < 0]
     if not missing:
         return known
@@ -77,8 +80,9 @@ def write_square(boxes, k, body, corners_out):
 def pieces_of(shape, body, spans, as_ray):
     """Return (first rectangle, number of pieces, whether the pieces are rectangles) of a shape.
 
-    A mask has one piece for each rectangle. A hull, or a body swept as a ray, is a single piece. shape, body: SHAPE and
-    BODY rows; spans: see Squares; as_ray: whether a body in mode "ray" is swept as a ray.
+    A mask has one piece for each of its rectangles in Squares.boxes. A hull, or a body swept as a ray, is a single
+    piece. shape, body: SHAPE and BODY rows; spans: Squares.spans; as_ray: whether a body in mode "ray" is swept as a
+    ray.
     """
     if shape.kind != MASK or (as_ray and body.continuous == RAY):
         return 0, 1, False
@@ -87,7 +91,10 @@ def pieces_of(shape, body, spans, as_ray):
 
 @subkernel
 def write_single(geometry, bodies, shapes, row, workspace):
-    """Write the corners of a hull, or the point of a ray, to workspace.mover. Return the Mover. row: row of SHAPE."""
+    """Write the corners of a hull, or the point of a ray, to workspace.mover. Return the Mover.
+
+    row: row number in SHAPE.
+    """
     if shapes[row].kind == MASK:
         workspace.mover[0, 0] = 0.0
         workspace.mover[0, 1] = 0.0
@@ -102,8 +109,8 @@ def write_single(geometry, bodies, shapes, row, workspace):
 def misses_square(boxes, k, body, x, y, dx, dy, reach):
     """Return whether a shape that moves from (x, y) by (dx, dy) cannot meet rectangle k of a mask.
 
-    reach [px]: greatest distance of the shape's points from (x, y). Coordinates [px] are relative to the centre of mass
-    of the mask's body, which must not rotate.
+    boxes: Squares.boxes; body: BODY row of the mask, which must not rotate. Coordinates [px] are relative to its centre
+    of mass. reach [px]: greatest distance of the shape's points from (x, y).
     """
     left = boxes[k, 0] - body.local_center_x - reach
     top = boxes[k, 1] - body.local_center_y - reach
@@ -117,10 +124,10 @@ def sweep_on_pieces(mover, depth, body, squares, span, hull, workspace, best_out
     """Sweep one piece of the moving shape against all pieces of the other shape, or measure their overlap.
 
     mover: the piece, with its corners in workspace.mover. depth [px]: overlap at the start, which does not count as an
-    impact. If `depth` is negative, nothing is swept, and the deepest overlap [px] at the start is returned; otherwise 0
-    is returned. body: BODY row of the other shape; span: result of pieces_of for the other shape; hull: the only piece
-    of the other shape if that is not a mask, with the corners in workspace.advance.local_b. best_out (5,): first impact
-    so far, see sweep_squares. O(nearby pieces).
+    impact. A negative `depth` asks for the deepest overlap [px] at the start: it is returned, and nothing is swept.
+    Otherwise 0 is returned. body: BODY row of the other shape; span: result of pieces_of for the other shape; hull: the
+    only piece of the other shape if it is not a mask, with the corners in workspace.advance.local_b. best_out (5,):
+    first impact so far, see sweep_squares. O(nearby pieces).
     """
     r = workspace.advance
     first, pieces, are_squares = span
@@ -162,10 +169,9 @@ def sweep_on_pieces(mover, depth, body, squares, span, hull, workspace, best_out
 
 @subkernel
 def middle_of_mask(geometry, shape, body, angle):
-    """Return the centre (x, y) [px] of a mask's AABB, in body space relative to the centre of mass.
+    """Return the centre (x, y) [px] of a mask's AABB at an angle [rad], in body space relative to the centre of mass.
 
-    angle [rad]: angle of the mask for which the AABB is computed; shape, body: SHAPE and BODY rows. The position of the
-    centre decides on which side of a link the mask is.
+    shape, body: SHAPE and BODY rows. The centre decides on which side of a chain link the mask is.
     """
     raster = geometry.raster_of[shape.geometry, 0]
     left, top, right, bottom = exact_aabb(geometry.rasters, geometry.corners, raster, 0.0, 0.0, angle)
@@ -197,8 +203,9 @@ def sweep_on_ground(geometry, other, body, middle, mover, one_way, workspace, be
 def sweep_squares(row, other, squares, sweep_inout, best_out):
     """Sweep two moving shapes, at least one of them a mask, along the paths in sweep_inout.cuts.
 
-    row, other: rows of SHAPE; squares: Squares of the masks. Write (fraction or MISS, normal from other to row, point
-    [px] or nan if unknown) to best_out (5,). O(pieces · nearby pieces).
+    row, other: row numbers in SHAPE; squares: Squares of the masks. Write the first impact to best_out (5,): fraction
+    of the paths or MISS, nx and ny from `other` to `row`, and the point x and y [px], nan if unknown. O(pieces · nearby
+    pieces).
     """
     geometry, bodies, shapes = sweep_inout.geometry, sweep_inout.bodies, sweep_inout.shapes
     workspace = sweep_inout.workspace
@@ -243,8 +250,8 @@ def sweep_squares(row, other, squares, sweep_inout, best_out):
 def first_shared(row, other, squares, sweep_inout, best_out):
     """Write the first overlap in the step of two shapes, at least one of them a mask, to best_out (5,).
 
-    The columns are those of sweep_squares, but the fraction refers to the step. Each body moves along its path up to
-    its own BODY fraction of the step, and then rests. row, other: rows of SHAPE.
+    best_out: as in sweep_squares, but with the fraction of the step. Each body moves along its path up to its
+    BODY.fraction of the step, and then rests. row, other: row numbers in SHAPE.
     """
     bodies, paths, cuts = sweep_inout.bodies, sweep_inout.paths, sweep_inout.cuts
     p, q = sweep_inout.shapes[row].body_row, sweep_inout.shapes[other].body_row
@@ -269,9 +276,9 @@ def first_shared(row, other, squares, sweep_inout, best_out):
 def find_shared_areas(moving, squares, sweep_inout, best_out, impacts_out):
     """Find the pairs with a mask that begin to overlap during their motion. Return their number. O(candidates).
 
-    impacts_out (n, 8), columns: candidate, fraction of the step, normal from A to B, 0 (no body is stopped), -1, point
-    x and y. moving: 0 for pairs with a resting body, 1 for pairs of two moving bodies; squares: Squares of all masks
-    among the candidates; best_out (5,): scratch.
+    impacts_out (n, 8), columns: index of the candidate pair, fraction of the step, nx and ny from A to B, 0 (no body is
+    stopped), -1, point x and y. moving: see impacts.is_swept; squares: Squares of all masks among the candidates;
+    best_out (5,): scratch.
     """
     shapes, candidates = sweep_inout.shapes, sweep_inout.candidates
     found = 0

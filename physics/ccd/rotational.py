@@ -59,7 +59,7 @@ class RotationalWorkspace(NamedTuple):
 
 
 class Mover(NamedTuple):
-    """Moving hull of a sweep, with its corners in workspace.mover."""
+    """The moving hull of a sweep. Its corners are in workspace.mover."""
 
     count: int  # number of corners
     radius: float  # [px] rounding
@@ -90,10 +90,10 @@ def new_rotational_workspace() -> RotationalWorkspace:
 
 @subkernel
 def write_motion(motions, body_row, motion_out):
-    """Write a body's motion as start and change, instead of start and end.
+    """Convert a body's motion from (start, end) to (start, change).
 
-    motions (bodies, 6): centre of mass [px] and angle [rad] at the start, then at the end; motion_out (6,): centre and
-    angle at the start, then their changes.
+    motions (bodies, 6): centre of mass x, y [px] and angle [rad] at the start, then at the end; body_row: row of the
+    body; motion_out (6,): centre and angle at the start, then their changes.
     """
     motion_out[CENTER_X] = motions[body_row, 0]
     motion_out[CENTER_Y] = motions[body_row, 1]
@@ -108,7 +108,7 @@ def write_local(geometry, bodies, shapes, row, motion_inout, corners_out):
     """Write the corners [px] of a hull relative to its body's centre of mass at angle 0. Return their number.
 
     A shape of kind BOUNDS never rotates: its corners are the corners at the start angle, and the rotation in
-    motion_inout (6,) is set to 0. row: row of SHAPE.
+    motion_inout (6,) is set to 0. row: row number in SHAPE.
     """
     b = bodies[shapes[row].body_row]
     if shapes[row].kind != BOUNDS:
@@ -136,7 +136,7 @@ def place_mover(count, workspace):
 
 @subkernel
 def depth_at_start(mover, other_count, other_radius, workspace):
-    """Return the depth [px] at the start of the mover in the hull in workspace.advance.local_b; 0 without overlap.
+    """Return how deep [px] the mover is in the hull in workspace.advance.local_b at the start; 0 without overlap.
 
     other_count, other_radius: number of corners and rounding radius [px] of that hull.
     """
@@ -148,11 +148,11 @@ def depth_at_start(mover, other_count, other_radius, workspace):
 def sweep_core(core_radius, other_count, other_radius, workspace):
     """Return the fraction of the motion at which the mover's core circle hits a hull, or MISS.
 
-    core_radius [px]: radius of the core circle. The hull is in workspace.advance.local_b, with other_count corners and
-    the rounding radius other_radius [px]. The result is MISS if the circle's centre is inside the hull at the start. If
-    the circle would overlap the hull at the start, its radius is reduced to CORE_LEFT of the centre's distance, so that
-    the centre never crosses the surface. With half of the distance, 3 of 768 test rooms lost a body whose centre
-    reached the wall step by step.
+    core_radius [px]: radius of the core circle, a small circle around the centre of mass. The hull is in
+    workspace.advance.local_b, with other_count corners and the rounding radius other_radius [px]. The result is MISS if
+    the centre is inside the hull at the start. If the circle would overlap the hull at the start, its radius is reduced
+    to CORE_LEFT of the centre's distance, so that the centre never crosses the surface. With half of the distance, 3 of
+    768 test rooms lost a body whose centre reached the wall step by step.
     """
     workspace.advance.local_a[0, 0] = 0.0
     workspace.advance.local_a[0, 1] = 0.0
@@ -166,11 +166,11 @@ def sweep_core(core_radius, other_count, other_radius, workspace):
 
 @subkernel
 def back_to(mover, other_count, other_radius, depth, fraction, size, workspace):
-    """Return the last fraction before `fraction` at which the mover was `depth` [px] deep (Newton's method).
+    """Return the last fraction before `fraction` at which the mover was only `depth` [px] deep (Newton's method).
 
     At `fraction` the mover is deeper. The iteration starts at `fraction`, so that it does not find an earlier contact
     with another side of the obstacle. The obstacle is in workspace.advance.local_b, with other_count corners and the
-    rounding radius other_radius [px]; size [px]: size of both shapes.
+    rounding radius other_radius [px]; size [px]: sum of the extents of both shapes.
     """
     count, radius, _, _ = mover
     gap = workspace.advance.gap.gap
@@ -191,10 +191,11 @@ def back_to(mover, other_count, other_radius, depth, fraction, size, workspace):
 
 @subkernel
 def sweep_part(mover, other_count, other_radius, depth, workspace):
-    """Return (fraction or MISS, whether the core circle was swept) of the mover against a convex piece of an obstacle.
+    """Sweep the mover against a convex piece of an obstacle.
 
     The piece is in workspace.advance.local_b, with other_count corners and the rounding radius other_radius [px]. depth
-    [px]: depth of the mover in the whole obstacle at the start, which is allowed.
+    [px]: depth of the mover in the whole obstacle at the start, up to which an overlap is not an impact. Return
+    (fraction or MISS, whether the core circle was swept).
     """
     count, radius, half, slack = mover
     reach = place_mover(count, workspace)
@@ -220,9 +221,10 @@ def sweep_part(mover, other_count, other_radius, depth, workspace):
 
 @subkernel
 def swept_box(reach, motion_a, motion_b):
-    """Return the AABB (min_x, min_y, max_x, max_y) [px] of body A on its path relative to body B's centre of mass.
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] of the path of A, relative to the centre of mass of B.
 
-    reach [px]: greatest distance of A's points from its centre of mass; motion_a, motion_b (6,): see write_motion.
+    B is thus regarded as at rest. reach [px]: greatest distance of A's points from its centre of mass; motion_a,
+    motion_b (6,): see write_motion.
     """
     x, y = motion_a[CENTER_X] - motion_b[CENTER_X], motion_a[CENTER_Y] - motion_b[CENTER_Y]
     dx, dy = motion_a[MOVE_X] - motion_b[MOVE_X], motion_a[MOVE_Y] - motion_b[MOVE_Y]
@@ -252,9 +254,8 @@ def feet_of(mover, local_y, workspace):
 def place_tile(geometry, grid, line, column, local, stood, workspace):
     """Write the corners of a tile to workspace.advance.local_b. Return their number; 0: the tile cannot stop the mover.
 
-    line, column: row and column of the cell; local: see sweep_tiles; stood [px]: lowest point of the mover at the
-    start, minus its slack. Of a one-way tile only the line along its top is written, and only if the mover started
-    above the tile.
+    line, column: row and column of the cell; local: see sweep_tiles. stood [px]: y of the mover's lowest point at the
+    start, minus its slack. Only the top line of a one-way tile is written, and only if the mover started above it.
     """
     g = geometry.grids[grid]
     kind = geometry.cells[g.offset + line * g.columns + column].kind
@@ -268,11 +269,11 @@ def place_tile(geometry, grid, line, column, local, stood, workspace):
 
 @subkernel
 def sweep_tiles(geometry, grid, local, mover, one_way, but, workspace):
-    """Return (fraction or MISS, normal from the tiles, feature) of the first impact of the mover with a tile grid.
+    """Return the first impact of the mover with a tile grid as (fraction of the motion or MISS, nx, ny, feature).
 
-    grid: row of geometry.grids; local: centre of mass (x, y) [px] of the grid in its body space (a grid does not
-    rotate); one_way: whether one-way tiles stop motion from above; but: feature id that is ignored, or -1. O(cells in
-    the mover's swept AABB).
+    The normal points from the tiles to the mover. grid: row of geometry.grids; local: centre of mass (x, y) [px] of the
+    grid in its body space (a grid does not rotate); one_way: whether one-way tiles stop motion from above; but: feature
+    id to ignore, or -1. O(cells in the mover's swept AABB).
     """
     local_x, local_y = local
     g = geometry.grids[grid]
@@ -320,7 +321,10 @@ def sweep_tiles(geometry, grid, local, mover, one_way, but, workspace):
 
 @subkernel
 def place_link(link, local, workspace):
-    """Write the ends of a link, relative to the body's centre of mass `local` [px], to workspace.advance.local_b."""
+    """Write both ends of a chain link to workspace.advance.local_b, relative to its body's centre of mass.
+
+    link: LINK row; local: the centre of mass (x, y) [px] in body space.
+    """
     workspace.advance.local_b[0, 0] = link.ax - local[0]
     workspace.advance.local_b[0, 1] = link.ay - local[1]
     workspace.advance.local_b[1, 0] = link.bx - local[0]
@@ -331,7 +335,7 @@ def place_link(link, local, workspace):
 def ahead_of(ax, ay, bx, by, u, v):
     """Return the signed distance of the point (u, v) from the line a to b, times |b - a|; positive in front.
 
-    ax, ay, bx, by: coordinates of a and b.
+    ax, ay, bx, by: coordinates of the ends a and b of a chain link.
     """
     return (by - ay) * (u - ax) - (bx - ax) * (v - ay)
 
@@ -340,9 +344,9 @@ def ahead_of(ax, ay, bx, by, u, v):
 def is_before(link, local, middle, fraction, core, workspace):
     """Return whether the mover is in front of a link at a fraction of the motion.
 
-    A point of the mover decides: `middle` [px], relative to its centre of mass at angle 0, or with `core` the centre of
-    mass itself. If this point is beyond an end of the link at which the chain bends towards its front, it must also be
-    in front of the neighbouring link. link: LINK row; local: see sweep_chain.
+    One point of the mover decides: `middle` [px], relative to its centre of mass at angle 0, or if `core` is True the
+    centre of mass itself. The point may lie beyond an end of the link at which the chain bends towards its front. Then
+    it must also be in front of the neighbouring link. link: LINK row; local: see sweep_chain.
     """
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
@@ -372,7 +376,7 @@ def is_before(link, local, middle, fraction, core, workspace):
 def misses_block(block, local, box):
     """Return whether the AABB of a block of links is disjoint from `box` (left, top, right, bottom) [px].
 
-    The box is relative to the centre of mass of the chain's body, `local` [px].
+    block: LINK_BLOCK row; the box is relative to `local`, the centre of mass (x, y) [px] of the chain's body.
     """
     left, top, right, bottom = box
     x, y = local
@@ -381,9 +385,9 @@ def misses_block(block, local, box):
 
 @subkernel
 def depth_in_chain(geometry, chain, local, middle, mover, workspace):
-    """Return the greatest depth [px] of the mover at the start in any link that has the mover in front, see is_before.
+    """Return how deep [px] the mover is at the start in the chain's links that face it, see is_before.
 
-    geometry, chain, local: see sweep_chain.
+    It is the greatest depth in any of these links. geometry, chain, local: see sweep_chain.
     """
     span = geometry.chains[chain]
     motion = workspace.advance.motion_a
@@ -411,7 +415,7 @@ def depth_in_chain(geometry, chain, local, middle, mover, workspace):
 
 @subkernel
 def starts_across(geometry, chain, local, mover, workspace):
-    """Return whether the mover lies across a one-way surface at the start by more than its slack, and so passes it.
+    """Return whether the mover lies across a one-way surface at the start by more than its slack. Then it may pass.
 
     chain: row of geometry.chains; local: see sweep_chain.
     """
@@ -427,10 +431,10 @@ def starts_across(geometry, chain, local, mover, workspace):
 
 @subkernel
 def sweep_chain(geometry, chain, local, mover, but, workspace):
-    """Return (fraction or MISS, normal from the chain, feature) of the first impact of the mover with a chain's front.
+    """Return the first impact of the mover with a chain's front as (fraction of the motion or MISS, nx, ny, feature).
 
-    chain: row of geometry.chains; local: centre of mass (x, y) [px] of the chain's body in body space; but: feature id
-    that is ignored, or -1. O(links near the path).
+    The normal points from the chain to the mover. chain: row of geometry.chains; local: centre of mass (x, y) [px] of
+    the chain's body in body space; but: feature id to ignore, or -1. O(links near the path).
     """
     middle = middle_of(workspace.mover, mover.count)
     return sweep_chain_seen_from(geometry, chain, local, middle, mover, but, workspace)
@@ -438,10 +442,10 @@ def sweep_chain(geometry, chain, local, mover, but, workspace):
 
 @subkernel
 def sweep_chain_seen_from(geometry, chain, local, middle, mover, but, workspace):
-    """Return (fraction or MISS, normal from the chain, feature) for a mover that is one piece of a moving shape.
+    """Do the same as sweep_chain for a mover that is one piece of a larger moving shape.
 
-    middle: point (x, y) [px] of the whole shape, relative to its centre of mass at angle 0, that must be in front of a
-    link. Other arguments as in sweep_chain.
+    middle: point (x, y) [px] of the whole shape, relative to its centre of mass at angle 0. A link is hit only if this
+    point is in front of it.
     """
     span = geometry.chains[chain]
     other = workspace.advance.motion_b
@@ -478,17 +482,17 @@ def sweep_chain_seen_from(geometry, chain, local, middle, mover, but, workspace)
 
 @subkernel
 def shrink_to_middle(count, mover_inout):
-    """Replace the `count` corners of the mover by their mean, a point to be swept as a ray. Return 1, its corners."""
+    """Replace the `count` corners in mover_inout by their mean, a single point that is swept as a ray. Return 1."""
     mover_inout[0, 0], mover_inout[0, 1] = middle_of(mover_inout, count)
     return 1
 
 
 @subkernel
 def sweep_hull(mover, core_b, n, radius_b, workspace):
-    """Return (fraction or MISS, normal from the obstacle) of the first impact of the mover with another hull.
+    """Return the first impact (fraction of the motion, nx, ny) of the mover with another hull; MISS without one.
 
-    The obstacle is in workspace.advance.local_b, with n corners and the rounding radius radius_b [px]. core_b [px]:
-    radius of the obstacle's core circle; 0: none.
+    The obstacle is in workspace.advance.local_b, with n corners and the rounding radius radius_b [px]. The normal
+    points from it to the mover. core_b [px]: radius of the obstacle's core circle; 0: none.
     """
     depth = depth_at_start(mover, n, radius_b, workspace)
     fraction, core = sweep_part(mover, n, radius_b, depth, workspace)
@@ -504,7 +508,7 @@ def sweep_hull(mover, core_b, n, radius_b, workspace):
 def stands_deep(row, other, sweep_inout):
     """Return whether two hulls overlap by more than sweep_inout.slack at the start of the step.
 
-    row, other: rows of SHAPE.
+    row, other: row numbers in SHAPE.
     """
     geometry, bodies, shapes = sweep_inout.geometry, sweep_inout.bodies, sweep_inout.shapes
     workspace = sweep_inout.workspace
@@ -519,11 +523,11 @@ def stands_deep(row, other, sweep_inout):
 
 @subkernel
 def sweep_rotational(row, other, slack, but, sweep_inout):
-    """Return the first impact of two shapes whose bodies move and rotate along the paths in sweep_inout.cuts.
+    """Return the first impact (fraction, nx, ny, feature) of two shapes that move and rotate along sweep_inout.cuts.
 
-    The result is (fraction of these paths or MISS, normal from other to row, feature id of the tile or link; -1 for a
-    hull). row, other: rows of SHAPE; row must be a hull, other a hull, tile grid or chain, else the result is MISS.
-    slack [px]: see Mover; but: feature id of a tile or link that is ignored, or -1.
+    The fraction is that of these paths, or MISS; the normal points from `other` to `row`; feature: id of the tile or
+    link, -1 for a hull. row, other: row numbers in SHAPE; row must be a hull, other a hull, tile grid or chain, else
+    the result is MISS. slack [px]: see Mover; but: feature id of a tile or link to ignore, or -1.
     """
     geometry, bodies, shapes = sweep_inout.geometry, sweep_inout.bodies, sweep_inout.shapes
     workspace = sweep_inout.workspace
@@ -569,7 +573,10 @@ def sweep_rotational(row, other, slack, but, sweep_inout):
 
 @subkernel
 def begin_sweep(workspace, impact_out):
-    """Reset impact_out (3,) to MISS, and the counters in `workspace`. Return the length [px] of the relative motion."""
+    """Reset impact_out (3,) to MISS, and the counters of `workspace` to 0.
+
+    Return the length [px] of the relative motion.
+    """
     r = workspace.advance
     r.totals[0] = 0.0
     r.totals[1] = 0.0
@@ -581,7 +588,7 @@ def begin_sweep(workspace, impact_out):
 
 @subkernel
 def keep_first(fraction, nx, ny, impact_out):
-    """Write an impact to impact_out (3,) if its fraction is smaller than the fraction of the impact stored there."""
+    """Write an impact to impact_out (3,) if it is earlier than the impact stored there."""
     if fraction < impact_out[0]:
         impact_out[0] = fraction
         impact_out[1] = nx
@@ -610,9 +617,9 @@ def gap_at_start(a_count, a_radius, b_count, b_radius, workspace):
 def advance_parts(a, b, workspace, impact_out):
     """Write the first impact of any part of A with any part of B to impact_out (3,).
 
-    impact_out: (fraction or MISS, normal from A to B). a, b: Parts in body space; workspace: RotationalWorkspace with
-    both motions, to which the counters are written. Pairs of parts that cannot meet before the first impact so far are
-    skipped. O(parts of A · parts of B).
+    impact_out: fraction of the motion or MISS, nx and ny from A to B. a, b: Parts in body space; workspace:
+    RotationalWorkspace with both motions, to which the counters are written. Pairs of parts that cannot meet before the
+    first impact so far are skipped. O(parts of A · parts of B).
     """
     r = workspace.advance
     path = begin_sweep(workspace, impact_out)
@@ -663,8 +670,8 @@ def sweep_unions(a, b, workspace, impact_out):
 def advance_on_ground(geometry, ground, is_chain, a, workspace, impact_out):
     """Write the first impact of a shape made of parts with a tile grid or chain to impact_out (3,), see advance_parts.
 
-    ground: row of geometry.grids or, with is_chain 1, of geometry.chains; a: Parts. Tiles are hit only on uncovered
-    sides, a chain only from its front.
+    ground: row of geometry.grids, or of geometry.chains if is_chain is 1; a: Parts of the shape. Tiles are hit only on
+    sides that no other tile covers, a chain only from its front.
     """
     begin_sweep(workspace, impact_out)
     for i in range(len(a.counts)):

@@ -39,8 +39,8 @@ from physics.tables.table import joined
 def list_paths(rows, bodies, paths_out):
     """Write the path of each body in the step. O(rows).
 
-    rows: rows of BODY; paths_out (bodies, 6): centre of mass x, y [px] and angle [rad] before the step, then after it.
-    For a body in mode "ray" or "swept" both angles are the angle before the step.
+    rows: row numbers in BODY; paths_out (bodies, 6): centre of mass x, y [px] and angle [rad] before the step, then
+    after it. A body in mode "ray" or "swept" is swept without rotation: both angles are the angle before the step.
     """
     for k in range(len(rows)):
         i = rows[k]
@@ -57,13 +57,16 @@ def list_paths(rows, bodies, paths_out):
 
 @subkernel
 def asks_straight(body):
-    """Return whether a body is dynamic and its continuous mode ("ray" or "swept") is a sweep without rotation."""
+    """Return whether a body is dynamic and in mode "ray" or "swept", which means a sweep without rotation."""
     return body.kind == DYNAMIC and (body.continuous == RAY or body.continuous == SWEPT)
 
 
 @subkernel
 def way_of(bodies, paths, row):
-    """Return an upper bound [px] of the distance that any point of a body moves in the step. row: row of BODY."""
+    """Return an upper bound [px] of the distance that any point of a body moves in the step.
+
+    paths: see Sweep; row: row number in BODY.
+    """
     moved = norm(paths[row, 3] - paths[row, 0], paths[row, 4] - paths[row, 1])
     return moved + bodies[row].extent * min(abs(paths[row, 5] - paths[row, 2]), 2.0)
 
@@ -74,8 +77,8 @@ def find_fast(rows, bodies, paths, fast_out):
 
     A moving body in mode "toi", "ray" or "swept" is always flagged. A body in mode "auto" is flagged if one of its
     points may move by more than its inradius. The first number also includes bodies without a flag that a kinematic
-    body may pass through: see impacts.is_fast. rows: rows of BODY; paths: see list_paths; fast_out (bodies,) bool.
-    O(rows).
+    body may pass through, see impacts.is_fast. rows: row numbers in BODY; paths: see list_paths; fast_out (bodies,)
+    bool. O(rows).
     """
     found = 0
     straight = 0
@@ -104,7 +107,8 @@ def find_fast(rows, bodies, paths, fast_out):
 def find_outgrown(rows, bodies, shapes, proxies, fast, rows_out):
     """List the shapes of swept bodies that have left their broad-phase AABB. Return their number. O(rows).
 
-    rows, rows_out: rows of SHAPE; proxies: rows with the AABBs lower_x … upper_y [px]; fast (bodies,) bool.
+    rows, rows_out: row numbers in SHAPE; proxies: PROXY table with the broad-phase AABBs; fast (bodies,) bool: bodies
+    to sweep.
     """
     found = 0
     for k in range(len(rows)):
@@ -124,9 +128,9 @@ def find_outgrown(rows, bodies, shapes, proxies, fast, rows_out):
 
 @kernel
 def foresee_paths(rows, bodies, dt, paths_out):
-    """Write the predicted path of each body in dt [s], at its velocity and without obstacles. O(rows).
+    """Write the predicted path of each body in dt [s], at its present velocity and without obstacles. O(rows).
 
-    rows: rows of BODY; paths_out (bodies, 6): see list_paths.
+    rows: row numbers in BODY; paths_out (bodies, 6): see list_paths.
     """
     for k in range(len(rows)):
         i = rows[k]
@@ -154,9 +158,9 @@ MEETINGS = 2  # most tiles or links of one kinematic body that a call tests: the
 def push_ahead(sweep_inout, moves_inout):
     """Push stopped bodies out of the way of kinematic bodies for the rest of the step. Return the number of pushes.
 
-    moves_inout (bodies, 2) [px]: translation of each stopped body from the position where it stopped; each push is
-    added. A push is along one normal, so in a corner several calls are needed: the caller repeats the call until the
-    result is 0. O(candidates).
+    A push is along one normal, so in a corner one call is not enough: the caller repeats the call until the result is
+    0. moves_inout (bodies, 2) [px]: translation of each stopped body from the place where it stopped, to which each
+    push is added. O(candidates).
     """
     bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
     cuts, slack = sweep_inout.cuts, sweep_inout.slack
@@ -230,7 +234,10 @@ class Sweeper:
         self.squares, self.squares_in, self.best = NO_SQUARES, None, np.zeros(5)
 
     def grow(self, state: StepState) -> None:
-        """Enlarge the arrays for the number of bodies and candidates of a step."""
+        """Enlarge the arrays for the numbers of bodies and candidate pairs of a step.
+
+        The contents of enlarged arrays are lost.
+        """
         bodies, candidates = len(state.bodies), len(state.pairs.rows)
         if len(self.fast) < bodies:
             self.paths, self.cuts = np.zeros((2 * bodies, 6)), np.zeros((2 * bodies, 6))
@@ -239,9 +246,10 @@ class Sweeper:
             self.impacts = np.full((2 * candidates, 8), np.nan)
 
     def pairs_of(self, state: StepState, strict: bool = False) -> Sweep:
-        """Return the Sweep of the candidates of a step.
+        """Return the Sweep for the candidate pairs of a step.
 
-        strict: whether an impact of any depth stops a body, as in worlds with a stacking solver.
+        strict: whether every impact stops a body, however small the motion after it, as in worlds with a stacking
+        solver.
         """
         return Sweep(
             state.library.tables,
@@ -260,7 +268,7 @@ class Sweeper:
 
 
 def _look(state, moving, strict=False) -> np.ndarray:
-    """Return the impacts (n, 8) of fast bodies with resting bodies (moving 0) or with moving bodies (moving 1).
+    """Return the impacts (n, 8) of fast bodies, with resting bodies (moving 0) or between moving bodies (moving 1).
 
     Columns: see impacts.write_impacts. strict: see Sweeper.pairs_of.
     """
@@ -281,7 +289,7 @@ def _look(state, moving, strict=False) -> np.ndarray:
 
 
 def _masks_in(state) -> np.ndarray:
-    """Return the library rows of all masks among the candidates, which are swept by their pixels."""
+    """Return the row numbers in the library of all masks among the candidates. Masks are swept by their pixels."""
     if not state.library.masks:
         return NO_ROWS
     rows = state.pairs.rows
@@ -290,9 +298,9 @@ def _masks_in(state) -> np.ndarray:
 
 
 def _look_straight(state, bodies, dt, only_straight) -> np.ndarray:
-    """Return the impacts (n, 8) within dt [s] of bodies whose sweep has a closed form, see impacts.find_impacts.
+    """Return the impacts (n, 8) within dt [s] that are found by sweeps in closed form, see impacts.find_impacts.
 
-    bodies: BODY rows with the start poses and velocities.
+    bodies: BODY table with the start poses and velocities; only_straight: leave out bodies in mode "auto".
     """
     sweeper = state.workspace.sweep
     sweeper.grow(state)
@@ -305,7 +313,7 @@ FORESEEN = ("effects", "stacks", "tolerances", "dt", "awake", "bodies", "shapes"
 
 @stage("time_of_impact", reads=FORESEEN, writes=("impacts", "library", "work", "workspace", "bodies.fraction"))
 def foresee_impacts(state: StepState) -> None:
-    """Predict the impacts of the coming motion, and set the fraction of the step up to which each body may move.
+    """Predict the impacts of the coming motion, and write BODY.fraction, up to which each body may move in the step.
 
     This stage is for worlds without a stacking solver.
     """
@@ -331,7 +339,7 @@ def foresee_impacts(state: StepState) -> None:
 def detect_moved(state: StepState) -> None:
     """Find the contacts at the final poses, and add the predicted impacts of pairs that have no such contact.
 
-    This stage is for worlds without a stacking solver. Before, kinematic bodies push stopped bodies out of their way.
+    This stage is for worlds without a stacking solver. First, kinematic bodies push stopped bodies out of their way.
     """
     rows = state.awake.bodies
     stopped = rows[state.bodies["fraction"][rows] < 1.0] if len(state.impacts) and state.effects.response else rows[:0]
@@ -362,7 +370,7 @@ def detect_moved(state: StepState) -> None:
 
 
 def _written(state, impacts, response) -> np.ndarray:
-    """Return CONTACT rows, with approach speeds, of the impacts that bodies reached before they stopped.
+    """Return the impacts that bodies reached before they stopped, as CONTACT rows with approach speeds.
 
     impacts, response: see impacts.write_impacts.
     """
@@ -410,7 +418,7 @@ def sweep_piles(state: StepState) -> None:
 
 
 def _cover(state):
-    """Enlarge the broad-phase AABBs of swept bodies that have left them, and find the new candidate pairs."""
+    """Enlarge the broad-phase AABBs that swept bodies have left, and find their new candidate pairs."""
     own, shapes, pairs = state.awake.shapes, state.shapes, state.pairs
     rows = state.workspace.rows_for(len(own))
     found = find_outgrown(own, state.bodies, shapes, pairs.proxies, state.workspace.sweep.fast, rows)
@@ -420,7 +428,7 @@ def _cover(state):
 
 
 def _sweep_straight(state) -> np.ndarray:
-    """Stop bodies in mode "ray" or "swept" on their straight path in the step. Return their impacts (n, 8)."""
+    """Stop bodies in mode "ray" or "swept" at the first impact on their straight path. Return the impacts (n, 8)."""
     dt, moved = state.dt, state.bodies.copy()
     for name, velocity in (("x", "vx"), ("y", "vy")):
         moved[velocity] = (moved[name] - moved["previous_" + name]) / dt if dt > 0.0 else 0.0
@@ -450,7 +458,7 @@ def _sweep_rotational(state) -> np.ndarray:
 
 
 def _stop(state, impacts) -> bool:
-    """Stop the bodies at these impacts (n, 8). Return whether any body stops earlier in the step than before."""
+    """Stop the bodies at these impacts (n, 8). Return whether any body now stops earlier in the step than before."""
     rows = state.awake.bodies
     before = state.bodies["fraction"][rows]
     stop_at_impacts(state.shapes, state.pairs.rows, impacts, state.bodies)
@@ -461,7 +469,7 @@ def _stop(state, impacts) -> bool:
 def push_stopped(state: StepState, stopped: np.ndarray) -> bool:
     """Let kinematic bodies push stopped bodies for the rest of the step. Return whether any body was pushed.
 
-    A pushed body moves until a resting body blocks it. stopped: rows of BODY, of the bodies stopped at an impact.
+    A pushed body moves until a resting body blocks it. stopped: row numbers in BODY of bodies that an impact stopped.
     """
     sweeper, bodies = state.workspace.sweep, state.bodies
     moves = np.zeros((len(bodies), 2))
@@ -478,10 +486,10 @@ def push_stopped(state: StepState, stopped: np.ndarray) -> bool:
 
 
 def shift_freely(state: StepState, rows: np.ndarray, moves: np.ndarray, arrived: bool = False) -> None:
-    """Translate bodies, each until a resting body blocks it.
+    """Translate bodies, each one until a body at rest blocks it.
 
-    rows (n,): rows of BODY; moves (n, 2): translations [px]; arrived: whether kinematic bodies are at their final
-    poses; if they are, they also block.
+    rows (n,): row numbers in BODY; moves (n, 2): translations [px]; arrived: whether kinematic bodies already are at
+    their final poses. If so, they block too.
     """
     sweeper, bodies, awake = state.workspace.sweep, state.bodies, state.awake.bodies
     sweeper.grow(state)
@@ -500,9 +508,9 @@ def shift_freely(state: StepState, rows: np.ndarray, moves: np.ndarray, arrived:
 
 
 def _tell(state, met):
-    """Add the impacts met (n, 8) to the contacts, or for sensors to the sensed pairs of the step.
+    """Add the impacts `met` (n, 8) to the contacts of the step, and those of sensors to state.swept_sensors.
 
-    A contact that is added begins in this step, but its impulse follows in the next step.
+    An added contact begins in this step, but its impulse follows in the next step.
     """
     if not len(met):
         return

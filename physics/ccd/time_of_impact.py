@@ -34,11 +34,11 @@ MISS = 2.0  # in place of a fraction 0..1 of the motion: no impact
 
 @subkernel
 def sweep_circles(x, y, dx, dy, radius):
-    """Return (fraction of the motion or MISS, normal from the first disc to the second) of two discs that meet.
+    """Return the first impact (fraction of the motion, nx, ny) of two discs; the fraction is MISS without one.
 
-    x, y [px]: centre of the second disc relative to the first; dx, dy [px]: motion of the second disc relative to the
-    first; radius [px]: sum of both radii. If the discs touch or overlap at the start, the fraction is 0 if they
-    approach, else MISS.
+    The normal points from the first disc to the second. x, y [px]: centre of the second disc relative to the first; dx,
+    dy [px]: its motion relative to the first; radius [px]: sum of both radii. If the discs touch or overlap at the
+    start, the fraction is 0 if they approach, else MISS.
     """
     nx, ny = unit(x, y, 1.0, 0.0)
     approach = x * dx + y * dy
@@ -61,9 +61,9 @@ def sweep_circles(x, y, dx, dy, radius):
 
 @subkernel
 def cast_on_polygon(corners, count, edges, x, y, dx, dy):
-    """Return (fraction of the ray or MISS, normal) of a ray that starts outside a convex polygon.
+    """Return where a ray enters a convex polygon: (fraction of the ray or MISS, nx, ny). It must start outside.
 
-    x, y [px]: start of the ray; dx, dy [px]: vector from its start to its end; edges: bits of the edges that may be
+    x, y [px]: start of the ray; dx, dy [px]: vector from its start to its end; edges: bit k is set if edge k may be
     hit. The ray is clipped by the half plane of each edge, so that it cannot pass between two edges (Cyrus and Beck
     1978).
     """
@@ -90,10 +90,10 @@ def cast_on_polygon(corners, count, edges, x, y, dx, dy):
 
 @subkernel
 def sweep_circle_polygon(corners, count, edges, x, y, dx, dy, radius):
-    """Return (fraction of the motion or MISS, normal from polygon to disc) of a moving disc and a resting polygon.
+    """Return the first impact of a moving disc with a polygon at rest as (fraction of the motion or MISS, nx, ny).
 
-    x, y, radius [px]: centre and radius of the disc, which is a ray if the radius is 0; dx, dy [px]: its motion; edges:
-    bits of the edges (low 16) and corners (next 16) that may be hit.
+    The normal points from polygon to disc. x, y, radius [px]: centre and radius of the disc; radius 0 means a ray; dx,
+    dy [px]: its motion; edges: bits of the edges (low 16) and corners (next 16) that may be hit.
     """
     hit, nx, ny, _, _, separation, _ = collide_polygon_circle(corners, count, edges, x, y, radius)
     if hit and separation <= 0.0:
@@ -127,12 +127,13 @@ def sweep_circle_polygon(corners, count, edges, x, y, dx, dy, radius):
 
 @subkernel
 def half_planes(a, a_count, b, b_count, side, move, slack, clip):
-    """Clip the interval of time in which two polygons overlap by the faces of the polygon in b.
+    """Clip the time interval in which two moving polygons overlap by the faces of the polygon in b.
 
     a, b (16, 2) [px]: corners; side: 1.0 if `a` holds polygon A and `b` holds B, -1.0 if `a` holds B and `b` holds A.
-    move: motion (x, y) [px] of polygon A. A face that is crossed by less than `slack` [px] does not count. clip is the
-    interval before, and the result is the interval after: (fraction at which the overlap begins or MISS, fraction at
-    which it ends, face k of B entered last or -1 - k for face k of A, normal from B to A).
+    move: motion (x, y) [px] of polygon A. slack [px]: faces are moved inwards by this much. clip is the interval before
+    the call. The result is the interval after it, in the same form: (fraction at which the overlap begins or MISS,
+    fraction at which it ends, face entered last, nx, ny). The face is k for face k of B, -1 - k for face k of A; the
+    normal points from B to A.
     """
     enter, leave, entering, nx, ny = clip
     for k in range(b_count):
@@ -156,10 +157,11 @@ def half_planes(a, a_count, b, b_count, side, move, slack, clip):
 
 @subkernel
 def sweep_polygons(a, a_count, b, b_count, move, slack):
-    """Return (fraction of the motion or MISS, normal from B to A) of a moving polygon A and a resting polygon B.
+    """Return the first impact (fraction of the motion, nx, ny) of a moving polygon A with a polygon B at rest.
 
-    move: motion (x, y) [px] of A; slack [px]: an overlap up to this depth is not an impact. A deeper overlap at the
-    start is MISS, because the contact solver resolves it.
+    The fraction is MISS without an impact; the normal points from B to A. move: motion (x, y) [px] of A; slack [px]: an
+    overlap up to this depth is not an impact. A deeper overlap at the start gives MISS, because the contact solver
+    resolves it.
     """
     clip = half_planes(a, a_count, b, b_count, 1.0, move, slack, (-1.0, 1.0, 0, 0.0, -1.0))
     if clip[0] <= 1.0:
@@ -268,8 +270,8 @@ def reach_of(local, count):
 def along(corners, motion, fraction, k, x, y, nx, ny):
     """Return (position [px], velocity, bound of the acceleration) of corner k of a hull along the unit vector (nx, ny).
 
-    The time unit is the whole motion. corners (16, 2) [px]: corners at this fraction of `motion`, relative to the world
-    point (x, y).
+    Velocity and acceleration are per whole motion. corners (16, 2) [px]: corners at this fraction of `motion`, relative
+    to the world point (x, y).
     """
     arm_x = corners[k, 0] - ((motion[CENTER_X] - x) + fraction * motion[MOVE_X])
     arm_y = corners[k, 1] - ((motion[CENTER_Y] - y) + fraction * motion[MOVE_Y])
@@ -280,9 +282,9 @@ def along(corners, motion, fraction, k, x, y, nx, ny):
 
 @subkernel
 def free_until(gap, speed, bend):
-    """Return the first root t of gap + speed · t - bend / 2 · t², where gap >= 0; infinite without a root.
+    """Return the first t >= 0 with gap + speed · t - bend / 2 · t² = 0; infinite if there is none.
 
-    Two corners cannot meet before this time. gap [px]; speed: speed at which the gap grows; bend: bound of the
+    Two corners cannot meet before t. gap >= 0 [px]; speed: rate at which the gap grows; bend: bound of the
     acceleration, >= 0.
     """
     if bend > 0.0:
@@ -297,11 +299,11 @@ def free_until(gap, speed, bend):
 
 @subkernel
 def free_motion(a_count, b_count, radii, fraction, separation, workspace):
-    """Return a lower bound of the further fraction of the motion in which the hulls cannot meet.
+    """Return by how much the fraction of the motion can be increased without a meeting of the hulls (a lower bound).
 
     The bound is the time until any two corners can meet along the present normal. separation [px]: separation of the
-    hulls at `fraction`; no pair of corners counts as nearer. radii [px]: sum of both radii. O(corners of A · corners of
-    B).
+    hulls at `fraction`; no pair of corners is regarded as nearer. radii [px]: sum of both radii. O(corners of A ·
+    corners of B).
     """
     nx, ny = workspace.gap.gap[NX], workspace.gap.gap[NY]
     x, y = workspace.motion_a[CENTER_X], workspace.motion_a[CENTER_Y]
@@ -335,10 +337,10 @@ def free_motion(a_count, b_count, radii, fraction, separation, workspace):
 
 @subkernel
 def speed_of(motion, seen_from, fraction, x, y, nx, ny):
-    """Return the velocity [px per motion] along the unit vector (nx, ny) of a body's point at (x, y).
+    """Return the velocity [px per motion] of a body's point (x, y) along the unit vector (nx, ny).
 
-    x, y [px]: the point, relative to the start position of the centre of rotation in `seen_from`, the motion of either
-    body; motion: motion of the body itself; fraction: fraction of the motion.
+    motion: motion of the body; x, y [px]: the point, relative to the start position of the centre of rotation in the
+    motion `seen_from`; fraction: fraction of the motion.
     """
     arm_x = x - ((motion[CENTER_X] - seen_from[CENTER_X]) + fraction * motion[MOVE_X])
     arm_y = y - ((motion[CENTER_Y] - seen_from[CENTER_Y]) + fraction * motion[MOVE_Y])
@@ -366,8 +368,8 @@ def touching_span(corners, count, nx, ny, side, band):
 def approach_at(a_count, b_count, fraction, band, workspace):
     """Return the greatest approach speed [px per motion] along the normal of two touching hulls.
 
-    a_count, b_count: numbers of corners. If two faces touch, within `band` [px], the speed is greatest at an end of
-    their common part. workspace: with normal and corners at `fraction`, as written by separate_at.
+    Of two faces that touch, within `band` [px], the ends of the common part decide: one of them is fastest. a_count,
+    b_count: numbers of corners. workspace: with the normal and corners at `fraction` that separate_at has written.
     """
     nx, ny = workspace.gap.gap[NX], workspace.gap.gap[NY]
     a_low, a_high = touching_span(workspace.a, a_count, nx, ny, 1.0, band)
@@ -393,10 +395,10 @@ def approach_at(a_count, b_count, fraction, band, workspace):
 def advance(a_count, a_radius, b_count, b_radius, workspace):
     """Return the first fraction of the motion at which two moving hulls meet, or MISS.
 
-    workspace: the caller writes local_a, local_b, motion_a, motion_b; on return gap.gap holds normal and points at the
-    impact, and the counters in `totals` are increased. a_radius, b_radius [px]: roundings. If the hulls touch or
+    workspace: the caller writes local_a, local_b, motion_a and motion_b. On return gap.gap holds normal and points at
+    the impact, and the counters in `totals` are increased. a_radius, b_radius [px]: roundings. If the hulls touch or
     overlap at the start, the result is 0 if they approach; otherwise the search continues until they approach. If
-    ADVANCE_CAP is reached, a fraction before the impact is returned.
+    ADVANCE_CAP iterations are not enough, the result is a fraction before the impact.
     """
     turn_a, turn_b = abs(workspace.motion_a[TURN]), abs(workspace.motion_b[TURN])
     reach_a, reach_b = reach_of(workspace.local_a, a_count), reach_of(workspace.local_b, b_count)

@@ -1,4 +1,4 @@
-"""Contact cache of worlds with a stacking solver: updates contacts to moved bodies without a new narrow phase."""
+"""Contact cache of worlds with a stacking solver: contacts follow moved bodies without a new narrow phase."""
 
 import math
 
@@ -27,19 +27,25 @@ SAME = 2.0**-20  # distance below which a point counts as a corner, as a fractio
 
 @subkernel
 def core_radius(shape):
-    """Return the distance [px] from the core of a SHAPE row to its surface: radius of a circle, rounding of a hull."""
+    """Return the distance [px] from the core of a SHAPE row to its surface.
+
+    It is the radius of a circle, the rounding of a hull, and 0 for other shapes.
+    """
     return shape.radius if is_hull(shape.kind) and shape.kind != BOUNDS else 0.0
 
 
 @subkernel
 def is_ground(shape):
-    """Return whether a shape is a tile grid or chain, whose feature ids include the number of a tile run or link."""
+    """Return whether a SHAPE row is a tile grid or a chain.
+
+    Their feature ids also contain the number of a tile run or link.
+    """
     return shape.kind == TILES or shape.kind == CHAIN
 
 
 @subkernel
 def has_corners(shape):
-    """Return whether a shape has corners in geometry.polygons: it is a hull, but not a BOUNDS or a circle."""
+    """Return whether a shape has corners in geometry.polygons: it is a hull, but not a circle and not a BOUNDS."""
     return is_hull(shape.kind) and shape.kind != BOUNDS and shape.kind != CIRCLE
 
 
@@ -47,8 +53,9 @@ def has_corners(shape):
 def frame_of(a, b, feature, radii):
     """Return the frame with which the normal of a contact rotates: WITH_A, WITH_B, CORES or UPRIGHT.
 
-    WITH_A, WITH_B: body A or B; CORES: the line from A's core to B's core; UPRIGHT: the normal never rotates. a, b:
-    SHAPE rows; feature: feature id of the first point; radii [px]: sum of both core radii.
+    WITH_A, WITH_B: it rotates with body A or B. CORES: it is the direction from A's core point to B's core point.
+    UPRIGHT: it never rotates. a, b: SHAPE rows; feature: feature id of the first point; radii [px]: sum of both core
+    radii.
     """
     frame = WITH_B if a.kind == CIRCLE else WITH_A
     if a.kind != MASK and b.kind != MASK:
@@ -70,10 +77,10 @@ def frame_of(a, b, feature, radii):
 
 @subkernel
 def is_corner(polygons, table, body, shape, corner, local_x, local_y):
-    """Return whether a point is at a given corner of a hull's core.
+    """Return whether a point is at one corner of a hull's core, the outline without the rounding.
 
     polygons, table: geometry.polygons and geometry.corners; body, shape: BODY and SHAPE row of the hull; corner: index
-    of the corner, an index that is too large means corner 0; local_x, local_y [px]: the point in body space.
+    of the corner, where an index past the end means corner 0; local_x, local_y [px]: the point in body space.
     """
     span = polygons[shape.geometry]
     c = table[span.offset + (corner if corner < span.count else 0)]
@@ -82,10 +89,10 @@ def is_corner(polygons, table, body, shape, corner, local_x, local_y):
 
 @subkernel
 def core_in_body(body, turn, x, y, nx, ny, inside, behind):
-    """Return a world point (x, y), displaced along the normal and tangent of a contact, in the space of a body.
+    """Displace a contact point along normal and tangent, and return the result in the space of a body, (x, y) [px].
 
-    inside [px]: displacement along the normal (nx, ny); behind [px]: displacement along (ny, -nx), against the tangent;
-    body: BODY row; turn: (cosine, sine) of its angle.
+    x, y [px]: the contact point in the world; nx, ny: normal; inside [px]: displacement along the normal; behind [px]:
+    displacement along (ny, -nx), the opposite of the tangent; body: BODY row; turn: (cosine, sine) of its angle.
     """
     return rotate(x + inside * nx + behind * ny - body.x, y + inside * ny - behind * nx - body.y, turn[0], -turn[1])
 
@@ -94,9 +101,10 @@ def core_in_body(body, turn, x, y, nx, ny, inside, behind):
 def share_of(polygons, table, body_a, body_b, contact, a, b, second):
     """Return which side a contact point follows when the sides slide along the face: 0 for A, 1 for B, 0.5 for both.
 
-    A point at a corner, or under a disc, follows the side with the corner or the disc. A point clipped by the end of a
-    face follows the side with this face. polygons, table: geometry.polygons and geometry.corners; body_a, body_b: BODY
-    rows; contact: CONTACT row with local points already written; a, b: SHAPE rows; second: True for the second point.
+    A point at a corner or on a circle moves with the side that has the corner or circle. A point clipped by the end of
+    a face moves with the side that has the face. polygons, table: geometry.polygons and geometry.corners; body_a,
+    body_b: BODY rows; contact: CONTACT row with local points already written; a, b: SHAPE rows; second: True for the
+    second point.
     """
     part = (contact.feature_2 if second else contact.feature_1) % PART
     if a.kind == MASK or b.kind == MASK:
@@ -132,7 +140,7 @@ def share_of(polygons, table, body_a, body_b, contact, a, b, second):
 
 @subkernel
 def write_cache(polygons, table, bodies, shapes, contact_inout):
-    """Write the cache fields of a CONTACT row that was detected at the present poses.
+    """Write the cache fields of a newly detected CONTACT row, from the present poses of its bodies.
 
     polygons, table: geometry.polygons and geometry.corners. The cached points are on the cores of both shapes, because
     a point on a round surface would rotate away with the body.
@@ -178,7 +186,7 @@ def write_cache(polygons, table, bodies, shapes, contact_inout):
 
 @subkernel
 def reset_impulses(contact_out):
-    """Clear the cached forces (for warm starting) and the graph colour of a CONTACT row."""
+    """Clear the cached warm-start forces and the graph colour of a CONTACT row."""
     c = contact_out
     c.color = -1
     c.rolling_force, c.normal_force_1, c.tangent_force_1 = 0.0, 0.0, 0.0
@@ -187,7 +195,10 @@ def reset_impulses(contact_out):
 
 @kernel
 def write_caches(geometry, bodies, shapes, contacts_inout):
-    """Write the cache fields of contacts detected at the present poses, and clear all forces. O(contacts)."""
+    """Write the cache fields of newly detected contacts, and clear all their forces. O(contacts).
+
+    The bodies must still have the poses at which the contacts were detected.
+    """
     for i in range(len(contacts_inout)):
         reset_impulses(contacts_inout[i])
         write_cache(geometry.polygons, geometry.corners, bodies, shapes, contacts_inout[i])
@@ -199,10 +210,10 @@ def write_caches(geometry, bodies, shapes, contacts_inout):
 
 @inlined
 def cores_at(a, turn_a, b, turn_b, local_ax, local_ay, local_bx, local_by):
-    """Return (ax, ay, dx, dy) [px]: a contact's point on A's core in the world, the vector to the point on B's core.
+    """Return (ax, ay, dx, dy) [px]: the world position of a contact's point on A's core, and the vector from it to B's.
 
     a, b: BODY rows; turn_a, turn_b: (cosine, sine) of the angles; local_ax, local_ay, local_bx, local_by [px]: the
-    points in body space.
+    points on both cores in body space.
     """
     ax, ay = rotate(local_ax, local_ay, turn_a[0], turn_a[1])
     bx, by = rotate(local_bx, local_by, turn_b[0], turn_b[1])
@@ -213,14 +224,13 @@ def cores_at(a, turn_a, b, turn_b, local_ax, local_ay, local_bx, local_by):
 
 @inlined
 def clipped_gap(gap, core, other, apart, with_a, normal, wander):
-    """Return (corrected gap [px] between the cores at a clipped contact point, whether it was corrected).
+    """Correct the gap between the cores at a clipped contact point. Return (gap [px], whether it was corrected).
 
     A point clipped by the end of a face moves along the incident hull edge when the sides slide, which changes the gap.
     The incident edge is the line through both core points of the side without the face. gap [px]: gap before the
-    correction. core [px]: vector from A's core point to B's core point; other [px]: the same vector for the other
-    contact point of the manifold; apart [px]: vector from A's core point here to A's core point at the other contact
-    point. with_a: whether A has the face; normal: unit normal of the contact; wander [px]: smaller corrections are
-    omitted.
+    correction. core, other [px]: vectors from A's to B's core point, at this contact point and at the other one. apart
+    [px]: vector from A's core point here to A's core point there. with_a: whether A has the face; normal: unit normal
+    of the contact; wander [px]: smaller corrections are omitted.
     """
     nx, ny = normal
     edge_x = apart[0] + (other[0] - core[0] if with_a else 0.0)
@@ -236,16 +246,16 @@ def clipped_gap(gap, core, other, apart, with_a, normal, wander):
 
 @inlined
 def is_clipped(contact, share):
-    """Return whether a contact point is clipped by the end of a face. share: result of share_of for the point."""
+    """Return whether a contact point was clipped by the end of a face. share: result of share_of for this point."""
     return (contact.frame == WITH_A and share == 0.0) or (contact.frame == WITH_B and share == 1.0)
 
 
 @inlined
 def point_of(ax, ay, dx, dy, normal, gap, share, radii):
-    """Return (x, y, separation) [px] of a contact point.
+    """Return (x, y, separation) [px] of a contact point in the world.
 
     ax, ay, dx, dy [px]: result of cores_at; gap [px]: gap between the cores along the normal, corrected by clipped_gap;
-    share: see share_of; radii [px]: core radii of A and B.
+    share: result of share_of; radii [px]: (A's, B's) core radius.
     """
     nx, ny = normal
     radius_a, radius_b = radii
@@ -260,10 +270,10 @@ def point_of(ax, ay, dx, dy, normal, gap, share, radii):
 def update_contact(a, turn_a, b, turn_b, wander, contact_inout):
     """Write the points, normal and separations [px] of a contact at the present poses, from its cache.
 
-    Return (greatest relative motion [px] of a point since detection, along the face or the normal; motion [px] of a
-    round side around a corner; whether a clipped point was corrected, see clipped_gap). a, b: BODY rows; turn_a,
-    turn_b: (cosine, sine) of their angles; wander [px]: smaller corrections of a clipped point are omitted, infinite
-    for none.
+    Return (moved, rolled, corrected). moved [px]: greatest relative motion of a point since detection, along the face
+    or the normal. rolled [px]: motion of the contact around a rounding since detection. corrected: whether clipped_gap
+    corrected a point. a, b: BODY rows; turn_a, turn_b: (cosine, sine) of their angles; wander [px]: smaller corrections
+    of a clipped point are omitted; inf omits all.
     """
     c = contact_inout
     two = c.count == 2
@@ -345,9 +355,9 @@ def is_finite(contact):
 def recycle_distance(contact, distance):
     """Return the greatest relative motion [px] since detection up to which a contact may be recycled.
 
-    The result is `distance` [px]. For a loaded contact with two points and without roundings it is RECYCLE_MOVE times
-    `distance`, because such points are updated exactly, unless they are too close together, see RECYCLE_SHARE. An
-    unloaded contact is detected again earlier, to find the shortest way out of an overlap.
+    It is `distance` [px], or RECYCLE_MOVE times as much for a loaded contact with two points and without roundings,
+    whose points are updated exactly. If the two points are close together (see RECYCLE_SHARE), it remains `distance`.
+    Unloaded contacts are detected again earlier, because the shortest way out of an overlap may change.
     """
     c = contact
     loaded = c.normal_force_1 > 0.0 or c.normal_force_2 > 0.0
@@ -360,11 +370,11 @@ def recycle_distance(contact, distance):
 
 @inlined
 def can_recycle(shapes, a, turn_a, b, turn_b, distance, wander, contact_inout):
-    """Update a contact to the present poses, and return whether it can be recycled.
+    """Update a contact to the present poses, and return whether the next step can use it without a new narrow phase.
 
-    It can be recycled under three conditions: its points have moved by at most recycle_distance, relative rotation has
-    moved them by at most `distance` [px], and clipped points need no correction of `wander` [px] or more. shapes: SHAPE
-    rows; a, b: BODY rows; turn_a, turn_b: (cosine, sine) of their angles.
+    Three conditions must hold: the points have moved by at most recycle_distance, relative rotation has moved them by
+    at most `distance` [px], and no clipped point needs a correction of more than `wander` [px]. shapes: SHAPE rows; a,
+    b: BODY rows; turn_a, turn_b: (cosine, sine) of their angles.
     """
     c = contact_inout
     moved, rolled, wandered = update_contact(a, turn_a, b, turn_b, wander, c)
@@ -401,7 +411,7 @@ def is_unmoved(body):
 
 @subkernel
 def update_and_flag(shapes, distance, bodies_inout, contacts_inout):
-    """Update all contacts to the present poses, and write which of them can be recycled in the next step. O(contacts).
+    """Update all contacts to the present poses, and write CONTACT.can_recycle for the next step. O(contacts).
 
     Also write BODY.has_current_contacts of the bodies in contact. distance [px]: see can_recycle.
     """
@@ -428,9 +438,9 @@ def update_and_flag(shapes, distance, bodies_inout, contacts_inout):
 
 @kernel
 def update_final_poses(shape_rows, geometry, distance, bodies_inout, shapes_inout, contacts_inout):
-    """Update the AABBs of these shapes, and all contacts, to the present poses. O(rows + contacts).
+    """Update the AABBs of the given shapes, and all contacts, to the present poses. O(rows + contacts).
 
-    shape_rows: SHAPE rows; distance [px]: see can_recycle.
+    shape_rows: row numbers in SHAPE; distance [px]: see can_recycle.
     """
     refresh_boxes(shape_rows, geometry, bodies_inout, shapes_inout)
     update_and_flag(shapes_inout, distance, bodies_inout, contacts_inout)
@@ -455,10 +465,10 @@ def update_contacts_at_final_poses(state: StepState) -> None:
 
 @kernel
 def copy_kept(contacts, new_bodies, new_shapes, kept_out):
-    """Copy the contacts of bodies and shapes that are kept, with their new row numbers. Return the number of copies.
+    """Copy the contacts whose bodies and shapes still exist to kept_out, with new row numbers. Return their number.
 
-    O(contacts). contacts: CONTACT rows with the row numbers before a removal; new_bodies, new_shapes: int32 row number
-    after the removal of each row before it, negative for a removed row; kept_out: CONTACT rows.
+    O(contacts). contacts: CONTACT rows with the row numbers before a removal. new_bodies, new_shapes: int32 new row
+    number for each old row, negative for a removed row.
     """
     found = 0
     for i in range(len(contacts)):
@@ -491,7 +501,7 @@ def drop_contacts(tables: WorldTables, kept_bodies: np.ndarray, kept_shapes: np.
 def shift_center(contacts: np.ndarray, identity: int, dx: float, dy: float) -> None:
     """Update cached contacts after the centre of mass of a body has moved within the body, for example by carving.
 
-    contacts: CONTACT rows; identity: body id; dx, dy [px]: displacement of the centre of mass, in world axes.
+    contacts: CONTACT rows, changed in place; identity: body id; dx, dy [px]: displacement of the centre, in world axes.
     """
     for name, sign in (("body_a", -1.0), ("body_b", 1.0)):
         rows = contacts[name] == identity

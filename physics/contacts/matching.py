@@ -36,9 +36,9 @@ LARGEST_FORCE = 1e100  # a larger or non-finite cached force is reset to 0
 
 @subkernel
 def transfer_impulses(previous, first, contact_inout):
-    """Copy the cached forces of the last step to the points of a new contact, by equal feature id.
+    """Copy the cached forces of the last step to the points of a new contact that have the same feature id.
 
-    previous: CONTACT rows of the last step; first: index in previous of the first row of the same pair of shapes.
+    previous: CONTACT rows of the last step; first: index in `previous` of the first contact of the same pair of shapes.
     """
     c = contact_inout
     for point in range(c.count):
@@ -66,7 +66,7 @@ def transfer_impulses(previous, first, contact_inout):
 
 @inlined
 def touches(contact):
-    """Return whether a CONTACT row of the last step had an impulse, or overlapped without approaching."""
+    """Return whether a CONTACT row of the last step had a normal impulse, or overlapped without approaching."""
     c = contact
     pushed = c.normal_impulse_1 + c.normal_impulse_2 > 0.0
     first = c.separation_1 <= 0.0 and c.speed_1 <= 0.0
@@ -75,7 +75,7 @@ def touches(contact):
 
 @inlined
 def begin_step(geometry, p, q, a, b, contact_inout):
-    """Prepare a contact for a new step: reset impulses and colour, write mixed materials and closing speeds.
+    """Prepare a contact for a new step: reset impulses and colour, write mixed materials and approach speeds.
 
     p, q: BODY rows of A and B; a, b: SHAPE rows of A and B.
     """
@@ -118,10 +118,10 @@ def complete_contact(geometry, bodies, shapes, previous, first, contact_inout):
 def match_contacts(geometry, bodies, shapes, previous, stale, found, contacts_out):
     """Merge recycled and newly detected contacts into contacts_out. Return their number. O(previous + found).
 
-    previous: CONTACT rows of the last step; found: CONTACT rows of this step. Both, and the result, are in the order of
-    the candidate pairs. stale: int32 rows of `previous` that are not recycled, ascending. A new contact takes over the
-    forces of points with the same feature id. A row of `found` whose `previous` is not -1 is a recycled contact, and
-    keeps its cache.
+    previous: CONTACT rows of the last step. stale: int32 rows of `previous` that are not recycled, ascending; all other
+    rows of `previous` are kept. found: CONTACT rows of this step. If `previous` of such a row is -1, it is new, and
+    takes the forces of old points with the same feature id. Otherwise it is recycled and keeps its cache. All three
+    tables are in the order of the candidate pairs.
     """
     count = 0
     kept = 0
@@ -177,9 +177,9 @@ def replace_contacts(geometry, bodies, shapes, stale, found_inout, previous_inou
 
 @kernel
 def copy_recycled(previous, stale, contacts_out):
-    """Copy all contacts of the last step except the stale rows to contacts_out. O(previous).
+    """Copy all contacts of the last step to contacts_out, except the stale ones. O(previous).
 
-    previous: CONTACT rows; stale: int32 rows of `previous`, ascending.
+    previous: CONTACT rows; stale: int32 rows of `previous` that are not copied, ascending.
     """
     count = 0
     passed = 0
@@ -201,8 +201,8 @@ def copy_recycled(previous, stale, contacts_out):
 def refresh_recycled(a, b, row_a, row_b, candidate, place, contact_inout):
     """Write the fields of a recycled contact that may have changed since the last step: table rows, candidate, flags.
 
-    a, b: SHAPE rows of A and B; row_a, row_b: numbers of these rows; candidate: index of the pair; place: row of the
-    contact in the last step.
+    a, b: SHAPE rows of A and B; row_a, row_b: numbers of these rows; candidate: index of the candidate pair; place: row
+    of the contact in the table of the last step.
     """
     c = contact_inout
     c.body_row_a, c.body_row_b = a.body_row, b.body_row
@@ -216,14 +216,14 @@ def refresh_recycled(a, b, row_a, row_b, candidate, place, contact_inout):
 
 @kernel
 def recycle_contacts(batch, distance, previous_inout, kinds_out, counts_out, stale_out, work_inout):
-    """Classify the pairs without sensors (see kind_asked), and recycle contacts of the last step if possible.
+    """Recycle contacts of the last step where possible, and classify the other pairs by kind. Sensors are left out.
 
-    Return (number of stale rows, number of pairs left to test plus number of pairs with a part). If neither body of a
-    contact has moved since the last step, CONTACT.can_recycle of that step decides. Otherwise the contact is tested
-    now, with can_recycle and `distance` [px]. previous_inout: CONTACT rows of the last step, sorted by shape ids like
-    the candidates; recycled rows are updated to the present poses. A pair whose contacts are recycled gets the kind
-    NOTHING in kinds_out, and is not counted in counts_out. stale_out (previous,): int32 rows that are not recycled,
-    which include all contacts of masks. O(candidates + contacts).
+    Return (number of stale rows, number of pairs left to test plus number of pairs with a part of a larger shape). If
+    neither body has moved since the last step, CONTACT.can_recycle of that step decides. Otherwise can_recycle decides,
+    with `distance` [px]. previous_inout: CONTACT rows of the last step, sorted by shape ids like the candidates;
+    recycled rows are updated to the present poses. kinds_out: kind of each pair, NOTHING if its contacts are recycled.
+    counts_out: number of pairs of each kind that are left. stale_out (previous,): int32 rows that are not recycled,
+    including all contacts of masks. O(candidates + contacts).
     """
     bodies = batch.bodies
     shapes = batch.shapes
@@ -293,14 +293,14 @@ class Found(NamedTuple):
 
 
 class ContactCache:
-    """Two reusable tables for the contacts of one world: the present contacts, and the contacts of the next step."""
+    """Two tables of contacts of one world, used in turn: for the present contacts, and for the next ones."""
 
     def __init__(self) -> None:
         self.tables = [zeros_in_lines(16, CONTACT) for _ in range(2)]
         self.stale = np.zeros(64, np.int32)
 
     def room_beside(self, contacts: np.ndarray, count: int) -> np.ndarray:
-        """Return a table with room for `count` rows that is not the table of the present contacts, `contacts`."""
+        """Return the table that does not hold the present `contacts`, enlarged to `count` rows if necessary."""
         if contacts.base is self.tables[0].base:
             self.tables.reverse()
         if len(self.tables[0]) < count:
@@ -310,11 +310,12 @@ class ContactCache:
     def find(
         self, narrow: NarrowPhase, batch: Batch, previous: np.ndarray, distance: float, work: np.ndarray
     ) -> Found | None:
-        """Find the contacts of pairs without sensors, and recycle contacts of the last step if possible.
+        """Find the contacts of all pairs without sensors. Contacts of the last step are recycled where possible.
 
-        Return the new contacts and the rows of `previous` that are not recycled, or None if all rows are recycled and
-        no pair is left to test. narrow: NarrowPhase; batch: candidate pairs; previous: CONTACT rows of the last step,
-        of which recycled rows are updated in place; distance [px]: see recycle_contacts; work: counters.
+        Return the new contacts and the stale rows of `previous`, or None if all contacts are recycled and no pair is
+        left to test. batch: candidate pairs; previous: CONTACT rows of the last step, of which recycled rows are
+        updated in place; distance [px]: see recycle_contacts; work: counters of work done, indexed by constants as
+        NARROW_TESTS.
         """
         if len(self.stale) < len(previous):
             self.stale = np.zeros(2 * len(previous), np.int32)
@@ -343,7 +344,10 @@ class ContactCache:
     writes=("contact_rows", "work", "workspace"),
 )
 def find_contacts(state: StepState) -> None:
-    """Find or recycle the contacts at the start of the step, up to the speculative distance, with cached forces."""
+    """Write the contacts at the start of the step to state.contact_rows, with warm-start forces.
+
+    They include gaps up to the speculative distance. Contacts of the last step are recycled where possible.
+    """
     if not len(state.awake.bodies):
         state.contact_rows = NO_CONTACTS
         return
@@ -387,7 +391,7 @@ ALIKE = 0.9
 class KeptImpulses:
     """Contacts of shapes that are about to be replaced, kept to transfer their forces to the new shapes.
 
-    rows: SHAPE rows about to be removed. In worlds without a contact cache nothing is kept.
+    rows: row numbers of the shapes to be removed. In a world without a contact cache there is nothing to keep.
     """
 
     def __init__(self, tables: WorldTables, rows: np.ndarray) -> None:
@@ -407,7 +411,7 @@ class KeptImpulses:
     def transfer(self, tables: WorldTables, new: np.ndarray) -> None:
         """Detect the contacts of new shapes with the partners of the old ones, and copy the kept forces to them.
 
-        O(pairs). new: SHAPE rows. Call this method after the removal of the old shapes.
+        O(pairs). new: row numbers of the new shapes. Call this method after the removal of the old shapes.
         """
         if not len(self.contacts):
             return
@@ -440,10 +444,11 @@ class KeptImpulses:
         tables.contact_rows = known[order_of(known)]
 
     def _stood_on(self, shapes, pairs):
-        """Return CONTACT rows that stand in for contacts of the last step, for the pairs with a Chain.
+        """Return CONTACT rows, one for each pair with a Chain, that take the place of contacts of the last step.
 
-        With these rows a body that stood on an old one-way surface is held by the new surface, at any depth. shapes:
-        SHAPE; pairs (n, 2): SHAPE rows.
+        One-way surfaces do not stop a body that overlaps them without an earlier contact. With these rows, the new
+        surface holds a body that stood on the old one, at any depth. shapes: SHAPE table; pairs (n, 2): SHAPE row
+        numbers.
         """
         some = shapes[pairs[(shapes["kind"][pairs] == CHAIN).any(axis=1)]]
         found = np.zeros(len(some), CONTACT)
@@ -453,7 +458,7 @@ class KeptImpulses:
     def _take(self, contact, k, reach):
         """Copy the forces of the nearest kept point with a similar normal to point k (1 or 2) of a new contact.
 
-        Kept points farther away than `reach` [px], and contacts of other pairs of bodies, do not count.
+        Only kept points of the same two bodies within `reach` [px] are considered.
         """
         old = self.contacts
         same = (old["body_a"] == contact["body_a"]) & (old["body_b"] == contact["body_b"])

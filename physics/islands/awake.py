@@ -1,6 +1,6 @@
-"""The awake rows of a world, which the passes of a step process.
+"""The lists of awake rows: the bodies and shapes that the passes of a step process.
 
-Without sleeping these are all rows. With sleeping they are the awake dynamic bodies, moving non-dynamic bodies,
+Without sleeping these are all rows. With sleeping they are the awake dynamic bodies, moving static or kinematic bodies,
 characters, and for one step the added or edited bodies. Sleeping bodies and bodies at rest cost nothing. The lists are
 updated when bodies wake or fall asleep, so that a step does not have to search all bodies.
 """
@@ -23,7 +23,7 @@ NONE = np.zeros(0, np.int64)
 
 @inlined
 def is_active(body):
-    """Return whether a body can change a contact: a dynamic one if it is awake, others if they move or were moved."""
+    """Return whether a BODY row can change a contact: a dynamic body if awake, others if they move or were moved."""
     if body.kind == DYNAMIC:
         return body.awake
     return (
@@ -38,18 +38,18 @@ def is_active(body):
 
 @subkernel
 def wakes(body, other):
-    """Return whether `body` wakes `other` on contact: `other` sleeps, and `body` is active or was edited.
+    """Return whether `body` wakes `other` on contact: `other` is asleep, and `body` is active or was edited.
 
-    body, other: BODY rows.
+    body, other: BODY rows; for active see is_active.
     """
     return other.kind == DYNAMIC and not other.awake and (body.dirty or is_active(body))
 
 
 @kernel
 def list_active(bodies, rows, rows_out):
-    """List those of the body rows `rows` that are active (see is_active) and not quarantined. Return their number.
+    """Write the rows among `rows` whose bodies are active (see is_active) and not quarantined. Return their number.
 
-    O(rows).
+    bodies: BODY table; rows, rows_out: row numbers. O(rows).
     """
     found = 0
     for k in range(len(rows)):
@@ -62,9 +62,10 @@ def list_active(bodies, rows, rows_out):
 
 @kernel
 def gather_shapes(rows, order, starts, rows_out):
-    """List the shape rows of the body rows `rows`, all distinct. Return their number. O(shapes of these bodies).
+    """Write the row numbers of all shapes of the given bodies to rows_out. Return their number.
 
-    order: shape rows sorted by body row; starts: index in `order` of the first shape row of each body row.
+    O(shapes of these bodies). rows: distinct body rows; order: shape rows sorted by body row; starts: index in `order`
+    of the first shape of each body row.
     """
     found = 0
     for k in range(len(rows)):
@@ -75,9 +76,9 @@ def gather_shapes(rows, order, starts, rows_out):
 
 
 class Awake:
-    """The awake rows of one world: `bodies` and `shapes`, int64, ascending.
+    """The lists of awake rows of one world: `bodies` and `shapes`, int64 row numbers, ascending.
 
-    sleeping: whether the world has sleeping. Without sleeping all rows are awake.
+    sleeping: whether bodies of the world may sleep. If not, the lists contain all rows.
     """
 
     def __init__(self, sleeping: bool) -> None:
@@ -93,16 +94,19 @@ class Awake:
         self.stale = True  # whether the lists must be rebuilt
 
     def start_over(self) -> None:
-        """Mark the lists to be rebuilt, after tables were replaced, bodies were quarantined, or a kind changed."""
+        """Mark the lists to be rebuilt.
+
+        Call it after replacing tables, quarantining bodies or changing the kind of a body.
+        """
         self.stale = True
 
     def mark_dirty(self, ids: list[int]) -> None:
-        """Add bodies that were added or edited (ids) to the rows of the next step. No effect without sleeping."""
+        """Have the next step include bodies (ids) that were added or edited. No effect without sleeping."""
         if self.sleeping:
             self.dirty += ids
 
     def all_rows(self, bodies: np.ndarray, shapes: np.ndarray) -> None:
-        """Set the lists to all rows, for a world without sleeping."""
+        """Fill both lists with all row numbers, for a world without sleeping."""
         if len(self.bodies) != len(bodies) or len(self.shapes) != len(shapes):
             most = max(len(bodies), len(shapes))
             if len(self.numbers) < most:
@@ -122,11 +126,11 @@ class Awake:
             self.known = (int(np.count_nonzero(kept_bodies[: self.known[0]])), -1)
 
     def forget_shapes(self) -> None:
-        """Mark the list of shape rows as outdated, after shape rows were added or removed."""
+        """Mark the list of shape rows to be rebuilt, after shape rows were added or removed."""
         self.known = (self.known[0], -1)
 
     def take_in(self, tables: WorldTables) -> None:
-        """Add new rows of the tables to the lists, or rebuild the lists if they are marked.
+        """Add rows that are new in the tables to the lists, or rebuild the lists if start_over has marked them.
 
         Rebuilt lists contain the bodies of the last step (column `active`). So the next step can find the bodies that
         have come to rest since, and store their touching pairs.
@@ -168,9 +172,9 @@ class Awake:
         return not self.stale and self.known == (len(bodies), len(shapes))
 
     def may_move(self, bodies: np.ndarray, before: np.ndarray) -> np.ndarray:
-        """Return the body rows whose pose may have changed since `before` was the list of awake rows.
+        """Return the body rows whose pose may have changed since `before` was the value of `self.bodies`.
 
-        before: an earlier value of `self.bodies`, at most one step old.
+        before: at most one step old. The result may contain bodies that have not moved.
         """
         dirty = rows_of(bodies, np.array(self.dirty, np.int64))
         rows = np.concatenate([before, self.bodies, self.dynamic, self.kinematic, dirty[dirty >= 0]])
@@ -182,7 +186,10 @@ class Awake:
         return np.sort(gathered[: gather_shapes(rows, self.order, self.starts, gathered)])
 
     def include(self, tables: WorldTables, rows: np.ndarray) -> None:
-        """Add body rows to the lists. The call is allowed in a step; the pairs of these bodies are searched again."""
+        """Add body rows to the lists and mark them as active. The broad phase searches their pairs again.
+
+        May be called during a step.
+        """
         self.take_in(tables)
         self.bodies = distinct(np.concatenate([self.bodies, rows]), len(tables.bodies))
         new = rows[tables.bodies["kind"][rows] == DYNAMIC]
@@ -192,7 +199,7 @@ class Awake:
         self.shapes = self.shapes_of(self.bodies)
 
     def exclude(self, tables: WorldTables, rows: np.ndarray) -> None:
-        """Remove body rows from the lists. The bodies do not change until they are included again."""
+        """Remove body rows from the lists. Steps do not visit these bodies until they are included again."""
         self.take_in(tables)
         self._set_active(tables, rows, False)
         flags = tables.bodies["active"]
@@ -211,10 +218,10 @@ class Awake:
     writes=("awake", "sleeping_set", "pairs", "touching_pairs", "sensing_pairs", "bodies.active", "bodies.dirty"),
 )
 def list_awake(state: StepState) -> None:
-    """List the awake rows of this step: include bodies that have begun to move, and exclude bodies that have stopped.
+    """Update the lists of awake rows: add bodies that have begun to move, remove bodies that have stopped.
 
-    Also move the stored touching pairs of the included bodies out of the sleeping set, and those of the excluded bodies
-    into it.
+    The sleeping set stores the touching pairs of bodies that are not in the lists. So the pairs of added bodies are
+    moved out of it, and the pairs of removed bodies into it.
     """
     awake, bodies = state.awake, state.bodies
     awake.take_in(state)
@@ -269,9 +276,9 @@ FREE_TIME = 60.0  # [s] time in which the free motion of a sleeping body would b
 
 
 class Groups(NamedTuple):
-    """Groups of bodies linked by friction or joints: arrays by BODY row.
+    """Groups of bodies that friction or joints link: one array per property, indexed by BODY row.
 
-    The values of a group are in the row of its root.
+    Each group is a tree of rows. The properties of a group are stored at its root row.
     """
 
     parents: np.ndarray  # int32 union-find, see join_trees
@@ -293,7 +300,7 @@ class Groups(NamedTuple):
 
 
 class FreeFall(NamedTuple):
-    """The acceleration of free bodies, and factors for the distance that they move in FREE_TIME."""
+    """The acceleration of free bodies, and factors that turn speed and acceleration into a distance in FREE_TIME."""
 
     gravity_x: float  # [px/s2] before the gravity scale of a body
     gravity_y: float
@@ -305,7 +312,7 @@ class FreeFall(NamedTuple):
 
 
 def new_groups(room: int) -> Groups:
-    """Return Groups with room for that many BODY rows."""
+    """Return Groups with room for `room` BODY rows."""
     flags, numbers = [np.zeros(room, np.bool_) for _ in range(3)], [np.zeros(room) for _ in range(6)]
     counts, holds = [np.zeros(room, np.int32) for _ in range(2)], [np.zeros(room) for _ in range(4)]
     return Groups(np.zeros(room, np.int32), *flags, *numbers, *counts, *holds)
@@ -314,10 +321,10 @@ def new_groups(room: int) -> Groups:
 def free_fall(
     gravity: tuple[float, float], drag: float, wind: tuple[float, float], damped: bool, slop: float
 ) -> FreeFall:
-    """Return the FreeFall of a world.
+    """Return the FreeFall of a world with this gravity, drag and wind.
 
-    gravity [px/s2], wind [px/s]: (0, 0) without the effect. drag [1/s]. damped: whether drag slows bodies down. slop
-    [px].
+    gravity [px/s2]; drag [1/s]; wind [px/s]. Pass (0, 0) for a gravity or wind without effect. damped: whether drag
+    slows bodies down; slop [px]: tolerance for free motion.
     """
     decay = drag * FREE_TIME if damped else 0.0
     if decay < 1e-4:  # the closed forms would be inaccurate
@@ -345,9 +352,9 @@ def is_free(body):
 
 @kernel
 def start_groups(rows, bodies, fall, groups_out):
-    """Make each body a separate group, and write its mass times the acceleration of its free fall. O(rows).
+    """Make each body a group of its own, and write the force on it in free fall: mass times acceleration. O(rows).
 
-    rows: body rows; fall: see FreeFall; groups_out: see Groups.
+    rows: awake body rows; bodies: BODY table.
     """
     g = groups_out
     for k in range(len(rows)):
@@ -369,10 +376,10 @@ def start_groups(rows, bodies, fall, groups_out):
 
 @kernel
 def join_groups(bodies, contacts, friction, groups_inout):
-    """Join free bodies into groups by loaded contacts with friction. O(contacts).
+    """Join free bodies that press on each other with friction into groups. O(contacts).
 
-    Bodies that friction holds on a resting body are marked in Groups.anchored. Bodies with two loaded points of one
-    contact are marked in Groups.faces. friction: 1 if the effect friction is declared, else 0.
+    A body that friction holds on a body that is not free is marked in Groups.anchored. A body with two loaded points in
+    one contact is marked in Groups.faces. friction: 1 if the world applies friction, else 0.
     """
     g = groups_inout
     for i in range(len(contacts)):
@@ -397,10 +404,10 @@ def join_groups(bodies, contacts, friction, groups_inout):
 
 @kernel
 def list_joint_edges(bodies, joints, count, edges_out):
-    """List the joints that link bodies or keep a body awake, as graph edges. Return the number of all edges. O(joints).
+    """Append the joints of awake bodies to edges_out as graph edges. Return the number of all edges. O(joints).
 
-    Joints link awake dynamic bodies. A joint to a moving kinematic body, or with a running motor, keeps its bodies
-    awake. count: number of edges of contacts, which precede the edges of joints in edges_out.
+    The edge of a joint links its awake dynamic bodies. A joint with a running motor, or to a moving body that is not
+    dynamic, keeps its bodies awake. count: number of contact edges, which are already in edges_out.
     """
     found = count
     for i in range(len(joints)):
@@ -427,10 +434,10 @@ def list_joint_edges(bodies, joints, count, edges_out):
 
 @subkernel
 def hold_of(joint):
-    """Return how a joint to a resting body holds the other body: LOOSE, PIVOT, RAIL or HELD.
+    """Return how a joint to a body at rest holds the other body: LOOSE, PIVOT, RAIL or HELD.
 
-    A taut rope or a rod is a PIVOT. A rail with a spring, a motor, equal limits or a loaded limit is HELD; the
-    axis of a Wheel is always a RAIL.
+    A rod or taut rope is a PIVOT. A slider is a RAIL. With a spring, a motor, equal limits or a loaded limit it is
+    HELD, except for a Wheel, which remains a RAIL.
     """
     j = joint
     driven = j.spring_hertz > 0.0 or j.motor_max > 0.0 or j.lower == j.upper
@@ -448,9 +455,10 @@ def hold_of(joint):
 
 @kernel
 def join_jointed_groups(bodies, joints, groups_inout):
-    """Join free bodies into groups by joints, and write how joints to resting bodies hold their groups. O(joints).
+    """Join free bodies into groups by their joints, and write how joints to bodies at rest hold a group. O(joints).
 
-    The position of a pivot, or the direction of a rail, is written to the row of the held body.
+    The position of a pivot, or the direction of a rail, is written to Groups.hold_x, hold_y at the row of the held
+    body.
     """
     g = groups_inout
     for i in range(len(joints)):
@@ -488,9 +496,10 @@ def join_jointed_groups(bodies, joints, groups_inout):
 
 @kernel
 def hold_groups(rows, bodies, groups_inout):
-    """Write the numbers of pivots and rails, and the centre of mass, of each group to the row of its root. O(rows).
+    """Sum the pivots and rails of each group, and its centre of mass, at its root row. O(rows).
 
-    A group with two pivots, or with a pivot and a rail, hardly moves and counts as anchored. rows: body rows.
+    A group with two pivots, or with a pivot and a rail, can hardly move and is marked as anchored. rows: awake body
+    rows.
     """
     g = groups_inout
     for k in range(len(rows)):
@@ -518,10 +527,9 @@ def hold_groups(rows, bodies, groups_inout):
 def way_of_hung(root, body, groups, fall):
     """Return how far [px] a body may still move if its group hangs on one pivot or slides on rails.
 
-    With acceleration, a pivoted group swings about its lowest position. The result is SWING times the amplitude: the
-    sideways distance of its centre of mass from this position, enlarged by its speed; infinite if the centre is above
-    the pivot. Without acceleration, the group continues to rotate about the pivot. root: root row of the group; body:
-    BODY row; fall: see FreeFall.
+    A pivoted group under an acceleration swings like a pendulum: the result is SWING times the amplitude, computed from
+    the present displacement and speed. It is infinite if the centre of mass is above the pivot. Without acceleration
+    the group rotates on about the pivot. root: root row of the group; body: BODY row.
     """
     g = groups
     ax, ay = g.ax[root], g.ay[root]
@@ -543,9 +551,9 @@ def way_of_hung(root, body, groups, fall):
 
 @kernel
 def sum_groups(rows, bodies, fall, groups_inout):
-    """Write total mass, mean acceleration and anchored flag of each group to the row of its root. O(rows).
+    """Write the total mass, mean acceleration and anchored flag of each group at its root row. O(rows).
 
-    The mean is weighted by mass. rows: body rows.
+    The mean is weighted by mass. rows: awake body rows.
     """
     g = groups_inout
     for k in range(len(rows)):
@@ -571,9 +579,9 @@ def sum_groups(rows, bodies, fall, groups_inout):
 
 @subkernel
 def choose_surface(root, nx, ny, groups_inout):
-    """Make a surface the one of a group if the group accelerates more strongly into it than into the present one.
+    """Keep the surface into which a group accelerates most: replace the present one if this one is pressed on more.
 
-    root: root row of the group; nx, ny: normal of the surface, towards the group.
+    root: root row of the group; nx, ny: normal of the new surface, towards the group.
     """
     g = groups_inout
     into = -(g.ax[root] * nx + g.ay[root] * ny)
@@ -585,9 +593,9 @@ def choose_surface(root, nx, ny, groups_inout):
 
 @subkernel
 def mark_blocked(root, nx, ny, fall, groups_inout):
-    """Mark a group as blocked if its motion along its own surface would enter another surface by more than the slop.
+    """Mark a group as blocked if sliding along its own surface would take it into this other surface by over a slop.
 
-    root: root row of the group; nx, ny: normal of the other surface, towards the group; fall: see FreeFall.
+    root: root row of the group; nx, ny: normal of the other surface, towards the group.
     """
     g = groups_inout
     into = -(g.ax[root] * nx + g.ay[root] * ny)
@@ -597,9 +605,9 @@ def mark_blocked(root, nx, ny, fall, groups_inout):
 
 @kernel
 def find_surfaces(rows, bodies, contacts, fall, groups_inout):
-    """Project the acceleration of each group onto the surface on which it presses most, and mark blocked groups.
+    """Find the surface on which each group presses most, and remove the acceleration into it. Mark blocked groups.
 
-    rows: body rows; fall: see FreeFall. O(rows + contacts).
+    rows: awake body rows. O(rows + contacts).
     """
     g = groups_inout
     for turn in range(2):
@@ -632,8 +640,8 @@ def find_surfaces(rows, bodies, contacts, fall, groups_inout):
 def keep_free_awake(rows, bodies, groups, fall, islands, least_out):
     """Set the least sleep time of an island to 0 if the free motion of one of its bodies exceeds the slop. O(rows).
 
-    rows: body rows; groups: see Groups; fall: see FreeFall; islands (bodies) int32: root row of the island of each
-    body; least_out (bodies): least sleep time [s] of each island, in the row of its root.
+    rows: awake body rows; islands (bodies,) int32: root row of the island of each body; least_out (bodies,): least
+    sleep time [s] of an island, at its root row.
     """
     g = groups
     for k in range(len(rows)):
@@ -662,10 +670,10 @@ def keep_free_awake(rows, bodies, groups, fall, islands, least_out):
 
 @kernel
 def keep_sprung_awake(bodies, joints, slop, islands, least_out):
-    """Set the least sleep time of an island to 0 if one of its bodies still moves on a spring. O(joints).
+    """Set the least sleep time of an island to 0 if one of its bodies still moves on a joint spring. O(joints).
 
     A body on a spring is slow where it turns back. So it may sleep only after it has stayed in place for half a period,
-    and if its speed corresponds to an amplitude of about a slop [px] or less. islands, least_out: see keep_free_awake.
+    and if its speed means an amplitude of at most about a slop [px]. islands, least_out: see keep_free_awake.
     """
     for i in range(len(joints)):
         j = joints[i]
@@ -699,10 +707,10 @@ def keep_awake_what_moves_freely(
     islands: np.ndarray,
     least_out: np.ndarray,
 ) -> None:
-    """Keep an island awake if the free motion of one of its bodies, not held by friction, exceeds the slop.
+    """Keep islands awake in which a body that friction does not hold would move further than the slop in FREE_TIME.
 
-    rows: awake body rows; friction: whether the effect is declared; fall: FreeFall of the world; groups: scratch Groups
-    with room for all BODY rows; islands, least_out: see keep_free_awake.
+    rows: awake body rows; friction: whether the world applies friction; groups: scratch Groups with room for all BODY
+    rows; islands, least_out: see keep_free_awake.
     """
     start_groups(rows, bodies, fall, groups)
     join_groups(bodies, contacts, int(friction), groups)

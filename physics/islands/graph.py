@@ -3,9 +3,9 @@
 An edge of the graph is a constraint. Its nodes are the one to four bodies on which the constraint acts. Islands are
 found by union-find over the edges in the order of shape ids, with the lowest node as the root. So islands do not depend
 on the broad phase (Catto, Box2D v3, Simulation Islands, 2023). No two edges of one colour share a node of finite mass.
-So the order of the edges within a colour, and the number of SIMD lanes or threads, does not change a bit of the result
-(Catto, SIMD Matters, 2024). Edges with a static or kinematic body get the last colours: they are solved last, and so
-prevail.
+So the result is the same to the last bit for any order of the edges within a colour, and any number of SIMD lanes or
+threads (Catto, SIMD Matters, 2024). Edges with a static or kinematic body get the last colours. They are solved last,
+so that they prevail over other edges.
 """
 
 from typing import NamedTuple
@@ -36,7 +36,7 @@ class Edges(NamedTuple):
 
 
 def new_edges(room: int) -> Edges:
-    """Return Edges with room for a number of edges."""
+    """Return Edges with room for `room` edges."""
     return Edges(
         kinds=np.zeros(room, np.int32),
         rows=np.zeros(room, np.int32),
@@ -52,7 +52,7 @@ def new_edges(room: int) -> Edges:
 
 @inlined
 def write_pair(edge, kind, row, node_a, node_b, edges_out):
-    """Write the edge of a constraint between two nodes.
+    """Write a constraint between two nodes as one edge of the graph.
 
     edge: index of the edge; kind: CONTACT_EDGE or JOINT_EDGE; row: CONTACT or JOINT row; node_b: NO_NODE if the
     constraint acts on node_a only.
@@ -72,7 +72,7 @@ def join(
     # write
     parents_inout,
 ):
-    """Join the islands of all nodes of each edge (union-find). O(count).
+    """Merge the islands of all nodes of each edge (union-find). O(count).
 
     count: number of edges; parents_inout (nodes,): parent of each node in the union-find forest.
     """
@@ -94,8 +94,8 @@ def find_roots(
 ):
     """Write the root of the island of each node: the lowest node of the island. O(nodes + count).
 
-    count: number of edges; links_islands (nodes,) bool: whether a node joins the islands of its edges, otherwise the
-    node is a separate island; parents_out (nodes,): int32 roots.
+    count: number of edges; links_islands (nodes,) bool: True if edges of the node merge islands, False if the node
+    remains an island of its own; parents_out (nodes,): int32 roots.
     """
     for i in range(len(parents_out)):
         parents_out[i] = i
@@ -137,8 +137,8 @@ STATIC_COLORS = 12  # number of last colours that are preferred for contacts wit
 def free_color(taken, rank):
     """Return a colour whose bit in `taken` is not set, or -1 if all bits are set.
 
-    The result is the first free colour for rank 0, and the last free colour for STATIC_RANK. For KINEMATIC_RANK the
-    search starts STATIC_COLORS before the end and goes backwards, then takes the last colours.
+    rank 0: the first free colour. STATIC_RANK: the last free colour. KINEMATIC_RANK: the last free colour before the
+    STATIC_COLORS last ones, or one of these if there is no other. taken: bit k is set if colour k is taken.
     """
     last = COLORS - 1 - (STATIC_COLORS if rank == KINEMATIC_RANK else 0)
     for k in range(COLORS):
@@ -164,10 +164,10 @@ def color_edges(
 ):
     """Colour the edges greedily, so that no two edges of one colour share a node of finite mass. O(nodes + count).
 
-    Contacts with later colours are solved later, and so prevail if contacts oppose each other. Edges with kinematic
-    nodes get late colours, edges with static nodes the last colours. count: number of edges; has_finite_mass (nodes,)
-    bool; rank (nodes,): int8, see KINEMATIC_RANK; taken_out (nodes,): int64 bits of the colours at each node;
-    degrees_out (nodes,): int64 number of edges at each node; colors_out (count,): int32, -1 if no colour was free.
+    Later colours are solved later, and so prevail over opposing contacts. Edges with kinematic nodes get late colours,
+    edges with static nodes the last ones. count: number of edges; has_finite_mass (nodes,) bool; rank (nodes,): int8,
+    see KINEMATIC_RANK; taken_out (nodes,): int64, one bit for each colour at the node; degrees_out (nodes,): int64
+    number of edges at each node; colors_out (count,): int32, -1 if no colour was free.
     """
     for i in range(len(taken_out)):
         taken_out[i] = 0
@@ -196,7 +196,7 @@ def color_edges(
 
 @subkernel
 def slot_of(edge, edges, colors, classes):
-    """Return the sort key of an edge: the greatest class of its nodes, then its colour, with no colour first.
+    """Return the sort key of an edge: by greatest substep class of its nodes, then by colour. No colour comes first.
 
     edge: index of the edge; colors: colour of each edge, -1 for none; classes (nodes,): class of each node, empty if
     there is only one class.
@@ -217,7 +217,7 @@ def add_up(starts_inout, cursors_out):
     """Turn counts into start indices (prefix sum for a counting sort).
 
     starts_inout: before the call, number of items with key k at index k + 1; afterwards, start of key k at index k.
-    cursors_out: receives a copy of the result.
+    cursors_out: copy of the result, for the caller to advance.
     """
     for i in range(1, len(starts_inout)):
         starts_inout[i] += starts_inout[i - 1]
@@ -237,7 +237,7 @@ def order_edges(
     cursors_out,
     places_out,
 ):
-    """Sort the edges by class and colour (stable counting sort). O(count).
+    """Sort the edges by substep class and colour (stable counting sort). O(count).
 
     count: number of edges; colors (count,): int32; classes (nodes,): int32, 0 for a node in no island, empty if there
     is only one class. starts_out: index of the first edge with each key of slot_of, then the number of edges;
@@ -264,7 +264,7 @@ def order_nodes(
     cursors_out,
     ordered_out,
 ):
-    """Sort nodes by class (stable counting sort). O(nodes).
+    """Sort nodes by substep class (stable counting sort). O(nodes).
 
     classes: int32 class of each node; starts_out: index of the first node of each class, then the number of nodes;
     cursors_out: scratch of the same length; ordered_out (nodes,): int32, the sorted nodes.

@@ -1,4 +1,4 @@
-"""Sleeping and waking of islands, and the sleeping set with its contacts."""
+"""Sleeping and waking of islands, and the sleeping set, which stores sleeping islands with their contacts."""
 
 import math
 from collections.abc import Iterable
@@ -39,9 +39,9 @@ class Island(NamedTuple):
 
 
 class SleepingSet:
-    """The sleeping set of a world: islands by the lowest id of their bodies, and touching pairs of bodies at rest.
+    """The sleeping islands of a world, by key, and the touching pairs of other bodies at rest.
 
-    "Outside" means not in the island. A "key" is the key of an island in `islands`.
+    The key of an island is the lowest id of its bodies. "Outside" bodies are bodies that are not in the island.
     """
 
     def __init__(self) -> None:
@@ -56,9 +56,9 @@ class SleepingSet:
         self._link(self._named(island), [key])
 
     def put_many(self, keys: list[int], islands: list[Island], named: list[int], owners: list[int]) -> None:
-        """Store many islands, islands[k] under keys[k].
+        """Store islands[k] under keys[k], for all k.
 
-        named: ids of bodies outside to which contacts refer; owners: key of the referring island for each of these ids.
+        named: ids of outside bodies in contacts of the islands; owners: for each of these ids, the key of the island.
         """
         self.islands.update(zip(keys, islands, strict=True))
         for identity, key in set(zip(named, owners, strict=True)):
@@ -80,12 +80,15 @@ class SleepingSet:
 
     @staticmethod
     def _named(island) -> list:
-        """Return the ids of the bodies outside an island to which its contacts refer."""
+        """Return the ids of the outside bodies in the contacts of an island."""
         named = np.union1d(island.contacts["body_a"], island.contacts["body_b"])
         return np.setdiff1d(named, island.bodies).tolist()
 
     def take_naming(self, identity: int) -> list[tuple[np.ndarray, np.ndarray]]:
-        """Remove the contacts with a body outside (id) from all islands. Return (CONTACT, EVENT rows) of each."""
+        """Remove the contacts with an outside body (id) from all islands.
+
+        Return (CONTACT rows, EVENT rows) per island.
+        """
         found = []
         for key in sorted(self.links.get(identity, ())):
             island = self.take(key)
@@ -99,8 +102,8 @@ class SleepingSet:
     def keep_touching(self, rows: np.ndarray, fell_asleep: np.ndarray, keys: np.ndarray) -> None:
         """Store the touching pairs of islands that have just fallen asleep.
 
-        rows: EVENT rows of the pairs; fell_asleep: CONTACT rows of the islands in the order of shape ids; keys: island
-        of each CONTACT row.
+        rows: EVENT rows of the pairs; fell_asleep: CONTACT rows of the islands in the order of shape ids; keys: key of
+        the island of each CONTACT row.
         """
         known = fell_asleep["shape_a"] << 32 | fell_asleep["shape_b"]
         place = np.searchsorted(known, rows["shape_a"] << 32 | rows["shape_b"])
@@ -111,7 +114,7 @@ class SleepingSet:
             self.islands[key] = self.islands[key]._replace(touching=part)
 
     def naming(self, identity: int, own: int) -> np.ndarray:
-        """Return the sleeping CONTACT rows that refer to a body (id). own: key of the body's island, -1: none."""
+        """Return the sleeping CONTACT rows with a body (id). own: key of the body's own island, -1 if it has none."""
         parts = [np.zeros(0, CONTACT)]
         for key in sorted({own, *self.links.get(identity, ())} & self.islands.keys()):
             m = self.islands[key].contacts
@@ -123,18 +126,18 @@ class SleepingSet:
         return in_order(joined([np.zeros(0, CONTACT), *(each.contacts for each in self.islands.values())]))
 
     def keep_reported(self, tables: WorldTables) -> None:
-        """Move the touching and sensed pairs of two bodies that are not active from `tables` to this set."""
+        """Move the touching pairs and sensor pairs of two inactive bodies from `tables` to this set."""
         self.touching_pairs = np.concatenate([self.touching_pairs, tables.touching_pairs.take_resting(tables.bodies)])
         self.sensing_pairs = np.concatenate([self.sensing_pairs, tables.sensing_pairs.take_resting(tables.bodies)])
 
     def return_all(self, tables: WorldTables) -> None:
-        """Move all stored touching and sensed pairs of bodies at rest back to `tables`."""
+        """Move all touching pairs and sensor pairs that are stored outside of islands back to `tables`."""
         for name in ("touching_pairs", "sensing_pairs"):
             getattr(tables, name).give_back(getattr(self, name))
             setattr(self, name, np.zeros(0, EVENT))
 
     def return_reported(self, tables: WorldTables, ids: np.ndarray) -> None:
-        """Move the stored touching and sensed pairs with one of these bodies (ids) back to `tables`."""
+        """Move the stored touching pairs and sensor pairs of these bodies (ids) back to `tables`."""
         for name in ("touching_pairs", "sensing_pairs"):
             kept = getattr(self, name)
             if len(kept):
@@ -144,12 +147,12 @@ class SleepingSet:
 
 
 def order_of(manifolds: np.ndarray) -> np.ndarray:
-    """Return the indices that sort manifolds by shape ids. Manifolds of one pair keep their order."""
+    """Return the indices that sort CONTACT rows by shape ids. The contacts of one pair keep their order."""
     return np.lexsort((np.arange(len(manifolds)), manifolds["shape_b"], manifolds["shape_a"]))
 
 
 def in_order(manifolds: np.ndarray) -> np.ndarray:
-    """Return the manifolds sorted by shape ids."""
+    """Return the CONTACT rows sorted by shape ids."""
     return manifolds[order_of(manifolds)]
 
 
@@ -180,11 +183,11 @@ def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
 
 
 def disturb_one(world: Any, identity: int, row: int) -> int:
-    """Disturb one body between steps, like `disturb`.
+    """Do the same as `disturb` for one body, between steps, at a lower cost. Return the row of the body after the call.
 
-    Return its row after the call, because removed rows may be dropped. world: a World, annotated Any because its module
-    imports this one. identity, row: id and row of the body. The rows of removed bodies may still be in the tables, see
-    World._row_at. So only single numbers are read, unless an island wakes or the world has joints.
+    identity, row: id and row of the body. The row may change, because the call may drop rows of removed bodies, which
+    stay in the tables until then. So only single numbers are read, unless an island wakes or the world has joints.
+    world: a World, annotated Any because its module imports this one.
     """
     awake, sleeping_set = world.awake, world.sleeping_set
     if not awake.sleeping:
@@ -213,16 +216,16 @@ def with_partners(joints: np.ndarray, ids: list[int]) -> list[int]:
 
 
 def stir(tables: WorldTables, ids: list[int], rows: np.ndarray) -> None:
-    """Add bodies (ids, BODY rows) to the rows of the next step, and reset their sleep time."""
+    """Have the next step visit bodies (ids, and their BODY rows), and reset their sleep time."""
     tables.sleeping_set.return_reported(tables, ids)
     tables.awake.mark_dirty(ids)
     tables.bodies["sleep_time"][rows] = 0.0
 
 
 def islands_at(tables: WorldTables, ids: list[int], rows: np.ndarray) -> set[int]:
-    """Return the keys of the sleeping islands of bodies, and of the sleeping islands that touch the bodies.
+    """Return the keys of the sleeping islands that contain or touch the given bodies.
 
-    ids: ids of the bodies; rows: BODY rows, -1 for a body that does not exist.
+    ids: ids of the bodies; rows: their BODY rows, -1 for a body that does not exist.
     """
     islands, links, keys = tables.sleeping_set.islands, tables.sleeping_set.links, set()
     if not islands:
@@ -240,7 +243,7 @@ def islands_at(tables: WorldTables, ids: list[int], rows: np.ndarray) -> set[int
 
 
 def disturb_shapes(tables: WorldTables, identity: int, shapes: np.ndarray) -> bool:
-    """Wake the islands that rest on changed shapes of a body at rest. Return whether this is sufficient.
+    """Wake the sleeping islands that touch changed shapes of a body at rest. Return whether this is sufficient.
 
     False: nothing was changed, and the caller must call disturb, because other pairs of the body may be affected.
     identity: id of the body; shapes: ids of the changed shapes.
@@ -262,7 +265,7 @@ def disturb_shapes(tables: WorldTables, identity: int, shapes: np.ndarray) -> bo
 
 
 def _islands_beside(tables, manifolds, identity):
-    """Return the keys of the sleeping islands of bodies that touch a body (id), among the CONTACT rows `manifolds`."""
+    """Return the keys of the sleeping islands that touch body `identity` in the CONTACT rows `manifolds`."""
     own = manifolds[(manifolds["body_a"] == identity) | (manifolds["body_b"] == identity)]
     others = np.union1d(own["body_a"], own["body_b"])
     rows = rows_of(tables.bodies, others)
@@ -303,7 +306,7 @@ def wake(tables: WorldTables, keys: Iterable[int]) -> None:
 
 
 def _bring_back(tables, contacts):
-    """Add woken contacts, with present rows, to tables.contact_rows, except those of a pair that is already there."""
+    """Add contacts that wake to tables.contact_rows, with present row numbers, unless their pair is already there."""
     found = tables.contact_rows
     known = found["shape_a"] << 32 | found["shape_b"]
     new = ~np.isin(contacts["shape_a"] << 32 | contacts["shape_b"], known)
@@ -315,7 +318,7 @@ def _bring_back(tables, contacts):
 
 
 def with_rows(tables: WorldTables, contacts: np.ndarray) -> np.ndarray:
-    """Write the present body and shape rows to contacts. Return the contacts whose bodies and shapes still exist."""
+    """Write the present body and shape row numbers to contacts. Return the contacts whose bodies and shapes exist."""
     there = np.empty(len(contacts), bool)
     refresh_rows(tables.bodies, tables.shapes, contacts, there)
     return contacts if there.all() else contacts[there]
@@ -329,7 +332,7 @@ def forget(tables: WorldTables) -> None:
 
 @kernel
 def refresh_rows(bodies, shapes, manifolds_inout, there_out):
-    """Write the present body and shape rows of each manifold, and whether its bodies and shapes all exist.
+    """Write the present body and shape row numbers of each CONTACT row, and whether all of them still exist.
 
     O(manifolds log shapes).
     """
@@ -351,9 +354,10 @@ def find_disturbed(
     # write
     rows_out,
 ):
-    """List the rows of sleeping bodies that an active or edited body touches, or may touch within dt [s].
+    """List sleeping bodies that an active or edited body touches, or may touch within dt [s].
 
-    Return the number of rows. rows_out (2 · manifolds) int64; a row may be listed twice. O(manifolds).
+    Return their number. manifolds: CONTACT rows; rows_out (2 · manifolds) int64: BODY row numbers, with repeats.
+    O(manifolds).
     """
     found = 0
     for i in range(len(manifolds)):
@@ -386,10 +390,10 @@ def find_run_over(
     # write
     rows_out,
 ):
-    """List the rows of sleeping bodies that a fast kinematic body may tunnel through within dt [s]. O(pairs).
+    """List sleeping bodies that a fast kinematic body may tunnel through within dt [s]. O(pairs).
 
-    Return the number of rows. pairs (n, 2) int64: shape rows whose swept AABBs overlap; rows_out (n,) int64; a row may
-    be listed twice.
+    Return their number. pairs (n, 2) int64: rows of shapes with overlapping swept AABBs; rows_out (n,) int64: BODY
+    rows.
     """
     found = 0
     for i in range(len(pairs)):
@@ -433,7 +437,7 @@ def find_run_over(
     ),
 )
 def wake_disturbed(state: StepState) -> None:
-    """Wake the islands that active, edited or fast kinematic bodies touch, and islands linked to moving bodies."""
+    """Wake islands touched by active, edited or fast kinematic bodies, and islands with a joint to a moving body."""
     sleeping_set, bodies = state.sleeping_set, state.bodies
     if not sleeping_set.islands:
         return
@@ -483,7 +487,7 @@ def is_touching(contact):
 
 @inlined
 def is_pressed(contact):
-    """Return whether a contact overlaps or had a normal impulse in the step. A speculative contact may do neither."""
+    """Return whether a contact overlaps or had a normal impulse in the step, unlike a gap that is only speculative."""
     c = contact
     if c.separation_1 <= 0.0 or c.normal_impulse_1 > 0.0:
         return True
@@ -501,9 +505,9 @@ def list_contact_edges(
 ):
     """List the contacts that link bodies or keep a body awake, as graph edges between BODY rows. O(contacts).
 
-    Return the number of edges. Contacts link awake dynamic bodies that touch. A contact with a moving kinematic body
-    keeps the other body awake. With conveyor 1, a surface speed also keeps both bodies awake. edges_out: Edges with
-    room for two edges per contact.
+    Return the number of edges. An edge links two awake dynamic bodies that touch. An edge of one node keeps a body
+    awake that touches a moving body which is not dynamic. With conveyor 1, a loaded contact with a surface speed also
+    keeps its bodies awake. edges_out: Edges with room for two edges per contact.
     """
     found = 0
     for i in range(len(contacts)):
@@ -531,14 +535,14 @@ def list_contact_edges(
 
 @kernel
 def start_islands(rows, parents_out):
-    """Make each row of `rows` a separate island. O(rows)."""
+    """Make each body of `rows` an island of its own in the union-find forest parents_out. O(rows)."""
     for k in range(len(rows)):
         parents_out[rows[k]] = rows[k]
 
 
 @inlined
 def way_from(body, x, y, angle):
-    """Return an upper bound [px] of the motion of any point of a BODY row since the pose x, y, angle; NaN for NaN."""
+    """Return an upper bound [px] of the distance of any point of a body from its place at a pose; NaN for NaN."""
     return norm(body.x - x, body.y - y) + abs(body.angle - angle) * body.extent
 
 
@@ -561,11 +565,10 @@ def advance_sleep_times(
     """Advance the sleep times and rocking times of awake bodies by dt [s]. O(rows + count).
 
     Return (number of islands of awake dynamic bodies, whether any body has a sleep time of at least `patience` [s]).
-    The sleep time restarts at 0 when a body has moved further than `slow` [px/s] times `patience` from its reference
-    pose. The rocking time restarts when it has moved further than rocking_range [px], see settings.ROCKING_RANGE. rows:
-    rows of the awake bodies; edges, count, parents_inout: see graph.join. least_out (bodies) and excess_out (bodies)
-    receive, at the root of each island, the least sleep time [s] of its bodies and the sum of speed² - slow² over its
-    bodies.
+    The sleep time restarts at 0 when a body is further than `slow` [px/s] times `patience` from its reference pose. The
+    rocking time restarts when it is further than rocking_range [px] from its own, see settings.ROCKING_RANGE. rows:
+    rows of the awake bodies; edges, count, parents_inout: see graph.join. least_out, excess_out (bodies,): at the root
+    of each island, the least sleep time [s] of its bodies, and the sum of speed² - slow² [px²/s²] over its bodies.
     """
     distance = slow * patience
     islands = 0
@@ -625,7 +628,7 @@ def fall_asleep(
 ):
     """Put islands to sleep if all their bodies have stayed in place for `patience` [s]. O(rows).
 
-    Return the number of bodies that fell asleep. The mean square speed of the island must also not exceed the square of
+    Return the number of bodies that fell asleep. The mean square speed of the island must also be at most the square of
     the sleep speed. So a few bodies may tremble, but an island that has just begun to fall, or was pushed, stays awake.
     rows: rows of the awake bodies; parents, least, excess: see advance_sleep_times.
     """
@@ -654,7 +657,7 @@ class IslandWorkspace:
         self.edges = new_edges(32)
 
     def grow(self, bodies: int, contacts: int, joints: int) -> None:
-        """Enlarge the arrays for these numbers of bodies, contacts and joints. Their contents are lost."""
+        """Make room for these numbers of bodies, contacts and joints. The contents of an enlarged array are lost."""
         if len(self.parents) < bodies:
             self.parents = np.zeros(2 * bodies, np.int32)
             self.least, self.excess = np.zeros(2 * bodies), np.zeros(2 * bodies)
@@ -755,9 +758,9 @@ def rest(state: StepState) -> None:
 
 
 def _park(state, slept):
-    """Move the islands of these body rows to the sleeping set with their contacts. Drop their speculative contacts.
+    """Move the islands of bodies that fell asleep, and their touching contacts, to the sleeping set.
 
-    Return (CONTACT rows that were moved, in the order of shape ids; key of the island of each row).
+    slept: BODY rows. Return (CONTACT rows that were moved, in the order of shape ids; key of the island of each).
     """
     bodies, m = state.bodies, state.contact_rows
     still = (bodies["kind"][m["body_row_a"]] != DYNAMIC) | ~bodies["awake"][m["body_row_a"]]

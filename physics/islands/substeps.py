@@ -1,4 +1,4 @@
-"""Numbers of substeps of islands: as the loads of the last step, impacts and new bodies require."""
+"""The number of substeps of each island, chosen from the loads of the last step, impacts and new bodies."""
 
 import math
 from typing import NamedTuple
@@ -15,7 +15,7 @@ from physics.tables.step_state import StepState
 
 
 class Islands(NamedTuple):
-    """The island bodies, and the numbers of substeps from which each island may choose."""
+    """The bodies of the awake islands, and the numbers of substeps from which each island may choose."""
 
     members: np.ndarray  # int32 rows of MOTION
     rate: float  # see estimate_rate
@@ -25,7 +25,7 @@ class Islands(NamedTuple):
 
 
 def estimate_rate(state: StepState) -> float:
-    """Return n² / v [s/px], where n is the number of substeps that keeps the sag of a contact within the accuracy.
+    """Return a factor r [s/px]: a contact needs n substeps with n² = r v to sag by no more than state.accuracy [px].
 
     v [px/s] is the impulse of the contact in the step divided by its effective mass m. A contact sags under a force F
     by F / (m ω²), where HERTZ_SHARE gives ω as a fraction of the substeps per second.
@@ -35,9 +35,10 @@ def estimate_rate(state: StepState) -> float:
 
 @subkernel
 def class_for(choices, square, least):
-    """Return the index of the first number of substeps, from index `least` on, whose square is at least `square`.
+    """Return the index in `choices` of the least number of substeps n with n² >= square.
 
-    choices: numbers of substeps, ascending. If none of them is large enough, the result is the last index.
+    The search begins at index `least`. choices: numbers of substeps, ascending. If none of them is large enough, the
+    result is the last index.
     """
     place = least
     while place < len(choices) - 1 and choices[place] * choices[place] < square:
@@ -47,11 +48,11 @@ def class_for(choices, square, least):
 
 @subkernel
 def class_motions(motions, degrees, islands, classes_out):
-    """Write the class of each MOTION row: the index of its number of substeps in islands.choices. O(motions).
+    """Write the substep class of each MOTION row: the index of its number of substeps in islands.choices. O(motions).
 
     Return whether there are new bodies with contacts. A body without constraints takes the fewest substeps. A new body
     takes islands.by_load if it has contacts, and islands.jointed if it has only joints. Every other body takes the
-    number that the last step chose (MOTION.substeps). degrees: number of contacts of each body; islands: see Islands.
+    number that the last step chose (MOTION.substeps). degrees: number of contacts of each body.
     """
     unknown = False
     choices, by_load = islands.choices, islands.by_load
@@ -69,11 +70,11 @@ def class_motions(motions, degrees, islands, classes_out):
 
 @subkernel
 def expect_impacts(edges, count, motions, rate, choices, classes_inout):
-    """Raise the class of bodies that collide in this step to the number of substeps that the impact needs. O(count).
+    """Raise the substep class of bodies that collide in this step, as far as the impact needs. O(count).
 
-    The number rises with the ratio of the masses, because a light body has to transmit the momentum of a heavy body.
-    count: number of contacts, the first entries of `edges`; motions: MOTION rows; rate: see estimate_rate; choices:
-    numbers of substeps, ascending; classes_inout: see class_motions.
+    More substeps are needed for a greater ratio of the masses, because a light body has to transmit the momentum of a
+    heavy one. count: number of contacts, the first entries of `edges`; motions: MOTION rows; rate: result of
+    estimate_rate; choices: numbers of substeps, ascending; classes_inout: see class_motions.
     """
     for i in range(count):
         speed = edges.impact_speeds[i]
@@ -100,9 +101,9 @@ def expect_impacts(edges, count, motions, rate, choices, classes_inout):
 
 @subkernel
 def expect_columns(edges, count, motions, degrees, most, classes_inout):
-    """Give new columns the most substeps. A column consists of bodies with at most two contacts each. O(count).
+    """Give new columns the most substeps. A column is a stack of bodies with at most two contacts each. O(count).
 
-    The lean of a column is unknown until the load has reached its foot, and a lean does not stop by itself. count:
+    How far a column leans is unknown until the load has reached its foot, and a lean does not stop by itself. count:
     number of contacts, the first entries of `edges`; motions: MOTION rows; degrees: number of contacts of each body;
     most: index of the greatest number of substeps in the choices; classes_inout: see class_motions.
     """
@@ -123,7 +124,7 @@ def expect_columns(edges, count, motions, degrees, most, classes_inout):
 
 @subkernel
 def are_mixed(motions, degrees, classes):
-    """Return whether the bodies with constraints are in different classes, see class_motions. O(motions).
+    """Return whether the bodies with constraints are in different substep classes, see class_motions. O(motions).
 
     degrees: number of contacts of each MOTION row; classes: class of each MOTION row.
     """
@@ -162,11 +163,10 @@ class LoadRules(NamedTuple):
 
 @subkernel
 def choose_substeps(members, degrees, substeps, rules, motions_inout):
-    """Write the number of substeps that each island body needs in the next step. O(members).
+    """Write the number of substeps that each body of a group needs in the next step. O(members).
 
-    Return whether every body needs the same number as in this step, so that islands need not be determined. members:
-    MOTION rows of the group; degrees: number of contacts of each body; substeps: number in this step; rules: see
-    LoadRules.
+    Return whether every body needs the same number as in this step. Then the caller need not determine the islands.
+    members: MOTION rows of the group; degrees: number of contacts of each body; substeps: number in this step.
     """
     content = True
     for k in range(len(members)):
@@ -199,9 +199,10 @@ def choose_substeps(members, degrees, substeps, rules, motions_inout):
 def share_substeps(members, parents, substeps, most_by_load, motions_inout):
     """Give each body the greatest number of substeps that a body of its island needs. O(members).
 
-    Return the number of islands that are reported as capped. An island in which a body has more than two contacts is a
-    heap. A heap takes at most most_by_load substeps, because some body of a heap always leans. members: MOTION rows;
-    parents (motions) int32: the lowest row of the island of each body; substeps: number of substeps in this step.
+    Return the number of capped islands: they would need more substeps than they may take. An island in which a body has
+    more than two contacts is a heap. A heap takes at most most_by_load substeps, because some body of a heap always
+    leans. members: MOTION rows; parents (motions,) int32: the lowest row of the island of each body; substeps: number
+    of substeps in this step.
     """
     for k in range(len(members)):
         m = motions_inout[members[k]]

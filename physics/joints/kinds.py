@@ -1,8 +1,9 @@
-"""The kinds of joints as values: the parts of a JOINT row that each kind uses, and their settings.
+"""The kinds of joints: one dataclass for each kind, whose `columns` converts its settings to columns of JOINT rows.
 
 A joint has two anchors, one on each body. It holds the anchors together in both directions (PINNED), only across an
-axis of A (ON_AXIS), or not at all (FREE). It may also hold the angle. On one coordinate (an angle, a translation or a
-length) it may have limits, a motor and a spring. To add a kind, define a class here and add it to KINDS.
+axis of A (ON_AXIS), or not at all (FREE). It may also lock the relative angle. Each kind has at most one coordinate:
+the angle of B relative to A, the translation along the axis, or the distance of the anchors. Limits, motor and spring
+act on the coordinate. To add a kind, define a class here and add it to KINDS.
 """
 
 import math
@@ -21,9 +22,10 @@ from physics.tables.joint import ANGLE, LENGTH, ON_AXIS, PINNED, TRANSLATION
 
 @dataclass(frozen=True)
 class Drive:
-    """A motor of a joint's coordinate: target speed [px/s or rad/s], and greatest force or torque.
+    """A joint motor: target speed [px/s, or rad/s for an angle], and greatest force or torque.
 
-    Raises TypeError if a value is not a number; ValueError without max, for max < 0, or a number that is not finite.
+    It drives the coordinate of the joint: its angle, translation or length. Raises TypeError if a value is not a
+    number. Raises ValueError if max is missing or below 0, or if a number is not finite.
     """
 
     speed: float
@@ -38,10 +40,10 @@ class Drive:
 
 @dataclass(frozen=True)
 class Spring:
-    """A spring: frequency [1/s], damping ratio, and rest coordinate [px or rad].
+    """A joint spring: frequency [1/s], damping ratio, and target, the coordinate [px or rad] at which it rests.
 
-    target: None for the coordinate when the joint is made. Raises TypeError if a value is not a number; ValueError for
-    hertz <= 0, damping < 0, or a number that is not finite.
+    If target is None, the spring rests at the coordinate that the joint has when it is made. Raises TypeError if a
+    value is not a number; ValueError for hertz <= 0, damping < 0, or a number that is not finite.
     """
 
     hertz: float
@@ -58,8 +60,9 @@ class Spring:
 def checked_limits(value: Any, low: float | None = None) -> tuple[float, float]:
     """Return the limits of a coordinate as (low, high), with -inf or inf for no limit.
 
-    value: a pair, in which None means no limit on that side; None instead of the pair: no limits. low: least allowed
-    limit. Raises TypeError if value is not a pair of numbers; ValueError for low > high, or a limit below `low`.
+    value: a pair (low, high) in which None means no limit on that side, or None for no limits at all. low: least
+    allowed limit. Raises TypeError if value is not a pair of numbers; ValueError for low > high, or a limit below
+    `low`.
     """
     if value is None:
         return -math.inf, math.inf
@@ -77,10 +80,10 @@ def checked_limits(value: Any, low: float | None = None) -> tuple[float, float]:
 
 
 def checked_breaks(value: Any) -> tuple[float, float]:
-    """Return (force, torque) above which a joint breaks; inf for a value at which the joint never breaks.
+    """Return the (force, torque) above which a joint breaks. inf means that the joint never breaks by that value.
 
-    value: a pair, in which None means unbreakable; None instead of the pair: both are. Raises TypeError if value is not
-    a pair of numbers; ValueError for a number <= 0.
+    value: a pair (force, torque) in which None means unbreakable, or None for an unbreakable joint. Raises TypeError if
+    value is not a pair of numbers; ValueError for a number <= 0.
     """
     if value is None:
         return math.inf, math.inf
@@ -94,7 +97,10 @@ def checked_breaks(value: Any) -> tuple[float, float]:
 
 
 def motor_fields(motor: Any) -> dict[str, float]:
-    """Return the JOINT columns of a motor, a Drive or None. Raises TypeError for anything else."""
+    """Return the JOINT columns motor_speed and motor_max for `motor`, a Drive or None (no motor).
+
+    Raises TypeError for any other value.
+    """
     if motor is None:
         return {"motor_speed": 0.0, "motor_max": 0.0}
     if not isinstance(motor, Drive):
@@ -103,9 +109,9 @@ def motor_fields(motor: Any) -> dict[str, float]:
 
 
 def checked_spring(spring: Any, name: str = "spring") -> Spring | None:
-    """Return the argument `spring`, a Spring or None. Raises TypeError for anything else.
+    """Return `spring` unchanged if it is a Spring or None. Raises TypeError for anything else.
 
-    name: name of the argument in messages.
+    name: name of the argument in error messages.
     """
     if spring is not None and not isinstance(spring, Spring):
         raise TypeError(f"{name} must be a Spring(hertz, damping, target) (got {checks.shown(spring)})")
@@ -113,7 +119,7 @@ def checked_spring(spring: Any, name: str = "spring") -> Spring | None:
 
 
 def greatest(name: str, value: Any) -> float:
-    """Return the greatest force or torque of a hold, where None means inf. name: name of the argument in messages.
+    """Return a bound of force or torque as a number, where None means inf. name: the argument's name in messages.
 
     Raises TypeError if the value is not a number, ValueError if it is below 0.
     """
@@ -135,11 +141,11 @@ DEFAULTS = {
 
 @dataclass(frozen=True, kw_only=True)
 class Kind:
-    """The common arguments of all joints. a, b: Bodies or ids, at least one of them dynamic; None for the world.
+    """The common arguments of all joints. a, b: Bodies or body ids, at least one of them dynamic; None for the world.
 
     contacts: whether the two bodies may touch each other. breaks: (force, torque) above which the joint breaks; None
     for an unbreakable joint. local: True if anchors and axes are given in body space, False in world space. user: any
-    object.
+    object that the caller wants to attach.
     """
 
     PARTS: ClassVar[Mapping[str, Any]] = {}  # values of JOINT columns that define the kind
@@ -153,7 +159,7 @@ class Kind:
     user: Any = None
 
     def sides(self) -> tuple[Any, Any]:
-        """Return the arguments a and b unchanged."""
+        """Return the two arguments for the bodies, (a, b), as the caller gave them."""
         given = vars(self)
         return given["a"], given["b"]
 
@@ -181,7 +187,10 @@ class Kind:
 
 @dataclass(frozen=True)
 class Revolute(Kind):
-    """A hinge, which holds two anchors together. Its coordinate is the angle [rad]. at: the anchor [px]."""
+    """A hinge: it holds the anchors of both bodies together at one point, `at` [px].
+
+    Limits, motor and spring act on the angle of B relative to A [rad].
+    """
 
     PARTS = {"hold": PINNED, "coordinate": ANGLE}
 
@@ -195,9 +204,10 @@ class Revolute(Kind):
 
 @dataclass(frozen=True)
 class Prismatic(Kind):
-    """A slider: B moves along an axis of A. Its coordinate is the translation [px], 0 when the joint is made.
+    """A slider: B moves along an axis that is fixed to A.
 
-    at: the anchor [px]; axis: direction of the axis, of any length; turns: whether B may rotate (a groove).
+    Limits, motor and spring act on the translation along the axis [px], which is 0 when the joint is made. at: the
+    anchor [px]; axis: direction of the axis, of any length; turns: whether B may also rotate.
     """
 
     PARTS = {"hold": ON_AXIS, "coordinate": TRANSLATION}
@@ -221,7 +231,7 @@ class Wheel(Kind):
     """A wheel on a suspension: B rotates freely, and moves along an axis of A against a spring.
 
     a: the chassis; b: the wheel; at: the anchor [px]; axis: direction of the suspension, of any length. Limits and
-    spring act on the translation [px], the motor on the angle.
+    spring act on the translation along the axis [px], the motor on the angle.
     """
 
     PARTS = {"hold": ON_AXIS, "coordinate": TRANSLATION, "turns_motor": True}
@@ -238,11 +248,11 @@ class Wheel(Kind):
 
 @dataclass(frozen=True)
 class Distance(Kind):
-    """A rod, rope, spring or winch between two anchors. Its coordinate is their distance [px].
+    """A rod, rope, spring or winch between two anchors, at_a and at_b [px].
 
-    at_a, at_b: the anchors [px]. Without limits, motor and spring the joint is a rod: it holds the distance `length`,
-    None for the present distance. With limits only the limits bound the distance (a rope). A spring rests at its
-    target, or at `length` if the target is None.
+    Limits, motor and spring act on the distance of the anchors [px]. If all three are None, the joint is a rigid rod of
+    `length`. With limits and nothing else it is a rope: the distance is free between the limits. A spring without a
+    target rests at `length`. length None means the distance of the anchors when the joint is made.
     """
 
     PARTS = {"coordinate": LENGTH}
@@ -274,7 +284,7 @@ class Distance(Kind):
 
 @dataclass(frozen=True)
 class Weld(Kind):
-    """A rigid connection of two bodies: it holds the anchors together, and the present angle. at: the anchor [px].
+    """A rigid connection: it keeps the position and angle of B relative to A. at: the anchor [px].
 
     spring, angular_spring: make the joint soft in translation and in rotation; their targets are ignored.
     """
@@ -299,7 +309,10 @@ class Weld(Kind):
 
 @dataclass(frozen=True)
 class Angle(Kind):
-    """A rotary spring, limit or motor without a pin. Its coordinate is the angle [rad], 0 when the joint is made."""
+    """A rotary spring, limit or motor between two bodies that no anchor holds together.
+
+    Limits, motor and spring act on the angle of B relative to A [rad], which is 0 when the joint is made.
+    """
 
     PARTS = {"coordinate": ANGLE}
     POINTS = ()
@@ -315,9 +328,9 @@ class Angle(Kind):
 class Motor(Kind):
     """A motor that drives B relative to A with bounded force and torque: friction joints, top-down tyres, conveyors.
 
-    velocity [px/s], in the space of A, and angular_velocity [rad/s]: motion of B relative to A. max_force, max_torque:
-    greatest force and torque. at: the anchor [px], None for the centre of mass of B. spring: pulls B back to its pose
-    relative to A when the joint was made, instead of driving the velocity.
+    velocity [px/s], in the space of A, and angular_velocity [rad/s]: target motion of B relative to A. max_force,
+    max_torque: greatest force and torque. at: the anchor [px], None for the centre of mass of B. With a `spring` the
+    motor has no target velocity: it pulls B back to the pose relative to A that B had when the joint was made.
     """
 
     PARTS = {"hold": PINNED, "locks_angle": True, "axis_x": 1.0}
