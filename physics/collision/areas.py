@@ -1,4 +1,4 @@
-"""Overlap areas [px2] of contacts with masks.
+"""The areas [px2] that a mask shares with the shapes in contact with it.
 
 The solver does not use these areas, so they are computed only when the user reads the contacts.
 """
@@ -27,8 +27,8 @@ from physics.tables.table import rows_of
 def outline_of_part(geometry, bodies, shapes, row, part, workspace):
     """Write the corners [px] of one part of a tile grid or chain to workspace.b. Return the number of corners.
 
-    row: row of SHAPE; part: for a grid the index of the first cell of a run of tiles (one rectangle of equal cells),
-    for a chain the index of a link. A link has no area, so it is widened to a rectangle, BACKING thick.
+    row: row number in SHAPE; part: for a grid the index of the first cell of a run of tiles (one rectangle of equal
+    cells), for a chain the index of a link. A link has no area, so it is widened to a rectangle of thickness BACKING.
     """
     s = shapes[row]
     b = bodies[s.body_row]
@@ -53,7 +53,7 @@ def outline_of_part(geometry, bodies, shapes, row, part, workspace):
 def area_in_part(geometry, bodies, shapes, mask, other, part, workspace):
     """Return the area [px2] that a mask shares with one part of a tile grid or chain.
 
-    mask, other: rows of SHAPE; part: see outline_of_part.
+    mask, other: row numbers in SHAPE of the mask and of the grid or chain; part: see outline_of_part.
     """
     count = outline_of_part(geometry, bodies, shapes, other, part, workspace)
     s = shapes[mask]
@@ -64,9 +64,9 @@ def area_in_part(geometry, bodies, shapes, mask, other, part, workspace):
 
 @kernel
 def count_areas(geometry, bodies, shapes, workspace, manifolds_inout):
-    """Recompute area_1 and area_2 [px2] at the present poses, in every CONTACT row whose area_1 is not 0.
+    """Compute area_1 and area_2 [px2] again, at the present poses, in every CONTACT row whose area_1 is not 0.
 
-    area_2 is written only against tiles and chains, for a second point. O(shared pixels).
+    area_2 is written only for the second point of a contact with tiles or a chain. O(shared pixels).
     """
     for i in range(len(manifolds_inout)):
         m = manifolds_inout[i]
@@ -92,11 +92,11 @@ def count_areas(geometry, bodies, shapes, workspace, manifolds_inout):
 
 
 def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:
-    """Return the contacts (CONTACT rows) with the area [px2] that their shapes share at the present poses.
+    """Return the contacts (CONTACT rows) with the areas [px2] that their shapes share at the present poses.
 
     The rows name whole shapes, not the parts that touch. The area is 0 if neither shape is a mask, or if no pixels
-    overlap. Each point reports the area of the whole pair, but against tiles and chains the area in the touched run or
-    link. In worlds without contact response a step only tests whether two masks overlap; for these contacts this
+    overlap. Each point has the area of the whole pair. Against tiles and chains it has the area in the touched run or
+    link only. In worlds without contact response, a step only tests whether two masks overlap. For these contacts this
     function also computes point, normal and depth.
     """
     whole, _ = by_parent(manifolds)
@@ -123,16 +123,17 @@ def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:
 
 @kernel
 def put_back(full, places, manifolds_out):
-    """Copy the CONTACT rows `full` into manifolds_out, row i to row places[full[i].candidate].
+    """Copy each row of `full` over the row of manifolds_out that belongs to the same pair.
 
-    places (pairs,): row in manifolds_out of each tested pair.
+    full, manifolds_out: CONTACT rows; places (pairs,): row number in manifolds_out for each value of `candidate` in
+    `full`.
     """
     for i in range(len(full)):
         copy_manifold(full, i, places[full[i].candidate], manifolds_out)
 
 
 def _told_in_full(tables, manifolds):
-    """Return the manifolds, with point, normal and depth computed for each pair of masks that still overlaps."""
+    """Return the CONTACT rows, with point, normal and depth computed for each pair of masks that still overlaps."""
     shapes = tables.shapes
     row_a, row_b = (_rows(shapes, manifolds, side) for side in "ab")
     masks = (row_a >= 0) & (row_b >= 0) & (shapes["kind"][row_a] == MASK) & (shapes["kind"][row_b] == MASK)
@@ -146,9 +147,9 @@ def _told_in_full(tables, manifolds):
 
 
 def _rows(shapes, manifolds, side):
-    """Return the present SHAPE row of each manifold's shape on one side, "a" or "b"; -1: the shape is gone.
+    """Return the present SHAPE row number of each contact's shape on one side, "a" or "b"; -1 for a removed shape.
 
-    The rows that the step stored are used, unless shapes were added or removed since.
+    The row numbers that the step stored are used, unless shapes were added or removed since.
     """
     rows, ids = np.minimum(manifolds["row_" + side], len(shapes) - 1), manifolds["shape_" + side]
     return rows if np.array_equal(shapes["id"][rows], ids) else rows_of(shapes, ids)

@@ -60,10 +60,10 @@ ADMIT, SNAP, SKIP = (0, 1, 2)  # for a normal: use it; use the link's normal ins
 
 @subkernel
 def link_at(links, link, x, y, cosine, sine, corners_out):
-    """Write four world points [px] to corners_out (16, 2): a link's ends a and b, and its neighbours' far ends.
+    """Write four world points [px] to corners_out (16, 2): a link's ends a and b, and the far ends of its neighbours.
 
-    links: LINK rows; link: row of the link; x, y [px], cosine, sine: pose of the chain's body. Order: a, b, before,
-    after.
+    links: LINK table; link: row number in it; x, y [px], cosine, sine: pose of the chain's body. The order is a, b,
+    before, after (see LINK). Other functions of this file take the result as `points`.
     """
     k = links[link]
     for end in range(4):
@@ -76,9 +76,9 @@ def link_at(links, link, x, y, cosine, sine, corners_out):
 
 @subkernel
 def dot_along(points, i, j, x, y, origin):
-    """Return the dot product [px2] of two vectors: from point number `origin` to (x, y), and from point i to point j.
+    """Return the dot product [px2] of two vectors: points[origin] to (x, y), and points[i] to points[j].
 
-    points (16, 2) [px]; origin, i, j: rows of points.
+    points (16, 2) [px].
     """
     return (points[j, 0] - points[i, 0]) * (x - points[origin, 0]) + (points[j, 1] - points[i, 1]) * (
         y - points[origin, 1]
@@ -87,9 +87,9 @@ def dot_along(points, i, j, x, y, origin):
 
 @subkernel
 def height_over(points, i, j, x, y):
-    """Return the signed distance [px] of (x, y) from the line through points i and j; positive in front of the line.
+    """Return the signed distance [px] of (x, y) from the line through two points; positive in front of the line.
 
-    points (16, 2) [px]; i, j: rows of points.
+    points (16, 2) [px]; i, j: row numbers of the two points.
     """
     nx, ny = unit(points[j, 1] - points[i, 1], points[i, 0] - points[j, 0], 0.0, -1.0)
     return nx * (x - points[i, 0]) + ny * (y - points[i, 1])
@@ -97,7 +97,7 @@ def height_over(points, i, j, x, y):
 
 @subkernel
 def is_convex(points, i, j, k):
-    """Return whether the chain of points i, j, k has a convex corner at j: it bends away from its front side."""
+    """Return whether the chain of points i, j, k bends away from its front side at j."""
     dx = points[j, 0] - points[i, 0]
     dy = points[j, 1] - points[i, 1]
     ex = points[k, 0] - points[j, 0]
@@ -120,8 +120,8 @@ def is_gentle_hollow(points, i, j, k):
 def is_behind(link, points, x, y):
     """Return whether a shape with its centre at (x, y) is behind a link, and therefore does not collide with it.
 
-    link: LINK row; points: see link_at. In a gentle hollow a shape's centre may slide past the end of one link to the
-    back of the next link. The shape still collides with the next link while its centre is in front of the first link.
+    link: LINK row; points: see link_at. In a gentle hollow the centre may slide past the end of one link and thus
+    behind the next one. The shape still collides with the next link while its centre is in front of the first link.
     """
     if height_over(points, 0, 1, x, y) >= 0.0:
         return False
@@ -144,7 +144,7 @@ def is_behind(link, points, x, y):
 
 @subkernel
 def owns_start(link, points, x, y):
-    """Return whether a link, not the previous one, reports contacts at its end a with a shape centred at (x, y).
+    """Return whether this link, not the previous one, reports contacts at its end a with a shape centred at (x, y).
 
     link: LINK row; points: see link_at.
     """
@@ -153,10 +153,11 @@ def owns_start(link, points, x, y):
 
 @subkernel
 def collide_link_circle(link, points, x, y, radius):
-    """Return (found, normal from link to disc, contact point, separation, feature) of a link and a disc [px].
+    """Collide a link with a disc. Return (found, nx, ny, px, py, separation, feature) [px].
 
-    link: LINK row; points: see link_at; x, y, radius: centre and radius of the disc. The contact point is midway
-    between the surfaces. feature: 0 for the link's face, CIRCLE_CORNER for its end a, CIRCLE_CORNER + 1 for its end b.
+    The normal points from link to disc; px, py: contact point, midway between the surfaces. feature: 0 for the link's
+    face, CIRCLE_CORNER for its end a, CIRCLE_CORNER + 1 for its end b. link: LINK row; points: see link_at; x, y,
+    radius: centre and radius of the disc.
     """
     nx, ny = unit(points[1, 1] - points[0, 1], points[0, 0] - points[1, 0], 0.0, -1.0)
     height = nx * (x - points[0, 0]) + ny * (y - points[0, 1])
@@ -193,7 +194,7 @@ def collide_link_circle(link, points, x, y, radius):
 
 @subkernel
 def is_towards_end(points, nx, ny):
-    """Return whether the direction (nx, ny) has a positive component along a link, from its end a to its end b.
+    """Return whether the direction (nx, ny) points towards end b of a link rather than towards its end a.
 
     points: see link_at.
     """
@@ -231,11 +232,11 @@ def classify_normal(link, points, towards_end, nx, ny):
 
 @subkernel
 def neighbour_separates(points, nx, ny, hull, x, y, face):
-    """Return whether a neighbouring link is a better reference than this link for the contact with a Hull.
+    """Return whether a neighbouring link is a better reference face than this link for the contact with a Hull.
 
-    The neighbour is better if the Hull's centre is in front of it, and the Hull's separation from it is greater than
-    `face` [px], the Hull's separation from this link. The neighbour is the one at the end in the direction (nx, ny).
-    points: see link_at; x, y: centre of the Hull.
+    It is better if the Hull's centre is in front of it, and the Hull's separation from it is greater than `face` [px],
+    the Hull's separation from this link. The neighbour is the one at the end towards which (nx, ny) points. points: see
+    link_at; x, y: centre of the Hull.
     """
     towards_end = is_towards_end(points, nx, ny)
     i = 1 if towards_end else 2
@@ -254,7 +255,7 @@ def push_at_open_end(link, points, hull, face, margin, manifold_out):
 
     The reference plane goes through the open end, perpendicular to the link. A point is written only if the Hull's
     separation from this plane exceeds `face` [px], its separation from the link's face, and is at most `margin` [px].
-    link: LINK row; points: see link_at.
+    link: LINK row; points: see link_at; manifold_out (11,): see hulls.clip_edges.
     """
     ex, ey = unit(points[1, 0] - points[0, 0], points[1, 1] - points[0, 1], 1.0, 0.0)
     manifold_out[0] = 0.0
@@ -288,7 +289,8 @@ def push_at_open_end(link, points, hull, face, margin, manifold_out):
 def keep_owned(link, points, x, y, count, manifold_out):
     """Drop the contact points at end a that the previous link reports. Return the number of remaining points.
 
-    link: LINK row; points: see link_at; x, y: centre of the other shape; count: number of points before.
+    link: LINK row; points: see link_at; x, y: centre of the other shape; count: number of points before; manifold_out
+    (11,): see hulls.clip_edges.
     """
     nx, ny = manifold_out[1], manifold_out[2]
     if is_towards_end(points, nx, ny) or owns_start(link, points, x, y):
@@ -311,9 +313,9 @@ def keep_owned(link, points, x, y, count, manifold_out):
 def collide_link_hull(link, points, hull, margin, bias, is_second, manifold_out):
     """Write the manifold of a link and a Hull of two or more corners. Return the number of points.
 
-    link: LINK row; points: see link_at; margin, bias, manifold_out: see hulls.collide_hulls. is_second: whether this is
-    the second pass over the links, in which no contact is left to neighbours. The second pass is made if in the first
-    pass each link left the contact to its neighbour.
+    link: LINK row; points: see link_at; margin, bias, manifold_out: see hulls.collide_hulls. If every link has left the
+    contact to its neighbour, the caller makes a second pass over the links. is_second: whether this is the second pass,
+    in which no contact is left to a neighbour.
     """
     corners = hull.corners
     count = hull.count
@@ -381,9 +383,9 @@ BACKING = 2.0  # [px] thickness added behind a link when it is tested against a 
 
 @subkernel
 def box_in_body(min_x, min_y, max_x, max_y, x, y, cosine, sine):
-    """Return the AABB [px], in the local space of a body, of the world box from min_x, min_y to max_x, max_y.
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a world box in the local space of a body.
 
-    x, y, cosine, sine: pose of the body.
+    min_x, min_y, max_x, max_y [px]: the box in the world; x, y, cosine, sine: pose of the body.
     """
     middle_x, middle_y = rotate(0.5 * (min_x + max_x) - x, 0.5 * (min_y + max_y) - y, cosine, -sine)
     half_x, half_y = 0.5 * (max_x - min_x), 0.5 * (max_y - min_y)
@@ -394,15 +396,18 @@ def box_in_body(min_x, min_y, max_x, max_y, x, y, cosine, sine):
 
 @subkernel
 def misses_box(ax, ay, bx, by, min_x, min_y, max_x, max_y):
-    """Return whether the AABB of the segment from (ax, ay) to (bx, by) is disjoint from the box min_x to max_y."""
+    """Return whether the AABB of the segment from (ax, ay) to (bx, by) is disjoint from a box.
+
+    min_x, min_y, max_x, max_y: the box.
+    """
     return max(ax, bx) < min_x or min(ax, bx) > max_x or max(ay, by) < min_y or min(ay, by) > max_y
 
 
 @inlined
 def collide_chain_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-    """Append the contacts of a chain and a hull or mask, link by link. Return the new number of manifolds.
+    """Append the contacts of a chain and a hull or mask, link by link. Return the new number of contacts.
 
-    O(links near the other shape).
+    O(links near the other shape). Arguments: see manifold.make_pass.
     """
     geometry = batch.geometry
     bodies = batch.bodies
@@ -495,9 +500,9 @@ collide_chain_pairs = make_pass(CHAIN_ANY, collide_chain_pair)
 
 @subkernel
 def line_separation(line, hull):
-    """Return the separation [px] of a Hull from the line through two points; negative if the Hull lies across the line.
+    """Return the separation [px] of a Hull from a line segment; negative if the Hull lies across it.
 
-    line: array whose first two rows are the points.
+    line: array whose first two rows are the ends of the segment.
     """
     corners = hull.corners
     count = hull.count
@@ -520,10 +525,10 @@ def line_separation(line, hull):
 
 @subkernel
 def lies_across(geometry, chain, x, y, angle, hull, most, line_out):
-    """Return whether a Hull lies across a chain, by more than `most` [px].
+    """Return whether a Hull lies across a chain by more than `most` [px].
 
-    The chain is extended horizontally at both ends. chain: row of geometry.chains; x, y, angle: pose of the chain's
-    body; line_out (16, 2): scratch. O(links near the Hull).
+    The chain is extended horizontally at both ends. chain: row number in geometry.chains; x, y, angle: pose of the
+    chain's body; line_out (16, 2): scratch. O(links near the Hull).
     """
     span = geometry.chains[chain]
     cosine, sine = math.cos(angle), math.sin(angle)
@@ -561,9 +566,9 @@ def lies_across(geometry, chain, x, y, angle, hull, most, line_out):
 
 @subkernel
 def was_across(batch, surface, other, most, workspace):
-    """Return whether a shape lay across a one-way surface by more than `most` [px], at the previous poses of both.
+    """Return whether a shape lay across a one-way surface by more than `most` [px], at the poses before the step.
 
-    surface, other: rows of SHAPE.
+    surface, other: row numbers in SHAPE of the surface and of the shape.
     """
     s, o = batch.shapes[surface], batch.shapes[other]
     p, q = batch.bodies[s.body_row], batch.bodies[o.body_row]
@@ -583,11 +588,11 @@ def was_across(batch, surface, other, most, workspace):
 
 @kernel
 def admit_to_surfaces(batch, known, workspace, kinds_inout, counts_inout):
-    """Set the kind of each SURFACE_ANY pair: CHAIN_ANY if the shapes may collide, else NOTHING.
+    """Decide for each SURFACE_ANY pair whether its shapes may collide: set its kind to CHAIN_ANY, else to NOTHING.
 
-    The shapes may collide if they touched in the last step, or if the other shape was not across the one-way surface at
-    the previous poses. known: whether workspace.memory holds the contacts of the last step. kinds_inout (candidates,):
-    kind of each pair; counts_inout: number of pairs of each kind. O(candidates + nearby links).
+    They may collide if they touched in the last step, or if the other shape was not across the one-way surface at the
+    previous poses. known: whether workspace.memory holds the contacts of the last step. kinds_inout (candidates,): kind
+    of each pair; counts_inout: number of pairs of each kind. O(candidates + nearby links).
     """
     for i in range(batch.count):
         if kinds_inout[i] != SURFACE_ANY:

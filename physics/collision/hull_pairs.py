@@ -67,9 +67,10 @@ def needs_ccd(body, distance):
 def speculative_distance(a, b, speed, margin, lookahead):
     """Return the largest gap [px] at which two bodies get a speculative contact.
 
-    If a body needs continuous collision detection, the gap is `margin` [px]. Otherwise the gap is the greater of
-    `margin` and the distance covered in `lookahead` [s] at the greatest of three speeds: `speed`, and those of the two
-    bodies, because one of them may be stopped on the way. a, b: BODY rows; speed [px/s]: speed of B relative to A.
+    It is `margin` [px] if a body needs continuous collision detection. Otherwise it is the distance covered in
+    `lookahead` [s], but at least the margin. The distance is that of the greatest of three speeds: `speed`, and the
+    speeds of both bodies, because one of them may be stopped on the way. a, b: BODY rows; speed [px/s]: speed of B
+    relative to A.
     """
     distance = lookahead * max(speed, norm(a.vx, a.vy), norm(b.vx, b.vy))
     return margin if needs_ccd(a, distance) or needs_ccd(b, distance) else max(margin, distance)
@@ -91,10 +92,10 @@ def speculative_rotation(a, b, speed, margin, lookahead):
 
 @subkernel
 def collide_circles(ax, ay, a_radius, bx, by, b_radius):
-    """Return (unit normal from A to B, contact point, separation) of two discs [px].
+    """Return the contact (nx, ny, x, y, separation) [px] of two discs.
 
-    ax, ay, a_radius, bx, by, b_radius: centres and radii. The point is midway between the surfaces. Discs with equal
-    centres get the normal (1, 0). O(1).
+    The normal points from A to B; x, y: contact point, midway between the surfaces. Discs with equal centres get the
+    normal (1, 0). ax, ay, a_radius, bx, by, b_radius: centres and radii.
     """
     dx, dy = bx - ax, by - ay
     nx, ny = unit(dx, dy, 1.0, 0.0)
@@ -136,9 +137,9 @@ def time_of_closest_approach(dx, dy, vx, vy):
 def toi_hulls(a, vx, vy, target, most, b_inout):
     """Return the time [s] at which the gap of two Hulls has shrunk to `target` [px] (conservative advancement).
 
-    B moves at vx, vy [px/s] relative to A, and its corners are moved to the pose at the returned time. If the gap stops
-    shrinking before, the time of least distance is returned. If the gap is not reached within `most` [s], NEVER is
-    returned. O(corners²) an iteration.
+    Hull B moves at vx, vy [px/s] relative to Hull A. Its corners are moved to their place at the returned time. If the
+    gap stops shrinking before, the time of least distance is returned. If the target is not reached within `most` [s],
+    NEVER is returned. O(corners²) an iteration.
     """
     time = 0.0
     corners = b_inout.corners
@@ -170,8 +171,9 @@ def advance_to_contact(margin, lookahead, p, q, a, b_inout):
     """Move the corners of Hull B to its predicted contact with Hull A. Slow pairs are not moved.
 
     p, q: BODY rows of A and B; margin [px]: gap at the predicted contact; lookahead [s]: greatest time. Return (time,
-    vx, vy, reach): time [s] of the contact, 0 for slow pairs, or NEVER; velocity of B relative to A [px/s]; largest
-    separation [px] of a contact point at this pose. reach exceeds the margin if rotation may close a wider gap.
+    vx, vy, reach). time [s]: time of the contact, 0 for slow pairs, or NEVER; vx, vy [px/s]: velocity of B relative to
+    A; reach [px]: largest separation of a contact point at the moved place. It exceeds the margin if rotation may close
+    a wider gap.
     """
     if lookahead == 0.0:
         return 0.0, 0.0, 0.0, margin
@@ -188,7 +190,7 @@ def toi_hull_circle(hull, x, y, radius, vx, vy, target, most):
     """Return the time [s] at which the gap of a Hull and a moving disc has shrunk to `target` [px].
 
     x, y, radius [px]: centre and radius of the disc; vx, vy [px/s]: its velocity relative to the Hull. If the gap stops
-    shrinking before, the time of least distance is returned. If the gap is not reached within `most` [s], NEVER is
+    shrinking before, the time of least distance is returned. If the target is not reached within `most` [s], NEVER is
     returned. O(corners) an iteration.
     """
     whole = Hull(hull.corners, hull.count, hull.radius, ALL_EDGES)
@@ -208,19 +210,19 @@ def toi_hull_circle(hull, x, y, radius, vx, vy, target, most):
 
 @subkernel
 def path_offsets(time, vx, vy, nx, ny):
-    """Return the displacement [px] of B after a time [s] at the velocity vx, vy [px/s], as two components.
+    """Return the displacement [px] of B in a time [s] as (distance against the normal, distance along the tangent).
 
-    The first component is along -(nx, ny), so it is positive if B approaches against the unit normal. The second is
-    along the tangent (-ny, nx).
+    The first is positive if B approaches A. vx, vy [px/s]: velocity of B relative to A; nx, ny: unit normal; the
+    tangent is (-ny, nx).
     """
     return -time * (vx * nx + vy * ny), time * (vy * nx - vx * ny)
 
 
 @subkernel
 def move_manifold_back(time, vx, vy, points_inout):
-    """Convert a manifold computed at the predicted contact to the present position of B.
+    """Convert a manifold that was computed at the predicted contact to the present position of B.
 
-    B had been moved for a time [s] at vx, vy [px/s]. points_inout (11,): see "clipping" in hulls.py. Return the
+    B had been moved for a time [s] at vx, vy [px/s]. points_inout (11,): the manifold, see hulls.clip_edges. Return the
     distance [px] that B moves along the tangent (-ny, nx) until the contact.
     """
     nx, ny = points_inout[1], points_inout[2]
@@ -235,7 +237,7 @@ def move_manifold_back(time, vx, vy, points_inout):
 
 
 class Travel(NamedTuple):
-    """Motion of a shape relative to a tile grid or chain within a step, the same for all runs of tiles or links."""
+    """Motion of a shape relative to a tile grid or chain within a step. It is the same for all of its runs or links."""
 
     vx: float  # [px/s]
     vy: float
@@ -272,8 +274,8 @@ def travel_of(batch, ground, body):
 def advance_to_piece(travel, margin, piece, hull, corners_out):
     """Write the corners [px] of a Hull at its predicted contact with a piece of ground. Return the time [s] or NEVER.
 
-    travel: Travel; margin [px]: gap at the predicted contact; piece: Hull of a run of tiles or of a link. Without
-    prediction (travel.time 0) the Hull is not moved.
+    margin [px]: gap at the predicted contact; piece: Hull of a run of tiles or of a link. If travel.time is 0, there is
+    no prediction: the Hull is not moved, and the time is 0.
     """
     corners = hull.corners
     for k in range(hull.count):
@@ -290,9 +292,8 @@ def advance_to_piece(travel, margin, piece, hull, corners_out):
 def move_piece_manifold_back(time, travel, sign, points_inout):
     """Convert a manifold of ground and hull, computed at their predicted contact, to the hull's present position.
 
-    time [s]: time until the contact; travel: Travel of the hull; sign: 1.0 if the ground is A, else -1.0; points_inout
-    (11,): see "clipping" in hulls.py. Return the distance [px] that B moves along the tangent, relative to A, until the
-    contact.
+    time [s]: time until the contact; sign: 1.0 if the ground is A, else -1.0; points_inout (11,): the manifold, see
+    hulls.clip_edges. Return the distance [px] that B moves relative to A along the tangent until the contact.
     """
     tangential = move_manifold_back(time, travel.vx, travel.vy, points_inout)
     if sign < 0.0:
@@ -305,10 +306,10 @@ def move_piece_manifold_back(time, travel, sign, points_inout):
 
 @subkernel
 def piece_misses_circle(meeting, graze, disc, separation, feature, corners_out):
-    """Return whether a disc's predicted contact with a corner of a piece is false: the disc's path misses the piece.
+    """Return whether the predicted contact of a disc with a corner is false, because the disc's path misses the piece.
 
-    meeting: Meeting; graze [px]: a contact with a separation up to this is kept; disc: (x, y, radius); separation [px],
-    feature: values of the contact; corners_out (16, 2): scratch.
+    graze [px]: a contact with at most this separation is always kept; disc: (x, y, radius) at the predicted contact;
+    separation [px], feature: of this contact; corners_out (16, 2): scratch.
     """
     travel = meeting.travel
     if travel.time == 0.0 or separation <= graze or feature < CIRCLE_CORNER:
@@ -323,9 +324,9 @@ def piece_misses_circle(meeting, graze, disc, separation, feature, corners_out):
 
 @subkernel
 def set_tangential_offset(before, found, offset, manifolds_out):
-    """Write a tangential offset [px] to manifolds_out[before] if a manifold was added there.
+    """Write the tangential offset [px] of the contact that was just added, if one was added.
 
-    before, found: number of manifolds before and after the addition; found may exceed the capacity.
+    before, found: number of contacts before and after the addition; found may exceed the capacity of manifolds_out.
     """
     if before < found <= len(manifolds_out):
         manifolds_out[before].tangential_offset = offset
@@ -333,9 +334,10 @@ def set_tangential_offset(before, found, offset, manifolds_out):
 
 @inlined
 def time_to_piece(travel, margin, piece, x, y, radius):
-    """Return the time [s] at which a disc meets a piece of ground, or NEVER; 0 without prediction (travel.time 0).
+    """Return the time [s] at which a disc meets a piece of ground, or NEVER.
 
-    travel: Travel; margin [px]: gap at the meeting; piece: Hull; x, y, radius [px]: centre and radius of the disc.
+    It is 0 if travel.time is 0: no prediction. margin [px]: gap at the meeting; piece: Hull of a run of tiles or of a
+    link; x, y, radius [px]: centre and radius of the disc.
     """
     if travel.time == 0.0:
         return 0.0
@@ -344,10 +346,11 @@ def time_to_piece(travel, margin, piece, x, y, radius):
 
 @inlined
 def add_circle_on_piece(batch, pair, meeting, disc, contact, workspace, manifolds_out, found):
-    """Append the contact of a disc with a piece of ground. Return the new number of manifolds.
+    """Append the contact of a disc with a piece of ground. Return the new number of contacts.
 
-    meeting: predicted contact (Meeting); disc: (x, y, radius) at this contact; contact: result of the collision
-    function for this position, see hulls.collide_hull_circle.
+    meeting: the predicted contact; disc: (x, y, radius) at this contact; contact: the tuple returned by
+    hulls.collide_hull_circle or chains.collide_link_circle for this position. pair, manifolds_out, found: see
+    manifold.add_manifold.
     """
     travel, sign = meeting.travel, meeting.sign
     hit, nx, ny, x, y, separation, feature = contact
@@ -367,9 +370,10 @@ def add_circle_on_piece(batch, pair, meeting, disc, contact, workspace, manifold
 
 @inlined
 def add_points_on_piece(batch, pair, meeting, workspace, manifolds_out, found):
-    """Append the manifold of a hull and a piece of ground from workspace.points. Return the new number of manifolds.
+    """Append the manifold in workspace.points, of a hull and a piece of ground. Return the new number of contacts.
 
-    The manifold was computed at the predicted contact `meeting`; it is converted to the present position.
+    The manifold was computed at the predicted contact `meeting` and is converted to the present position. pair,
+    manifolds_out, found: see manifold.add_manifold.
     """
     sign = meeting.sign
     tangential = 0.0
@@ -465,9 +469,9 @@ def collide_polygon_circle_pair(batch, pair, workspace, manifolds_out, found, wo
 def overlaps_narrowly(a, b, most, far, manifold):
     """Return whether two Hulls with a face contact overlap by at most `most` [px] along the face.
 
-    The overlap is measured by the Hulls' extents along the face. If `far` is true, a distance of the two contact points
-    of at most `most` is also enough. far: whether the Hulls move far in this step; at rest such a narrow contact may
-    carry a load (the edge of a card). manifold (11,): see "clipping" in hulls.py.
+    The overlap is that of the Hulls' extents along the face. far: whether the Hulls move far in this step. If so, a
+    distance of at most `most` between the two contact points is also enough. At rest such a narrow contact may carry a
+    load (the edge of a card). manifold (11,): see clip_edges in hulls.py.
     """
     if far and manifold[0] == 2.0 and norm(manifold[7] - manifold[3], manifold[8] - manifold[4]) <= most:
         return True
@@ -483,7 +487,7 @@ def is_grazing(a, b, batch, p, q, manifold):
     Two conditions must hold. The path of B must miss A, up to an overlap of batch.graze [px]. And the contact must be
     between corners, or have a normal mainly along the motion, or be on a patch no wider than graze. Without this rule,
     a tile that stands slightly above its neighbour would stop a sliding body. a, b: the Hulls; p, q: BODY rows of A and
-    B; manifold (11,): see "clipping" in hulls.py.
+    B; manifold (11,): see clip_edges in hulls.py.
     """
     graze = batch.graze
     least = manifold[5] if manifold[0] == 1.0 else min(manifold[5], manifold[9])

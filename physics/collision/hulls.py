@@ -36,9 +36,9 @@ PART = 4096  # number of feature ids of one tile run or one link
 
 @subkernel
 def clipped_feature(edge, corner, side, flipped):
-    """Return the feature id of a clipped manifold point.
+    """Return the feature id of a manifold point on the incident edge, which is clipped to the reference edge.
 
-    edge: number of the reference edge; corner: number of the incident corner; side: end of the incident edge, 0 or 1;
+    edge: index of the reference edge; corner: index of the incident corner; side: end of the incident edge, 0 or 1;
     flipped: 1 if the reference polygon is B, else 0.
     """
     return ((edge * 16 + corner) * 2 + side) * 2 + flipped
@@ -60,14 +60,14 @@ def corners_feature(i, j):
 def part_feature(part, feature):
     """Return the feature id of a contact with one part of a tile grid or chain.
 
-    part: index of the first cell of a run of tiles, or of a link; feature: feature id on this part alone.
+    part: index of a link, or of the first cell of a run of tiles; feature: feature id within this part.
     """
     return part * PART + feature
 
 
 @subkernel
 def part_of(feature):
-    """Return the index of the run's first cell, or of the link, that a feature id names (inverse of part_feature)."""
+    """Return the index of the link, or of the run's first cell, in a feature id (inverse of part_feature)."""
     return feature // PART
 
 
@@ -100,7 +100,7 @@ ALL_EDGES = 0xFFFFFFFF
 
 
 class Hull(NamedTuple):
-    """Convex hull with rounded corners. One corner is a disc, two are a line or a capsule."""
+    """A convex hull with rounded corners. With one corner it is a disc, with two a line segment or a capsule."""
 
     corners: np.ndarray  # (16, 2) [px], clockwise on the screen
     count: int  # number of corners
@@ -132,11 +132,11 @@ def middle_of(corners, count):
 
 @subkernel
 def is_normal_at_corner(corners, count, edges, corner, nx, ny):
-    """Return whether the unit direction (nx, ny) is a valid contact normal at a corner of a hull or of a part.
+    """Return whether the unit direction (nx, ny) is a valid contact normal at a corner of a hull.
 
-    At a corner that is not touchable (covered by a neighbouring part) no normal is valid. At a corner where only one
-    edge of the part is on the outline of the whole shape, the normal may deviate from the normal of this edge by at
-    most the angle stored in `edges`. At all other corners every normal is valid. corner: number of the corner; edges:
+    At a corner that is not touchable (covered by a neighbouring part of the same shape) no normal is valid. At a corner
+    where only one edge is on the outline of the whole shape, the normal may deviate from the normal of this edge by at
+    most the angle stored in `edges`. At all other corners every normal is valid. corner: index of the corner; edges:
     bits, see ALL_EDGES.
     """
     if (edges >> (16 + corner)) & 1 == 0:
@@ -154,11 +154,11 @@ def is_normal_at_corner(corners, count, edges, corner, nx, ny):
 
 @subkernel
 def find_max_separation(corners, count, allowed, other, other_count):
-    """Return the edge of a polygon along whose normal another polygon is farthest away (separating axis test).
+    """Find the edge of a polygon along whose normal another polygon is farthest away (separating axis test).
 
-    corners, other (16, 2) [px]; count, other_count: numbers of corners; allowed: bits of the edges that may be
-    returned. The result is (edge or -1, greatest separation over the allowed edges [px], greatest separation over all
-    edges [px]). O(count · other_count).
+    corners, other (16, 2) [px]; count, other_count: numbers of corners; allowed: bit k is set if edge k may be
+    returned. Return (edge or -1, greatest separation over the allowed edges [px], greatest separation over all edges
+    [px]). O(count · other_count).
     """
     best = -1
     best_separation = -math.inf
@@ -179,9 +179,10 @@ def find_max_separation(corners, count, allowed, other, other_count):
 def clip_edges(reference, edge, incident, limit, flipped, manifold_out):
     """Write the manifold of an edge of the Hull `reference` and the opposite edge of the Hull `incident`.
 
-    The opposite edge is clipped to the reference edge. edge: number of the reference edge; limit [px]: points with a
-    larger separation are dropped; flipped: True if `reference` is B, so that the normal is inverted; manifold_out
-    (11,): see the comment above COVERED_OVERLAP. Return the number of points.
+    The opposite edge is clipped to the reference edge. edge: index of the reference edge; limit [px]: points with a
+    larger separation are dropped; flipped: True if `reference` is B, so that the normal is inverted. manifold_out (11,)
+    float64: number of points, normal x and y from A to B, then x, y, separation [px] and feature of each of two points.
+    Return the number of points.
     """
     corners, count, radius, _ = reference
     others, other_count, other_radius, _ = incident
@@ -237,7 +238,7 @@ def clip_edges(reference, edge, incident, limit, flipped, manifold_out):
 
 @subkernel
 def support_manifold(reference, edge, incident, flipped, manifold_out):
-    """Write a manifold of one point: the corner of the Hull `incident` deepest under an edge of the Hull `reference`.
+    """Write a manifold of one point: the corner of the Hull `incident` that is deepest under an edge of `reference`.
 
     Arguments as in clip_edges. Return 1, the number of points.
     """
@@ -271,12 +272,12 @@ COVERED = -1  # in place of a feature id: the centre of the disc is inside, and 
 
 @subkernel
 def collide_polygon_circle(corners, count, edges, x, y, radius):
-    """Return (found, normal to the disc, contact point, separation, feature) of a convex polygon and a disc [px].
+    """Collide a convex polygon with a disc. Return (found, nx, ny, px, py, separation, feature) [px].
 
-    The contact point is midway between the surfaces. edges: bits of the touchable edges and corners, see ALL_EDGES. If
-    the nearest edge or corner is not touchable, nothing is found, because the neighbour that covers it reports the
-    contact. If the centre of the disc is inside, the nearest touchable edge is used; without such an edge, feature is
-    COVERED. O(count).
+    The normal points to the disc; px, py: contact point, midway between the surfaces. edges: bits of the touchable
+    edges and corners, see ALL_EDGES. If the nearest edge or corner is not touchable, nothing is found, because the
+    neighbour that covers it reports the contact. If the centre of the disc is inside, the nearest touchable edge is
+    used; without such an edge, feature is COVERED. O(count).
     """
     best = -1
     inner = -1
@@ -338,7 +339,10 @@ def collide_polygon_circle(corners, count, edges, x, y, radius):
 
 @subkernel
 def aabb_corners(shape, corners_out):
-    """Write the corners [px] of a SHAPE row's AABB, clockwise on the screen from the top left. Return their number."""
+    """Write the corners [px] of a SHAPE row's AABB, clockwise on the screen from the top left.
+
+    Return 4, their number.
+    """
     return box_corners(shape.min_x, shape.min_y, shape.max_x, shape.max_y, corners_out)
 
 
@@ -354,8 +358,8 @@ def move_corners(count, x, y, corners_inout):
 def collide_aabb_corners(a, b, margin, manifold_out):
     """Write a manifold of one point, between the nearest corners of two boxes that are apart along both axes.
 
-    a, b: SHAPE rows; manifold_out (11,): see the comment above COVERED_OVERLAP. Return the number of points; 0 if the
-    corners are farther apart than the margin [px].
+    a, b: SHAPE rows; manifold_out (11,): see clip_edges. Return the number of points; 0 if the corners are farther
+    apart than `margin` [px].
     """
     right = b.min_x > a.max_x
     below = b.min_y > a.max_y
@@ -380,10 +384,9 @@ def collide_aabb_corners(a, b, margin, manifold_out):
 
 @subkernel
 def collide_aabbs(a, b, margin, manifold_out):
-    """Write the manifold of the AABBs of two SHAPE rows, with the normal from A to B.
+    """Write the manifold of the AABBs of two SHAPE rows. Return the number of points.
 
-    manifold_out (11,): see the comment above COVERED_OVERLAP. Return the number of points; 0 if the separation exceeds
-    the margin [px].
+    It is 0 if the separation exceeds `margin` [px]. manifold_out (11,): see clip_edges.
     """
     up = a.min_y - b.max_y
     right = b.min_x - a.max_x
@@ -446,7 +449,10 @@ def collide_aabbs(a, b, margin, manifold_out):
 
 @subkernel
 def nearest_on_edge(ax, ay, bx, by, x, y):
-    """Return where the point nearest to (x, y) lies on the line segment from (ax, ay) to (bx, by): 0 at a, 1 at b."""
+    """Return the place of the point nearest to (x, y) on the line segment from a to b: from 0 at a to 1 at b.
+
+    ax, ay, bx, by: ends of the segment.
+    """
     ex, ey = bx - ax, by - ay
     along = ex * (x - ax) + ey * (y - ay)
     square = ex * ex + ey * ey
@@ -500,7 +506,10 @@ def segment_distance(a, b):
 
 @subkernel
 def nearest_corners(a, a_count, b, b_count):
-    """Return (corner of A, corner of B, distance [px]) of the two nearest corners. O(a_count · b_count)."""
+    """Return (index of a corner of A, index of a corner of B, distance [px]) of the two nearest corners.
+
+    O(a_count · b_count).
+    """
     best = math.inf
     best_i, best_j = 0, 0
     for i in range(a_count):
@@ -514,9 +523,9 @@ def nearest_corners(a, a_count, b, b_count):
 
 @subkernel
 def corner_manifold(a, i, b, j, limit, manifold_out):
-    """Write a manifold of one point between corner i of Hull A and corner j of Hull B.
+    """Write a manifold of one point between corner i of Hull A and corner j of Hull B. Return the number of points.
 
-    Return the number of points; 0 if the separation exceeds the limit [px].
+    It is 0 if the separation exceeds `limit` [px]. manifold_out (11,): see clip_edges.
     """
     x = a.corners[i, 0]
     y = a.corners[i, 1]
@@ -542,7 +551,7 @@ def corner_manifold(a, i, b, j, limit, manifold_out):
 def ends_face(corners, count, edges, corner, nx, ny):
     """Return whether a corner is an end of a touchable edge whose normal is within 6 degrees of (nx, ny).
 
-    nx, ny: unit vector; corner: number of the corner; edges: bits of the touchable edges and corners, see ALL_EDGES.
+    nx, ny: unit vector; corner: index of the corner; edges: bits of the touchable edges and corners, see ALL_EDGES.
     """
     for back in range(2):
         side = corner if back == 0 else (corner - 1 if corner > 0 else count - 1)
@@ -565,11 +574,11 @@ def is_over(corners, count, edge, x, y):
 
 @subkernel
 def pushing_edges(a, b, over_ends):
-    """Return the bits of the edges of Hull A whose normals may push A out of Hull B, a part of a larger outline.
+    """Return bits of the edges of Hull A whose normals may push A out of Hull B, which is a part of a larger outline.
 
-    Such an edge faces a touchable corner of B. An edge that faces a corner at which B's neighbour continues the surface
-    is left out. over_ends: True to include an edge of A that is nearly parallel to a touchable edge of B and lies over
-    an end of that edge, because the other end of B's edge may also be touched. All bits of corners are set.
+    An edge of A may push if it faces a touchable corner of B. It may not if B's neighbour continues the surface at this
+    corner. over_ends: also include an edge of A that is nearly parallel to a touchable edge of B and lies over an end
+    of it, because the other end may also be touched. In the result all bits of corners are set, see ALL_EDGES.
     """
     if b.edges == ALL_EDGES:
         return ALL_EDGES
@@ -587,7 +596,7 @@ def pushing_edges(a, b, over_ends):
 
 @subkernel
 def overlaps_edge(hull, edge, other):
-    """Return whether the projections of an edge of `hull` and of the Hull `other` onto this edge overlap."""
+    """Return whether an edge of `hull` and the Hull `other` overlap when both are projected onto the edge's line."""
     corners = hull.corners
     others = other.corners
     following = edge + 1 if edge + 1 < hull.count else 0
@@ -604,7 +613,7 @@ def overlaps_edge(hull, edge, other):
 
 @subkernel
 def clip_tolerance(corners, count, edge):
-    """Return the rounding error [px] allowed for a point that is clipped to an edge."""
+    """Return the rounding error [px] to allow for a point that was clipped to an edge. edge: index of the edge."""
     n = edge + 1 if edge + 1 < count else 0
     ex = abs(corners[n, 0] - corners[edge, 0]) + abs(corners[n, 1] - corners[edge, 1])
     return 1e-9 * ex + 1e-15 * (abs(corners[edge, 0]) + abs(corners[edge, 1]))
@@ -612,7 +621,10 @@ def clip_tolerance(corners, count, edge):
 
 @subkernel
 def least_separation(count, manifold):
-    """Return the least separation [px] of a manifold's points; infinite without points. count: number of points."""
+    """Return the least separation [px] of a manifold's points; infinite without points.
+
+    count: number of points; manifold (11,): see clip_edges.
+    """
     if count == 0:
         return math.inf
     return min(manifold[5], manifold[9]) if count > 1 else manifold[5]
@@ -620,7 +632,7 @@ def least_separation(count, manifold):
 
 @subkernel
 def extent_along(corners, count, nx, ny):
-    """Return the least and greatest projection [px] of the corners onto the unit vector (nx, ny)."""
+    """Return (least, greatest) projection [px] of the corners onto the unit vector (nx, ny)."""
     low, high = math.inf, -math.inf
     for k in range(count):
         low = min(low, nx * corners[k, 0] + ny * corners[k, 1])
@@ -632,8 +644,8 @@ def extent_along(corners, count, nx, ny):
 def path_misses(a, b, allowed, vx, vy):
     """Return whether Hull B, moving in the direction (vx, vy), never overlaps Hull A by more than `allowed` [px].
 
-    The predicted contact of such Hulls is dropped: the normal of a contact is fixed for the whole step, so the contact
-    would deflect B while B passes.
+    The caller then drops the predicted contact. Its normal would be fixed for the whole step, so that it would deflect
+    B while B passes.
     """
     nx, ny = unit(-vy, vx, 0.0, 0.0)
     low, high = extent_along(a.corners, a.count, nx, ny)
@@ -644,13 +656,13 @@ def path_misses(a, b, allowed, vx, vy):
 
 @subkernel
 def collide_hulls(a, b, margin, bias, deepest, manifold_out):
-    """Write the manifold of two Hulls of two or more corners, with the normal from A to B (SAT, clipping).
+    """Write the manifold of two Hulls of two or more corners each (SAT, clipping). Return the number of points.
 
-    bias [px]: B is the reference only if its greatest face separation exceeds that of A by more than this, so that the
-    reference does not alternate between equal faces. deepest [px]: an overlap deeper than this is left to a
-    neighbouring part, if this part covers an edge behind which the overlap is less deep. manifold_out (11,): see the
-    comment above COVERED_OVERLAP. O(corners of A · corners of B). Return the number of points; 0 if the separation
-    exceeds the margin [px]. If an overlap is left to a neighbour, 0 is returned and manifold_out[0] is COVERED_OVERLAP.
+    bias [px]: B has the reference face only if its greatest face separation exceeds that of A by more than this, so
+    that the reference does not alternate between equal faces. deepest [px]: a deeper overlap is left to a neighbouring
+    part, if that part covers an edge behind which the overlap is less deep. Then 0 is returned and manifold_out[0] is
+    COVERED_OVERLAP. If the separation exceeds `margin` [px], 0 is returned. manifold_out (11,): see clip_edges.
+    O(corners of A · corners of B).
     """
     a_corners, a_count, a_radius, a_edges = a
     b_corners, b_count, b_radius, b_edges = b
@@ -720,10 +732,11 @@ def collide_hulls(a, b, margin, bias, deepest, manifold_out):
 
 @subkernel
 def collide_line_circle(ax, ay, bx, by, x, y, radius):
-    """Return (normal to the disc, nearest point of the line, separation, feature) of a line segment and a disc [px].
+    """Collide a line segment with a disc. Return (nx, ny, px, py, separation, feature) [px].
 
-    The segment leads from (ax, ay) to (bx, by). Feature: 0 or 1 for a side of the segment, CIRCLE_CORNER for its start,
-    CIRCLE_CORNER + 1 for its end. If the centre of the disc is on the segment, the normal of side 0 is used.
+    The normal points to the disc; px, py: nearest point of the segment. The segment leads from (ax, ay) to (bx, by).
+    feature: 0 or 1 for a side of the segment, CIRCLE_CORNER for its start, CIRCLE_CORNER + 1 for its end. If the centre
+    of the disc is on the segment, the normal of side 0 is used.
     """
     t = nearest_on_edge(ax, ay, bx, by, x, y)
     px, py = ax + t * (bx - ax), ay + t * (by - ay)
@@ -748,10 +761,10 @@ def collide_line_circle(ax, ay, bx, by, x, y, radius):
 
 @subkernel
 def collide_hull_circle(hull, x, y, radius):
-    """Return (found, normal from hull to disc, contact point, separation, feature) of a Hull and a disc [px].
+    """Collide a Hull of two or more corners with a disc. Return (found, nx, ny, px, py, separation, feature) [px].
 
-    The Hull has two or more corners. Edges that are not touchable and a centre inside the Hull are treated as in
-    collide_polygon_circle.
+    The normal points from hull to disc; px, py: contact point, midway between the surfaces. Edges that are not
+    touchable, and a centre inside the Hull, are treated as in collide_polygon_circle.
     """
     corners = hull.corners
     rounding = hull.radius

@@ -1,4 +1,4 @@
-"""CONTACT rows: how the narrow phase writes them, mixed materials, order, and conversion for reports."""
+"""CONTACT rows: how the narrow phase writes and sorts them, mixed materials, and conversion for reports."""
 
 import math
 from collections.abc import Callable
@@ -31,10 +31,10 @@ def are_whole(manifolds):
 
 
 def by_parent(manifolds: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
-    """Return (CONTACT rows that name whole shapes instead of their parts, the index in `manifolds` of each row).
+    """Return (CONTACT rows that name whole shapes instead of their parts, index in `manifolds` of each of them).
 
-    The rows are sorted by the ids of the whole shapes, and A is the shape with the smaller id. If no side is a part,
-    `manifolds` itself and None are returned.
+    The rows are sorted by the ids of the whole shapes, and A is the shape with the smaller id. If no contact is with a
+    part, the result is (`manifolds` itself, None).
     """
     if are_whole(manifolds):
         return manifolds, None
@@ -60,11 +60,11 @@ def by_parent(manifolds: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
 
 @inlined
 def mixed(geometry, a, b, manifold):
-    """Return the (friction, restitution, rolling resistance [px], surface speed [px/s]) of a contact of two materials.
+    """Return the mixed material of a contact: (friction, restitution, rolling resistance [px], surface speed [px/s]).
 
-    a, b: SHAPE rows; manifold: CONTACT row, whose feature names the link of a chain, because each link has its own
-    material. Friction is the geometric mean, restitution and rolling resistance the greater value, surface speed the
-    sum. Rolling resistance is a length: the coefficient times the greater radius (Catto, Box2D v3.1).
+    a, b: SHAPE rows; manifold: CONTACT row, whose feature id names the link of a chain, because each link may have its
+    own material. Friction is the geometric mean, restitution and rolling resistance are the greater value, surface
+    speed is the sum. Rolling resistance is a length: the coefficient times the greater radius (Catto, Box2D v3.1).
     """
     friction = 1.0
     restitution = 0.0
@@ -104,7 +104,7 @@ POINTS = 11  # floats of a manifold before it is stored: see "clipping" in hulls
 
 
 class Batch(NamedTuple):
-    """The input of a pass over candidate pairs."""
+    """The input of a pass over the candidate pairs of the broad phase."""
 
     geometry: Geometry
     bodies: np.ndarray  # BODY
@@ -119,7 +119,7 @@ class Batch(NamedTuple):
 
 
 class Workspace(NamedTuple):
-    """Scratch memory of the narrow phase, mostly for the one pair that it is testing."""
+    """Scratch memory of the narrow phase, mostly for the pair that is being tested."""
 
     a: np.ndarray  # (16, 2) corners [px]
     b: np.ndarray
@@ -133,7 +133,7 @@ class Workspace(NamedTuple):
 
 
 def new_workspace() -> Workspace:
-    """Return an empty workspace."""
+    """Return a new Workspace, without room for candidates."""
     return Workspace(
         np.zeros((16, 2)),
         np.zeros((16, 2)),
@@ -149,7 +149,7 @@ def new_workspace() -> Workspace:
 
 @subkernel
 def queue_fallback(pair, fallback_inout):
-    """Queue a candidate pair for the deep-penetration fallback of mask_parts.py.
+    """Queue a candidate pair (index) for the deep-penetration fallback of mask_parts.py.
 
     fallback_inout: number of queued candidates, then their indices.
     """
@@ -159,7 +159,7 @@ def queue_fallback(pair, fallback_inout):
 
 @subkernel
 def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
-    """Initialize a CONTACT row for the candidate pair number `pair`, with the normal (nx, ny) but without points."""
+    """Start a new CONTACT row for candidate number `pair`, with the normal (nx, ny) but without points."""
     row_a = candidates[pair, 0]
     row_b = candidates[pair, 1]
     a, b = shapes[row_a], shapes[row_b]
@@ -184,10 +184,10 @@ def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
 
 @subkernel
 def add_manifold(shapes, candidates, pair, point, manifolds_out, found):
-    """Append a manifold of one point. Return the new number of manifolds, which may exceed the capacity.
+    """Append a contact with one point. Return the new number of contacts, which is counted on past the capacity.
 
     pair: index of the candidate; point: (unit normal x and y from A to B, x, y, separation [px], shared area [px2],
-    feature); found: number of manifolds before. The closing speed is written later, by `approach`.
+    feature); found: number of contacts before. The approach speed is written later, by `approach`.
     """
     if found < len(manifolds_out):
         nx, ny, x, y, separation, area, feature = point
@@ -204,9 +204,9 @@ def add_manifold(shapes, candidates, pair, point, manifolds_out, found):
 
 @subkernel
 def add_point(shapes, candidates, pair, point, manifolds_out, found):
-    """Add a point to the last manifold if that has one point, of the same pair and normal, else to a new manifold.
+    """Add a point to the last contact if it has one point and the same pair and normal, else append a new contact.
 
-    Arguments as in add_manifold. Return the number of manifolds, which may exceed the capacity.
+    Arguments as in add_manifold. Return the number of contacts, which is counted on past the capacity.
     """
     nx, ny, x, y, separation, area, feature = point
     if 0 < found <= len(manifolds_out):
@@ -223,9 +223,10 @@ def add_point(shapes, candidates, pair, point, manifolds_out, found):
 
 @subkernel
 def add_points(shapes, candidates, pair, sign, points, part, manifolds_out, found):
-    """Append the manifold in `points` (11,), see "clipping" in hulls.py. Return the new number of manifolds.
+    """Append the manifold in `points` (11,), see hulls.clip_edges. Return the new number of contacts.
 
-    sign: -1.0 if A and B were swapped for the test, else 1.0; part: offset added to the feature ids.
+    sign: -1.0 if A and B were swapped for the test, else 1.0; part: offset added to the feature ids; pair, found: see
+    add_manifold.
     """
     for k in range(int(points[0])):
         at = 3 + 4 * k
@@ -237,7 +238,7 @@ def add_points(shapes, candidates, pair, sign, points, part, manifolds_out, foun
 
 @subkernel
 def circle_at(bodies, shapes, row):
-    """Return (centre x, y in the world, radius) [px] of a CIRCLE shape. row: row of SHAPE."""
+    """Return (x, y, radius) [px] of a CIRCLE shape in the world. row: row number in SHAPE."""
     s = shapes[row]
     b = bodies[s.body_row]
     u, v = rotate(s.local_x, s.local_y, *rotation_of(b.angle))
@@ -248,7 +249,7 @@ def circle_at(bodies, shapes, row):
 def hull_of(geometry, bodies, shapes, row, corners_out):
     """Return the Hull of a shape in the world. A BOUNDS has the corners of its AABB, a CIRCLE has one corner.
 
-    row: row of SHAPE; corners_out (16, 2) receives the corners [px].
+    row: row number in SHAPE; corners_out (16, 2) receives the corners [px].
     """
     s = shapes[row]
     b = bodies[s.body_row]
@@ -270,23 +271,23 @@ def hull_of(geometry, bodies, shapes, row, corners_out):
 
 @inlined
 def always(batch, pair):
-    """Return True: passed to make_pass as may_touch, this selects every pair of the kind."""
+    """Return True. As the argument may_touch of make_pass it selects every pair of the kind."""
     return True
 
 
 def make_pass(kind: int, collide_pair: Callable, may_touch: Callable = always) -> Any:
     """Return a kernel that tests all candidate pairs of one kind.
 
-    collide_pair(batch, pair, workspace, manifolds_out, found, work_inout) appends the manifolds of one candidate at row
-    `found`, and returns the new number of manifolds. may_touch(batch, pair) is a cheap test that selects the pairs for
-    collide_pair. It is called without branches for a block of pairs before the selected ones are collided, which avoids
-    branch mispredictions. Both functions must be inlined: passing a whole Batch to a call costs more than a test of two
-    circles.
+    collide_pair(batch, pair, workspace, manifolds_out, found, work_inout) appends the contacts of candidate number
+    `pair` at row `found`, and returns the new number of contacts. may_touch(batch, pair) is a cheap test that selects
+    the pairs for collide_pair. It is called without branches for a block of pairs before the selected ones are
+    collided, which avoids branch mispredictions. Both functions must be inlined: passing a whole Batch to a call costs
+    more than a test of two circles.
     """
 
     @kernel
     def collide_pairs(batch, workspace, manifolds_out, found, work_inout):
-        """Append the manifolds of all pairs of this kind at row `found`. Return the new number of manifolds.
+        """Append the contacts of all pairs of this kind at row `found`. Return the new number of contacts.
 
         O(candidates).
         """
@@ -307,9 +308,9 @@ def make_pass(kind: int, collide_pair: Callable, may_touch: Callable = always) -
 
 @inlined
 def sides_by_kind(batch, pair, kind):
-    """Return (sign, SHAPE row of the pair's shape of this kind, SHAPE row of the other shape).
+    """Return (sign, row number of the pair's shape of this kind, row number of the other shape).
 
-    sign: 1.0 if the shape of this kind is A, -1.0 if it is B.
+    sign: 1.0 if the shape of this kind is A, -1.0 if it is B. pair: index of the candidate.
     """
     row_a = batch.candidates[pair, 0]
     row_b = batch.candidates[pair, 1]
@@ -330,9 +331,9 @@ def copy_manifold(contacts, source, target, contacts_out):
 
 @subkernel
 def drop_empty(count, manifolds_inout):
-    """Remove manifolds without points and keep the order of the others. Return the number of manifolds left.
+    """Remove the contacts without points from the first `count` rows. Return the number of contacts left.
 
-    O(count).
+    The others keep their order. O(count).
     """
     kept = 0
     for i in range(count):
@@ -357,10 +358,10 @@ def is_of(contact, shape_a, shape_b):
 
 @kernel
 def place_in_order(manifolds, count, candidate_count, starts_out, manifolds_out):
-    """Copy manifolds to manifolds_out, sorted by candidate index (stable counting sort).
+    """Copy CONTACT rows to manifolds_out, sorted by candidate index (stable counting sort).
 
-    manifolds, manifolds_out: CONTACT rows; count: number of manifolds; candidate_count: number of candidates;
-    starts_out (candidates + 1): scratch. O(manifolds + candidates).
+    count: number of rows in use; candidate_count: number of candidates; starts_out (candidates + 1,): scratch. O(rows +
+    candidates).
     """
     for i in range(candidate_count + 1):
         starts_out[i] = 0
@@ -377,7 +378,7 @@ def place_in_order(manifolds, count, candidate_count, starts_out, manifolds_out)
 
 @kernel
 def write_contacts(manifolds, contacts_out):
-    """Write a CONTACT_POINT row for every point of the manifolds. Return their number. O(manifolds)."""
+    """Write a CONTACT_POINT row for every point of the CONTACT rows. Return the number of points. O(contacts)."""
     found = 0
     for i in range(len(manifolds)):
         m = manifolds[i]
@@ -411,7 +412,7 @@ def contacts_of(manifolds: np.ndarray) -> np.ndarray:
 
 @subkernel
 def velocity_at(body, x, y):
-    """Return the velocity [px/s] of a body's point that is at (x, y) in the world. body: BODY row."""
+    """Return the velocity (x, y) [px/s] of the point of a body that is at (x, y) in the world. body: BODY row."""
     return (
         body.vx - body.angular_velocity * (y - body.center_y),
         body.vy + body.angular_velocity * (x - body.center_x),
@@ -420,7 +421,10 @@ def velocity_at(body, x, y):
 
 @subkernel
 def relative_velocity(a, b, ax, ay, bx, by):
-    """Return the velocity [px/s] of point (bx, by) of body B relative to point (ax, ay) of body A. a, b: BODY rows."""
+    """Return the velocity (x, y) [px/s] of point (bx, by) of body B relative to point (ax, ay) of body A.
+
+    a, b: BODY rows.
+    """
     px, py = velocity_at(a, ax, ay)
     qx, qy = velocity_at(b, bx, by)
     return qx - px, qy - py
@@ -428,7 +432,7 @@ def relative_velocity(a, b, ax, ay, bx, by):
 
 @subkernel
 def center_velocity(a, b):
-    """Return (vx, vy, speed) [px/s] of the velocity of B relative to A at the centre of the smaller body.
+    """Return (vx, vy, speed) [px/s] of B relative to A, at the centre of mass of the smaller body.
 
     a, b: BODY rows.
     """
@@ -440,7 +444,7 @@ def center_velocity(a, b):
 
 @subkernel
 def closing_speed_bound(a, b):
-    """Return an upper bound [px/s] of both bodies' speeds and of the speed that center_velocity returns.
+    """Return a speed [px/s] that neither body exceeds, nor the speed that center_velocity returns for them.
 
     a, b: BODY rows.
     """
@@ -451,10 +455,10 @@ def closing_speed_bound(a, b):
 
 @inlined
 def closing_speed(a, b, x, y, nx, ny, tangential):
-    """Return the closing speed [px/s] of two bodies along the normal at a contact point; negative if they separate.
+    """Return the approach speed [px/s] of two bodies along the normal at a contact point; negative if they separate.
 
-    a, b: BODY rows; x, y [px]: the point; tangential [px]: distance that B slides along (-ny, nx) before a predicted
-    contact.
+    a, b: BODY rows; x, y [px]: the point; nx, ny: unit normal from A to B; tangential [px]: distance that B slides
+    along (-ny, nx) before a predicted contact.
     """
     ax, ay = x - a.center_x, y - a.center_y
     bx, by = x - b.center_x + tangential * ny, y - b.center_y - tangential * nx
@@ -465,7 +469,7 @@ def closing_speed(a, b, x, y, nx, ny, tangential):
 
 @inlined
 def approach(a, b, manifold_inout):
-    """Write the closing speed [px/s] of each point of a CONTACT row, before any response. a, b: BODY rows."""
+    """Write the approach speed [px/s] of each point of a CONTACT row, before any response. a, b: BODY rows."""
     m = manifold_inout
     m.speed_1 = closing_speed(a, b, m.x_1, m.y_1, m.normal_x, m.normal_y, m.tangential_offset)
     if m.count == 2:
@@ -474,7 +478,7 @@ def approach(a, b, manifold_inout):
 
 @kernel
 def measure_approach(bodies, manifolds_inout):
-    """Write the closing speed [px/s] of each point of all CONTACT rows, before any response. O(manifolds)."""
+    """Write the approach speed [px/s] of each point of all CONTACT rows, before any response. O(contacts)."""
     for i in range(len(manifolds_inout)):
         m = manifolds_inout[i]
         approach(bodies[m.body_row_a], bodies[m.body_row_b], m)

@@ -1,4 +1,4 @@
-"""Deep-penetration fallback for shapes made of convex parts: one direction that separates all parts."""
+"""Deep-penetration fallback for shapes made of convex parts: a single direction that separates all parts."""
 
 import math
 
@@ -28,8 +28,9 @@ ALONG = 0.5  # least cosine between directions that count as the same
 def write_faces(hull, other, sign, first, faces_out):
     """Write the faces of a Hull to faces_out, from row `first` on. Return the row after the last face.
 
-    A disc has no faces. other: the overlapping Hull, whose depth behind each face is written; sign: 1.0 if `hull`
-    belongs to A, -1.0 if it belongs to B; faces_out (any, 4): columns DIRECTION_X, DIRECTION_Y, DEPTH, MAY_PUSH.
+    A face is an edge with its normal; a disc has none. other: the overlapping Hull, whose depth behind each face is
+    written; sign: 1.0 if `hull` belongs to A, -1.0 if it belongs to B; faces_out (any, 4): columns DIRECTION_X,
+    DIRECTION_Y, DEPTH, MAY_PUSH.
     """
     if hull.count == 1:
         return first
@@ -49,7 +50,7 @@ def write_faces(hull, other, sign, first, faces_out):
 
 @subkernel
 def translation_along(faces, starts, count, nx, ny):
-    """Return the distance [px] that B must move along the unit vector (nx, ny) to leave all parts of A. O(faces).
+    """Return how far [px] B must move along the unit vector (nx, ny) to leave all overlapping parts of A. O(faces).
 
     faces (any, 4): see write_faces; starts (count + 1,): first face of each of the `count` overlapping pairs of parts.
     """
@@ -66,10 +67,11 @@ def translation_along(faces, starts, count, nx, ny):
 
 @subkernel
 def minimum_translation(faces, starts, count, last_x, last_y):
-    """Return the face along whose normal B leaves all parts of A with the shortest move.
+    """Find the face along whose normal B leaves all parts of A with the shortest move.
 
-    The result is (index of the pair of parts, row of the face), or (-1, -1) if no face may push. Normals within 60
-    degrees of (last_x, last_y), a unit vector or 0, are preferred. Other arguments as in translation_along. O(faces²).
+    Return (index of the pair of parts, row of the face), or (-1, -1) if no face may push. Normals within 60 degrees of
+    the unit vector (last_x, last_y) are preferred; (0, 0) means no preference. Other arguments as in translation_along.
+    O(faces²).
     """
     best = -1
     best_part = -1
@@ -95,9 +97,10 @@ def minimum_translation(faces, starts, count, last_x, last_y):
 
 @subkernel
 def face_manifold(a, edge, b, flipped, margin, manifold_out):
-    """Write the manifold of two overlapping Hulls with an edge of Hull a as the reference, at any depth of the overlap.
+    """Write the manifold of two overlapping Hulls with an edge of `a` as the reference, for an overlap of any depth.
 
-    flipped: a is shape B of the pair; margin [px]; manifold_out (11,): see "clipping" in hulls.py.
+    edge: index of the edge; flipped: True if `a` is shape B of the pair; margin [px]: largest separation of a point;
+    manifold_out (11,): see hulls.clip_edges.
     """
     count = 0
     if b.count > 1:
@@ -110,7 +113,7 @@ def face_manifold(a, edge, b, flipped, margin, manifold_out):
 
 @subkernel
 def hulls_of_pair(batch, pair, workspace):
-    """Return the Hulls of shapes A and B of a candidate pair. pair: index of the candidate."""
+    """Return the (Hull of A, Hull of B) of a candidate pair in the world. pair: index of the candidate."""
     geometry = batch.geometry
     a = hull_of(geometry, batch.bodies, batch.shapes, batch.candidates[pair, 0], workspace.a)
     b = hull_of(geometry, batch.bodies, batch.shapes, batch.candidates[pair, 1], workspace.b)
@@ -119,11 +122,11 @@ def hulls_of_pair(batch, pair, workspace):
 
 @kernel
 def write_fallback(batch, pairs, last_x, last_y, workspace, starts_out, faces_out, manifolds_out):
-    """Write the manifold that pushes shape B out of shape A by the shortest translation.
+    """Write the contact that pushes shape B out of shape A by the shortest translation.
 
-    Return the number written, 0 or 1. pairs: indices of the candidates whose sides are overlapping parts of A and B;
-    last_x, last_y: unit normal of the last step, or 0; starts_out (pairs + 1,), faces_out (FACES · pairs, 4): scratch.
-    O(faces²).
+    pairs: indices of the candidates whose sides are overlapping parts of A and B; last_x, last_y: unit normal of the
+    last step, or (0, 0); starts_out (pairs + 1,), faces_out (FACES · pairs, 4): scratch. O(faces²). Return 1, or 0 if
+    there is none.
     """
     starts_out[0] = 0
     for k in range(len(pairs)):
@@ -165,9 +168,9 @@ def depth_of(manifold):
 
 @kernel
 def find_deep(bodies, manifolds, count, deep, flags_out):
-    """Flag deep manifolds of parts: overlap above `deep` [px], a part on at least one side, and a dynamic body.
+    """Flag contacts of parts that are deeper than `deep` [px], if at least one body is dynamic. Return their number.
 
-    count: number of manifolds; flags_out (count,) bool. Return the number of flagged manifolds.
+    manifolds: CONTACT rows, of which the first `count` are in use; flags_out (count,) bool.
     """
     found = 0
     for i in range(count):
@@ -183,10 +186,10 @@ def find_deep(bodies, manifolds, count, deep, flags_out):
 
 @kernel
 def drop_opposed_rows(order, deep, manifolds_inout):
-    """Drop each deep manifold if a shallower manifold of the same two shapes has an opposite normal.
+    """Drop each deep contact if a shallower contact of the same two shapes has an opposite normal.
 
-    order: row numbers of the manifolds, sorted by parent ids; deep (manifolds,) bool: flags of find_deep. The remaining
-    manifolds are moved to the front. O(manifolds · manifolds of a pair). Return the number of remaining manifolds.
+    order: row numbers of the contacts, sorted by the ids of the whole shapes; deep (contacts,) bool: flags of
+    find_deep. The remaining contacts are moved to the front. Return their number. O(contacts · contacts of a pair).
     """
     first = 0
     count = len(order)
@@ -215,11 +218,11 @@ def drop_opposed_rows(order, deep, manifolds_inout):
 
 
 def drop_opposed(bodies: np.ndarray, count: int, deep: float, flags: np.ndarray, manifolds: np.ndarray) -> int:
-    """Drop each manifold of parts deeper than `deep` [px] if a shallower one of the same shapes has an opposite normal.
+    """Drop each contact of parts deeper than `deep` [px] if a shallower one of the same shapes has an opposite normal.
 
     Otherwise a body thrown into a notch narrower than itself would be squeezed between both sides of the notch. With
-    this rule the nearer side pushes the body out. count: number of manifolds; flags (count,): scratch. Return the
-    number of remaining manifolds.
+    this rule the nearer side pushes the body out. manifolds: CONTACT rows, of which the first `count` are in use; flags
+    (count,): scratch. Return the number of remaining contacts.
     """
     if not find_deep(bodies, manifolds, count, deep, flags):
         return count
@@ -230,8 +233,8 @@ def drop_opposed(bodies: np.ndarray, count: int, deep: float, flags: np.ndarray,
 def fallback_manifolds(batch: Batch, found: np.ndarray, previous: np.ndarray, workspace: Workspace) -> np.ndarray:
     """Return additional CONTACT rows, at most one for each pair of shapes with parts in the fallback queue.
 
-    A pair gets a row if it has no overlapping manifold. It also gets one if its manifolds are deeper than the margin,
-    because these may push along a wall instead of out of it. found: manifolds of this step; previous: manifolds of the
+    A pair gets one if it has no overlapping contact. It also gets one if its contacts are deeper than the margin,
+    because these may push along a wall instead of out of it. found: contacts of this step; previous: contacts of the
     last step, whose normals are preferred so that the direction of the push does not alternate.
     """
     shapes = batch.shapes
@@ -266,18 +269,18 @@ def fallback_manifolds(batch: Batch, found: np.ndarray, previous: np.ndarray, wo
 
 
 def _pair_keys(shapes, pairs):
-    """Return an integer key (n,) for each pair of shapes, equal for all pairs of parts of the same two shapes.
+    """Return an integer key (n,) for each pair of shapes, equal for all pairs of parts of the same two whole shapes.
 
-    pairs (n, 2): SHAPE rows. The keys have the same order as the rows of the whole shapes.
+    pairs (n, 2): row numbers in SHAPE. The keys have the same order as the rows of the whole shapes.
     """
     owners = rows_of(shapes, shapes["parent"][pairs].ravel()).reshape(-1, 2)
     return owners[:, 0] * len(shapes) + owners[:, 1]
 
 
 def _is_found(manifold, found) -> bool:
-    """Return whether `found` contains a manifold of the same candidate as `manifold`, with nearly the same normal.
+    """Return whether `found` contains a contact of the same candidate as `manifold`, with nearly the same normal.
 
-    The normals may differ slightly, because a recycled manifold has rotated with its body.
+    All are CONTACT rows. The normals may differ slightly, because a recycled contact has rotated with its body.
     """
     same = found["candidate"] == manifold["candidate"]
     along = found["normal_x"] * manifold["normal_x"] + found["normal_y"] * manifold["normal_y"]

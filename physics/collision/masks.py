@@ -1,4 +1,4 @@
-"""Collision of masks snapped to whole pixels: with masks, by AND of their bit words, and with hulls."""
+"""Collision of masks snapped to whole pixels: with other masks, by AND of their bit words, and with hulls."""
 
 import math
 from collections.abc import Callable
@@ -36,7 +36,7 @@ from physics.tables.step_state import MASK_TESTS
 
 @subkernel
 def center_normal(a, b, dx, dy):
-    """Return the unit direction from the centre of A's solid bounds to the centre of B's; (1, 0) if they coincide.
+    """Return the unit vector from the centre of A's solid bounds to the centre of B's; (1, 0) if they coincide.
 
     a, b: RASTER rows; dx, dy [px]: offset of B's top left corner from A's.
     """
@@ -50,9 +50,9 @@ def center_normal(a, b, dx, dy):
 
 @subkernel
 def least_overlap(right, left, down, up):
-    """Return (normal, depth [px]) of the shortest axis-aligned move of B that separates two overlapping boxes.
+    """Return the shortest move of B along an axis that separates two overlapping boxes, as (nx, ny, length [px]).
 
-    right, left, down, up [px]: length of the move in each direction.
+    right, left, down, up [px]: length of the move that is needed in each direction.
     """
     least = min(min(right, left), min(down, up))
     if least == up:
@@ -76,7 +76,7 @@ class RasterPair(NamedTuple):
 
 
 class Remainders(NamedTuple):
-    """Fractions [px] in 0..1 by which snapping to whole pixels has changed the positions of masks A and B.
+    """Fractions [px] in 0..1 that snapping, floor(position + 0.5), has cut off from the positions of masks A and B.
 
     With these fractions a tested move is rounded to the same pixels as the real move will be.
     """
@@ -91,8 +91,8 @@ class Remainders(NamedTuple):
 def separation_along(pair, remainders, nx, ny, most):
     """Return the least whole number of pixels to move along the normal (nx, ny) that ends the overlap of two rasters.
 
-    pair: RasterPair; remainders: Remainders. The overlap must end if B moves along the normal, and also if A moves
-    against the normal. A result above `most` [px] means that no move up to `most` is enough.
+    The overlap must end if B moves along the normal, and also if A moves against the normal. A result above `most` [px]
+    means that no move up to `most` is enough.
     """
     rasters = pair.rasters
     words = pair.words
@@ -127,10 +127,10 @@ def separation_along(pair, remainders, nx, ny, most):
 
 @subkernel
 def mask_contact(pair, remainders):
-    """Return (area, point x, point y, normal from A to B, separation) of a RasterPair that shares pixels.
+    """Return (area, x, y, nx, ny, separation) of a RasterPair that shares pixels.
 
-    The area is the number of shared pixels. The point is their centroid [px] in A's raster. The separation [px] is
-    minus the length of the move along the normal that ends the overlap.
+    The area is the number of shared pixels; x, y [px]: their centroid in A's raster. The normal points from A to B. The
+    separation [px] is negative: minus the length of the move along the normal that ends the overlap.
     """
     rasters = pair.rasters
     words = pair.words
@@ -177,10 +177,10 @@ def mask_contact(pair, remainders):
 
 @subkernel
 def pixel_range(low, high, start, set_low, set_high):
-    """Return (first, last + 1) of the indices of the pixels that overlap the open interval low..high on one axis.
+    """Return (first, last + 1): the indices of the pixels that overlap the open interval low..high on one axis.
 
-    low, high [px]: the interval; start [px]: position of pixel 0; set_low, set_high: range of indices of the solid
-    pixels, to which the result is limited. low and high may be infinite, so they are clamped before rounding.
+    low, high [px]: the interval, may be infinite; start [px]: position of pixel 0; set_low, set_high: range of indices
+    of the solid pixels, to which the result is limited.
     """
     first = math.floor(min(float(set_high), max(float(set_low), low - start)))
     last = math.floor(max(set_low - 1.0, min(set_high - 1.0, high - start))) + 1
@@ -223,8 +223,8 @@ def pixels_under(raster, hull):
 def make_pixel_sum(touches: Callable) -> Any:
     """Return a kernel that counts the solid pixels of a mask that overlap a hull, and computes their centroid.
 
-    touches(hull, x, y, depths_out): inlined test of whether the hull overlaps the pixel square with top left corner x,
-    y.
+    touches(hull, x, y, depths_out): an inlined test that returns whether the hull overlaps the pixel with top left
+    corner (x, y).
     """
 
     @subkernel
@@ -257,7 +257,10 @@ def make_pixel_sum(touches: Callable) -> Any:
 
 @inlined
 def square_in_disc(hull, x, y, depths_out):
-    """Return whether the unit square with top left corner x, y shares area with a disc, a Hull of one corner."""
+    """Return whether the unit square with top left corner (x, y) shares area with a disc, a Hull of one corner.
+
+    depths_out is not used; it is there for make_pixel_sum.
+    """
     beside = max(max(x - hull.corners[0, 0], hull.corners[0, 0] - (x + 1.0)), 0.0)
     above = max(max(y - hull.corners[0, 1], hull.corners[0, 1] - (y + 1.0)), 0.0)
     return beside * beside + above * above < hull.radius * hull.radius
@@ -265,10 +268,10 @@ def square_in_disc(hull, x, y, depths_out):
 
 @subkernel
 def square_exit_distance(x, y, nx, ny, radius):
-    """Return the distance [px] that a disc must move along (nx, ny) to leave a unit square.
+    """Return the distance [px] that a disc at the origin must move along (nx, ny) to leave a unit square.
 
-    The disc is at the origin, the square's top left corner at (x, y). The disc has left when its centre has left the
-    square grown by the radius, through a rounded corner or a straight side.
+    x, y: top left corner of the square. The disc has left when its centre has left the square grown by the radius,
+    through a rounded corner or a straight side.
     """
     depth = 0.0
     for corner in range(4):
@@ -292,11 +295,11 @@ sum_pixels_in_disc = make_pixel_sum(square_in_disc)
 
 @subkernel
 def collide_mask_circle(raster, hull, depths_out):
-    """Return (area, normal from mask to disc, point, separation, feature) of a PlacedRaster and a disc (a Hull).
+    """Collide a PlacedRaster with a disc (Hull of one corner). Return (area, nx, ny, x, y, separation, feature).
 
-    The area is the number of overlapping pixels; 0: no contact. The point [px] is the centroid of these pixels, the
-    feature the pixel_feature of the first. The separation [px] is minus the move of the disc along the normal that
-    clears all pixels. O(pixels in the disc's AABB).
+    The area is the number of overlapping pixels; 0 means no contact. The normal points from mask to disc; x, y [px]:
+    centroid of these pixels; feature: pixel_feature of the first. The separation [px] is minus the length of the disc's
+    move along the normal that clears all pixels. O(pixels in the disc's AABB).
     """
     r = raster.rasters[raster.row]
     cx = hull.corners[0, 0]
@@ -351,9 +354,9 @@ def square_in_polygon(corners, count, x, y):
 
 @inlined
 def square_depths(hull, x, y, depths_out):
-    """Return whether the unit square at x, y shares area with a convex polygon, and record the square's depths.
+    """Return whether the unit square at (x, y) shares area with a convex polygon, and record how deep it is in it.
 
-    depths_out (16,): for each edge of the polygon the greatest depth [px] of all squares so far behind this edge.
+    depths_out (16,): for each edge of the polygon, the greatest depth [px] behind this edge of all squares so far.
     """
     corners = hull.corners
     if not square_in_polygon(corners, hull.count, x, y):
@@ -371,10 +374,10 @@ sum_pixels_in_polygon = make_pixel_sum(square_depths)
 
 @subkernel
 def collide_mask_polygon(raster, hull, depths_out):
-    """Return (area, normal, point, separation, feature) of a PlacedRaster and a convex polygon (Hull without radius).
+    """Collide a PlacedRaster with a polygon (Hull without rounding). Return (area, nx, ny, x, y, separation, feature).
 
-    The normal is opposite to that of the touchable edge behind which the overlapping pixels are least deep; the
-    separation is minus this depth [px]. Other values as in collide_mask_circle. depths_out (16,): scratch.
+    The normal is opposite to that of one touchable edge: the edge behind which the overlapping pixels are least deep.
+    The separation is minus this depth [px]. Other values as in collide_mask_circle. depths_out (16,): scratch.
     """
     count = hull.count
     for k in range(count):
@@ -396,11 +399,11 @@ def collide_mask_polygon(raster, hull, depths_out):
 
 @subkernel
 def border_pixels(raster, line, low, high, level):
-    """Find the positions at which a border between two rows or columns of pixels has solid pixels on both sides.
+    """Find the places where a border between two rows or columns of pixels has solid pixels on both sides.
 
     raster: PlacedRaster; line: index of the row or column after the border; level: True for a border between rows,
     False for one between columns; low, high [px]: open interval along the border, from the raster's corner. Return
-    (number of positions, sum of the positions [px] along the border, pixel_feature of the first or -1).
+    (number of places, sum of their positions [px] along the border, pixel_feature of the first or -1).
     """
     words = raster.words
     r = raster.rasters[raster.row]
@@ -428,11 +431,11 @@ def border_pixels(raster, line, low, high, level):
 
 @subkernel
 def collide_mask_line(raster, hull, depths_out):
-    """Return (area, normal, point, separation, feature) of a PlacedRaster and a line (a Hull of two corners).
+    """Collide a PlacedRaster with a line segment (Hull of two corners).
 
-    The line is solid from both sides. The line touches the mask where it crosses a solid pixel, or lies on the border
-    between two solid pixels; on a border the normal points away from the middle of the mask. Other values as in
-    collide_mask_circle. depths_out (16,): scratch.
+    The line is solid from both sides. It touches the mask where it crosses a solid pixel, or lies on the border between
+    two solid pixels. On a border the normal points away from the middle of the mask, and the separation is -1. Other
+    values as in collide_mask_polygon. depths_out (16,): scratch. Return (area, nx, ny, x, y, separation, feature).
     """
     points = hull.corners
     left, top = raster.left, raster.top
@@ -483,7 +486,10 @@ def square_distance(corners, count, x, y):
 
 @inlined
 def square_in_rounded(hull, x, y, depths_out):
-    """Return whether the unit square with top left corner x, y shares area with a rounded hull."""
+    """Return whether the unit square with top left corner (x, y) shares area with a rounded hull.
+
+    depths_out is not used; it is there for make_pixel_sum.
+    """
     return square_distance(hull.corners, hull.count, x, y) < hull.radius
 
 
@@ -505,10 +511,10 @@ def direction_to_core(corners, count, x, y):
 
 @subkernel
 def depth_along(raster, hull, nx, ny):
-    """Return the distance [px] that a rounded hull must move along (nx, ny) to be separated from a mask.
+    """Return the distance [px] that a rounded hull must move along the unit vector (nx, ny) to leave a mask.
 
-    After the move a line perpendicular to the unit vector (nx, ny) separates the hull from all pixels that it overlaps
-    now. raster: PlacedRaster.
+    It has left when a line perpendicular to (nx, ny) separates it from all pixels that it overlaps now. raster:
+    PlacedRaster.
     """
     r = raster.rasters[raster.row]
     least, _ = extent_along(hull.corners, hull.count, nx, ny)
@@ -530,11 +536,12 @@ sum_pixels_in_rounded = make_pixel_sum(square_in_rounded)
 
 @subkernel
 def collide_mask_rounded(raster, hull, depths_out):
-    """Return (area, normal, point, separation, feature) of a PlacedRaster and a rounded Hull of two or more corners.
+    """Collide a PlacedRaster with a rounded Hull of two or more corners.
 
-    The normal is opposite to a face normal, or points from the centroid of the overlapping pixels to the core; the
-    direction with the shorter move that clears the pixels is used. The separation is minus this move. Other values as
-    in collide_mask_circle. O(pixels in the hull's AABB · corners).
+    The normal is opposite to that of a face, or points from the centroid of the overlapping pixels to the hull's core.
+    Of these directions, the one with the shortest move that clears the pixels is used. The separation is minus this
+    move. Other values as in collide_mask_circle. O(pixels in the hull's AABB · corners). Return (area, nx, ny, x, y,
+    separation, feature).
     """
     corners = hull.corners
     count = hull.count
@@ -558,7 +565,7 @@ def collide_mask_rounded(raster, hull, depths_out):
 
 @subkernel
 def collide_mask_hull(raster, hull, depths_out):
-    """Return (area, normal, point, separation, feature) of a PlacedRaster and any Hull, see collide_mask_circle.
+    """Collide a PlacedRaster with any Hull. Return (area, nx, ny, x, y, separation, feature), see collide_mask_circle.
 
     depths_out (16,): scratch.
     """
@@ -577,7 +584,7 @@ def collide_mask_hull(raster, hull, depths_out):
 
 @inlined
 def bounds_overlap(batch, pair):
-    """Return whether the bounding boxes of the solid pixels of a pair of snapped masks overlap."""
+    """Return whether the bounds of the solid pixels of two snapped masks overlap. pair: index of the candidate."""
     a = batch.shapes[batch.candidates[pair, 0]]
     b = batch.shapes[batch.candidates[pair, 1]]
     rasters = batch.geometry.rasters

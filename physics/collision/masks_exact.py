@@ -53,7 +53,7 @@ def arc_at(corners, count, k):
 
 @subkernel
 def hull_share(hull, x, y, width, height):
-    """Return (area, moment of x, moment of y) of the overlap of a Hull and a box.
+    """Return (area, first moment in x, first moment in y) of the overlap of a Hull and a box.
 
     x, y [px]: top left corner of the box, about which the moments are taken; width, height [px]: size of the box.
     O(corners).
@@ -89,9 +89,10 @@ def hull_share(hull, x, y, width, height):
 
 @subkernel
 def shared_with_hull(rasters, words, mask, hull):
-    """Return (area [px2], moment of x, moment of y) of the overlap of a mask and a Hull.
+    """Return (area [px2], first moment in x, first moment in y) of the overlap of a mask and a Hull.
 
-    mask: row of RASTER; the Hull is in the space of this raster. O(runs of solid pixels in the hull's AABB · corners).
+    mask: row number in RASTER; the Hull is in the space of this raster, as are the moments. O(runs of solid pixels in
+    the hull's AABB · corners).
     """
     r = rasters[mask]
     min_x, min_y, max_x, max_y = hull_bounds(hull)
@@ -124,9 +125,9 @@ def shared_with_hull(rasters, words, mask, hull):
 
 @subkernel
 def least_area(raster):
-    """Return the least area [px2] reported for an overlap, because rounding errors may make the computed area smaller.
+    """Return the least area [px2] to report for an overlap with a mask. raster: RASTER row of the mask.
 
-    raster: RASTER row.
+    Rounding errors may make the computed area of a tiny overlap smaller, or even 0.
     """
     slack = ROUNDED * (raster.width + raster.height)
     return slack * slack
@@ -149,8 +150,8 @@ def move_into_raster(raster, body, count, corners_inout):
 def hull_in_raster(geometry, bodies, shapes, mask, other, corners_out):
     """Return the Hull of shape `other` in the raster space of shape `mask`, which is not snapped.
 
-    mask, other: rows of SHAPE; corners_out (16, 2) receives the corners. The angles are subtracted before their sine
-    and cosine are computed, so that two bodies at multiples of 90 degrees stay exact.
+    mask, other: row numbers in SHAPE; corners_out (16, 2) receives the corners. The angles are subtracted before their
+    sine and cosine are computed, so that two bodies at multiples of 90 degrees stay exact.
     """
     s, o = shapes[mask], shapes[other]
     b = bodies[s.body_row]
@@ -175,10 +176,11 @@ def hull_in_raster(geometry, bodies, shapes, mask, other, corners_out):
 
 @subkernel
 def collide_in_raster(rasters, words, mask, hull, depths_out):
-    """Return (area [px2], normal from mask to Hull, point, separation [px], feature), all in raster space.
+    """Collide a mask with a Hull in raster space. Return (area [px2], nx, ny, x, y, separation [px], feature).
 
-    mask: row of RASTER; hull: Hull in the space of this raster; depths_out (16,): scratch. The area is 0 without
-    overlap. The point is the centroid of the overlap, the feature the pixel_feature of the first overlapping pixel.
+    The area is 0 without overlap. The normal points from mask to Hull; x, y: centroid of the overlap; feature:
+    pixel_feature of the first overlapping pixel. mask: row number in RASTER; hull: Hull in the space of this raster;
+    depths_out (16,): scratch.
     """
     pixels, nx, ny, x, y, separation, first = collide_mask_hull(
         PlacedRaster(rasters, words, mask, 0, 0), hull, depths_out
@@ -194,7 +196,7 @@ def collide_in_raster(rasters, words, mask, hull, depths_out):
 
 @subkernel
 def out_of_mask(geometry, body, shape, nx, ny, x, y):
-    """Return a normal (nx, ny) and a point (x, y) transformed from a mask's raster space to world space.
+    """Transform a normal and a point from a mask's raster space to the world. Return (nx, ny, x, y).
 
     body, shape: BODY and SHAPE rows of the mask, which is not snapped.
     """
@@ -206,10 +208,10 @@ def out_of_mask(geometry, body, shape, nx, ny, x, y):
 
 @subkernel
 def collide_as_drawn(geometry, shape, hull, depths_out):
-    """Return (area, normal from mask to Hull, point, separation, feature) of a snapped mask and a Hull in the world.
+    """Collide a snapped mask with a Hull in the world. Return (area, nx, ny, x, y, separation, feature).
 
     shape: SHAPE row of the mask. The area is the number of pixels that the Hull overlaps. Other values as in
-    collide_in_raster.
+    collide_in_raster, but in the world.
     """
     raster = PlacedRaster(geometry.rasters, geometry.words, shape.raster, shape.left, shape.top)
     pixels, nx, ny, x, y, separation, first = collide_mask_hull(raster, hull, depths_out)
@@ -218,10 +220,10 @@ def collide_as_drawn(geometry, shape, hull, depths_out):
 
 @subkernel
 def collide_mask_part(geometry, body, shape, hull, scratch, depths_out):
-    """Return (area, normal from mask to polygon, point, separation, feature) of a mask and a convex polygon.
+    """Collide a mask, snapped or not, with a convex polygon. Return (area, nx, ny, x, y, separation, feature).
 
-    All values are in the world; see collide_in_raster. body, shape: BODY and SHAPE rows of the mask, snapped or not;
-    hull: the polygon in the world; scratch (16, 2), depths_out (16,): scratch.
+    The values are those of collide_in_raster, but in the world. body, shape: BODY and SHAPE rows of the mask; hull: the
+    polygon in the world; scratch (16, 2), depths_out (16,): scratch.
     """
     if shape.snap:
         return collide_as_drawn(geometry, shape, hull, depths_out)
@@ -238,9 +240,10 @@ def collide_mask_part(geometry, body, shape, hull, scratch, depths_out):
 
 @subkernel
 def collide_mask_shape(geometry, bodies, shapes, mask, other, workspace):
-    """Return (area, normal from mask to hull, point, separation, feature) of two shapes, a mask and a hull.
+    """Collide a mask, snapped or not, with a hull. Return (area, nx, ny, x, y, separation, feature).
 
-    All values are in the world; see collide_in_raster. mask, other: rows of SHAPE; the mask may be snapped or not.
+    The values are those of collide_in_raster, but in the world. mask, other: row numbers in SHAPE of the mask and of
+    the hull.
     """
     s = shapes[mask]
     if s.snap:
@@ -270,9 +273,9 @@ NOISE = 1e-9  # rounding error of area differences, as a share of the area
 
 @subkernel
 def boxes_normal(a, b):
-    """Return (unit direction from the centre of A's AABB to that of B, whether the centres differ).
+    """Return (nx, ny, whether the centres differ): the unit vector from the centre of A's AABB to that of B's.
 
-    a, b: SHAPE rows.
+    a, b: SHAPE rows. Without a difference the vector is (1, 0).
     """
     x, y = (b.min_x - a.min_x) + (b.max_x - a.max_x), (b.min_y - a.min_y) + (b.max_y - a.max_y)
     nx, ny = unit(x, y, 1.0, 0.0)
@@ -281,10 +284,10 @@ def boxes_normal(a, b):
 
 @subkernel
 def area_normal(pair, area):
-    """Return (unit direction in A's raster in which a move of B shrinks the shared area fastest, whether it exists).
+    """Return (nx, ny, whether it exists): the direction of the move of B that shrinks the shared area fastest.
 
-    pair: SquaresPair; area [px2]: present shared area of the two masks. The direction does not exist if a move changes
-    the area only by rounding.
+    nx, ny: unit vector in A's raster space. The direction does not exist if a move changes the area only by rounding.
+    pair: SquaresPair; area [px2]: present shared area of the two masks.
     """
     before, _, _ = shared_squares(pair, pair.u - 1.0, pair.v)
     behind, _, _ = shared_squares(pair, pair.u + 1.0, pair.v)
@@ -296,7 +299,7 @@ def area_normal(pair, area):
 
 @subkernel
 def depth_of_squares(pair, nx, ny, turn_cosine, turn_sine, most):
-    """Return the length [px] of the move of B along the world normal (nx, ny) that ends the overlap of a SquaresPair.
+    """Return how far [px] B must move along the world normal (nx, ny) to end the overlap of a SquaresPair.
 
     turn_cosine, turn_sine: cosine and sine of A's angle. A result above `most` [px] means that no move up to `most` is
     enough.
@@ -307,11 +310,11 @@ def depth_of_squares(pair, nx, ny, turn_cosine, turn_sine, most):
 
 @subkernel
 def exact_contact(pair, a, b, turn_cosine, turn_sine):
-    """Return (area [px2], point, normal from A to B in the world, separation [px]) of two overlapping masks.
+    """Return (area [px2], x, y, nx, ny, separation [px]) of two overlapping masks.
 
-    pair: SquaresPair of the masks; a, b: their SHAPE rows; turn_cosine, turn_sine: cosine and sine of A's angle. The
-    point is the centroid of the overlap in A's raster. The separation is minus the move along the normal that ends the
-    overlap.
+    x, y: centroid of the overlap in A's raster space. The normal points from A to B in the world. The separation is
+    negative: minus the length of the move along the normal that ends the overlap. pair: SquaresPair of the masks; a, b:
+    their SHAPE rows; turn_cosine, turn_sine: cosine and sine of A's angle.
     """
     area, x, y = shared_squares(pair, pair.u, pair.v)
     slack = slack_of(pair.rasters[pair.frame], pair.rasters[pair.other])
@@ -344,7 +347,7 @@ def tested_aabb(geometry, shape):
 
 @subkernel
 def share_no_area(geometry, a, b):
-    """Return whether the AABBs of two masks (SHAPE rows) do not overlap, so that no pixels can overlap."""
+    """Return whether the AABBs of two masks (SHAPE rows) do not overlap, so that their pixels cannot overlap."""
     left, top, right, bottom = box_as_tested(geometry, a)
     min_x, min_y, max_x, max_y = box_as_tested(geometry, b)
     return left >= max_x or min_x >= right or top >= max_y or min_y >= bottom
@@ -352,9 +355,9 @@ def share_no_area(geometry, a, b):
 
 @subkernel
 def is_first_the_frame(geometry, a, b):
-    """Return whether two masks are tested in A's raster space, and not in B's. a, b: SHAPE rows.
+    """Return whether two masks are tested in A's raster space rather than in B's. a, b: SHAPE rows.
 
-    The space of an unsnapped mask is used; if neither is snapped, the space of the mask with the greater area.
+    The space of the unsnapped mask is used. If neither is snapped, it is the space of the mask with the greater area.
     """
     if a.snap or b.snap:
         return not a.snap

@@ -58,19 +58,22 @@ ALL, NO_SENSORS, SOLIDS, SENSORS = 0, 1, 2, 3
 
 @inlined
 def may_change(a, b):
-    """Return whether a step can change the contact of two BODY rows, because one is active or wakes the other."""
+    """Return whether a step can change the contact of two BODY rows: one of them is active, or wakes the other."""
     return is_active(a) or is_active(b) or wakes(a, b) or wakes(b, a)
 
 
 @inlined
 def is_wanted(which, a, b):
-    """Return whether `which` (ALL, NO_SENSORS, SOLIDS, SENSORS) selects two SHAPE rows by their sensor flags."""
+    """Return whether `which` selects a pair of shapes by their sensor flags.
+
+    The other condition of SOLIDS is not tested. which: ALL, NO_SENSORS, SOLIDS or SENSORS; a, b: SHAPE rows.
+    """
     return which == ALL or (a.sensor or b.sensor) == (which == SENSORS)
 
 
 @subkernel
 def is_asked(which, bodies, a, b):
-    """Return whether `which` (ALL, NO_SENSORS, SOLIDS, SENSORS) selects a pair of SHAPE rows.
+    """Return whether `which` (ALL, NO_SENSORS, SOLIDS or SENSORS) selects a pair of SHAPE rows.
 
     SOLIDS selects a pair only if a step can change its contact, see may_change.
     """
@@ -83,7 +86,7 @@ def is_asked(which, bodies, a, b):
 def collide_boxes(batch, which, manifolds_out, work_inout):
     """Write the contacts of the candidates from their AABBs alone. Return the number of contacts. O(candidates).
 
-    The normal is the axis along which the AABBs overlap least, the point the middle of the overlap. which: ALL,
+    The normal is the axis along which the AABBs overlap least, the point is the middle of the overlap. which: ALL,
     NO_SENSORS, SOLIDS or SENSORS.
     """
     shapes, candidates = batch.shapes, batch.candidates
@@ -124,7 +127,7 @@ WITH_CHILD, DRAWN_PAIRS = NOTHING + 1, NOTHING + 2
 
 @inlined
 def kind_of_pair(low, high):
-    """Return the kind of pair (CIRCLES, POLYGONS, …) of two shapes of the kinds `low` <= `high`."""
+    """Return the kind of pair (CIRCLES, POLYGONS, …) of two shapes whose kinds are `low` and `high`, in this order."""
     if low == CIRCLE and high == CIRCLE:
         return CIRCLES
     # Contacts never move grids and chains, so two of them have no contact.
@@ -141,10 +144,10 @@ def kind_of_pair(low, high):
 
 @inlined
 def as_snapped(kind, a, b):
-    """Return `kind`, the result of kind_of_pair for two SHAPE rows, adapted to how the shapes are tested.
+    """Return the kind of a pair with regard to snapping and one-way surfaces. kind: result of kind_of_pair.
 
-    The result is MASKS_EXACT for two masks of which at least one is not snapped, and SURFACE_ANY for a chain that is
-    the one-way surface of a mask.
+    Two masks of which at least one is not snapped are MASKS_EXACT. A pair with a chain that is the one-way surface of a
+    mask is SURFACE_ANY. All other kinds are unchanged. a, b: SHAPE rows.
     """
     if kind == CHAIN_ANY:
         chain = a if a.kind == CHAIN else b
@@ -156,7 +159,7 @@ def as_snapped(kind, a, b):
 
 @inlined
 def boxes_apart(a, b, margin):
-    """Return whether the boxes of two SHAPE rows are farther apart than a margin [px]."""
+    """Return whether the AABBs of two SHAPE rows are farther apart than `margin` [px] along an axis."""
     return (
         a.min_x - margin > b.max_x
         or b.min_x - margin > a.max_x
@@ -167,7 +170,7 @@ def boxes_apart(a, b, margin):
 
 @inlined
 def kind_asked(bodies, a, b, margin, lookahead, which):
-    """Return the kind of a candidate pair of SHAPE rows; NOTHING: the pair is not tested.
+    """Return the kind of a candidate pair of SHAPE rows; NOTHING if the pair need not be tested.
 
     margin [px], lookahead [s]: see Batch; which: ALL, NO_SENSORS, SOLIDS or SENSORS.
     """
@@ -233,8 +236,9 @@ def classify(batch, which, kinds_out, counts_out, work_inout):
 def remember_ground(batch, previous, memory_out):
     """Find the contacts of the last step of each candidate pair with a tile grid or one-way surface.
 
-    These contacts show which bodies stood on one-way ground. previous: CONTACT rows of the last step, sorted by shape
-    ids like the candidates; memory_out (count, 2): first row in `previous`, number of rows. O(candidates + previous).
+    They show which bodies stood on one-way ground. previous: CONTACT rows of the last step, sorted by shape ids like
+    the candidates; memory_out (count, 2): first row in `previous` and number of rows, for each pair. O(candidates +
+    previous).
     """
     j = 0
     for i in range(batch.count):
@@ -258,10 +262,10 @@ def remember_ground(batch, previous, memory_out):
 
 
 class NarrowPhase:
-    """Narrow phase of one world, with the arrays that are reused between steps.
+    """The narrow phase of one world, with the arrays that are reused between steps.
 
-    full_masks: whether area, normal and depth of pairs of masks are computed, and not only whether they overlap;
-    one_way: whether the world has one-way ground; boxes_only: whether contacts are found from AABBs alone.
+    full_masks: True to compute area, normal and depth of pairs of masks, False to find only whether they overlap.
+    one_way: whether the world has one-way ground. boxes_only: True to find contacts from AABBs alone.
     """
 
     def __init__(self, full_masks: bool, one_way: bool, boxes_only: bool) -> None:
@@ -299,10 +303,10 @@ class NarrowPhase:
     ) -> np.ndarray:
         """Return the CONTACT rows of the candidate pairs, in the order of the candidates.
 
-        The result is a view that the call after the next overwrites. Masks are rasterized first at the poses of their
-        bodies, see physics/shapes/library.py. candidates (n, 2): int64 shape rows; margin [px]: largest gap of a
-        contact; work: counters; which: ALL, NO_SENSORS, SOLIDS or SENSORS; bias [px]: see hulls.collide_hulls;
-        previous: CONTACT rows of the last step, used for one-way ground.
+        The result is a view, which the next call but one overwrites. Masks are rasterized first at the poses of their
+        bodies, see physics/shapes/library.py. candidates (n, 2): int64 row numbers in SHAPE; margin [px]: largest gap
+        of a contact; work: counters of work done; which: ALL, NO_SENSORS, SOLIDS or SENSORS; bias [px]: see
+        hulls.collide_hulls; previous: CONTACT rows of the last step, used for one-way ground.
         """
         self.raw, self.last_raw = self.last_raw, self.raw
         self.ordered, self.last_ordered = self.last_ordered, self.ordered
@@ -337,10 +341,10 @@ class NarrowPhase:
         return self.raw[:found]  # self.raw is a new, larger table if the old one was too small
 
     def complete(self, batch: Batch, previous: np.ndarray | None, recycled: int, work: np.ndarray) -> np.ndarray:
-        """Test all pairs that `classify` has selected. Return the manifolds in the order of the candidates.
+        """Test all pairs that `classify` has selected. Return the contacts in the order of the candidates.
 
-        previous: CONTACT rows of the last step, or None; recycled: number of recycled manifolds that the caller has
-        written to the beginning of self.raw, and that are part of the result.
+        previous: CONTACT rows of the last step, or None; recycled: number of recycled contacts. The caller has written
+        them to the beginning of self.raw, and they are part of the result.
         """
         workspace, counts = self.workspace, self.counts
         if self.one_way and (counts[GRID_ANY] or counts[SURFACE_ANY]):
@@ -364,11 +368,11 @@ class NarrowPhase:
         return self.ordered[:found]
 
     def _detect(self, batch, workspace, previous, counts, recycled, work) -> tuple[int, int]:
-        """Run the passes, and append their manifolds to self.raw after the first `recycled` rows.
+        """Run the passes, and append their contacts to self.raw after the first `recycled` rows.
 
-        Return (number of manifolds including the recycled ones, number of passes made). The fallback counts as a pass
-        if it added a manifold. The manifolds of one pass are in the order of the candidates, so they have to be sorted
-        only after several passes.
+        Return (number of contacts including the recycled ones, number of passes made). The fallback counts as a pass if
+        it added a contact. The contacts of one pass are in the order of the candidates, so that sorting is needed only
+        after several passes.
         """
         used = [run for kind, run in self.passes if counts[kind]]
         if len(workspace.fallback) < batch.count + 1:
@@ -392,7 +396,7 @@ class NarrowPhase:
         return found + len(rest), len(used) + (len(rest) > 0)
 
     def _remember(self, batch, previous):
-        """Return the workspace with the last step's contacts of all pairs that may involve one-way ground."""
+        """Write the contacts of the last step with one-way ground to the workspace, and return it."""
         if len(self.workspace.memory) < batch.count:
             self.workspace = self.workspace._replace(memory=np.zeros((2 * batch.count, 2), np.int64))
         workspace = self.workspace._replace(previous=previous)
@@ -413,15 +417,15 @@ class NarrowPhase:
             self.kinds = np.zeros(2 * count + 1, np.int64)
 
     def _deep_for(self, count) -> np.ndarray:
-        """Return a scratch array of flags for at least `count` manifolds, for drop_opposed."""
+        """Return a scratch array for the flags of at least `count` contacts, for drop_opposed."""
         if len(self.deep) < count:
             self.deep = np.zeros(2 * count, bool)
         return self.deep
 
     def _drop_seams(self, batch, previous, found) -> int:
-        """Drop ghost contacts at seams between flush pieces of ground. Return the number of remaining manifolds.
+        """Drop ghost contacts at seams between flush pieces of ground. Return the number of remaining contacts.
 
-        found: number of manifolds before; previous: CONTACT rows of the last step.
+        found: number of contacts in self.raw before; previous: CONTACT rows of the last step.
         """
         bodies, rows = len(batch.bodies), found + len(previous)
         rows = max(rows, batch.count)
@@ -434,7 +438,7 @@ class NarrowPhase:
     def room_for(self, count: int) -> np.ndarray:
         """Return an array for at least `count` CONTACT rows, to which the caller writes recycled contacts.
 
-        The next call of `complete` receives their number as `recycled`.
+        The caller passes their number to the next call of `complete` as `recycled`.
         """
         self._make_room(count)
         return self.raw
@@ -460,7 +464,7 @@ GRAZE = 1.5  # Batch.graze, in slops; more than the one slop by which a resting 
 
 
 def detect(state: StepState) -> np.ndarray:
-    """Return the CONTACT rows at the present poses, with closing speeds.
+    """Return the CONTACT rows at the present poses, with approach speeds.
 
     Before the call state.contact_rows holds the contacts of the last step. With contact response, pairs with sensors
     are left out, because the stage `sense` tests them at the final poses.
@@ -483,9 +487,10 @@ def detect(state: StepState) -> np.ndarray:
 
 
 def place_swept_contacts(state: StepState, met: np.ndarray) -> None:
-    """Recompute points, normals and separations at the present poses of contacts that a sweep has found.
+    """Compute points, normals and separations of swept contacts again, at the present poses.
 
-    met: CONTACT rows to update; a row stays unchanged if the narrow phase finds no contact with a similar normal.
+    met: CONTACT rows to update in place; a row stays unchanged if the narrow phase finds no contact with a similar
+    normal.
     """
     found = state.workspace.narrow.collide(
         state.library,

@@ -49,7 +49,7 @@ NONE = -1
 
 
 class BodyLists(NamedTuple):
-    """A linked list of row numbers for each body."""
+    """A linked list of row numbers for each body. The meaning of the rows is up to the caller."""
 
     heads: np.ndarray  # (bodies,) int64 first row number of each body, or NONE
     links: np.ndarray  # int64: the row number that follows each row number in its list, or NONE
@@ -57,7 +57,7 @@ class BodyLists(NamedTuple):
 
 @subkernel
 def ground_side(bodies, shapes, manifold):
-    """Return the side of a CONTACT row that is ground touched by a dynamic body: 0 for A, 1 for B, or NONE.
+    """Return on which side of a CONTACT row the ground is that a dynamic body touches: 0 for A, 1 for B, or NONE.
 
     NONE: both bodies or neither are dynamic, or a shape is a mask.
     """
@@ -72,9 +72,9 @@ def ground_side(bodies, shapes, manifold):
 
 @subkernel
 def is_at_corner(shapes, manifold):
-    """Return whether the normal of a contact is not that of a face: it is between two corners, or a corner and a disc.
+    """Return whether a contact is at a corner: between two corners, or between a corner and a disc.
 
-    manifold: CONTACT row.
+    Its normal is then not that of a face. manifold: CONTACT row.
     """
     part = manifold.feature_1 % PART
     disc = shapes[manifold.row_a].kind == CIRCLE or shapes[manifold.row_b].kind == CIRCLE
@@ -85,7 +85,7 @@ def is_at_corner(shapes, manifold):
 def piece_at(batch, row, feature, corners_out):
     """Return the Hull of the piece of ground that a feature id names: a run of tiles, a link, or the whole shape.
 
-    row: row of SHAPE; corners_out (16, 2) receives the corners [px].
+    row: row number in SHAPE; corners_out (16, 2) receives the corners [px].
     """
     geometry = batch.geometry
     s = batch.shapes[row]
@@ -132,7 +132,7 @@ def may_be_seam(batch, side, manifold, corners_out):
 
 @subkernel
 def highest_within(hull, nx, ny, low, high):
-    """Return the greatest coordinate [px] along (nx, ny) of a Hull within a strip; -inf for a Hull outside the strip.
+    """Return the greatest coordinate [px] along (nx, ny) of the part of a Hull within a strip; -inf if it is outside.
 
     The strip is the interval low..high [px] along (-ny, nx).
     """
@@ -178,10 +178,10 @@ def distance_to_hull(hull, x, y):
 
 @subkernel
 def is_behind_plane(batch, seam, support, workspace):
-    """Return whether the piece of ground touched in contact `seam` lies behind the contact plane of `support`.
+    """Return whether the piece of ground in contact `seam` lies behind the contact plane of contact `support`.
 
-    Near the body, the piece may rise above the plane by batch.graze. seam, support: CONTACT rows of one dynamic body
-    with two pieces of ground.
+    Near the body, the piece may rise above the plane by batch.graze. seam, support: CONTACT rows of the same dynamic
+    body with two pieces of ground.
     """
     shapes = batch.shapes
     side = ground_side(batch.bodies, shapes, seam)
@@ -219,9 +219,10 @@ def is_behind_plane(batch, seam, support, workspace):
 
 @subkernel
 def is_on_piece(batch, row, x, y, own_part, workspace):
-    """Return whether the point (x, y) is on a ground shape, or within batch.graze of the shape.
+    """Return whether the point (x, y) is on a shape of the ground, or within batch.graze of it.
 
-    row: row of SHAPE; own_part: a part of the shape to ignore (index of a run's first cell, or of a link), or NONE.
+    row: row number in SHAPE; own_part: a part of the shape to ignore (index of a link, or of a run's first cell), or
+    NONE.
     """
     geometry = batch.geometry
     near = batch.graze
@@ -266,7 +267,7 @@ def is_covered(batch, seam, first, others, workspace):
     """Return whether each touching point of a contact also lies on another piece of ground.
 
     seam: CONTACT row of a dynamic body. first, others: linked list of this body's candidate pairs with ground: index of
-    the first pair, and for each pair the index of the next.
+    the first pair, and array with the index of the next pair for each pair.
     """
     shapes = batch.shapes
     side = ground_side(batch.bodies, shapes, seam)
@@ -294,9 +295,9 @@ def is_covered(batch, seam, first, others, workspace):
 
 @subkernel
 def list_ground(batch, lists_out):
-    """Write for each dynamic body the list of its candidate pairs with ground (bodies that are not dynamic).
+    """Write for each dynamic body the linked list of its candidate pairs with ground (bodies that are not dynamic).
 
-    O(candidates).
+    lists_out: BodyLists of candidate indices. O(bodies + candidates).
     """
     for row in range(len(batch.bodies)):
         lists_out.heads[row] = NONE
@@ -312,7 +313,7 @@ def list_ground(batch, lists_out):
 
 @kernel
 def has_seams(batch, manifolds, count, workspace):
-    """Return whether any of the first `count` manifolds may be a contact at a seam. O(manifolds)."""
+    """Return whether one of the first `count` CONTACT rows may be at a seam, see may_be_seam. O(contacts)."""
     for i in range(count):
         side = ground_side(batch.bodies, batch.shapes, manifolds[i])
         if side != NONE and may_be_seam(batch, side, manifolds[i], workspace.a):
@@ -322,7 +323,7 @@ def has_seams(batch, manifolds, count, workspace):
 
 @subkernel
 def is_recycled(batch, contact):
-    """Return whether a CONTACT row of the last step belongs to a candidate that is not tested again in this step."""
+    """Return whether a CONTACT row of the last step is recycled: its candidate pair is not tested in this step."""
     pair = contact.candidate
     if pair < 0 or pair >= batch.count or batch.kinds[pair] != NOTHING:
         return False
@@ -335,7 +336,7 @@ def is_recycled(batch, contact):
 
 @subkernel
 def link_contact(batch, contact, place, lists_inout):
-    """Add `place`, the number of a CONTACT row, to the list of its dynamic body if the contact is with ground."""
+    """Add a contact with ground to the linked list of its dynamic body. place: number that is listed for it."""
     side = ground_side(batch.bodies, batch.shapes, contact)
     if side != NONE:
         row = contact.body_row_b if side == 0 else contact.body_row_a
@@ -345,11 +346,11 @@ def link_contact(batch, contact, place, lists_inout):
 
 @kernel
 def drop_seams(batch, previous, count, workspace, contacts_out, ground_out, manifolds_inout):
-    """Drop the contacts of dynamic bodies at seams between pieces of ground. Return the number of remaining manifolds.
+    """Drop the contacts of dynamic bodies at seams between pieces of ground. Return the number of remaining contacts.
 
-    manifolds_inout: CONTACT rows, `count` in use, whose order is kept; previous: CONTACT rows of the last step, of
-    which the recycled rows count as supports. contacts_out, ground_out: scratch, BodyLists for contacts and candidates.
-    O(manifolds · manifolds of a body).
+    manifolds_inout: CONTACT rows, of which the first `count` are in use and keep their order. previous: CONTACT rows of
+    the last step, of which the recycled ones also count as supporting contacts. contacts_out, ground_out: scratch,
+    BodyLists for contacts and candidates. O(contacts · contacts of a body).
     """
     bodies = batch.bodies
     shapes = batch.shapes

@@ -1,4 +1,4 @@
-"""Collision of tile grids with other shapes; equal adjacent tiles in a row are one rectangle (a run)."""
+"""Collision of tile grids with other shapes. Equal adjacent tiles in a row are tested as one rectangle, a run."""
 
 import math
 from typing import Any
@@ -41,7 +41,7 @@ from physics.tables.step_state import MASK_TESTS
 def is_covered(grids, cells, grid, row, column, from_row, from_column):
     """Return whether the cell at (row, column) covers the edge that it shares with the cell (from_row, from_column).
 
-    grids, cells: tables of the geometry; grid: row of GRID.
+    grids, cells: GRID and CELL tables of the geometry; grid: row number in `grids`.
     """
     g = grids[grid]
     if row < 0 or row >= g.rows or column < 0 or column >= g.columns:
@@ -65,8 +65,8 @@ def is_covered(grids, cells, grid, row, column, from_row, from_column):
 def bends_down(grids, cells, grid, row, column, side):
     """Return whether the ground bends down between a tile and the tile beside it, so that the corner is exposed.
 
-    grids, cells: tables of the geometry; grid: row of GRID; row, column: the tile; side: -1 for the left neighbour, 1
-    for the right neighbour.
+    grids, cells: GRID and CELL tables of the geometry; grid: row number in `grids`; row, column: the tile; side: -1 for
+    the left neighbour, 1 for the right neighbour.
     """
     g = grids[grid]
     other = column + side
@@ -88,12 +88,12 @@ def corners_between(edges, count):
 
 @inlined
 def run_at(geometry, grid, x, y, row, column, under, corners_out):
-    """Write the world corners [px] of the run of solid or one-way cells that contains a cell.
+    """Write the world corners [px] of the run of solid or one-way cells that contains the cell (row, column).
 
-    The run is one rectangle, without seams between its cells. grid: row of GRID; x, y [px]: the grid's origin; row,
-    column: the cell; under: first and last column under the other shape. The top (bottom) edge is touchable if a cell
-    within these columns has no neighbour above (below) that covers the edge. Return (number of corners, bits of
-    touchable edges and corners, see tile_at).
+    The run is one rectangle, without seams between its cells. Return (number of corners, bits of touchable edges and
+    corners, see tile_at). The top (bottom) edge is touchable if some cell of the run, within the columns `under`, has
+    no neighbour above (below) that covers the edge. grid: row number in GRID; x, y [px]: the grid's origin; under:
+    first and last column under the other shape.
     """
     grids, cells = geometry.grids, geometry.cells
     low, high = under
@@ -128,9 +128,9 @@ def run_at(geometry, grid, x, y, row, column, under, corners_out):
 def tile_at(geometry, grid, x, y, row, column, corners_out):
     """Write the world corners [px] of a tile, clockwise on the screen from the top left.
 
-    A slope has three or four corners. grid: row of GRID; x, y [px]: the grid's origin; corners_out (16, 2). Return
-    (number of corners, bits): the low 16 bits are the touchable edges (not covered by a neighbour), the next 16 bits
-    the touchable corners. A corner at a covered edge is touchable where the ground bends down. If all edges are
+    A slope has three or four corners. grid: row number in GRID; x, y [px]: the grid's origin; corners_out (16, 2).
+    Return (number of corners, bits): the low 16 bits are the touchable edges (not covered by a neighbour), the next 16
+    bits the touchable corners. A corner at a covered edge is touchable where the ground bends down. If all edges are
     covered, all are touchable, so that a body inside the tile is pushed out.
     """
     grids, cells = geometry.grids, geometry.cells
@@ -192,10 +192,10 @@ def tile_at(geometry, grid, x, y, row, column, corners_out):
 
 @subkernel
 def pushing_edges_on_tile(corners, count, tile_edges):
-    """Return the bits of the edges of a polygon whose normals may push the polygon out of a tile.
+    """Return bits of the edges of a polygon whose normals may push the polygon out of a tile.
 
-    An edge that would push it out through a covered side of the tile is left out. tile_edges: bits returned by tile_at
-    for a tile of four corners (surface, right, bottom, left).
+    An edge is left out if it would push through a covered side of the tile. tile_edges: bits returned by tile_at for a
+    tile of four corners (surface, right, bottom, left).
     """
     if (tile_edges & 15) == 15:
         return ALL_EDGES
