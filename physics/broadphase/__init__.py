@@ -1,1 +1,1 @@
-"""The broad phases: pairs of shapes whose boxes overlap."""
+"""The broad phases: they find the pairs of shapes whose boxes overlap."""

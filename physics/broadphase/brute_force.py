@@ -1,6 +1,7 @@
 """Brute force: every changed proxy against every other proxy. The baseline of all measurements.
 
-Exact, no state, O(changed · n). Best for a few dozen bodies; the reference in tests of the other strategies.
+Exact, without state between steps, O(changed · n). Best for a few dozen bodies, and the reference with which tests
+compare the other strategies.
 """
 
 import numpy as np
@@ -16,7 +17,8 @@ from physics.tables.step_state import PAIRS_TESTED
 def find_all(proxies, changed, pairs_out, work_inout):
     """List the overlapping pairs that contain a changed proxy. Return their number. O(changed · n).
 
-    proxies: PROXY rows, where a free slot has row -1; changed: slots of the changed proxies.
+    proxies: PROXY table, in which free slots have row -1; changed: slots of the changed proxies; pairs_out (capacity,
+    2) int32: pairs of slots; work_inout: counters, see COUNTERS.
     """
     found = 0
     for i in range(len(changed)):
@@ -34,10 +36,10 @@ def find_all(proxies, changed, pairs_out, work_inout):
 
 @kernel
 def near_in_all(proxies, box, slots_out, work_inout):
-    """Find the proxies whose boxes overlap `box`, by comparing all of them. Return their number. O(n).
+    """Write the slots of the proxies whose boxes overlap `box` to slots_out. Return their number. O(n).
 
-    proxies: PROXY rows, where a free slot has row -1; box [px]: lower x, y, upper x, y; slots_out: their slots;
-    work_inout: counters of tests.
+    proxies: PROXY table, in which free slots have row -1; box [px]: lower x, y, upper x, y; work_inout: counters, see
+    COUNTERS.
     """
     found = 0
     for slot in range(len(proxies)):
@@ -54,8 +56,9 @@ def near_in_all(proxies, box, slots_out, work_inout):
 class BruteForce:
     """Broad phase that tests all pairs: O(n²) in the first step, O(moved · n) in later steps.
 
-    incremental: False tests all n (n - 1) / 2 pairs in every step, as "brute force" means in papers; the pairs found
-    are the same. Raises TypeError for a value that is not a bool.
+    incremental: whether to keep the pairs of proxies that have not changed since the last step. False tests all n (n -
+    1) / 2 pairs in every step, as "brute force" means in papers, and finds the same pairs. Raises TypeError for a value
+    that is not a bool.
     """
 
     name = "brute"
@@ -81,13 +84,13 @@ class BruteForce:
     def query(self, arena: Arena) -> Query:
         """Return a function (pairs, work) -> count, which writes the pairs with a changed proxy to `pairs`.
 
-        arena: see Arena; work: counters of tests.
+        arena: the proxies, and which have changed; pairs (capacity, 2) int32: slots; work: counters, see COUNTERS.
         """
         return lambda pairs, work: find_all(arena.proxies, arena.changed, pairs, work)
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
         """Find the proxies whose boxes overlap `box`. Write their slots to `slots`, and return their number.
 
-        proxies: PROXY rows; box [px]: lower x, y, upper x, y; work: counters of tests.
+        proxies: PROXY table; box [px]: lower x, y, upper x, y; work: counters, see COUNTERS.
         """
         return near_in_all(proxies, box, slots, work)

@@ -1,10 +1,11 @@
 """Two dynamic bounding volume hierarchies with AVL balance, one for static proxies and one for moving proxies.
 
-A leaf holds a box with a margin (fat box): a proxy that moves within its fat box costs one comparison. Insertion
-descends by the surface area heuristic to a leaf or the parent of a leaf. Single rotations then restore the AVL balance
-on the way up. Children have no order, so a single rotation always suffices, and the height is at most 1.45·log2(n) + 2.
-If most proxies of a tree change in one step, the tree is rebuilt by median splits. Source: Catto, Dynamic Bounding
-Volume Hierarchies, GDC 2019; Adelson-Velsky and Landis 1962. O(moved · log n). Suits many static and few moving bodies.
+A leaf holds the box of a proxy enlarged by a margin (fat box). A proxy that moves within its fat box costs one
+comparison. Insertion descends by the surface area heuristic to a leaf or the parent of a leaf. Single rotations then
+restore the AVL balance on the way up. Children have no order, so a single rotation always suffices, and the height is
+at most 1.45·log2(n) + 2. If most proxies of a tree change in one step, the tree is rebuilt by median splits. Source:
+Catto, Dynamic Bounding Volume Hierarchies, GDC 2019; Adelson-Velsky and Landis 1962. O(moved · log n). Suits many
+static and few moving bodies.
 """
 
 import numpy as np
@@ -46,7 +47,10 @@ FREE, USED, ROOT_MOVING, ROOT_STILL = range(4)  # indices into the state array
 
 @subkernel
 def joined_outline(nodes, a, b):
-    """Return half the perimeter [px] of the box around two nodes: the surface area heuristic in two dimensions."""
+    """Return half the perimeter [px] of the box around two nodes: the cost in the surface area heuristic in 2D.
+
+    a, b: indices of the nodes.
+    """
     p, q = nodes[a], nodes[b]
     return (max(p.upper_x, q.upper_x) - min(p.lower_x, q.lower_x)) + (
         max(p.upper_y, q.upper_y) - min(p.lower_y, q.lower_y)
@@ -55,7 +59,7 @@ def joined_outline(nodes, a, b):
 
 @subkernel
 def refit(index, nodes_inout):
-    """Write the box and the height of the node `index` from the boxes and heights of its children."""
+    """Write the box and the height of node number `index` from the boxes and heights of its children."""
     n = nodes_inout[index]
     p, q = nodes_inout[n.child_a], nodes_inout[n.child_b]
     n.lower_x, n.lower_y = min(p.lower_x, q.lower_x), min(p.lower_y, q.lower_y)
@@ -67,7 +71,7 @@ def refit(index, nodes_inout):
 def replace_child(parent, old, new, root, nodes_inout, state_inout):
     """Put the node `new` in the place of the node `old`: as a child of `parent`, or as the root if `parent` is -1.
 
-    root: index of the root in state_inout, ROOT_MOVING or ROOT_STILL.
+    All three are indices of nodes. root: index of the root in state_inout, ROOT_MOVING or ROOT_STILL.
     """
     nodes_inout[new].parent = parent
     if parent < 0:
@@ -114,10 +118,9 @@ def rotate(index, root, nodes_inout, state_inout):
 
 @subkernel
 def swap_pays(upper, lower_parent, lower, nodes):
-    """Return the perimeter [px] that is saved by swapping a child of a node with a child of its sibling.
+    """Return half the perimeter [px] by which lower_parent's box shrinks if the nodes `upper` and `lower` are swapped.
 
-    upper: the child of the node; lower_parent: the sibling; lower: the child of the sibling. Return 0 if the swap would
-    violate the AVL balance.
+    lower_parent: sibling of `upper` and parent of `lower`. The result is 0 if the swap would violate the AVL balance.
     """
     q = nodes[lower_parent]
     other = q.child_b if q.child_a == lower else q.child_a
@@ -132,9 +135,9 @@ def swap_pays(upper, lower_parent, lower, nodes):
 
 @subkernel
 def improve(index, nodes_inout):
-    """Swap a child of one node with a child of its sibling if that shrinks the sibling's box and keeps the AVL balance.
+    """Swap a child of a node with a grandchild below its other child, if that shrinks boxes and keeps the AVL balance.
 
-    index: the parent of these two nodes. Source: Catto, GDC 2019, after Kopta et al. 2012, with the balance test added.
+    index: the node. Source: Catto, GDC 2019, after Kopta et al. 2012, with the balance test added.
     """
     n = nodes_inout[index]
     best = 0.0
@@ -173,9 +176,9 @@ def improve(index, nodes_inout):
 
 @subkernel
 def repair_upward(index, root, nodes_inout, state_inout, work_inout):
-    """Refit, balance and improve all nodes from `index` up to the root. O(height).
+    """Refit, balance and improve all nodes from number `index` up to the root. O(height).
 
-    root: index of the root in state_inout, ROOT_MOVING or ROOT_STILL; work_inout: counters.
+    root: index of the root in state_inout, ROOT_MOVING or ROOT_STILL; work_inout: counters, see COUNTERS.
     """
     while index >= 0:
         work_inout[NODES_VISITED] += 1
@@ -187,7 +190,10 @@ def repair_upward(index, root, nodes_inout, state_inout, work_inout):
 
 @subkernel
 def take_node(nodes_inout, state_inout):
-    """Remove a node from the list of free nodes. Return its index. The caller ensures that there is a free node."""
+    """Take a node from the list of free nodes, or the next unused node. Return its index.
+
+    The caller ensures that there is one.
+    """
     index = state_inout[FREE]
     if index >= 0:
         state_inout[FREE] = nodes_inout[index].parent
@@ -258,8 +264,8 @@ def remove_leaf(leaf, nodes_inout, state_inout, work_inout):
 def select_median(along, first, last, middle, leaves_inout):
     """Reorder leaves first..last so that position `middle` holds the leaf that would be there after sorting by `along`.
 
-    Leaves before this position have smaller or equal values. along: coordinate of each leaf; leaves_inout: indices of
-    leaves. Source: quickselect, Hoare 1961.
+    Leaves before this position then have smaller or equal values, leaves after it greater or equal ones. along:
+    coordinate of each leaf; leaves_inout: indices of leaves. Source: quickselect, Hoare 1961.
     """
     low, high = first, last
     while low < high:
@@ -300,8 +306,8 @@ def spread(along, leaves, first, last):
 def rebuild(leaf_of, still, leaves_out, spans_out, twice_x_out, twice_y_out, nodes_inout, state_inout):
     """Rebuild the tree of the static leaves (still 1) or of the moving leaves (still 0) by median splits. O(n log n).
 
-    The inner nodes of the old tree are freed first. leaf_of (slots): leaf of each proxy, or -1. Scratch: leaves_out
-    (slots); spans_out (slots, 4); twice_x_out, twice_y_out (nodes): twice the centre of each leaf's box [px].
+    The inner nodes of the old tree are freed first. leaf_of (slots,): node of each proxy, or -1. Scratch: leaves_out
+    (slots,); spans_out (slots, 4); twice_x_out, twice_y_out (nodes,): twice the centre of each leaf's box [px].
     """
     root = ROOT_STILL if still == 1 else ROOT_MOVING
     count = 0
@@ -384,7 +390,8 @@ def find_pairs_in_trees(proxies, changed, nodes, state, stack_inout, pairs_out, 
     """List the overlapping pairs that contain a changed proxy. Return their number. O(changed · log n + pairs).
 
     Both trees are searched with the box of each changed proxy. changed: slots of the changed proxies; state: see
-    place_changed; stack_inout: scratch; work_inout: counters.
+    place_changed; stack_inout: scratch; pairs_out (capacity, 2) int32: pairs of slots; work_inout: counters, see
+    COUNTERS.
     """
     found = 0
     for i in range(len(changed)):
@@ -418,10 +425,10 @@ def find_pairs_in_trees(proxies, changed, nodes, state, stack_inout, pairs_out, 
 
 @kernel
 def query_trees(nodes, roots, box, stack_inout, slots_out, work_inout):
-    """Find the leaves of both trees whose boxes overlap `box`. Return their number. O(log n + found).
+    """Find the leaves of both trees whose fat boxes overlap `box`. Return their number. O(log n + found).
 
-    roots: the root nodes of the trees, -1: empty tree; box [px]: lower x, y, upper x, y; stack_inout: scratch;
-    slots_out: slots of the leaves; work_inout: counters.
+    roots: the root nodes of the trees, -1 for an empty tree; box [px]: lower x, y, upper x, y; stack_inout: scratch;
+    slots_out: slots of the leaves' proxies; work_inout: counters, see COUNTERS.
     """
     found = 0
     depth = 0
@@ -454,9 +461,10 @@ def place_changed(proxies, changed, margins, loose, leaf_of_inout, nodes_inout, 
     """Insert, remove, or move the leaves of the changed proxies. Return the number of leaves changed. O(moved · log n).
 
     A leaf is not moved while its proxy is within the leaf's fat box. changed: slots of the changed proxies. margins:
-    margin of a leaf in px, and as a share of the box's size; the smaller of the two is used. loose: two flags, for the
-    moving and the static tree: 1 if the tree is rebuilt next, so that its leaves need not be linked or unlinked.
-    leaf_of_inout (slots): leaf of each proxy, or -1. state_inout: first free node, number of used nodes, both roots.
+    margin of a fat box in px, and as a share of the box's size; the smaller of the two is used. loose: one flag each
+    for the moving and the static tree, 1 if the caller rebuilds this tree next, so that leaves need not be linked or
+    unlinked here. leaf_of_inout (slots,): node of each proxy, or -1. state_inout: first free node, number of used
+    nodes, both roots.
     """
     moved = 0
     for i in range(len(changed)):
@@ -543,7 +551,7 @@ class DynamicTree:
         return DynamicTree(self.width, self.margin)
 
     def update(self, arena: Arena) -> None:
-        """Move the leaves of the changed proxies that left their fat boxes."""
+        """Insert or remove leaves, and move the leaves of changed proxies that left their fat boxes."""
         if len(self.leaf_of) < len(arena.proxies):
             slots = max(len(arena.proxies), 2 * len(self.leaf_of))
             self.leaf_of = np.concatenate([self.leaf_of, np.full(slots - len(self.leaf_of), -1, np.int64)])
@@ -570,7 +578,7 @@ class DynamicTree:
                 rebuild(self.leaf_of, still, self.leaves, self.spans, *self.twice, self.nodes, self.state)
 
     def _rebuilds(self, arena):
-        """Return two flags, for the moving and the static tree: 1 if it is to be rebuilt.
+        """Return which trees are to be rebuilt: two flags, for the moving and the static tree.
 
         A tree is rebuilt if most of its proxies have changed. Then a rebuild costs less than moving each leaf, and
         gives a better tree.
@@ -583,7 +591,7 @@ class DynamicTree:
     def query(self, arena: Arena) -> Query:
         """Return a function (pairs, work) -> count, which writes the pairs with a changed proxy to `pairs`.
 
-        arena: see Arena; work: counters of tests.
+        arena: the proxies, and which have changed; pairs (capacity, 2) int32: slots; work: counters, see COUNTERS.
         """
         proxies, changed = arena.proxies, arena.changed
         return lambda pairs, work: find_pairs_in_trees(
@@ -594,7 +602,7 @@ class DynamicTree:
         """Find the proxies whose boxes overlap `box`. Write their slots to `slots`, and return their number.
 
         The fat boxes of the tree are compared, so proxies up to a margin away may also be found. proxies: unused; box
-        [px]: lower x, y, upper x, y; work: counters of tests.
+        [px]: lower x, y, upper x, y; work: counters, see COUNTERS.
         """
         roots = self.state[ROOT_MOVING:]
         return query_trees(self.nodes, roots, box, self.stack, slots, work)
@@ -605,7 +613,7 @@ class DynamicTree:
         return max(int(self.nodes[root]["height"]) if root >= 0 else -1 for root in self.state[ROOT_MOVING:])
 
     def boxes(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return all nodes for drawing: their boxes (m, 4) [px], and their depths (m,) below the root of their tree."""
+        """Return all nodes for drawing: (boxes (m, 4) [px], depths (m,) below the root of their tree)."""
         found, depths = [], []
         for root in self.state[ROOT_MOVING:].tolist():
             todo = [(root, 0)] if root >= 0 else []

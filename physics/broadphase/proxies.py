@@ -1,4 +1,4 @@
-"""Proxies, the boxes that every broad phase compares, the swept AABBs in them, and the list of overlapping pairs."""
+"""Proxies, the boxes that every broad phase compares; the swept AABBs in them; and the list of overlapping pairs."""
 
 from collections.abc import Callable
 from typing import NamedTuple, Protocol
@@ -35,9 +35,9 @@ Query = Callable[[np.ndarray, np.ndarray], int]  # (pairs, work) -> number of pa
 
 @subkernel
 def overlaps(proxies, a, b, work_inout):
-    """Return whether two proxies may pair: their closed boxes touch and their filters agree.
+    """Return whether two proxies may pair: their closed boxes touch and may_meet allows the pair.
 
-    proxies: PROXY rows, boxes in px; a, b: slots; work_inout: counters. O(1).
+    proxies: PROXY table; a, b: slots; work_inout: counters, see COUNTERS. O(1).
     """
     p, q = proxies[a], proxies[b]
     work_inout[PAIRS_TESTED] += 1
@@ -52,7 +52,7 @@ def may_meet(proxies, a, b, work_inout):
 
     Excluded are pairs of two static proxies, of two sleeping proxies, of two proxies of one body, of proxies whose
     `plane` and `avoids` exclude each other, and pairs that a filter excludes. The last are counted in work_inout
-    (FILTERED). proxies: PROXY rows; a, b: slots.
+    (FILTERED). proxies: PROXY table; a, b: slots.
     """
     p, q = proxies[a], proxies[b]
     if (p.still and q.still) or p.body == q.body or not (p.awake or q.awake) or (p.plane & q.avoids) != 0:
@@ -65,18 +65,18 @@ def may_meet(proxies, a, b, work_inout):
 
 @subkernel
 def meets_box(row, box):
-    """Return whether the closed box of a row meets the closed box `box` (lower x, y, upper x, y) [px].
+    """Return whether the closed box of `row` touches the closed box `box` (lower x, y, upper x, y) [px].
 
-    row: a record with lower_x, lower_y, upper_x, upper_y.
+    row: a PROXY row, or another record with lower_x, lower_y, upper_x, upper_y.
     """
     return row.lower_x <= box[2] and row.upper_x >= box[0] and row.lower_y <= box[3] and row.upper_y >= box[1]
 
 
 @subkernel
 def write_pair(a, b, found, pairs_out):
-    """Write the pair of slots a, b to row `found` if the array has capacity. Return found + 1. O(1).
+    """Write the pair of slots a, b to row `found` of pairs_out, if it has this row. Return found + 1. O(1).
 
-    pairs_out (capacity, 2) int32. If the number of pairs exceeds the capacity, the caller enlarges the array and
+    pairs_out (capacity, 2) int32. If the returned number exceeds the capacity, the caller enlarges the array and
     repeats the search.
     """
     if found < pairs_out.shape[0]:
@@ -86,7 +86,7 @@ def write_pair(a, b, found, pairs_out):
 
 
 class Arena:
-    """The data of a broad-phase update: proxies, slots of the changed proxies, the array for pairs, and counters."""
+    """The data of one broad-phase update: proxies, slots of the changed ones, the array for pairs, and counters."""
 
     def __init__(self) -> None:
         self.proxies = np.zeros(0, PROXY)
@@ -97,8 +97,8 @@ class Arena:
     def collect(self, query: Query) -> int:
         """Run query(pairs, work) -> count, and repeat it with a larger array if the pairs did not fit.
 
-        Return the count. query: result of Strategy.query, which writes pairs to the array and returns their number,
-        even if they do not fit.
+        query: result of Strategy.query. It writes pairs to the array and returns their number, even if they do not fit.
+        Return the count.
         """
         work = self.work.copy()
         count = query(self.pairs, self.work)
@@ -110,13 +110,13 @@ class Arena:
 
 
 class Strategy(Protocol):
-    """A broad phase: BruteForce, SweepAndPrune, SpatialHashGrid or DynamicTree."""
+    """The interface of a broad phase: BruteForce, SweepAndPrune, SpatialHashGrid or DynamicTree."""
 
     name: str
     incremental: bool  # whether the pairs of unchanged proxies are kept from the last step
 
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
-        """Return the pairs of touching closed boxes: (m, 2) int32, sorted, each as indices a < b.
+        """Return the pairs of n closed boxes that touch: (m, 2) int32, sorted, each as indices a < b.
 
         lower, upper (n, 2) [px]: corners of the boxes. Raises TypeError for values that are not numbers, ValueError for
         a wrong shape, NaN, and lower > upper.
@@ -128,29 +128,29 @@ class Strategy(Protocol):
         ...
 
     def update(self, arena: Arena) -> None:
-        """Update the data structure with the proxies that changed. arena: proxies and slots of the changed ones."""
+        """Update the data structure with the proxies in the slots arena.changed."""
         ...
 
     def query(self, arena: Arena) -> Query:
         """Return a function (pairs, work) -> count, which writes the pairs with a changed proxy to `pairs`.
 
-        arena: see Arena; work: counters of tests.
+        arena: the proxies, and which have changed; pairs (capacity, 2) int32: slots; work: counters, see COUNTERS.
         """
         ...
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
         """Find the proxies whose boxes overlap `box`. Write their slots to `slots`, and return their number.
 
-        proxies: PROXY rows; box [px]: lower x, y, upper x, y; slots: array with room for all proxies; work: counters of
-        tests. A strategy may also find proxies that are near the box.
+        proxies: PROXY table; box [px]: lower x, y, upper x, y; slots: array with room for all proxies; work: counters,
+        see COUNTERS. Proxies that are only near the box may also be found.
         """
         ...
 
 
 def find_pairs(strategy: Strategy, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
-    """Return all pairs of closed boxes that touch: (m, 2) int32, a < b, sorted, each pair once.
+    """Return the pairs of n closed boxes that touch, found by a new broad phase: (m, 2) int32, a < b, sorted.
 
-    strategy: a broad phase without state; lower, upper (n, 2) [px]: corners of the boxes. Raises TypeError for values
+    strategy: a broad phase without proxies; lower, upper (n, 2) [px]: corners of the boxes. Raises TypeError for values
     that are not numbers, ValueError for a wrong shape, NaN, and lower > upper.
     """
     lower, upper = _corners("lower", lower), _corners("upper", upper)
@@ -193,7 +193,10 @@ def _corners(name, value):
 
 @kernel
 def tell_rows(shapes, proxies_inout):
-    """Write the rows of shapes in SHAPE to their proxies; shapes without a swept AABB are skipped. O(shapes)."""
+    """Write the SHAPE row number of each shape to its proxy, after rows have moved. O(shapes).
+
+    Shapes without a proxy, or whose proxy has no swept AABB yet, are skipped.
+    """
     for k in range(len(shapes)):
         slot = shapes[k].proxy
         if slot >= 0 and proxies_inout[slot].row >= 0:
@@ -201,9 +204,9 @@ def tell_rows(shapes, proxies_inout):
 
 
 def write_states(proxies: np.ndarray, states_out: np.ndarray) -> None:
-    """Write to states_out, for each proxy, 2 if it is changed plus 1 if it is awake. O(proxies).
+    """Write the state of each proxy to states_out: 2 if it is changed, plus 1 if it is awake. O(proxies).
 
-    The result is a compact array, because keep_pairs reads it for every pair.
+    A separate small array is used because keep_pairs reads it for every pair.
     """
     np.left_shift(proxies["changed"].view(np.int8), 1, out=states_out)
     states_out |= proxies["awake"].view(np.int8)
@@ -211,11 +214,11 @@ def write_states(proxies: np.ndarray, states_out: np.ndarray) -> None:
 
 @kernel
 def keep_pairs(states, old, old_rows, old_count, kept_out, rows_out):
-    """Copy the pairs that have no changed or freed proxy and at least one awake proxy, in their order. O(pairs).
+    """Copy the pairs without a changed or freed proxy and with at least one awake proxy, in their order. O(pairs).
 
-    states (proxies,) int8: result of write_states; old, kept_out (capacity, 2) int32: slots; old_rows, rows_out
-    (capacity, 2) int64: shape rows of these slots; old_count: number of old pairs. The loop has no branch, because a
-    branch would be mispredicted. Return the number of kept pairs.
+    Return their number. states (proxies,) int8: result of write_states; old, kept_out (capacity, 2) int32: slots;
+    old_rows, rows_out (capacity, 2) int64: row numbers in SHAPE of these slots; old_count: number of old pairs. The
+    loop has no branch, because a branch would be mispredicted.
     """
     kept = 0
     for i in range(old_count):
@@ -231,9 +234,10 @@ def keep_pairs(states, old, old_rows, old_count, kept_out, rows_out):
 
 @kernel
 def drop_apart(proxies, count, apart, pairs_inout, work_inout):
-    """Drop the pairs of slots whose bodies never pair. Return the number of remaining pairs. O(pairs log apart).
+    """Drop the pairs of slots whose bodies must never pair. Return the number of remaining pairs. O(pairs log apart).
 
-    apart: see PairList.keep_apart; pairs_inout (capacity, 2) int32: slots, `count` pairs of them; work_inout: counters.
+    apart: keys of the pairs of bodies, see PairList.keep_apart; pairs_inout (capacity, 2) int32: slots, of which the
+    first `count` pairs are in use; work_inout: counters, see COUNTERS.
     """
     kept = 0
     for i in range(count):
@@ -257,9 +261,10 @@ def drop_apart(proxies, count, apart, pairs_inout, work_inout):
 
 @kernel
 def pair_keys(proxies, pairs, count, pairs_inout, keys_out):
-    """Order each of `count` pairs by shape row, and write a key that sorts the pairs by both rows. O(pairs).
+    """Put the slot with the lower SHAPE row first in each pair, and write the key by which pairs are sorted. O(pairs).
 
-    pairs, pairs_inout: the same (capacity, 2) int32 array of slots; keys_out int64: low row << 32 | high row.
+    pairs, pairs_inout: the same (capacity, 2) int32 array of slots, of which the first `count` are in use; keys_out
+    int64: low row << 32 | high row.
     """
     for i in range(count):
         a = pairs[i, 0]
@@ -274,11 +279,11 @@ def pair_keys(proxies, pairs, count, pairs_inout, keys_out):
 
 @kernel
 def merge_pairs(shapes, kept, kept_rows, kept_count, keys, new_count, pairs_out, candidates_out):
-    """Merge the kept pairs with the new pairs, in the order of their shape rows. O(pairs).
+    """Merge the kept pairs with the new pairs, in the order of their SHAPE rows. O(pairs).
 
-    shapes: SHAPE rows; kept (n, 2): slots of the kept pairs, kept_rows: their shape rows, kept_count: their number;
-    keys int64, new_count of them: sorted keys (low row << 32 | high row) of the new pairs; pairs_out (capacity, 2)
-    int32: slots; candidates_out (capacity, 2) int64: shape rows.
+    kept, kept_rows (n, 2): slots and SHAPE row numbers of the kept pairs; kept_count: their number. keys int64: sorted
+    keys (low row << 32 | high row) of the new pairs; new_count: their number. pairs_out (capacity, 2) int32: slots;
+    candidates_out (capacity, 2) int64: row numbers in SHAPE.
     """
     i = 0
     at = 0
@@ -318,7 +323,7 @@ def mark_settled(changed, proxies_inout):
 
 
 class Reach(NamedTuple):
-    """The parameters of swept AABBs."""
+    """The parameters from which swept AABBs are computed."""
 
     gravity_x: float  # [px/s2]
     gravity_y: float
@@ -331,10 +336,10 @@ class Reach(NamedTuple):
 
 @kernel
 def update_rectangles(rows, geometry, bodies, reach, shapes_inout, proxies_inout, changed_out):
-    """Write the AABBs of the shapes in `rows`, and the swept AABBs that no longer fit.
+    """Write the AABBs of the shapes in `rows`, and new swept AABBs for those that no longer fit. O(rows).
 
-    Return the number of changed slots. rows: indices of SHAPE rows; reach: see Reach; changed_out: slots of the proxies
-    whose swept AABBs were written. O(rows).
+    Return the number of new swept AABBs. rows: row numbers in SHAPE; changed_out: slots of the proxies whose swept
+    AABBs were written.
     """
     refresh_boxes(rows, geometry, bodies, shapes_inout)
     rasters = geometry.rasters
@@ -413,9 +418,9 @@ def update_rectangles(rows, geometry, bodies, reach, shapes_inout, proxies_inout
 
 @kernel
 def list_outside(rows, bodies, shapes, proxies, rows_out):
-    """List the shapes whose AABB at the drawn pose extends beyond their swept AABB. Return their number. O(rows).
+    """List the shapes whose AABB, as drawn, extends beyond their swept AABB. Return their number. O(rows).
 
-    rows, rows_out: indices of SHAPE rows, to test and found.
+    rows: row numbers in SHAPE to test; rows_out: row numbers found.
     """
     found = 0
     for k in range(len(rows)):
@@ -436,9 +441,9 @@ def list_outside(rows, bodies, shapes, proxies, rows_out):
 
 
 def cover_final_poses(state: StepState, rows: np.ndarray) -> None:
-    """Write new swept AABBs for the shapes in `rows` that left their swept AABBs, and find the pairs of these shapes.
+    """Write new swept AABBs for the shapes in `rows` that have left theirs, and find the pairs of these shapes.
 
-    rows: indices of SHAPE rows. The candidates then contain all overlaps at the final poses, and are valid for the next
+    rows: row numbers in SHAPE. The candidates then contain all overlaps at the final poses, and are valid for the next
     step.
     """
     outside = state.workspace.rows_for(len(rows))
@@ -454,15 +459,15 @@ def cover_final_poses(state: StepState, rows: np.ndarray) -> None:
     writes=("pairs", "changed_count", "library", *PLACED),
 )
 def motion_rectangles(state: StepState) -> None:
-    """Update the AABBs of all awake shapes, and the swept AABBs that no longer fit."""
+    """Update the AABBs of all awake shapes, and their swept AABBs where these no longer fit."""
     state.changed_count = write_rectangles(state, state.awake.shapes)
 
 
 def write_rectangles(tables: WorldTables, rows: np.ndarray) -> int:
-    """Update the AABBs and swept AABBs of the shapes in `rows` (indices of SHAPE rows).
+    """Update the AABBs of the shapes in `rows`, and their swept AABBs where these no longer fit.
 
-    Return the number of changed slots. The slots are listed in tables.pairs.changed. tables: a StepState, or a world
-    whose shapes have just been added to the broad phase.
+    Return the number of changed slots, which are listed in tables.pairs.changed. rows: row numbers in SHAPE; tables: a
+    StepState, or a world whose shapes have just been added to the broad phase.
     """
     bodies, shapes, pairs, tolerances, dt = tables.bodies, tables.shapes, tables.pairs, tables.tolerances, tables.dt
     piles = tables.stacks
@@ -499,10 +504,11 @@ NOBODY_COUNTS = np.zeros(len(COUNTERS), np.int64)
 
 
 class PairList:
-    """The proxies of the shapes of a world, and the sorted list of their pairs.
+    """The proxies of the shapes of a world, and the sorted list of their overlapping pairs, the candidates.
 
-    `rows` (n, 2): shape rows of the candidates of this step. sleeping: new proxies are asleep until they are set awake,
-    and pairs without an awake proxy are not kept. A shape of a body in quarantine has slot -1, which all methods skip.
+    `rows` (n, 2): row numbers in SHAPE of the candidates of this step. sleeping: new proxies are asleep until they are
+    set awake, and pairs without an awake proxy are not kept. Shapes of quarantined bodies have slot -1, which all
+    methods skip.
     """
 
     def __init__(self, sleeping: bool = False) -> None:
@@ -525,7 +531,7 @@ class PairList:
         self._make_room()
 
     def _make_room(self):
-        """Create the arrays that an update overwrites before it reads them."""
+        """Create the scratch arrays, which an update overwrites before it reads them."""
         self.kept, self.kept_rows = np.zeros((64, 2), np.int32), np.zeros((64, 2), np.int64)
         self.states, self.keys = np.zeros(64, np.int8), np.zeros(64, np.int64)
         self.viewed, self.views = None, {}  # columns of the proxies, for writes to single rows
@@ -543,9 +549,9 @@ class PairList:
         return self.arena.proxies
 
     def ids(self, shapes: np.ndarray) -> np.ndarray:
-        """Return the (n, 2) ids of the shapes' parents for all candidates, each pair once, sorted.
+        """Return the (n, 2) ids of the whole shapes of all candidates, each pair once, sorted.
 
-        shapes: the SHAPE rows to which the candidates refer; not read if `name` has been called since the last update.
+        shapes: the SHAPE table to which the candidates refer; not read if `name` was called since the last update.
         """
         if self.known_ids is None:
             owners = np.sort(self.name(shapes), axis=1)  # rows of new parts of a mask follow the rows of later shapes
@@ -554,13 +560,16 @@ class PairList:
         return self.known_ids
 
     def name(self, shapes: np.ndarray) -> np.ndarray:
-        """Return the (n, 2) ids of the candidates' parents, and store them while the given SHAPE rows are valid."""
+        """Return the (n, 2) ids of the whole shapes (SHAPE.parent) of the candidates, and store them.
+
+        Call it while the row numbers of the candidates are valid for the table `shapes`.
+        """
         if self.owners is None:
             self.owners = shapes["parent"][self.rows]
         return self.owners
 
     def add_proxies(self, shapes: np.ndarray, rows: np.ndarray, still: np.ndarray) -> None:
-        """Assign a slot of the broad phase to each shape at these `rows` of the array `shapes`.
+        """Give each shape in `rows` of the table `shapes` a slot of the broad phase.
 
         still: whether they are static.
         """
@@ -581,9 +590,9 @@ class PairList:
         self.proxies["row"][slots] = -1  # until its swept AABB is written
 
     def add_proxy(self, slot: int, body: int, values: dict[str, int], still: bool) -> None:
-        """Assign a free slot to one shape of a body. still: whether the shape is static.
+        """Write the proxy of a single new shape to a free slot. still: whether the shape is static.
 
-        slot: the free slot; body: id of the body; values: membership, mask, plane and avoids of the shape's proxy.
+        body: id of the body; values: membership, mask, plane and avoids of the shape.
         """
         if self.viewed is not self.arena.proxies:
             self.viewed = self.arena.proxies
@@ -605,12 +614,12 @@ class PairList:
         self.freed += slots.tolist()
 
     def touch(self, slots: np.ndarray) -> None:
-        """Mark the proxies in these slots: their swept AABBs are written again, and their pairs are searched again."""
+        """Have the next update write the swept AABBs of these slots again, and search their pairs again."""
         slots = slots[slots >= 0]
         self.proxies["changed"][slots] = True
 
     def let_sleep(self, sleeping: bool) -> None:
-        """Set whether new proxies are asleep until they are set awake. All present proxies become asleep or awake.
+        """Set all present proxies asleep or awake, and whether new proxies begin asleep.
 
         sleeping: True for asleep.
         """
@@ -639,15 +648,15 @@ class PairList:
         return self.changed
 
     def rename(self, shapes: np.ndarray) -> None:
-        """Write the rows of shapes to their proxies again, after rows of the SHAPE array have moved.
+        """Write the SHAPE row numbers of all shapes to their proxies again, after rows have moved.
 
-        The next update writes the rows of the candidates.
+        The next update also corrects the row numbers of the candidates.
         """
         tell_rows(shapes, self.proxies)
         self.moved = True
 
     def widen(self, shapes: np.ndarray, margin: float) -> int:
-        """Extend the swept AABBs of SHAPE rows to include their AABBs with a margin [px].
+        """Extend the swept AABBs of shapes to include their AABBs with a margin [px]. shapes: SHAPE rows.
 
         Return the number of changed slots; the slots are listed in `changed`.
         """
@@ -666,9 +675,9 @@ class PairList:
         return len(slots)
 
     def keep_apart(self, keys: np.ndarray) -> bool:
-        """Set which pairs of bodies never pair, as sorted int64 keys: low id << 32 | high id.
+        """Set which pairs of bodies must never pair. Return whether that differs from before.
 
-        Return whether the keys differ from the former ones; the caller must then touch the proxies of these bodies.
+        If so, the caller must touch the proxies of these bodies. keys: sorted int64, low body id << 32 | high body id.
         """
         changed = not np.array_equal(keys, self.apart)
         self.apart = keys
@@ -681,7 +690,7 @@ class PairList:
         self.touch(slots)
 
     def set_sensor(self, shapes: np.ndarray, rows: np.ndarray) -> None:
-        """Update the proxies after the shapes at these `rows` of the array `shapes` became sensors or solid."""
+        """Update the proxies after the shapes in `rows` of the table `shapes` became sensors or solid."""
         rows = rows[shapes["proxy"][rows] >= 0]
         self._set_planes(shapes["proxy"][rows], shapes["role"][rows], shapes["sensor"][rows])
         self.touch(shapes["proxy"][rows])
@@ -689,7 +698,7 @@ class PairList:
     def _set_planes(self, slots, roles, sensors):
         """Write the planes of proxies: sensors and pixel shapes pair with whole masks, solid shapes with mask parts.
 
-        slots: the proxies; roles: role of each shape; sensors: whether each shape is a sensor.
+        slots: the proxies; roles: SHAPE.role of each shape; sensors: whether each shape is a sensor.
         """
         plane = np.where(sensors, SENSED, np.array([SOLID, PIXEL, OUTLINE])[roles])
         plane[sensors & (roles == PART)] = NOWHERE
@@ -704,13 +713,13 @@ class PairList:
         self.touch(slots)
 
     def start_over(self) -> None:
-        """Mark all proxies as changed in the next update, so that a new broad phase receives them."""
+        """Have the next update search all pairs again, so that a new broad phase receives all proxies."""
         self.everything = True
 
     def update(self, strategy: Strategy, shapes: np.ndarray, changed_count: int, work: np.ndarray) -> None:
         """Update the candidates for freed slots and for the first `changed_count` slots in `self.changed`.
 
-        strategy: the broad phase that finds the pairs; shapes: SHAPE rows; work: counters.
+        strategy: the broad phase that finds the pairs; shapes: SHAPE table; work: counters, see COUNTERS.
         """
         news = changed_count or self.freed or self.can_recycle or self.everything or self.moved or self.resting
         if news or not strategy.incremental:
@@ -774,7 +783,7 @@ class PairList:
         self.known_ids = self.owners = None
 
     def _rename(self, shapes):
-        """Write the shape rows of the candidates again, after the removal of a body without proxies has moved rows."""
+        """Write the SHAPE row numbers of the candidates again, after a removal has moved rows."""
         self.candidates[: self.count] = self.proxies["row"][self.slots[: self.count]]
         self.rows = self.candidates[: self.count]
         self.known_ids = self.owners = None

@@ -36,7 +36,7 @@ ENTRY = np.dtype(
 
 
 class Cells(NamedTuple):
-    """Linked lists of the proxies: one list for each hash bucket, and one for each level of the grids."""
+    """Linked lists of proxies: one list for each hash bucket, and one for each level of the grids."""
 
     levels: np.ndarray  # (slots,) level of each proxy, or -1
     heads: np.ndarray  # (buckets,) first entry of each bucket, or -1; the number of buckets is a power of two
@@ -47,7 +47,7 @@ class Cells(NamedTuple):
 
 
 def empty_cells(slots: int, buckets: int) -> Cells:
-    """Return Cells without proxies, with arrays for `slots` proxies and `buckets` hash buckets."""
+    """Return Cells without proxies, with room for `slots` proxies and with `buckets` hash buckets, a power of two."""
     entries = np.zeros(4 * slots, ENTRY)
     entries["bucket"] = -1
     levels, heads, lists = np.full(slots, -1), np.full(buckets, -1), np.full((slots, 2), -1)
@@ -64,16 +64,17 @@ def cell_of(coordinate, inverse_size):
 def bucket_at(level, cell_x, cell_y, mask):
     """Return the hash bucket of the cell in column cell_x and row cell_y of a level. Source: Teschner 2003.
 
-    mask: number of buckets minus one. Products stay below 2^62 for cells within CELL_RANGE.
+    mask: number of buckets minus one. The products stay below 2^62 for cells within CELL_RANGE.
     """
     return ((cell_x * 73856093) ^ (cell_y * 19349663) ^ (level * 83492791)) & mask
 
 
 @subkernel
 def level_of(lower_x, lower_y, upper_x, upper_y, base):
-    """Return the finest level whose cells are at least as large as the box lower_x to upper_x, lower_y to upper_y [px].
+    """Return the finest level whose cells are at least as large as a box; LEVELS if there is none.
 
-    base [px]: cell size on level 0. Return LEVELS if no level has such cells, or if the box is outside CELL_RANGE.
+    lower_x, lower_y, upper_x, upper_y [px]: the box, for which the result is also LEVELS if it is outside CELL_RANGE;
+    base [px]: cell size on level 0.
     """
     extent = max(upper_x - lower_x, upper_y - lower_y)
     size = base
@@ -89,14 +90,14 @@ def level_of(lower_x, lower_y, upper_x, upper_y, base):
 
 @subkernel
 def write_box(proxy, entry_out):
-    """Copy the box of a PROXY row to an ENTRY row."""
+    """Copy the box of a PROXY row to an ENTRY row, so that searches need not read the proxy."""
     entry_out.lower_x, entry_out.lower_y = proxy.lower_x, proxy.lower_y
     entry_out.upper_x, entry_out.upper_y = proxy.upper_x, proxy.upper_y
 
 
 @subkernel
 def take_out(slot, cells_inout, work_inout):
-    """Unlink a slot from the lists of its cells, at most four, and from the list of its level. O(1)."""
+    """Unlink a proxy (slot) from the lists of its cells, at most four, and from the list of its level. O(1)."""
     entries = cells_inout.entries
     lists = cells_inout.lists
     level = cells_inout.levels[slot]
@@ -127,9 +128,10 @@ def take_out(slot, cells_inout, work_inout):
 
 @subkernel
 def put_in(proxies, slot, level, base, cells_inout, work_inout):
-    """Link a slot into the lists of the cells that its box touches, at most four, and of its level. O(1).
+    """Link a proxy (slot) into the lists of the cells that its box touches, at most four, and of its level. O(1).
 
-    level: level whose cells are at least as large as the box; base [px]: cell size on level 0; work_inout: counters.
+    level: level whose cells are at least as large as the box; base [px]: cell size on level 0; work_inout: counters,
+    see COUNTERS.
     """
     p = proxies[slot]
     heads = cells_inout.heads
@@ -166,11 +168,11 @@ def put_in(proxies, slot, level, base, cells_inout, work_inout):
 
 @kernel
 def place_changed(proxies, changed, base, cells_inout, work_inout):
-    """Link the changed proxies into the cells that their boxes touch. O(changed).
+    """Link the changed proxies into the cells that their boxes touch, and unlink freed ones. O(changed).
 
-    changed: slots of the changed proxies; base [px]: cell size on level 0; work_inout: counters. If a proxy is still in
-    the same cells, only the copy of its box in the cells is updated. A box whose ends lie on cell borders may span
-    three cells along an axis; such a box goes to the next coarser level.
+    changed: slots of the changed proxies; base [px]: cell size on level 0; work_inout: counters, see COUNTERS. If a
+    proxy is still in the same cells, only the copies of its box in these cells are updated. A box whose ends lie on
+    cell borders may span three cells along an axis; such a box goes to the next coarser level.
     """
     entries = cells_inout.entries
     for i in range(len(changed)):
@@ -219,11 +221,11 @@ CHAINS, NEAR = 8, 64  # number of cells whose lists are traversed side by side; 
 def follow(entries, p, level, count, chains_inout, near_out):
     """Traverse the lists of several cells, and collect the entries whose boxes overlap the box of the PROXY row p.
 
-    The traversal ends before more than NEAR entries could be collected. level: level of the cells; count: number of
-    lists. chains_inout (CHAINS, 3) int64: the next entry of each list, and the column and row of its cell; near_out
-    (NEAR,) int64: the collected entries. The lists are traversed side by side, so that their memory latencies overlap.
-    The tests have no branch, because a branch would be mispredicted. Return (number of unfinished lists, number of
-    collected entries, number of tests).
+    Return (number of unfinished lists, number of collected entries, number of tests). The traversal ends before more
+    than NEAR entries could be collected. level: level of the cells; count: number of lists. chains_inout (CHAINS, 3)
+    int64: for each list, the next entry, and the column and row of its cell; near_out (NEAR,) int64: the collected
+    entries. The lists are traversed side by side, so that their memory latencies overlap. The tests have no branch,
+    because a branch would be mispredicted.
     """
     near = 0
     tested = 0
@@ -258,10 +260,10 @@ def find_in_cells(proxies, changed, base, cells, chains_out, near_out, pairs_out
     """List the overlapping pairs that contain a changed proxy. Return their number. O(cells + candidates).
 
     On each level, a box is tested against the proxies in the cells that the box touches. If these are too many cells,
-    it is tested against all proxies of the level, so the number of cells is at most proportional to the perimeter of
+    it is tested against all proxies of the level. So the number of cells is at most proportional to the perimeter of
     the box. A pair that shares several cells is reported only in the cell that contains the lower corner of the
     overlap. changed: slots of the changed proxies; base [px]: cell size on level 0; chains_out, near_out: scratch, see
-    follow; work_inout: counters.
+    follow; pairs_out (capacity, 2) int32: pairs of slots; work_inout: counters, see COUNTERS.
     """
     heads = cells.heads
     entries = cells.entries
@@ -334,10 +336,10 @@ def find_in_cells(proxies, changed, base, cells, chains_out, near_out, pairs_out
 def near_in_cells(base, cells, proxies, box, slots_out, work_inout):
     """Find the proxies whose boxes overlap `box`. Return their number. O(cells + boxes in them).
 
-    On each level the cells that the box touches are read, or the list of all proxies of the level if there are more
-    cells than proxies. A proxy in several of the cells is reported only in the cell that contains the lower corner of
-    the overlap. base [px]: cell size on level 0; box [px]: lower x, y, upper x, y; slots_out: slots of the found
-    proxies; work_inout: counters.
+    On each level the cells that the box touches are read. If these are more cells than proxies, the list of all proxies
+    of the level is read instead. A proxy in several of the cells is reported only in the cell that contains the lower
+    corner of the overlap. base [px]: cell size on level 0; box [px]: lower x, y, upper x, y; slots_out: slots of the
+    found proxies; work_inout: counters, see COUNTERS.
     """
     heads = cells.heads
     level_counts = cells.level_counts
@@ -406,8 +408,8 @@ SMALLEST_CELL = 2.0**-1000  # [px] its inverse is finite
 class SpatialHashGrid:
     """Broad phase with a hierarchical hash grid.
 
-    cell [px]: size of the finest cells; None: the size follows from the sizes of the boxes. Raises TypeError for a cell
-    that is not a number, ValueError for a cell below 2^-1000.
+    cell [px]: size of the finest cells; None: the size is derived from the sizes of the boxes. Raises TypeError for a
+    cell that is not a number, ValueError for a cell below 2^-1000.
     """
 
     name = "hash"
@@ -459,7 +461,10 @@ class SpatialHashGrid:
 
     @staticmethod
     def _tuned(boxes):
-        """Return a cell size [px]: twice the median extent of the finite boxes that are not points; 1 without any."""
+        """Return a cell size [px] that suits these boxes (PROXY rows): twice the median of their extents.
+
+        Boxes that are infinite, or only a point, are ignored; without any other box the result is 1.
+        """
         with np.errstate(invalid="ignore", over="ignore"):
             extent = np.maximum(boxes["upper_x"] - boxes["lower_x"], boxes["upper_y"] - boxes["lower_y"])
         extent = extent[np.isfinite(extent) & (extent > 0.0)]
@@ -468,7 +473,7 @@ class SpatialHashGrid:
     def query(self, arena: Arena) -> Query:
         """Return a function (pairs, work) -> count, which writes the pairs with a changed proxy to `pairs`.
 
-        arena: see Arena; work: counters of tests.
+        arena: the proxies, and which have changed; pairs (capacity, 2) int32: slots; work: counters, see COUNTERS.
         """
         return lambda pairs, work: find_in_cells(
             arena.proxies, arena.changed, self.base, self.lists, self.chains, self.near_entries, pairs, work
@@ -477,12 +482,12 @@ class SpatialHashGrid:
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
         """Find the proxies whose boxes overlap `box`. Write their slots to `slots`, and return their number.
 
-        proxies: PROXY rows; box [px]: lower x, y, upper x, y; work: counters of tests.
+        proxies: PROXY table; box [px]: lower x, y, upper x, y; work: counters, see COUNTERS.
         """
         return near_in_cells(self.base, self.lists, proxies, box, slots, work)
 
     def cells(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the occupied cells for drawing: their rectangles (m, 4) [px], and the level (m,) of each."""
+        """Return the occupied cells for drawing: (rectangles (m, 4) [px], level (m,) of each)."""
         linked = self.lists.entries["bucket"] >= 0
         used, level = self.lists.entries[linked], np.repeat(self.lists.levels, 4)[linked]
         cells = np.unique(np.stack([level, used["cell_x"], used["cell_y"]], axis=1), axis=0)

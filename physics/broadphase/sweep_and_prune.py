@@ -2,9 +2,9 @@
 
 `axes="auto"` sorts along the axis with the greater variance of the centres, and tests the intervals on the other axis.
 `axes="both"` sorts and sweeps along x and along y, and intersects the two lists of overlaps (dimension reduction). The
-order is kept between steps and repaired by insertion sort, so the swaps of a step are the changes of the order. Source:
-Baraff 1992; Ericson, Real-Time Collision Detection, 7.5. O(n + swaps + interval overlaps of the changed proxies). Suits
-slow bodies spread along one axis.
+order is kept between steps and repaired by insertion sort, which makes one swap for each pair that has changed its
+order. Source: Baraff 1992; Ericson, Real-Time Collision Detection, 7.5. O(n + swaps + interval overlaps of the changed
+proxies). Suits slow bodies spread along one axis.
 """
 
 import numpy as np
@@ -24,8 +24,8 @@ SWAP_BUDGET = 16  # swaps per proxy after which a full sort is cheaper than inse
 def refresh_order(proxies, axis, order_inout, lower_out):
     """Remove freed slots from the order, and read the lower ends of the boxes along the axis. O(n).
 
-    axis: 0 for x, 1 for y; order_inout: slots; lower_out [px]: lower ends, in this order. Return the number of
-    remaining slots.
+    Return the number of remaining slots. axis: 0 for x, 1 for y; order_inout: slots; lower_out [px]: lower ends, in
+    this order.
     """
     count = 0
     for i in range(len(order_inout)):
@@ -42,8 +42,8 @@ def refresh_order(proxies, axis, order_inout, lower_out):
 def insertion_sort(count, budget, order_inout, lower_inout, work_inout):
     """Sort slots by the lower ends of their boxes, which are nearly sorted, by insertion sort. O(n + swaps).
 
-    order_inout: slots, `count` of them; lower_inout [px]: lower ends of their boxes; work_inout: counters. Return 0, or
-    1 if the sort stopped unfinished after more than `budget` swaps.
+    Return 0, or 1 if the sort was stopped after more than `budget` swaps. order_inout: slots, of which the first
+    `count` are in use; lower_inout [px]: lower ends of their boxes; work_inout: counters, see COUNTERS.
     """
     left = budget
     for i in range(1, count):
@@ -65,11 +65,11 @@ def insertion_sort(count, budget, order_inout, lower_inout, work_inout):
 
 @kernel
 def sort_boxes(proxies, order, count, axis, boxes_out, next_changed_out):
-    """Copy the boxes into sorted order, so that the sweep reads them sequentially. O(n).
+    """Copy the boxes in sorted order, so that the sweep reads them sequentially. O(n).
 
-    order: slots in sorted order, `count` of them; axis: 0 for x, 1 for y. boxes_out (n, 4) float64 [px]: low and high
-    end along the axis, then along the other axis. next_changed_out (n,): for each position in the order, the position
-    of the next changed proxy after it.
+    order: slots in sorted order, of which the first `count` are in use; axis: 0 for x, 1 for y. boxes_out (n, 4)
+    float64 [px]: low and high end along the axis, then along the other axis. next_changed_out (n,): for each position
+    in the order, the position of the next changed proxy after it.
     """
     following = count
     for k in range(count):
@@ -88,8 +88,9 @@ def sort_boxes(proxies, order, count, axis, boxes_out, next_changed_out):
 def sweep_one(proxies, order, count, boxes, next_changed, pairs_out, work_inout):
     """List the overlapping pairs that contain a changed proxy, by a sweep along the axis. Return their number.
 
-    order: slots in sorted order, `count` of them; boxes, next_changed: see sort_boxes; work_inout: counters. An
-    unchanged proxy is tested only against changed proxies, so a few moving bodies among many cost few tests.
+    order: slots in sorted order, of which the first `count` are in use; boxes, next_changed: see sort_boxes; pairs_out
+    (capacity, 2) int32: pairs of slots; work_inout: counters, see COUNTERS. An unchanged proxy is tested only against
+    changed proxies, so a few moving bodies among many cost few tests.
     """
     found = 0
     tested = 0
@@ -157,9 +158,10 @@ def sweep_intervals(proxies, order, count, boxes, next_changed, keys_out, work_i
 
 @kernel
 def intersect(proxies, keys_x, count_x, keys_y, count_y, pairs_out, work_inout):
-    """Write the pairs that are in both sorted lists of keys and may collide. Return their number. O(keys).
+    """Write the pairs that are in both sorted lists of keys, if may_meet allows them. Return their number. O(keys).
 
-    keys_x, keys_y: the lists, see sweep_intervals; count_x, count_y: their lengths; work_inout: counters.
+    keys_x, keys_y: the lists, see sweep_intervals; count_x, count_y: their lengths; pairs_out (capacity, 2) int32:
+    pairs of slots; work_inout: counters, see COUNTERS.
     """
     found = 0
     i, j = 0, 0
@@ -182,10 +184,10 @@ def intersect(proxies, keys_x, count_x, keys_y, count_y, pairs_out, work_inout):
 def near_in_order(order, boxes, highest, axis, box, slots_out, work_inout):
     """Find the proxies whose boxes overlap `box`, by binary search along the sorted axis. Return their number.
 
-    order: slots by the lower ends of their boxes; boxes (n, 4) [px]: see sort_boxes; axis: 0 for x, 1 for y; box [px]:
-    lower x, y, upper x, y. highest (n,) [px]: running maximum of the high ends, with which the search skips boxes at
-    the start of the order, up to the first box that does not end before `box` begins. slots_out: slots of the found
-    proxies; work_inout: counters. O(log n + boxes read).
+    order: slots by the lower ends of their boxes; boxes (n, 4) [px]: see sort_boxes; highest (n,) [px]: running maximum
+    of the high ends. With it the search skips all boxes at the start of the order that end before `box` begins. axis: 0
+    for x, 1 for y; box [px]: lower x, y, upper x, y; slots_out: slots of the found proxies; work_inout: counters, see
+    COUNTERS. O(log n + boxes read).
     """
     count = len(order)
     lower, upper = box[axis], box[axis + 2]
@@ -210,7 +212,10 @@ def near_in_order(order, boxes, highest, axis, box, slots_out, work_inout):
 
 
 class Axis:
-    """The proxies in the order of the lower ends of their boxes along one axis. The order is kept between steps."""
+    """The slots of the proxies, sorted by the lower ends of their boxes along one axis.
+
+    The order is kept between steps.
+    """
 
     def __init__(self, axis: int) -> None:
         self.axis = axis
@@ -222,7 +227,7 @@ class Axis:
         self.highest = None  # running maximum of the upper ends; None until a query needs it
 
     def update(self, arena: Arena) -> None:
-        """Add, remove and move the changed proxies in the order."""
+        """Add new proxies to the order, remove freed ones, and sort it again."""
         proxies, changed = arena.proxies, arena.changed
         if len(self.known) < len(proxies):
             self.known = np.concatenate([self.known, np.zeros(len(proxies) - len(self.known), bool)])
@@ -247,7 +252,7 @@ class Axis:
     def query_box(self, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
         """Find the proxies whose boxes overlap `box`. Write their slots to `slots`, and return their number.
 
-        box [px]: lower x, y, upper x, y; work: counters of tests.
+        box [px]: lower x, y, upper x, y; work: counters, see COUNTERS.
         """
         if self.highest is None:
             self.highest = np.maximum.accumulate(self.boxes[: len(self.order), 1])
@@ -257,9 +262,9 @@ class Axis:
         return sweep_one(arena.proxies, self.order, len(self.order), self.boxes, self.next_changed, pairs, work)
 
     def intervals(self, arena: Arena, work: np.ndarray) -> tuple[np.ndarray, int]:
-        """Return (sorted keys of the pairs with a changed proxy that overlap along this axis, number of these keys).
+        """Return (keys, count): the sorted keys of the pairs with a changed proxy that overlap along this axis.
 
-        The keys are those of sweep_intervals. work: counters.
+        Only the first `count` keys are valid; they are those of sweep_intervals. work: counters, see COUNTERS.
         """
         before = work.copy()
         count = sweep_intervals(
@@ -274,9 +279,10 @@ class Axis:
 
 
 class SweepAndPrune:
-    """Broad phase that sorts the boxes along x, y, or both.
+    """Broad phase that sorts the boxes along one axis or both.
 
-    Raises ValueError for axes other than "auto" and "both", TypeError for a value that is not a string.
+    axes: "auto" chooses x or y, "both" sorts along both. Raises ValueError for another string, TypeError for a value
+    that is not a string.
     """
 
     name = "sweep"
@@ -302,7 +308,7 @@ class SweepAndPrune:
     def update(self, arena: Arena) -> None:
         """Move the changed proxies to their positions in the order.
 
-        With axes "auto", the axis is chosen again every AXIS_INTERVAL updates, and whenever most proxies have changed.
+        With axes "auto", the axis is chosen again every AXIS_INTERVAL updates, and whenever most proxies are new.
         """
         self.updates += 1
         if self.axes == "auto" and (
@@ -332,7 +338,7 @@ class SweepAndPrune:
     def query(self, arena: Arena) -> Query:
         """Return a function (pairs, work) -> count, which writes the pairs with a changed proxy to `pairs`.
 
-        arena: see Arena; work: counters of tests.
+        arena: the proxies, and which have changed; pairs (capacity, 2) int32: slots; work: counters, see COUNTERS.
         """
         if self.axes == "auto":
             return lambda pairs, work: self.sorted[0].sweep(arena, pairs, work)
@@ -347,6 +353,6 @@ class SweepAndPrune:
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
         """Find the proxies whose boxes overlap `box`. Write their slots to `slots`, and return their number.
 
-        proxies: unused; box [px]: lower x, y, upper x, y; work: counters of tests.
+        proxies: unused; box [px]: lower x, y, upper x, y; work: counters, see COUNTERS.
         """
         return self.sorted[0].query_box(box, slots, work)

@@ -26,7 +26,7 @@ SEPARATION, NX, NY, AX, AY, BX, BY, FIRST_A, FIRST_B, SECOND_A, SECOND_B = range
 
 
 class GapWorkspace(NamedTuple):
-    """Scratch memory for GJK and EPA, for one pair of hulls at a time. Corners of A and B are stored as indices."""
+    """Scratch memory for GJK and EPA, for one pair of hulls at a time. It refers to corners of A and B by index."""
 
     state: np.ndarray  # (5,) number of corners in the simplex, search direction, rounds, times the cap was hit
     simplex: np.ndarray  # (3, 4) corner of A, corner of B, their difference [px]
@@ -40,7 +40,7 @@ def new_gap_workspace() -> GapWorkspace:
 
 @subkernel
 def support(corners, count, x, y):
-    """Return the number of the corner that is farthest along the direction (x, y); on ties, the first. O(count)."""
+    """Return the index of the corner farthest along the direction (x, y); of several, the first. O(count)."""
     best = 0
     most = 0.0
     for k in range(1, count):
@@ -86,8 +86,8 @@ def edge_of(a, b, p, q, simplex):
 def region_of(x, y, ex, ey):
     """Return where the origin projects onto a line segment: -1 before its start, 0 on it, 1 beyond its end.
 
-    The segment starts at (x, y) and has the vector (ex, ey). A projection past an end by no more than rounding counts
-    as on the segment, so that parallel faces with flush ends get the face normal.
+    The segment starts at (x, y) and has the vector (ex, ey). A projection that is past an end only by rounding counts
+    as on the segment. So parallel faces with flush ends get the face normal.
     """
     along = -(x * ex + y * ey)
     length2 = ex * ex + ey * ey
@@ -100,7 +100,10 @@ def region_of(x, y, ex, ey):
 
 @subkernel
 def edge_distance(a, b, p, q, simplex):
-    """Return the distance [px] of the origin from the line segment between rows p and q of the simplex."""
+    """Return the distance [px] of the origin from the line segment between rows p and q of the simplex.
+
+    a, b (n, 2) [px]: corners of the hulls.
+    """
     ex, ey = edge_of(a, b, p, q, simplex)
     x = simplex[p, 2]
     y = simplex[p, 3]
@@ -115,10 +118,10 @@ def edge_distance(a, b, p, q, simplex):
 
 @subkernel
 def drop_corner(a, b, simplex_inout):
-    """Reduce a triangle to one of the two edges at its newest corner (row 2), the edge nearer to the origin.
+    """Reduce a triangle to one of the two edges at its newest corner (row 2): the edge nearer to the origin.
 
-    The third edge is not tested, because the search has just crossed it. Return False if the origin lies in the
-    triangle, else True.
+    Return False, without a change, if the origin lies in the triangle, else True. The third edge is not tested, because
+    the search has just crossed it. a, b (n, 2) [px]: corners of the hulls.
     """
     ex, ey = edge_of(a, b, 0, 1, simplex_inout)
     fx, fy = edge_of(a, b, 0, 2, simplex_inout)
@@ -142,8 +145,8 @@ def drop_corner(a, b, simplex_inout):
 def reduce_simplex(a, b, state_inout, simplex_inout):
     """Reduce the simplex to its corner or edge nearest to the origin, and write the direction from there to the origin.
 
-    a, b: corners of the hulls; state_inout, simplex_inout: arrays of a GapWorkspace. Return TOUCHING if the origin lies
-    in or on the simplex, else SEARCHING.
+    Return TOUCHING if the origin lies in or on the simplex, else SEARCHING. a, b (n, 2) [px]: corners of the hulls;
+    state_inout, simplex_inout: arrays of a GapWorkspace.
     """
     count = int(state_inout[COUNT])
     if count == 3:
@@ -180,8 +183,8 @@ def reduce_simplex(a, b, state_inout, simplex_inout):
 def start_walk(a, b, i, j, state_out, simplex_out):
     """Start a GJK search for two hulls, at the corner a[i] - b[j] of their Minkowski difference.
 
-    Any corner is valid, but one near the result of the previous search saves rounds. state_out, simplex_out: arrays of
-    a GapWorkspace.
+    Any i and j are valid, but a corner near the result of the previous search saves rounds. state_out, simplex_out:
+    arrays of a GapWorkspace.
     """
     write_corner(a, b, i, j, 0, simplex_out)
     state_out[COUNT] = 1.0
@@ -217,10 +220,10 @@ def walk_on(a, a_count, b, b_count, state_inout, simplex_inout):
 
 @subkernel
 def write_edge_gap(a, b, places, p, q, nx, ny, gap_out):
-    """Write separation, normal and nearest points of two hulls for an edge of their Minkowski difference.
+    """Write separation, normal and nearest points of two hulls, which an edge of their Minkowski difference defines.
 
-    The edge leads from row p to row q of `places`, which is the simplex or the polytope: rows that begin with the
-    indices of a corner of A and a corner of B. (nx, ny): unit normal of the edge. gap_out: see GapWorkspace.
+    The edge leads from row p to row q of `places`, which is the simplex or the polytope. Its rows begin with the
+    indices of a corner of A and a corner of B. nx, ny: unit normal of the edge; gap_out: GapWorkspace.gap.
     """
     i = int(places[p, 0])
     j = int(places[p, 1])
@@ -248,7 +251,7 @@ def write_edge_gap(a, b, places, p, q, nx, ny, gap_out):
 def write_nearest(a, b, state, simplex, gap_out):
     """Write separation, normal and nearest points of two hulls to gap_out, from the final simplex of GJK.
 
-    The simplex is an edge or a single corner. gap_out: see GapWorkspace.
+    The simplex is an edge or a single corner. gap_out: GapWorkspace.gap.
     """
     q = 1 if state[COUNT] == 2.0 else 0
     write_edge_gap(a, b, simplex, 0, q, state[NORMAL_X], state[NORMAL_Y], gap_out)
@@ -261,7 +264,7 @@ def walk_to_nearest(a, a_count, b, b_count, i, j, workspace):
     """Run GJK for two hulls. Return APART and write workspace.gap, or return TOUCHING. At most GJK_CAP rounds.
 
     a, b: world corners (n, 2) [px], 1 to 16 of them; i, j: indices of the corners of A and B at which the search
-    starts. If the cap is hit, the result so far is used and workspace.state[CAPPED] is increased.
+    starts. If the rounds do not suffice, the result so far is used and workspace.state[CAPPED] is increased.
     """
     start_walk(a, b, i, j, workspace.state, workspace.simplex)
     status = SEARCHING
@@ -336,7 +339,10 @@ def start_polytope(a, a_count, b, b_count, polytope_out):
 
 @subkernel
 def shallowest_edge(polytope, count):
-    """Return the row in which the polytope edge nearest to the origin starts; on ties, the first."""
+    """Return the row of the polytope in which the edge nearest to the origin starts; of several, the first.
+
+    count: number of corners of the polytope.
+    """
     best = 0
     for k in range(1, count):
         if polytope[k, 4] < polytope[best, 4]:
@@ -348,8 +354,9 @@ def shallowest_edge(polytope, count):
 def grow_polytope(a, a_count, b, b_count, count, polytope_inout):
     """Replace the polytope edge nearest to the origin by two edges that meet in the support point beyond it.
 
-    Return the new number of corners. The number is unchanged if no corner of the Minkowski difference lies beyond the
-    edge; then the edge belongs to the difference. O(corners).
+    Return the new number of corners. It is unchanged if no corner of the Minkowski difference lies beyond the edge.
+    Then the edge belongs to the difference. a_count, b_count, count: numbers of corners of A, B and the polytope.
+    O(corners).
     """
     k = shallowest_edge(polytope_inout, count)
     n = k + 1 if k + 1 < count else 0
@@ -375,9 +382,10 @@ def grow_polytope(a, a_count, b, b_count, count, polytope_inout):
 
 @subkernel
 def write_depth(a, b, count, polytope, gap_out):
-    """Write separation (minus the depth), normal and points of the polytope edge nearest to the origin to gap_out.
+    """Write separation, normal and points for the polytope edge nearest to the origin.
 
-    count: number of corners of the polytope; for a single point, the normal is (1, 0).
+    The separation is minus the depth. count: number of corners of the polytope; for a single point, the normal is (1,
+    0). gap_out: GapWorkspace.gap.
     """
     if count < 2:
         write_edge_gap(a, b, polytope, 0, 0, 1.0, 0.0, gap_out)
@@ -389,10 +397,11 @@ def write_depth(a, b, count, polytope, gap_out):
 
 @subkernel
 def measure_depth(a, a_count, b, b_count, workspace):
-    """Write to workspace.gap the distance that B must move to end its overlap with A, and the normal (EPA).
+    """Find the shortest move of B that ends its overlap with A (EPA).
 
-    a, b (n, 2) [px]: corners, a_count and b_count of them. The rounds are added to workspace.state[ROUNDS]; if they
-    reach EPA_CAP, 1 is added to workspace.state[CAPPED]. O(corners squared).
+    Write separation, normal, points to workspace.gap. The separation is minus the length of this move, which is along
+    the normal. a, b (n, 2) [px]: corners, a_count and b_count of them. The rounds are added to workspace.state[ROUNDS];
+    if they reach EPA_CAP, 1 is added to workspace.state[CAPPED]. O(corners squared).
     """
     count = start_polytope(a, a_count, b, b_count, workspace.polytope)
     if count > 1:
@@ -418,9 +427,10 @@ def measure_depth(a, a_count, b, b_count, workspace):
 def shape_separation(a, a_count, a_radius, b, b_count, b_radius, first, workspace):
     """Write separation, unit normal from A to B and nearest points to workspace.gap. Return the separation [px].
 
-    a, b: world corners (n, 2) [px], 1 to 16 of them; a_radius, b_radius [px]: roundings; first: indices of the corners
-    of A and B at which the search starts. If the hulls overlap, the separation is minus the distance that B must move
-    along the normal to end the overlap. workspace.state holds the number of rounds and of caps hit.
+    a, b: world corners (n, 2) [px], 1 to 16 of them; a_radius, b_radius [px]: roundings; first: (index of a corner of
+    A, index of a corner of B) at which the search starts. If the hulls overlap, the separation is negative: minus the
+    distance that B must move along the normal to end the overlap. workspace.state then holds the numbers of rounds and
+    of caps hit.
     """
     if walk_to_nearest(a, a_count, b, b_count, first[0], first[1], workspace) == TOUCHING:
         measure_depth(a, a_count, b, b_count, workspace)
@@ -447,7 +457,7 @@ def box_gap(boxes_a, i, boxes_b, j):
 
 @subkernel
 def copy_part(corners, part, count, corners_out):
-    """Copy the corners of one part to corners_out (16, 2)."""
+    """Copy the `count` corners of part number `part` to corners_out (16, 2). corners (n, 16, 2): see Parts."""
     for k in range(count):
         corners_out[k, 0] = corners[part, k, 0]
         corners_out[k, 1] = corners[part, k, 1]
@@ -455,11 +465,11 @@ def copy_part(corners, part, count, corners_out):
 
 @kernel
 def separate_parts(a, b, corners_a_out, corners_b_out, workspace, totals_out):
-    """Write to workspace.gap separation, normal and points of the nearest two convex parts of A and B.
+    """Find the nearest two convex parts of A and B. Write separation, normal and points to workspace.gap.
 
-    a, b: Parts; corners_a_out, corners_b_out (16, 2): scratch; totals_out (2,): rounds of GJK and EPA, number of caps
-    hit. Parts whose boxes are farther apart than the nearest two parts found before are skipped. O(parts of A · parts
-    of B). Return the separation [px]; infinite if A or B has no parts.
+    Return the separation [px]; infinite if A or B has no parts. a, b: Parts; corners_a_out, corners_b_out (16, 2):
+    scratch; totals_out (2,): rounds of GJK and EPA, number of caps hit. Parts whose boxes are farther apart than the
+    nearest two parts found before are skipped. O(parts of A · parts of B).
     """
     best = math.inf
     best_i, best_j = -1, -1

@@ -1,1 +1,1 @@
-"""Integration of bodies, and the check for numbers that are not finite."""
+"""Integration of bodies, and the quarantine of bodies with numbers that are not finite."""

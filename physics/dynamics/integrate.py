@@ -1,4 +1,4 @@
-"""Integration: velocities from forces, then poses from velocities; and the quarantine of bodies that are not finite."""
+"""Integration: velocities from forces, poses from velocities; and the quarantine of bodies with invalid numbers."""
 
 import math
 from collections.abc import Callable
@@ -28,14 +28,15 @@ BOTH = (False, True)
 def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool) -> Callable:
     """Return the kernel that integrates the velocities of dynamic bodies in a world with these effects.
 
-    Wind adds the acceleration drag_rate · wind. With both wind and drag, bodies approach the velocity of the wind.
+    Each argument: whether the effect is on. Wind adds the acceleration drag_rate · wind. With both wind and drag,
+    bodies approach the velocity of the wind.
     """
 
     @kernel
     def integrate_velocities(rows, gravity_x, gravity_y, drag_rate, wind_x, wind_y, dt, bodies_inout):
         """Integrate velocities over dt [s], and clear the accumulated forces. O(rows).
 
-        rows: body rows; gravity_x, gravity_y [px/s2]; drag_rate [1/s]; wind_x, wind_y [px/s].
+        rows: row numbers in BODY; gravity_x, gravity_y [px/s2]; drag_rate [1/s]; wind_x, wind_y [px/s].
         """
         for k in range(len(rows)):
             b = bodies_inout[rows[k]]
@@ -69,7 +70,7 @@ def make_position_pass(rotation: bool) -> Callable:
     def integrate_positions(rows, dt, bodies_inout, work_inout):
         """Move bodies by their velocities over dt [s], up to their first impact, and store the old poses. O(rows).
 
-        rows: body rows. BODY.fraction is the fraction of the motion before the impact.
+        rows: row numbers in BODY. The fraction of the motion before the impact is BODY.fraction.
         """
         for k in range(len(rows)):
             b = bodies_inout[rows[k]]
@@ -94,9 +95,10 @@ def make_position_pass(rotation: bool) -> Callable:
 
 @subkernel
 def put_center(u, v, body_inout):
-    """Write the world centre of mass of a BODY row, which is at the offset (u, v) [px] from the body's origin.
+    """Write the world centre of mass of a BODY row: its origin plus the offset (u, v) [px].
 
-    A finite pose is also stored as the settled pose, which is the last finite pose. has_current_contacts is cleared.
+    If the pose is finite, it is also stored as the last finite pose (settled_x, settled_y, settled_angle).
+    has_current_contacts is cleared.
     """
     b = body_inout
     b.center_x, b.center_y = b.x + u, b.y + v
@@ -108,7 +110,10 @@ def put_center(u, v, body_inout):
 
 @subkernel
 def refresh_center(body_inout):
-    """Write the world centre of mass [px] of a BODY row at its present pose; NaN if the angle is not finite."""
+    """Write the world centre of mass [px] of a BODY row at its present pose; NaN if the angle is not finite.
+
+    Other fields: see put_center.
+    """
     b = body_inout
     u, v = b.local_center_x, b.local_center_y
     if not abs(b.angle) < math.inf:  # its cosine would be NaN in compiled code, and an error in plain code
@@ -120,15 +125,15 @@ def refresh_center(body_inout):
 
 @kernel
 def refresh_centers(rows, bodies_inout):
-    """Write the world centres of mass [px] of the body rows in `rows` at their present poses. O(rows)."""
+    """Write the world centres of mass [px] of the bodies in `rows` (row numbers) at their present poses. O(rows)."""
     for k in range(len(rows)):
         refresh_center(bodies_inout[rows[k]])
 
 
 def write_center(bodies: Table, at: int) -> None:
-    """Write the centre of mass of the BODY row `at`, and its last finite pose, as refresh_centers does.
+    """Do the same as refresh_centers for a single body, at a lower cost. at: row number in BODY.
 
-    Single numbers are read and written faster by memory views, so the kernel is called only for a rotated body.
+    Memory views read and write single numbers faster, so the kernel is called only for a body with an angle.
     """
     columns = bodies.columns
     x, y, angle = columns["x"][at], columns["y"][at], columns["angle"][at]
@@ -184,14 +189,14 @@ def integrate_positions(state: StepState) -> None:
 
 
 def place_shapes(state: StepState) -> None:
-    """Update the AABBs, and rasters of masks, of awake bodies to their present poses."""
+    """Update the AABBs and mask rasters of awake bodies to their present poses."""
     # A body that a sweep stopped, or that a solver rotated, may be at an angle without a raster.
     add_missing_rasters(state.library, state.awake.shapes, state.bodies, state.shapes, 0.0)
     refresh_aabbs(state.awake.shapes, state.library.tables, state.bodies, state.shapes)
 
 
 def shift_bodies(bodies: np.ndarray, rows: np.ndarray, moves: np.ndarray) -> None:
-    """Translate the bodies of rows (n,) by moves (n, 2) [px], without an update of their shapes."""
+    """Translate the bodies of rows (n,) by moves (n, 2) [px]. The AABBs of their shapes are not updated."""
     for column, axis in enumerate("xy"):
         bodies[axis][rows] += moves[:, column]
         bodies[f"center_{axis}"][rows] += moves[:, column]
@@ -241,13 +246,13 @@ def disable_body(body_inout):
 
 @subkernel
 def is_within_limits(body):
-    """Return whether the position and angle of a body are within POSITION_LIMIT, where a double still resolves them."""
+    """Return whether position and angle of a body are within POSITION_LIMIT, where a double still resolves them."""
     return abs(body.x) < POSITION_LIMIT and abs(body.y) < POSITION_LIMIT and abs(body.angle) < POSITION_LIMIT
 
 
 @subkernel
 def is_finite_in_step(body, gravity_x, gravity_y, speed_limit, dt):
-    """Return whether all numbers of a body that a step reads are finite and in range, also after the body's motion.
+    """Return whether all numbers of a body that a step reads are finite and in range, now and after the body's motion.
 
     gravity_x, gravity_y [px/s2]; speed_limit [px/s]; dt [s]: length of the step.
     """
@@ -279,7 +284,7 @@ def is_finite_in_step(body, gravity_x, gravity_y, speed_limit, dt):
 
 @subkernel
 def is_finite_character(character):
-    """Return whether the sum of the numbers of a character is finite (x - x == 0) and within POSITION_LIMIT."""
+    """Return whether the numbers of a CHARACTER row are finite and in range: their sum is below POSITION_LIMIT."""
     c = character
     total = c.offset_x + c.offset_y + c.climb + c.remainder_x + c.remainder_y + c.slope + c.mass + c.push
     total += c.foot_x + c.foot_y + c.carry_x + c.carry_y + c.belt + c.belt_x + c.push_vx + c.push_vy + c.deep
@@ -287,7 +292,7 @@ def is_finite_character(character):
 
 
 class Course(NamedTuple):
-    """The parameters of the predicted motion of bodies in a step, without contacts."""
+    """The parameters with which the motion of bodies in a step is predicted, without contacts."""
 
     gravity_x: float  # [px/s2]
     gravity_y: float
@@ -297,7 +302,7 @@ class Course(NamedTuple):
 
 @subkernel
 def take_body(row, reason, found, bodies_inout, broken_out):
-    """Quarantine a body, and write its row and the reason to row `found` of broken_out. Return found + 1.
+    """Quarantine a body, and write its row number and the reason to row `found` of broken_out. Return found + 1.
 
     reason: index of REASONS.
     """
@@ -311,8 +316,8 @@ def take_body(row, reason, found, bodies_inout, broken_out):
 def take_broken_bodies(rows, course, bodies_inout, broken_out):
     """Quarantine bodies whose numbers are not finite or out of range, and list them. Return their number.
 
-    A body whose pose is out of range is moved back to its last finite pose. rows: body rows; course: see Course;
-    broken_out (bodies, 2): body row and reason (index of REASONS).
+    A body whose pose is out of range is moved back to its last finite pose. rows: row numbers in BODY; broken_out
+    (bodies, 2): row number and reason (index of REASONS).
     """
     found = 0
     for k in range(len(rows)):
@@ -330,7 +335,7 @@ def take_broken_bodies(rows, course, bodies_inout, broken_out):
 
 @subkernel
 def is_finite_shape(shape):
-    """Return whether the numbers of a shape are finite and in range."""
+    """Return whether the numbers of a SHAPE row are finite and in range."""
     s = shape
     place = abs(s.local_x) + abs(s.local_y) + s.radius
     surface = s.friction + abs(s.restitution) + abs(s.rolling_resistance) + abs(s.surface_speed)
@@ -342,8 +347,9 @@ def take_broken(rows, shape_rows, grid_rows, shapes, characters, course, bodies_
     """Quarantine bodies for invalid numbers of the body, its shapes or its character. Return the number of bodies.
 
     Also quarantine rotated or rotating bodies with a TileGrid; only a direct write to the table can rotate them. rows:
-    body rows; shape_rows: shape rows; grid_rows: shape rows to test for TileGrids; course: see Course. broken_out
-    (bodies, 2): body row and reason (index of REASONS), each body once. O(rows + shape_rows + grid_rows + characters).
+    row numbers in BODY; shape_rows: row numbers in SHAPE; grid_rows: row numbers in SHAPE to test for TileGrids.
+    broken_out (bodies, 2): row number of the body and reason (index of REASONS), each body once. O(rows + shape_rows +
+    grid_rows + characters).
     """
     found = take_broken_bodies(rows, course, bodies_inout, broken_out)
     for k in range(len(shape_rows)):
@@ -402,7 +408,7 @@ def quarantine_solved(state: StepState) -> None:
 def _take_out(state, broken):
     """Remove quarantined bodies from the broad phase and the awake rows, and report them. Return their ids.
 
-    broken (n, 2): body row and reason (index of REASONS).
+    broken (n, 2): row number in BODY and reason (index of REASONS).
     """
     bodies, shapes = state.bodies, state.shapes
     rows, reasons = broken[np.argsort(broken[:, 0])].T
