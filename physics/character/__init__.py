@@ -1,1 +1,1 @@
-"""Characters, which move by whole pixels among solids, belts and lifts."""
+"""Characters, which the game moves by whole pixels among solids, belts and lifts."""

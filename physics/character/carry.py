@@ -1,4 +1,4 @@
-"""Moving solids, which carry the characters that ride them and push the characters in front of them."""
+"""Moving solids, which carry the characters that ride on them and push the characters in front of them."""
 
 import math
 
@@ -59,8 +59,8 @@ def motion_of(b):
 def find_stirred(bodies, shapes, characters, pairs, count, stirred_out):
     """Flag the characters that a step may move: riders, users of conveyors, and those that may touch a moving body.
 
-    pairs (count, 2): shape rows from the broad phase; stirred_out (characters,): the flags. Return the greatest
-    distance [px] that any point of the ridden or touched bodies moved in the step. O(pairs · log characters).
+    Return the greatest distance [px] that any point of the ridden or touched bodies moved in the step. pairs (count,
+    2): row numbers in SHAPE from the broad phase; stirred_out (characters,): the flags. O(pairs · log characters).
     """
     most = 0.0
     for me in range(len(characters)):
@@ -80,7 +80,7 @@ def find_stirred(bodies, shapes, characters, pairs, count, stirred_out):
 
 
 def near_characters(state: StepState) -> tuple[np.ndarray, np.ndarray]:
-    """Return (near, spans) for a Walk: the shape rows that may carry, push or stop each character in this step."""
+    """Return (near, spans) for a Walk: rows of the shapes that may carry, push or stop each character in this step."""
     rows, pairs = state.characters, state.pairs.rows
     dirty = np.zeros(len(rows), bool)
     motion = find_stirred(state.bodies, state.shapes, rows, pairs, len(pairs), dirty)
@@ -109,9 +109,10 @@ def near_characters(state: StepState) -> tuple[np.ndarray, np.ndarray]:
 
 @subkernel
 def shift_aside(me, without, pixels, walk_inout, rows_out):
-    """Move a character along x by up to `pixels` (negative: left). Return the number of pixels that were blocked.
+    """Move a character along x by up to `pixels` (negative: left). Return how many of these pixels were blocked.
 
-    me: CHARACTER row; without: body row to ignore, or -1; rows_out: scratch array for the nearby solids.
+    The character also moves up and down walkable slopes. me: CHARACTER row; without: body row to ignore, or -1;
+    rows_out: scratch array for the nearby solids.
     """
     c = walk_inout.characters[me]
     reach = 2.0 + abs(pixels)
@@ -135,7 +136,7 @@ def shift_aside(me, without, pixels, walk_inout, rows_out):
 
 @subkernel
 def shift_along_y(me, without, pixels, walk_inout, rows_out):
-    """Move a character along y by up to `pixels` (negative: up). Return the number of pixels that were blocked.
+    """Move a character along y by up to `pixels` (negative: up). Return how many of these pixels were blocked.
 
     me: CHARACTER row; without: body row to ignore, or -1; rows_out: scratch array for the nearby solids.
     """
@@ -153,7 +154,7 @@ def shift_along_y(me, without, pixels, walk_inout, rows_out):
 
 @subkernel
 def shift(me, without, pixels, along_x, walk_inout, rows_out):
-    """Move a character by up to `pixels` along one axis. Return the number of pixels that were blocked.
+    """Move a character and its body by up to `pixels` along one axis. Return how many of these pixels were blocked.
 
     along_x: 1 for the x axis, along which the character also moves up and down walkable slopes, 0 for the y axis. me:
     CHARACTER row; without: body row to ignore, or -1; rows_out: scratch array for the nearby solids.
@@ -168,13 +169,13 @@ def shift(me, without, pixels, along_x, walk_inout, rows_out):
 
 @subkernel
 def carried_by(way, stopped):
-    """Return the signed number of pixels that a character was moved: `way`, shortened by `stopped` blocked pixels."""
+    """Return the signed number of pixels that a character was moved: `way` less the `stopped` blocked pixels."""
     return way - stopped if way > 0 else way + stopped
 
 
 @subkernel
 def carry_riders(along_x, walk_inout):
-    """Move the characters that stand on characters carried in this step by the same pixels, in stacks of any height.
+    """Move all characters that stand on a carried character by the same pixels, in stacks of any height.
 
     along_x: 1 for the x axis, 0 for the y axis.
     """
@@ -203,9 +204,9 @@ def carry_riders(along_x, walk_inout):
 
 @subkernel
 def loose_under(walk, me):
-    """Return the shape row of the loose shape (solids.is_loose) that a character stands on; -1: none.
+    """Return the row of the loose shape (solids.is_loose) on which a character stands; -1 if there is none.
 
-    The point of such a shape that is under the feet carries the character. me: CHARACTER row.
+    Such a shape carries the character by the motion of its point under the feet. me: CHARACTER row.
     """
     c = walk.characters[me]
     row = row_of(walk.shapes, c.riding_shape) if c.riding >= 0 else -1
@@ -217,7 +218,7 @@ def loose_under(walk, me):
 
 @kernel
 def note_feet(shapes, characters_inout):
-    """Store the point [px] under the feet of each rider, before the step moves it. O(characters · log shapes)."""
+    """Store the point [px] under the feet of each rider before its support moves it. O(characters · log shapes)."""
     for me in range(len(characters_inout)):
         c = characters_inout[me]
         row = row_of(shapes, c.riding_shape) if c.riding >= 0 else -1
@@ -227,7 +228,10 @@ def note_feet(shapes, characters_inout):
 
 @kernel
 def take_back(characters_inout, bodies_inout):
-    """Move the bodies of characters back to their pixel boxes after the step has moved the bodies. O(characters)."""
+    """Move the bodies of characters back to the characters' pixel boxes, after the step has moved them.
+
+    O(characters).
+    """
     for me in range(len(characters_inout)):
         c = characters_inout[me]
         if not bodies_inout[c.body_row].quarantined:
@@ -255,7 +259,7 @@ def pixels_carried(me, row, along_x, walk_inout):
     """Return the whole pixels by which the ground and its conveyor carry a character along an axis.
 
     me: CHARACTER row; row: shape row of the ground, -1 if its motion does not carry the character; along_x: 1 for the x
-    axis, 0 for the y axis.
+    axis, 0 for the y axis. The fractions are kept for the next step.
     """
     c = walk_inout.characters[me]
     way = 0
@@ -282,7 +286,10 @@ def pixels_carried(me, row, along_x, walk_inout):
 
 @subkernel
 def step_down(me, walk_inout):
-    """Move a character down to ground that has sunk, by no more than it may drop while walking one pixel along x."""
+    """Move a character down to ground that has sunk, by no more than it may drop when it walks one pixel.
+
+    me: CHARACTER row.
+    """
     c = walk_inout.characters[me]
     gather(walk_inout, me, -1, 1.0, 1.0, 3.0 + c.climb, walk_inout.found)
     drop, slope = drop_onto(walk_inout, me, walk_inout.found, c.left, 0.5)
@@ -295,7 +302,7 @@ def step_down(me, walk_inout):
 def ride_bodies(walk_inout):
     """Carry characters by the motion of the ground under their feet, in whole pixels with a remainder.
 
-    Then move them down to ground that rotated or was pushed down. walk_inout: see Walk. O(characters · nearby solids).
+    Then move them down to ground that rotated or was pushed down. O(characters · nearby solids).
     """
     for axis in range(2):
         along_x = 1 - axis
@@ -320,7 +327,7 @@ def ride_bodies(walk_inout):
 def move_out(me, row, walk_inout):
     """Move a character out of a loose shape until it is blocked, and store the depth of overlap that remains.
 
-    me, row: CHARACTER row and shape row.
+    me, row: row numbers in CHARACTER and SHAPE.
     """
     c = walk_inout.characters[me]
     depth, nx, ny = depth_in(me, row, walk_inout)
@@ -347,11 +354,11 @@ def move_out(me, row, walk_inout):
 
 @subkernel
 def give_way(walk_inout):
-    """Move characters out of loose bodies (solids.is_loose) that moved into them. Flag those without space as squeezed.
+    """Move characters out of loose bodies (solids.is_loose) that moved into them. Mark those without space as squeezed.
 
-    walk_inout: see Walk. A body that has just fallen onto a character overlaps the character until the solver has
-    separated them. So an overlap with loose bodies squeezes a character only if it was deeper than GIVE and is at least
-    as deep one step later. O(characters · nearby solids).
+    A body that has just fallen onto a character overlaps it until the solver has separated them. So an overlap with a
+    loose body squeezes a character only if it was deeper than GIVE and is at least as deep one step later. O(characters
+    · nearby solids).
     """
     for me in range(len(walk_inout.characters)):
         c = walk_inout.characters[me]
@@ -377,7 +384,7 @@ def give_way(walk_inout):
 
 @subkernel
 def swept_box(walk, row, along_x):
-    """Return (left, top, right, bottom, pixels moved) [px] of the area that a box sweeps along one axis in a step.
+    """Return the area that a box sweeps along one axis in a step: (left, top, right, bottom, pixels moved) [px].
 
     All values are whole pixels. row: shape row of the box, which moves along x first, then along y; along_x: 1 for the
     x axis, 0 for the y axis.
@@ -406,10 +413,10 @@ def swept_box(walk, row, along_x):
 
 @subkernel
 def in_swept(me, row, shifted, along_x, box, walk_inout):
-    """Return whether a character, shifted by `shifted` pixels along an axis, overlaps the area that a solid sweeps.
+    """Return whether a character, moved by `shifted` pixels along an axis, would overlap the area that a solid sweeps.
 
-    me, row: CHARACTER row and shape row of the solid; along_x: 1 for the x axis, 0 for the y axis; box: see swept_box.
-    A tile grid is tested at its pose after the motion along this axis.
+    me, row: row numbers of the character in CHARACTER and of the solid in SHAPE; along_x: 1 for the x axis, 0 for the y
+    axis; box: result of swept_box for the solid. A tile grid is tested at its pose after the motion along this axis.
     """
     c = walk_inout.characters[me]
     left, top, right, bottom, moved = box
@@ -434,9 +441,9 @@ def in_swept(me, row, shifted, along_x, box, walk_inout):
 
 @subkernel
 def way_clear(me, row, along_x, box, walk_inout):
-    """Return the signed pixels, along a solid's motion, that move a character out of the area that the solid sweeps.
+    """Return by how many pixels to move a character out of the area that a solid sweeps, along the solid's motion.
 
-    The result is 0 if the character does not overlap this area. Arguments as in in_swept.
+    The number has a sign. It is 0 if the character does not overlap this area. Arguments as in in_swept.
     """
     if not in_swept(me, row, 0, along_x, box, walk_inout):
         return 0
@@ -482,7 +489,7 @@ def carry_one(me, row, along_x, box, walk_inout):
 def carry_and_push(movers, walk_inout):
     """Let kinematic solids that moved by whole pixels carry their riders and push characters in front of them.
 
-    movers: shape rows, in ascending order. Only axis-aligned boxes and tile grids are used; ride_bodies handles other
+    movers: row numbers in SHAPE, ascending. Only axis-aligned boxes and tile grids are used; ride_bodies handles other
     shapes. O(moved solids · characters).
     """
     for k in range(len(movers)):
@@ -505,7 +512,7 @@ def carry_and_push(movers, walk_inout):
 
 @kernel
 def carry_all(movers, walk_inout):
-    """Carry and push characters by all motion of solids in the step. movers: shape rows, see carry_and_push."""
+    """Carry and push characters by all motion of solids in the step. movers: row numbers in SHAPE, ascending."""
     carry_and_push(movers, walk_inout)
     ride_bodies(walk_inout)
     give_way(walk_inout)
@@ -527,7 +534,7 @@ def carry_all(movers, walk_inout):
 def carry_characters(state: StepState) -> None:
     """Move the characters that solids carry or push.
 
-    The pairs of moved characters are updated, so that their contacts count in the same step.
+    The candidate pairs of moved characters are updated, so that their contacts are found in the same step.
     """
     characters = state.characters
     bodies, shapes = state.bodies, state.shapes
@@ -565,7 +572,7 @@ def carry_characters(state: StepState) -> None:
 def apply_character_weight(state: StepState) -> None:
     """Apply the weight of characters to their ground before a step.
 
-    The ground is woken if a character has arrived on it, left it or walked on it.
+    Sleeping ground is woken if a character has arrived on it, left it or walked on it.
     """
     characters, bodies = state.characters, state.bodies
     if state.effects.sleeping:

@@ -1,4 +1,4 @@
-"""Character: the player of a platformer, moved by whole pixels, with ground, walls and slopes."""
+"""Character: the player of a platformer, moved by the game in whole pixels, with ground, walls and slopes."""
 
 import math
 from typing import Any, NamedTuple
@@ -30,11 +30,12 @@ MAX_SLOPE = 0.8  # [rad] 46 degrees: a character walks on a slope of one tile pe
 class Moved(NamedTuple):
     """The result of a move: pixels moved, and the contacts of the character after the move.
 
-    x, y: pixels moved. grounded: whether the character stands on ground that it can walk on, or that holds it. wall: -1
-    for a solid at its left, 1 at its right, 0 for none. slope: rise per px to the right of the ground under its feet
-    (1: 45 degrees up to the right), also of ground down which the character slides. riding: the kinematic or dynamic
-    body, or the pushable character, under its feet; None on static ground and in the air. squeezed: whether a moving
-    body left the character no space; True in every move until this body no longer overlaps the character.
+    x, y: pixels moved. grounded: whether the character stands on ground that it can walk on, or is held by the ground.
+    wall: -1 for a solid at its left, 1 at its right, 0 for none. slope: rise per px to the right of the ground under
+    its feet (1: 45 degrees up to the right), also of ground down which the character slides. riding: the kinematic or
+    dynamic body, or the body of the pushable character, under its feet; None on static ground and in the air. squeezed:
+    whether a moving body left the character no space; True in every move until this body no longer overlaps the
+    character.
     """
 
     x: int
@@ -51,9 +52,9 @@ class Character:
 
     shape: Polygon, Circle, Capsule, or Bounds of one of them or of a sprite, of at least one pixel. A box without angle
     is rounded to whole pixels. position [px]: position of the shape's origin, rounded so that the left side and the
-    feet are on the pixel grid. max_slope [rad], 0 <= max_slope < pi/2: the character walks up and down ground of at
-    most this angle, and slides down steeper ground up to 86 degrees, whatever the shape of the ground. pushable:
-    whether the character is solid for other characters, and they push it.
+    feet are on the pixel grid. filter: collision filter of the shape. max_slope [rad], 0 <= max_slope < pi/2: the
+    character walks up and down ground of at most this angle, and slides down steeper ground up to 86 degrees. pushable:
+    whether the character is solid for other characters, and they push it. user: any object for the character's body.
 
     The character's `body` is kinematic, so contacts and sensors see the character. A Character needs the effect
     response. With the effect stacking, dynamic bodies also stop and carry the character, and the character acts on
@@ -135,7 +136,7 @@ class Character:
 
     @property
     def surface_speed(self) -> float:
-        """Surface speed [px/s] to the right of the ground under the character's feet at the last move; 0 in the air.
+        """Surface speed [px/s], to the right, of the ground under the character's feet at its last move; 0 in the air.
 
         A step of a world with the effect conveyor moves the character at this speed.
         """
@@ -183,7 +184,7 @@ class Character:
         )
 
     def blocked(self, dx: float, dy: float) -> bool:
-        """Return whether a move by (dx, dy) [px] would not move the character: no pixel along x or y is free.
+        """Return whether a move by (dx, dy) [px] would not move the character: no pixel in its direction is free.
 
         Only the signs of dx and dy count. Bodies that a walk pushes, and slopes that the character walks or slides
         down, do not block. The world is unchanged. Raises TypeError for values that are not numbers, ValueError for a
@@ -220,7 +221,7 @@ class Character:
         return walk_for(world, rows, near, spans, world.dt)
 
     def move_to(self, position: Pair) -> None:
-        """Teleport the shape's origin to the position on the pixel grid that is nearest to a position [px].
+        """Teleport the character: move the shape's origin to a position [px], rounded to the pixel grid.
 
         Raises TypeError for a value that is not a point, ValueError for a point that is not finite or too far away,
         RuntimeError during a step.
@@ -242,7 +243,7 @@ class Character:
 
 
 def _asleep(world, near):
-    """Return the BODY rows of the sleeping bodies whose shapes are among the shape rows `near`."""
+    """Return the row numbers of the sleeping bodies among the bodies of the shapes `near` (row numbers)."""
     if not world.sleeps:
         return np.zeros(0, np.int64)
     rows = np.unique(world.shapes["body_row"][near])
@@ -262,7 +263,10 @@ def _is_upright_box(shape):
 
 
 def _outline(shape):
-    """Return (the shape for a character's body, its left, top, right, bottom [px] with the origin at 0, 0)."""
+    """Return (shape, left, top, right, bottom): the shape for a character's body, and its bounds [px].
+
+    The bounds are relative to the shape's origin.
+    """
     inner, wrapped = getattr(shape, "_inner", shape), shape is not getattr(shape, "_inner", shape)
     hulls = sorted((each for each in with_area() if issubclass(each, Convex)), key=lambda each: each is not Polygon)
     if not (wrapped or isinstance(inner, tuple(hulls))):

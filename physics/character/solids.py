@@ -1,4 +1,4 @@
-"""Solids that block a character: tiles, chains, static and kinematic shapes, characters, bodies."""
+"""Solids that block a character: tiles, chains, static and kinematic shapes, other characters, dynamic bodies."""
 
 import math
 from typing import NamedTuple
@@ -52,21 +52,21 @@ STEEPEST_CLIMB = (
 
 @subkernel
 def pixels_along(slope):
-    """Return the greatest number of whole pixels by which a slope rises or falls over one pixel along x."""
+    """Return the greatest number of whole pixels by which ground of this slope rises or falls along one pixel."""
     return math.floor(abs(slope) + 1.0 + 1e-6)
 
 
 @subkernel
 def is_walkable(c, nx, ny):
-    """Return whether a character (row c) can walk on ground. (nx, ny): unit normal into the ground."""
+    """Return whether a character (row c) can walk on a surface. (nx, ny): unit normal into the surface."""
     return ny > SHEER and abs(nx) <= c.climb * ny + EVEN
 
 
 @subkernel
 def verdict(c, nx, ny):
-    """Return (ON_SLOPE, STEEP or BLOCKED; slope) of a surface for a character (row c).
+    """Return (ON_SLOPE, STEEP or BLOCKED; slope) for a character (row c) at a surface.
 
-    (nx, ny): unit normal into the surface; slope: rise per px to the right.
+    (nx, ny): unit normal into the surface; slope: its rise per px to the right, 0 if BLOCKED.
     """
     if ny <= SHEER:
         return BLOCKED, 0.0
@@ -89,8 +89,8 @@ def allowed_depth(c, loose, nx, ny, give, slop):
 def deepest_of(b, slop, dt):
     """Return the greatest depth [px] to which a character can have entered an outline of body b since it was free.
 
-    The depth is a pixel plus the motion of the body in dt [s]. A deeper overlap behind a hull edge of one part belongs
-    to a neighbouring part, see hulls.collide_hulls.
+    It is a pixel plus the motion of the body in dt [s]. If the overlap behind an edge of a part is deeper, a
+    neighbouring part has the nearer surface, see hulls.collide_hulls.
     """
     if b.kind == STATIC:
         return 1.0 + 2.0 * slop
@@ -99,7 +99,7 @@ def deepest_of(b, slop, dt):
 
 @subkernel
 def judge(c, kind, beyond, nx, ny, way_x, way_y):
-    """Return (FREE, ON_SLOPE, STEEP or BLOCKED; slope) of a surface that a character (row c) overlaps.
+    """Return (FREE, ON_SLOPE, STEEP or BLOCKED; slope) for a character (row c) that overlaps a surface.
 
     beyond [px]: overlap minus allowed_depth; kind: kind of the surface's body; way_x, way_y: pixels that the character
     just moved. A moving body may itself have caused the overlap, so it blocks only motion that leads deeper.
@@ -119,7 +119,7 @@ def judge(c, kind, beyond, nx, ny, way_x, way_y):
 def place_outline(walk, me, left, top):
     """Write the corners [px] of a character's outline, with its box at pixel (left, top), to scratch.mine.
 
-    Return (number of corners, rounding radius [px]).
+    me: CHARACTER row. Return (number of corners, rounding radius [px]).
     """
     c = walk.characters[me]
     if c.is_box:
@@ -131,9 +131,9 @@ def place_outline(walk, me, left, top):
 
 @subkernel
 def manifold_depth(points, manifold):
-    """Return (depth [px], unit normal, middle of the points [px]) of a manifold; all 0 without points.
+    """Return (depth, nx, ny, x, y) [px] of a manifold: its depth, unit normal and middle; all 0 without points.
 
-    points: number of points; manifold: see "clipping" in collision/hulls.py.
+    points: number of points; manifold (11,): see hulls.clip_edges.
     """
     if points == 0:
         return 0.0, 0.0, 0.0, 0.0, 0.0
@@ -147,7 +147,7 @@ def manifold_depth(points, manifold):
 
 @subkernel
 def meet_disc(scratch, count, radius, x, y, other):
-    """Return (depth, normal, contact point) of the overlap of a character's outline with a disc, like meet.
+    """Return the overlap (depth, nx, ny, x, y) [px] of a character's outline with a disc, see meet.
 
     x, y, other [px]: centre and radius of the disc; count, radius: result of place_outline, which writes the outline.
     """
@@ -161,7 +161,7 @@ def meet_disc(scratch, count, radius, x, y, other):
 
 @subkernel
 def meet_hull(scratch, count, radius, corners, rounded, edges, deepest):
-    """Return (depth, normal, contact point) of a character's outline in the hull in scratch.theirs, like meet.
+    """Return the overlap (depth, nx, ny, x, y) [px] of a character's outline with the hull in scratch.theirs, see meet.
 
     count, radius: result of place_outline, which writes the outline; corners, rounded: number of corners and rounding
     radius [px] of the hull; edges, deepest: see hulls.collide_hulls. scratch.points[0] is COVERED_OVERLAP if a
@@ -185,10 +185,10 @@ def meet_hull(scratch, count, radius, corners, rounded, edges, deepest):
 
 @subkernel
 def meet_link(links, link, scratch, count, radius):
-    """Return (depth, normal, contact point) of a character's outline in a chain link, in the format of meet.
+    """Return the overlap (depth, nx, ny, x, y) [px] of a character's outline with a chain link, see meet.
 
-    The depth is 0 for a character behind the link. The ends of the link are in scratch.theirs; links, link: LINK rows
-    and row of the link; count, radius: result of place_outline, which writes the outline.
+    The depth is 0 for a character behind the link. The ends of the link are in scratch.theirs; links, link: LINK table
+    and row number; count, radius: result of place_outline, which writes the outline.
     """
     if count == 1:
         hit, nx, ny, x, y, separation, feature = collide_link_circle(
@@ -203,11 +203,11 @@ def meet_link(links, link, scratch, count, radius):
 
 @subkernel
 def meet(walk, row, count, radius):
-    """Return (depth [px], unit normal from the character, contact point [px]) of its outline in a hull or a disc.
+    """Return the overlap (depth, nx, ny, x, y) [px] of a character's outline with a hull or a disc.
 
-    row: row of the shape; count, radius: result of place_outline, which writes the outline. The depth is 0 if the shape
-    and the character are apart. It is also 0 if a neighbouring part of the shape has the nearer surface; then
-    scratch.points[0] is COVERED_OVERLAP.
+    nx, ny: unit normal from the character; x, y: contact point. row: row number in SHAPE; count, radius: result of
+    place_outline. The depth is 0 if the two are apart, or if a neighbouring part of the shape has the nearer surface;
+    then scratch.points[0] is COVERED_OVERLAP.
     """
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -235,11 +235,11 @@ def deepest_on(walk, body):
 
 @subkernel
 def link_depth(walk, row, link, drops, count, radius):
-    """Return (depth [px], unit normal from the character) of the overlap of a character with a link of a chain.
+    """Return (depth [px], nx, ny) of the overlap of a character with a link; the unit normal is from the character.
 
-    The depth is 0 if the link lets the character pass. That is so for an overlap deeper than deepest_on, which began at
-    the back of the link, and, if `drops` is true, for a level link and a one-way surface. row, link: row of the chain
-    in SHAPE, row of the link in LINK; count, radius: result of place_outline, which writes the outline.
+    The depth is 0 if the link lets the character pass: if it is deeper than deepest_on, because it began at the back of
+    the link; and, with `drops`, for a level link or a one-way surface. row, link: row numbers in SHAPE and LINK; count,
+    radius: result of place_outline, which writes the outline.
     """
     b = walk.bodies[walk.shapes[row].body_row]
     scratch = walk.scratch
@@ -275,7 +275,7 @@ def is_across(walk, me, row, left, top):
 
 @subkernel
 def in_chain(walk, me, row, left, top, way_x, way_y, give):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a character in a chain. Arguments as in in_shape."""
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) for a character in a chain. Arguments as in in_shape."""
     c = walk.characters[me]
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -318,7 +318,7 @@ def in_chain(walk, me, row, left, top, way_x, way_y, give):
 
 @subkernel
 def deepest_link(walk, me, row, left, top):
-    """Return (depth [px], unit normal from the character) of the deepest overlap of a character with a chain link."""
+    """Return (depth [px], nx, ny) of the deepest overlap of a character with a link of a chain, see link_depth."""
     c = walk.characters[me]
     span = walk.geometry.chains[walk.shapes[row].geometry]
     if is_across(walk, me, row, left, top):
@@ -341,19 +341,19 @@ def deepest_link(walk, me, row, left, top):
 
 @subkernel
 def on_pixels(kind, coordinate):
-    """Return a body's coordinate [px] for tests of characters: rounded to whole pixels if `kind` is KINEMATIC."""
+    """Return a coordinate [px] of a body as characters see it: rounded to whole pixels if `kind` is KINEMATIC."""
     return float(math.floor(coordinate + 0.5)) if kind == KINEMATIC else coordinate
 
 
 @subkernel
 def is_falling(c, way_x, way_y):
-    """Return 1 if one-way tiles stop a character (row c) that moved by (way_x, way_y) pixels: straight down; else 0."""
+    """Return 1 if one-way tiles stop the move (way_x, way_y) of a character (row c): a fall straight down; else 0."""
     return 1 if way_x == 0 and way_y > 0 and not c.drop else 0
 
 
 @subkernel
 def slope_tile_verdict(c, slope, depth):
-    """Return ON_SLOPE, STEEP or BLOCKED for a box that is `depth` [px] below the surface of a slope tile."""
+    """Return ON_SLOPE, STEEP or BLOCKED for a character that is `depth` [px] below the surface of a slope tile."""
     if depth > pixels_along(slope):
         return BLOCKED  # its side, or from inside
     return ON_SLOPE if abs(slope) <= c.climb + EVEN else STEEP
@@ -361,7 +361,7 @@ def slope_tile_verdict(c, slope, depth):
 
 @subkernel
 def in_tiles(walk, me, row, left, top, way_x, way_y):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a box in a tile grid. Arguments as in in_shape."""
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) for a box in a tile grid. Arguments as in in_shape."""
     c = walk.characters[me]
     b = walk.bodies[walk.shapes[row].body_row]
     g = walk.geometry.grids[walk.shapes[row].geometry]
@@ -402,10 +402,10 @@ def in_tiles(walk, me, row, left, top, way_x, way_y):
 
 @subkernel
 def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
-    """Return (depth [px], unit normal from the character) of a character's outline in the tile in scratch.theirs.
+    """Return (depth [px], nx, ny) of the overlap of a character's outline with the tile in scratch.theirs.
 
-    count, radius: result of place_outline, which writes the outline; corners: number of corners of the tile, a slope if
-    is_slope; edges, deepest: see hulls.collide_hulls.
+    nx, ny: unit normal from the character; count, radius: result of place_outline; corners: number of corners of the
+    tile; edges, deepest: see hulls.collide_hulls; is_slope: whether the tile is a slope.
     """
     mine = scratch.mine
     tile = Hull(scratch.theirs, corners, 0.0, edges)
@@ -424,7 +424,7 @@ def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
 
 @subkernel
 def in_tile_outlines(walk, me, row, left, top, way_x, way_y):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a character that is not a box in a tile grid.
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) for a character that is not a box in a tile grid.
 
     The character is tested against the outlines of runs of tiles and of slopes. Arguments as in in_shape.
     """
@@ -526,7 +526,7 @@ def new_scratch() -> Scratch:
 def walk_for(tables: WorldTables, characters: np.ndarray, near: np.ndarray, spans: np.ndarray, dt: float) -> Walk:
     """Return the Walk of a world or a StepState (`tables`) for a motion within dt [s].
 
-    characters: CHARACTER rows; near, spans: see Walk.
+    characters: CHARACTER table; near, spans: see Walk.
     """
     effects = tables.effects
     room = len(near) + 1
@@ -547,7 +547,7 @@ def walk_for(tables: WorldTables, characters: np.ndarray, near: np.ndarray, span
 
 @subkernel
 def character_of(characters, body):
-    """Return the row of the character with this body id; -1: there is none. O(log characters)."""
+    """Return the row number of the character with this body id, or -1. O(log characters)."""
     low, high = 0, len(characters)
     while low < high:
         middle = (low + high) // 2
@@ -566,7 +566,7 @@ def can_walk(me, characters):
 
 @kernel
 def find_own_rows(bodies, shapes, characters_inout):
-    """Write the row of the body and of the shape of each character. O(characters · log shapes)."""
+    """Write the row numbers of the body and of the shape of each character. O(characters · log shapes)."""
     for me in range(len(characters_inout)):
         c = characters_inout[me]
         c.body_row = row_of(bodies, c.body)
@@ -575,7 +575,7 @@ def find_own_rows(bodies, shapes, characters_inout):
 
 @subkernel
 def place_body(c, body_inout):
-    """Move the body of a character (row c) to the position that belongs to the character's pixel box."""
+    """Move the body of a character (row c) to where the character's pixel box is."""
     body_inout.x, body_inout.y = c.left + c.offset_x, c.top + c.offset_y
     body_inout.center_x = body_inout.x + body_inout.local_center_x
     body_inout.center_y = body_inout.y + body_inout.local_center_y
@@ -583,7 +583,7 @@ def place_body(c, body_inout):
 
 @subkernel
 def settle(me, walk_inout):
-    """Move the body of a character to the position that belongs to its pixel box. me: CHARACTER row."""
+    """Move the body of a character to where its pixel box is. me: CHARACTER row."""
     c = walk_inout.characters[me]
     place_body(c, walk_inout.bodies[c.body_row])
 
@@ -631,7 +631,7 @@ def is_box(walk, row):
 def is_loose(walk, row):
     """Return whether a shape is loose: dynamic, or kinematic and not tested on the pixel grid.
 
-    Of kinematic shapes, only tile grids and axis-aligned boxes that do not rotate are tested on the pixel grid.
+    Kinematic tile grids, and kinematic boxes that are upright and do not rotate, are tested on the pixel grid.
     """
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -644,14 +644,14 @@ def is_loose(walk, row):
 
 @subkernel
 def aabb_of(walk, row):
-    """Return the AABB [px] of a shape at the present pose of its body."""
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a shape at the present pose of its body."""
     b = walk.bodies[walk.shapes[row].body_row]
     return aabb_at(walk.geometry, walk.shapes, row, b.x, b.y, b.angle)
 
 
 @subkernel
 def in_character(walk, me, other, left, top):
-    """Return whether a character with its box at pixel (left, top) would overlap another. me, other: CHARACTER rows."""
+    """Return whether character `me` with its box at pixel (left, top) would overlap character `other` (rows)."""
     c = walk.characters[me]
     o = walk.characters[other]
     hit = left < o.left + o.width and o.left < left + c.width and top < o.top + o.height and o.top < top + c.height
@@ -664,7 +664,7 @@ def in_character(walk, me, other, left, top):
 
 @subkernel
 def in_upright_box(walk, me, row, left, top):
-    """Return whether a character's box at pixel (left, top) shares a pixel with shape `row`, an axis-aligned box."""
+    """Return whether a character's box at pixel (left, top) shares a pixel with an axis-aligned box, shape `row`."""
     c = walk.characters[me]
     min_x, min_y, max_x, max_y = aabb_of(walk, row)
     return (
@@ -677,7 +677,7 @@ def in_upright_box(walk, me, row, left, top):
 
 @subkernel
 def in_hull(walk, me, row, left, top, way_x, way_y, give):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a character in a hull or disc. Arguments as in in_shape."""
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) for a character in a hull or disc. Arguments as in in_shape."""
     c = walk.characters[me]
     b = walk.bodies[walk.shapes[row].body_row]
     count, radius = place_outline(walk, me, left, top)
@@ -695,10 +695,10 @@ def in_hull(walk, me, row, left, top, way_x, way_y, give):
 
 @subkernel
 def in_shape(walk, me, row, left, top, way_x, way_y, give):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a character at a position, with regard to one shape.
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) for a character at a position, with regard to one shape.
 
-    me, row: CHARACTER row and shape row. left, top: pixel of the character's box. way_x, way_y: pixels that it moved to
-    get there. give [px]: depth that is allowed in a loose shape, see allowed_depth.
+    me, row: CHARACTER and SHAPE rows. left, top: pixel of the character's box. way_x, way_y: pixels that it moved to
+    get there. give [px]: depth that is allowed in a loose shape. slope: rise of the surface per px to the right.
     """
     c = walk.characters[me]
     s = walk.shapes[row]
@@ -762,11 +762,11 @@ def gather(walk, me, without, reach_x, reach_up, reach_down, rows_out):
 
 @subkernel
 def blocked_at(walk, me, rows, left, top, way_x, way_y, give):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; shape row with this result, or -1; slope) of a character at a position.
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; shape row or -1; slope) for a character at a position, for all shapes.
 
-    rows: see gather; other arguments: see in_shape. The greatest result of all shapes is returned; BLOCKED ends the
-    search. If all parts of a static mask leave the contact to their neighbours, the position is deep in the mask, and
-    BLOCKED.
+    rows: see gather; other arguments: see in_shape. It is the result of the shape (row) with the greatest value;
+    BLOCKED ends the search. If all parts of a static mask leave the contact to a neighbour, the position is deep in it,
+    and BLOCKED.
     """
     result = FREE
     by = -1

@@ -33,7 +33,7 @@ from physics.tables.table import row_of
 
 @subkernel
 def rise_onto(walk, me, rows, direction, slope):
-    """Return the pixels by which a character can rise onto walkable ground one pixel to a side; -1: it cannot.
+    """Return how many pixels a character must rise to step one pixel aside onto walkable ground; -1 if it cannot.
 
     me: CHARACTER row; rows: nearby solids, see solids.gather; direction: -1 left, 1 right; slope: rise of this ground
     per px. The rise may exceed the slope by half a pixel, because of corners of outlines on steps of pixels. Ground
@@ -57,7 +57,7 @@ def rise_onto(walk, me, rows, direction, slope):
 
 @subkernel
 def way_aside(walk, me, rows, direction):
-    """Return (pixels up; blocking shape row, or -1; slope of the ground) of a character's move by one pixel to a side.
+    """Return (pixels up, blocking shape row or -1, slope of the ground) for a character's move by one pixel to a side.
 
     Pixels up: 0 on level ground, -1 if the move is blocked. me: CHARACTER row; rows: nearby solids, see solids.gather;
     direction: -1 left, 1 right.
@@ -73,11 +73,11 @@ def way_aside(walk, me, rows, direction):
 
 @subkernel
 def drop_onto(walk, me, rows, left, onto):
-    """Return (pixels down until a character stands on walkable ground, slope of this ground); 0 without such ground.
+    """Return (pixels down to ground on which a character can walk, slope of this ground); 0 without such ground.
 
     me: CHARACTER row; rows: nearby solids, see solids.gather; left: pixel column of the character; onto: slope of the
-    ground that the character leaves. With onto = 0 (flat ground) only slopes are found. Otherwise flat ground is also
-    found, down to one pixel plus the rise of `onto`.
+    ground that the character leaves. If `onto` is 0, that ground is flat and only slopes are found. Otherwise flat
+    ground is also found, down to one pixel plus the rise of `onto`.
     """
     c = walk.characters[me]
     for drop in range(pixels_along(c.climb) + 1):
@@ -109,10 +109,10 @@ def is_wedged(walk, me, rows, slope):
 
 @subkernel
 def steep_below(walk, me, rows, slope):
-    """Return the slope of steep ground just below a sliding character; 0: there is none.
+    """Return the slope of ground just below a sliding character that is too steep to walk on; 0 if there is none.
 
-    Steep ground is too steep to walk on. The search covers the drop of `slope` over one pixel along x. me: CHARACTER
-    row; rows: nearby solids, see solids.gather.
+    The search covers the drop of a ground of slope `slope` over one pixel along x. me: CHARACTER row; rows: nearby
+    solids, see solids.gather.
     """
     c = walk.characters[me]
     for drop in range(1, pixels_along(slope) + 1):
@@ -126,7 +126,7 @@ def steep_below(walk, me, rows, slope):
 def slide_of(slope):
     """Return (pixels along x, pixels down) that a character slides down a slope for each pixel of a free fall.
 
-    slope: rise per px to the right.
+    The pixels along x are negative to the left. slope: rise per px to the right.
     """
     length = math.sqrt(1.0 + slope * slope)
     sine = slope / length
@@ -135,10 +135,10 @@ def slide_of(slope):
 
 @subkernel
 def slide_gently(me, rows, pixels, slope, walk_inout):
-    """Slide down ground that is too steep to walk on but flatter than 45 degrees, for a fall of `pixels`.
+    """Slide down ground that is too steep to walk on but flatter than 45 degrees, in place of a fall of `pixels`.
 
     The character moves pixel by pixel along x. me: CHARACTER row; rows: nearby solids, see solids.gather; slope: rise
-    of the ground per px to the right. Return whether nothing stopped the character.
+    of the ground per px to the right. Return True if nothing stopped the character.
     """
     c = walk_inout.characters[me]
     aside, down = slide_of(slope)
@@ -166,7 +166,10 @@ def slide_gently(me, rows, pixels, slope, walk_inout):
 
 @subkernel
 def tile_slope(walk, row, x, y):
-    """Return the slope (rise per px to the right) of the slope tile at a point [px] of a tile grid; 0 elsewhere."""
+    """Return the slope (rise per px to the right) of a tile grid at a point [px]; 0 if there is no slope tile.
+
+    row: row number of the grid in SHAPE.
+    """
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
     g = walk.geometry.grids[s.geometry]
@@ -180,9 +183,9 @@ def tile_slope(walk, row, x, y):
 
 @subkernel
 def slope_under_box(walk, me, row):
-    """Return the slope of the tile under the middle of a box's feet, or if it is 0, under an end of the feet.
+    """Return the slope of the tile under the middle of a box's feet or, if that is 0, under an end of the feet.
 
-    me, row: CHARACTER row and shape row of the tile grid.
+    me: CHARACTER row of the box; row: row number of the tile grid in SHAPE.
     """
     c = walk.characters[me]
     bottom = c.top + c.height + 0.5
@@ -198,7 +201,8 @@ def slope_under_box(walk, me, row):
 def speed_under(walk, row, x, y):
     """Return the surface speed [px/s] of a shape at the point (x, y) [px] where a character stands on it.
 
-    The speed is along the tangent, and positive to the right on a floor (Box2D's tangent speed).
+    row: row number in SHAPE. The speed is along the tangent, and positive to the right on a floor (Box2D's tangent
+    speed).
     """
     s = walk.shapes[row]
     if s.kind != CHAIN:
@@ -222,7 +226,10 @@ def speed_under(walk, row, x, y):
 
 @subkernel
 def feel_ground(me, walk_inout):
-    """Write whether a character is grounded, its supporting body, and the slope and surface speed of its ground."""
+    """Write whether a character is grounded, the body that supports it, and the slope and surface speed of its ground.
+
+    me: CHARACTER row; walk_inout.found: the nearby shapes.
+    """
     c = walk_inout.characters[me]
     what, by, slope = blocked_at(walk_inout, me, walk_inout.found, c.left, c.top + 1, 0, 1, 0.0)
     was_grounded = c.grounded
@@ -250,7 +257,10 @@ def feel_ground(me, walk_inout):
 
 @subkernel
 def feel(me, walk_inout):
-    """Write the ground and the wall that a character touches. walk_inout.found: the nearby shapes."""
+    """Write the ground and the wall that a character touches, from the nearby shapes in walk_inout.found.
+
+    me: CHARACTER row.
+    """
     c = walk_inout.characters[me]
     feel_ground(me, walk_inout)
     c.wall = 0
@@ -266,9 +276,9 @@ def feel(me, walk_inout):
 
 @subkernel
 def depth_in(me, row, walk_inout):
-    """Return (depth [px], unit normal from the character) of the overlap of a character with a loose shape.
+    """Return (depth [px], nx, ny) of the overlap of a character with a loose shape (solids.is_loose).
 
-    row: row of the shape; loose: see solids.is_loose.
+    nx, ny: unit normal from the character; me: CHARACTER row; row: row number in SHAPE.
     """
     c = walk_inout.characters[me]
     if walk_inout.shapes[row].kind == CHAIN:
@@ -280,9 +290,9 @@ def depth_in(me, row, walk_inout):
 
 @subkernel
 def is_in_drawn(me, row, walk_inout):
-    """Return whether a shape overlaps a character on the pixel grid: it would block a motion in one of four directions.
+    """Return whether a shape overlaps a character on the pixel grid, so that it would block a move in some direction.
 
-    me, row: CHARACTER row and shape row.
+    me, row: row numbers in CHARACTER and SHAPE.
     """
     c = walk_inout.characters[me]
     for side in range(-1, 2, 2):
@@ -297,7 +307,7 @@ def is_in_drawn(me, row, walk_inout):
 
 @subkernel
 def is_crushed(me, all_kinds, walk_inout):
-    """Return whether a moving solid overlaps a character; if it is loose, by more than GIVE. O(nearby solids).
+    """Return whether a moving solid overlaps a character; if the solid is loose, by more than GIVE. O(nearby solids).
 
     me: CHARACTER row; all_kinds: True to test dynamic bodies too, False for kinematic bodies only.
     """
@@ -329,7 +339,10 @@ PACE = 2  # [px] moved out of a solid in one move: about the push-out of overlap
 
 @subkernel
 def keep_still(walk, rows_inout):
-    """Keep only the shapes of static bodies in a list of shape rows, whose first entry is the number of rows."""
+    """Remove all shapes but those of static bodies from a list of shape rows.
+
+    The first entry is the length of the list.
+    """
     kept = 0
     for k in range(1, rows_inout[0] + 1):
         row = rows_inout[k]
@@ -341,7 +354,10 @@ def keep_still(walk, rows_inout):
 
 @subkernel
 def is_inside(me, walk_inout):
-    """Return whether a character overlaps a static solid. walk_inout.found: the nearby solids. O(nearby solids)."""
+    """Return whether a character overlaps a static solid. walk_inout.found: the nearby solids. O(nearby solids).
+
+    Shapes of other bodies are removed from this list. me: CHARACTER row.
+    """
     c = walk_inout.characters[me]
     keep_still(walk_inout, walk_inout.found)
     what, by, slope = blocked_at(walk_inout, me, walk_inout.found, c.left, c.top, 0, 0, 0.0)
@@ -353,8 +369,8 @@ def lead_out(me, reach, walk_inout, moved_inout):
     """Move a character out of a static solid towards the nearest free position, by up to PACE pixels.
 
     Of equally near positions, up comes before sideways, and sideways before down. The character does not move if there
-    is no free position within `reach` [px]. The pixels moved are added to moved_inout, see walk. O(reach · nearby
-    solids).
+    is no free position within `reach` [px]. me: CHARACTER row; moved_inout: the pixels moved are added, see walk.
+    O(reach · nearby solids).
     """
     c = walk_inout.characters[me]
     rows = walk_inout.found
@@ -395,7 +411,7 @@ def lead_out(me, reach, walk_inout, moved_inout):
 def push_body(me, row, direction, speed, left, walk_inout):
     """Push one body towards a speed [px/s] along x, by an impulse of at most `left`. Return the unused part of `left`.
 
-    me, row: CHARACTER row and shape row of the body; direction: -1 left, 1 right.
+    me, row: row numbers of the character in CHARACTER and of the body's shape in SHAPE; direction: -1 left, 1 right.
     """
     c = walk_inout.characters[me]
     b = walk_inout.bodies[walk_inout.shapes[row].body_row]
@@ -421,7 +437,7 @@ def push_body(me, row, direction, speed, left, walk_inout):
 
 @subkernel
 def shove(me, direction, speed, walk_inout):
-    """Push the bodies next to a character towards the speed [px/s] of its move, as far as its strength allows.
+    """Push the bodies next to a character until they have the speed [px/s] of its move, as far as its strength allows.
 
     The push is a force over the coming step, so sufficient friction holds a body in place. me: CHARACTER row;
     direction: -1 left, 1 right.
@@ -445,17 +461,17 @@ def shove(me, direction, speed, walk_inout):
 def foot_of(c, s):
     """Return the point (x, y) [px] at which the feet of a character (row c) stand on a shape (row s).
 
-    The point is the middle of the feet, or the point of the feet nearest to the middle that is within the shape's AABB
-    along x.
+    It is the middle of the feet, or the nearest point to it along x that is within the shape's AABB.
     """
     return min(max(c.left + 0.5 * c.width, s.min_x), s.max_x), float(c.top + c.height)
 
 
 @subkernel
 def knock(me, row, direction, speed, walk_inout):
-    """Apply the inelastic impact of a character that lands on a body (direction 1) or hits it with its head (-1).
+    """Apply the inelastic impact of a character that lands on a body, or hits it from below with its head.
 
-    me, row: CHARACTER row and shape row of the body; speed [px/s]: speed of the character along y, positive down.
+    me, row: row numbers of the character in CHARACTER and of the body's shape in SHAPE; direction: 1 for a landing, -1
+    for the head; speed [px/s]: speed of the character along y, positive down.
     """
     c = walk_inout.characters[me]
     x, y = foot_of(c, walk_inout.shapes[row])
@@ -477,9 +493,9 @@ def knock(me, row, direction, speed, walk_inout):
 def press(shapes, gravity_x, gravity_y, slow, characters_inout, bodies_inout):
     """Apply the weight of characters to the awake dynamic bodies that they stand on. O(characters · log shapes).
 
-    gravity_x, gravity_y [px/s2]. The body of a character gets the velocity of the ground under it, except if the ground
-    is slower than `slow` [px/s]: such ground is coming to rest, and must not be kept awake. The point under the feet
-    [px] is stored.
+    Store the point under the feet [px] of each character, and give its body the velocity of the ground there. Ground
+    that is slower than `slow` [px/s] is an exception: it is coming to rest, and must not be kept awake. gravity_x,
+    gravity_y [px/s2].
     """
     for me in range(len(characters_inout)):
         c = characters_inout[me]
@@ -505,17 +521,17 @@ def press(shapes, gravity_x, gravity_y, slow, characters_inout, bodies_inout):
 
 @subkernel
 def is_between(manifold, first, second):
-    """Return whether a manifold is between the bodies with the ids `first` and `second`."""
+    """Return whether a CONTACT row is between the bodies with the ids `first` and `second`, in either order."""
     m = manifold
     return (m.body_a == first and m.body_b == second) or (m.body_b == first and m.body_a == second)
 
 
 @kernel
 def write_weight(characters, weight_rate, manifolds_inout):
-    """Write the weight of characters as normal impulses into the manifolds with their ground.
+    """Write the weight of characters as normal impulses to their contacts with the ground.
 
-    weight_rate [px/s]: gravity times the length of the step. The points of a character's manifolds share its weight.
-    O(characters · manifolds).
+    weight_rate [px/s]: gravity times the length of the step. All points of a character's contacts share its weight
+    equally. O(characters · contacts).
     """
     for me in range(len(characters)):
         c = characters[me]
@@ -542,13 +558,13 @@ def write_weight(characters, weight_rate, manifolds_inout):
 
 @subkernel
 def whole_pixels(remainder):
-    """Return the whole number of pixels nearest to `remainder` [px], the part of a motion not yet made."""
+    """Return `remainder` [px], the part of a motion that is not yet made, rounded to the nearest whole number."""
     return math.floor(remainder + 0.5)
 
 
 @subkernel
 def way_for_pushed(by, direction, walk_inout):
-    """Return (row of the character that blocks a move; pixels up by which it can be pushed one pixel along x).
+    """Return (row of the character that blocks a move, pixels that it must rise to be pushed one pixel along x).
 
     by: shape row that blocks the move; direction: -1 left, 1 right. The first value is -1 if `by` does not belong to a
     character; the second is -1 if this character cannot move.
@@ -563,7 +579,7 @@ def way_for_pushed(by, direction, walk_inout):
 
 @subkernel
 def step_sideways(me, direction, follow, walk_inout):
-    """Move a character one pixel along x, with a pushable character in front of it. Return whether it moved.
+    """Move a character one pixel along x, and push a pushable character in front of it. Return whether it moved.
 
     The character also moves up a slope, and if `follow` is 1 down a slope. me: CHARACTER row; direction: -1 left, 1
     right.
@@ -599,7 +615,8 @@ def step_sideways(me, direction, follow, walk_inout):
 def walk_along(me, dx, follow, walk_inout, moved_out):
     """Move a character along x by dx [px], pixel by pixel, and push bodies in front of it by impulses.
 
-    follow: 1 to follow ground that goes down. moved_out[2] is set to 1 if the character was stopped.
+    me: CHARACTER row; follow: 1 to stay on ground that goes down. moved_out[2] is set to 1 if the character was
+    stopped.
     """
     c = walk_inout.characters[me]
     c.remainder_x += dx
@@ -621,7 +638,7 @@ def walk_along(me, dx, follow, walk_inout, moved_out):
 def slide_pixel(me, slope, walk_inout):
     """Move a character one pixel sideways, down a slope that is too steep to walk on.
 
-    Return whether the pixel was free.
+    me: CHARACTER row; slope: rise of the ground per px to the right. Return whether the pixel was free.
     """
     c = walk_inout.characters[me]
     side = -1 if slope > 0.0 else 1
@@ -635,8 +652,8 @@ def slide_pixel(me, slope, walk_inout):
 def fall_or_rise(me, dy, walk_inout, moved_out):
     """Move a character along y by dy [px], pixel by pixel, with impacts on bodies that it hits.
 
-    On ground too steep to walk on the character slides down, by the component of dy along the slope. moved_out[3] is
-    set to 1 if the character was stopped.
+    On ground too steep to walk on the character slides down, by the component of dy along the slope. me: CHARACTER row.
+    moved_out[3] is set to 1 if the character was stopped.
     """
     c = walk_inout.characters[me]
     rows = walk_inout.found
@@ -688,9 +705,8 @@ def fall_or_rise(me, dy, walk_inout, moved_out):
 def walk(me, dx, dy, walk_inout, moved_out):
     """Move a character by (dx, dy) [px], x first, and write its contacts. Return whether it overlaps a static solid.
 
-    me: CHARACTER row. walk_inout: see Walk. moved_out (4,): pixels moved along x, along y; 1 if the character was
-    stopped along x, along y. A character that overlaps a static solid has to be led out, see lead_out. O(pixels ·
-    nearby solids).
+    In that case the caller must lead it out, see lead_out. me: CHARACTER row. moved_out (4,): pixels moved along x,
+    along y; 1 if the character was stopped along x, along y. O(pixels · nearby solids).
     """
     c = walk_inout.characters[me]
     reach = 3.0 + abs(dx) + abs(dy)
@@ -713,9 +729,9 @@ def walk(me, dx, dy, walk_inout, moved_out):
 
 @kernel
 def is_stopped(me, along_x, along_y, walk_inout):
-    """Return whether a character cannot move by (along_x, along_y) pixels, each -1, 0 or 1.
+    """Return whether a character could not move by (along_x, along_y) pixels, each -1, 0 or 1. It stays in place.
 
-    It is not moved by the test. me: CHARACTER row.
+    me: CHARACTER row.
     """
     c = walk_inout.characters[me]
     gather(walk_inout, me, -1, 3.0, 3.0 + STEEPEST_CLIMB, 3.0, walk_inout.found)

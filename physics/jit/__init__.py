@@ -1,8 +1,8 @@
 """Kernels: plain functions over tables and scalars, compiled or run as plain Python.
 
 Only this folder imports numba, and only when it is needed. With numba a kernel is compiled at its first call and stored
-on disk. Without numba the same source is called with views of the tables and arrays (plain.py). In a program that opted
-in to background compilation (tiers.py) a kernel runs as plain Python until its compiled form is available. Both forms
+on disk. Without numba the same source is called with views of the tables and arrays (plain.py). A program may opt in to
+background compilation (tiers.py). Then a kernel runs as plain Python until its compiled form is available. Both forms
 give the same bits.
 
 There are five decorators: `kernel` for functions that a stage calls with arrays; `generic` for functions that are
@@ -28,27 +28,27 @@ DECORATORS = ("generic", "inlined", "kernel", "noalias", "subkernel")  # their n
 
 
 def subkernel(function: Callable) -> Any:
-    """Return a function for kernels to call: a Part, or without numba the function itself. Used as a decorator."""
+    """Decorator: make a function that only kernels call. Return a Part, or without numba the function itself."""
     return Part(function) if JIT else function
 
 
 def inlined(function: Callable) -> Any:
-    """Return a subkernel that is inlined at every call, because a loop that contains a call is not vectorised."""
+    """Decorator: make a subkernel that is inlined at every call. A loop that contains a call is not vectorised."""
     return Part(function, is_inlined=True) if JIT else function
 
 
 def noalias(function: Callable) -> Any:
-    """Return a subkernel whose arrays never overlap (noalias), so that a loop over two of them is vectorised."""
+    """Decorator: make a subkernel whose arrays never overlap, so that a loop over two of them is vectorised."""
     return Part(function, noalias=True) if JIT else function
 
 
 def kernel(function: Callable) -> Any:
-    """Return a kernel: a function that a stage calls with tables, arrays and scalars, always of the same types."""
+    """Decorator: make a kernel, which a stage calls with tables, arrays and scalars, always of the same types."""
     return StageKernel(function) if JIT else _viewing(function)
 
 
 def generic(function: Callable) -> Any:
-    """Return a kernel that is called with arguments of several types. Used as a decorator.
+    """Decorator: make a kernel that is called with arguments of several types.
 
     There is one compiled form for each list of types, which is looked up in every call.
     """

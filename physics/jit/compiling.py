@@ -39,7 +39,7 @@ from physics.jit.store import store
 
 
 class PartLibrary(codegen.JITCodeLibrary):
-    """The code of a part (a kernel that only kernels call), to be linked into the code of its callers.
+    """The code of a part (a kernel that only kernels call), which is linked into the code of its callers.
 
     The calls in it are resolved, but the code is neither optimised nor executable.
     """
@@ -57,7 +57,7 @@ class PartLibrary(codegen.JITCodeLibrary):
 
     @classmethod
     def from_bitcode(cls, generator: Any, name: str, code: bytes) -> "PartLibrary":
-        """Return the library of stored bitcode. generator: a numba CPUCodegen."""
+        """Return the library whose bitcode was stored. generator: a numba CPUCodegen; name: name of the library."""
         library = cls(generator, name)
         library._final_module = library._shared_module = llvm.parse_bitcode(code)
         library._finalized = True
@@ -66,12 +66,12 @@ class PartLibrary(codegen.JITCodeLibrary):
 
 @register_pass(mutates_CFG=True, analysis_only=False)
 class PartLowering(typed_passes.NativeLowering):
-    """Numba's lowering pass, with its output in a PartLibrary."""
+    """Numba's lowering pass for parts. Its output is a PartLibrary."""
 
     _name = "part_lowering"
 
     def run_pass(self, state: Any) -> bool:
-        """Lower the function as numba does, but without machine code, so that the function has no address."""
+        """Lower the function as numba does, but without making machine code, so that the function has no address."""
         state.library = PartLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
         state.flags.no_compile = True
         state.flags.noalias = getattr(state.func_id.func, "noalias", False)
@@ -97,24 +97,26 @@ class PartCompiler(CompilerBase):
 
 
 def entry_of(descriptor: Any, environment: Any, library: PartLibrary) -> Any:
-    """Return the function object by which numba identifies a compiled part.
+    """Return the function object by which numba identifies a compiled part. It is never called and has no address.
 
-    The object has no address, because it is never called. descriptor, environment: numba's objects of the part;
-    library: its code.
+    descriptor, environment: numba's objects of the part; library: its code.
     """
     name = descriptor.qualname.split(".")[-1]
     return _dynfunc.make_function(descriptor.lookup_module(), name, "", 0, environment, (library,))
 
 
 def reduce(result: Any) -> tuple:
-    """Return the data of a part's CompileResult that the store keeps, as a tuple that can be pickled."""
+    """Return the data of a part's CompileResult that the store keeps, as a tuple that can be pickled.
+
+    Inverse: rebuild.
+    """
     descriptor = result.fndesc
     descriptor.typemap = descriptor.calltypes = None  # these cannot always be pickled
     return result.library.name, result.library.bitcode(), descriptor, result.environment, result.signature
 
 
 def rebuild(target_context: Any, kept: tuple) -> Any:
-    """Return a part's CompileResult from `kept`, the result of reduce(). target_context: numba's target context."""
+    """Return a part's CompileResult from `kept`, the result of reduce. target_context: numba's target context."""
     name, code, descriptor, environment, signature = kept
     library = PartLibrary.from_bitcode(target_context.codegen(), name, code)
     return compile_result(
@@ -157,12 +159,12 @@ def file_name(kernel: Kernel, types_text: str) -> str:
 
 
 def name_of(kernel: Kernel, keys: Keys) -> str:
-    """Return the name in the store of a stage's kernel that is compiled for arguments of these types."""
+    """Return the name in the store of a kernel that stages call, compiled for arguments of the types `keys`."""
     return file_name(kernel, ",".join(map(text_of, keys)))
 
 
 def load(kernel: Kernel, keys: Keys) -> Form | None:
-    """Return the compiled form of a kernel from the store; None: the store does not have it.
+    """Return the compiled form of a kernel from the store, or None if the store does not have it.
 
     keys: types of the arguments.
     """
@@ -177,7 +179,7 @@ def load(kernel: Kernel, keys: Keys) -> Form | None:
 
 
 def load_or_compile(kernel: Kernel, keys: Keys) -> Form:
-    """Return the compiled form of a kernel from the store; if the store does not have it, compile and store it.
+    """Return the compiled form of a kernel from the store. If it is not there, compile and store it.
 
     keys: types of the arguments.
     """
@@ -199,7 +201,10 @@ def _compile(kernel, keys):
 
 
 def _kept(result):
-    """Return the data of a stage's kernel that the store keeps: names, constants of its entry, machine code."""
+    """Return the data of a compiled kernel that the store keeps: names, constants of its entry, machine code.
+
+    result: numba's CompileResult.
+    """
     descriptor = result.fndesc
     constants = [
         (each.env_name, each.globals["__name__"], list(each.consts)) for each in result._find_referenced_environments()
@@ -215,7 +220,7 @@ def _kept(result):
 
 
 def prepare() -> None:
-    """Start LLVM, so that the first kernel that is loaded does not wait for it."""
+    """Start LLVM now, so that the first kernel that is loaded need not wait for it."""
     with global_compiler_lock:
         _generator()
         _add_runtime_symbols()
@@ -228,7 +233,7 @@ def _generator() -> Any:
 
 
 def _link(kept):
-    """Return the function of stored machine code, linked into numba's engine. kept: the result of _kept()."""
+    """Link stored machine code into numba's engine, and return its function. kept: the result of _kept."""
     modname, qualname, symbol, env_name, constants, code = kept
     with global_compiler_lock:
         generator = _generator()
@@ -249,7 +254,7 @@ def _link(kept):
 
 
 def _environment(name, module, values):
-    """Return numba's environment of compiled code: the globals of its module, and its constants `values`."""
+    """Return numba's environment `name` for compiled code: the globals of a module, and the constants `values`."""
     known = lookup_environment(name)
     if known is not None:
         return known
@@ -264,7 +269,7 @@ _runtime: list[bool] = []
 
 
 def _add_runtime_symbols():
-    """Register the address of numba's runtime with LLVM, as numba does at its first compilation."""
+    """Register the addresses of numba's runtime functions with LLVM, as numba does at its first compilation."""
     if not _runtime:
         for name, address in _nrt_python.c_helpers.items():
             llvm.add_symbol(name if name.startswith("_") else f"NRT_{name}", address)
@@ -275,7 +280,7 @@ _UNDER_WAY = object()
 
 
 def dispatcher_of(kernel: Kernel) -> Any:
-    """Return numba's dispatcher for a copy of a kernel in which all kernels that it calls are replaced by dispatchers.
+    """Return numba's dispatcher for a kernel, in a copy whose calls of other kernels go to their dispatchers.
 
     Raises TypeError for a kernel that calls itself.
     """
@@ -308,7 +313,7 @@ def _compiled_form_of(value):
 
 
 def _take_literals_as_values(dispatcher):
-    """Make a dispatcher compile one version for all calls with the same types.
+    """Make a dispatcher compile one version for all calls with the same types, also if arguments are literals.
 
     Numba would compile a version for every literal argument. With this change the kernels of the platformer compile in
     80 s of processor time instead of 136 s.
@@ -328,7 +333,7 @@ _claimed: dict[str, ExitStack] = {}  # file name -> release of the claim, for al
 
 @contextmanager
 def _claims():
-    """Release, at the end of the context, the claims on parts that are still held after an error."""
+    """At the end of the context, release the claims on parts that an error has left behind."""
     try:
         yield
     finally:
@@ -349,9 +354,9 @@ class PartCache(caching._Cache):
         return str(store().folder)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """Return a part from the store; None: the store does not have the part.
+        """Return a part from the store, or None if it is not there. sig: numba's signature of the part.
 
-        In the second case the part is claimed, so that other processes wait until it is stored.
+        If None is returned, the part is claimed, so that other processes wait until this process has stored it.
         """
         name = self._name(sig)
         content = store().read(name)
@@ -388,7 +393,7 @@ class PartCache(caching._Cache):
 
 
 def _type_text(found: Any) -> str:
-    """Return a numba type as text that differs for different types."""
+    """Return a numba type as text that is different for different types."""
     any_tuple, named_tuple = _tuple_types()
     if isinstance(found, named_tuple):
         kind = found.instance_class
@@ -404,7 +409,7 @@ def _tuple_types() -> Any:  # whose members numba does not declare
 
 @contextmanager
 def stable_symbols() -> Iterator[None]:
-    """While the context is open, let numba name compiled functions by content, not by a counter of the process."""
+    """While the context is open, have numba name compiled functions by content, not by a counter of the process."""
     identity: Any = bytecode.FunctionIdentity
     counted = identity.__dict__["from_function"]
 
@@ -422,7 +427,7 @@ def stable_symbols() -> Iterator[None]:
 
 
 def _symbol(function):
-    """Return a unique name for a function's symbol: the hash of its content, or a random name if there is no hash."""
+    """Return a unique name for a function's symbol: the hash of its content, or random digits if it has no hash."""
     content = getattr(function, "content", None)
     if content is not None:
         return content

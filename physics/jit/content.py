@@ -1,9 +1,9 @@
 """Fingerprints of kernels: hashes of all data on which their machine code depends, equal in every process.
 
 A fingerprint covers the code of the kernel and of all functions that it calls or closes over, at any depth, with
-docstrings; closed-over values and module globals that it reads; flags; the name of its module; the sources of this
-folder; the versions of Python, NumPy, numba and llvmlite; the processor and its features; bounds checks and SVML. It
-does not cover comments of kernels and line numbers.
+docstrings. It also covers closed-over values and module globals that it reads, its flags, the name of its module, and
+the sources of this folder. The environment is covered by the versions of Python, NumPy, numba and llvmlite, the
+processor and its features, bounds checks and SVML. Comments of kernels and line numbers are not covered.
 """
 
 import hashlib
@@ -28,7 +28,7 @@ _describing = threading.RLock()
 
 
 class NotHashable(TypeError):
-    """Error for a value whose fingerprint would differ between processes."""
+    """Error for a value whose hash would differ between processes, such as an address."""
 
 
 def fingerprint(kernel: Kernel) -> str:
@@ -62,7 +62,7 @@ def _digest(*parts):
 
 
 def content_of_library(function: FunctionType) -> str:
-    """Return the hash of one of numba's own functions that is compiled into kernels: its code and its closure.
+    """Return the hash of one of numba's own functions that is compiled into kernels: of its code and its closure.
 
     The globals of the function's module are left out, because numba's version identifies them. Raises NotHashable for a
     function of another package.
@@ -110,7 +110,7 @@ def _describe_code(code):
 
 
 def _describe(value, names=()):
-    """Yield texts that distinguish a value from other values. names: for a module, the attributes to describe."""
+    """Yield texts that are equal only for equal values. names: for a module, the attributes to describe."""
     kind = type(value)
     if value is None or kind in (bool, int, float, complex, str, bytes):
         yield f"{kind.__name__} {value!r}"
@@ -169,7 +169,7 @@ def _described_type(value):
 
 @cache
 def environment() -> str:
-    """Return, as text, all data on which machine code depends in addition to the kernel. Imports numba.
+    """Return, as text, all data besides the kernel on which machine code depends. Imports numba.
 
     The data are sources of this folder, versions, processor and numba's settings.
     """

@@ -27,7 +27,7 @@ _depth = 0
 
 @contextmanager
 def compiling() -> Iterator[None]:
-    """Add the time of the context to the seconds of compiling. Nested contexts count once."""
+    """Context manager that adds its time to the seconds of compiling. Nested contexts count once."""
     global compiled, seconds, _depth
     started = perf_counter()
     _depth += 1
@@ -42,7 +42,7 @@ def compiling() -> Iterator[None]:
 
 @contextmanager
 def measured() -> Iterator[Callable[[], float]]:
-    """Yield a function that returns the seconds of compiling and loading since the context was entered."""
+    """Context manager that yields a function: the seconds of compiling and loading since the context was entered."""
     before = seconds + loading
     yield lambda: seconds + loading - before
 
@@ -60,7 +60,7 @@ SCALARS = {bool: ("scalar", "bool"), int: ("scalar", "int64"), float: ("scalar",
 
 
 def key_of(value: Any) -> Key:
-    """Return the key of one argument: a tuple that names its type.
+    """Return the key of one argument: a tuple that names its type, see Key.
 
     Raises TypeError for a type that kernels cannot have as an argument.
     """
@@ -83,7 +83,7 @@ def key_of(value: Any) -> Key:
 
 
 def text_of(key: Key) -> str:
-    """Return a key as text, which is equal in every process and different for different types."""
+    """Return a key as text that is equal in every process and different for different types."""
     if key[0] == "array":
         _, dtype, dimensions, layout, writeable = key
         return f"array({_dtype_text(dtype)},{dimensions},{layout},{'writeable' if writeable else 'readonly'})"
@@ -161,7 +161,7 @@ class Kernel:
 
     @property
     def flags_text(self) -> str:
-        """Text of the flags on which the machine code depends."""
+        """The flags on which the machine code depends, as text."""
         return f"part={self.is_part} inlined={self.is_inlined} noalias={self.noalias}"
 
     @property
@@ -171,7 +171,7 @@ class Kernel:
 
     @property
     def plain(self) -> Form:
-        """The plain twin: the same function as plain Python, in which calls of other kernels call their plain twins."""
+        """The plain twin: the same function as plain Python. Its calls of other kernels go to their plain twins."""
         if self._plain is None:
             rebound(self.py_func, plain_form_of, self._note_plain)
         assert self._plain is not None
@@ -188,16 +188,16 @@ class Kernel:
         self.run = self.call_plain
 
     def call_plain(self, *arguments: Any) -> Any:
-        """Run the kernel as plain Python, on views of the arguments that return Python numbers."""
+        """Run the plain twin, on views of the arguments that return Python numbers."""
         return self.plain(*[view_of(each) for each in arguments])
 
     def install(self, keys: Keys, form: Form) -> None:
-        """Store a compiled form for arguments of these types."""
+        """Keep a compiled form for arguments of the types `keys`."""
         self.forms[keys] = form
 
 
 class Part(Kernel):
-    """A kernel that only other kernels call in its compiled form.
+    """A kernel whose compiled form only other kernels call.
 
     Python can call its plain twin, with the same result.
     """
@@ -206,7 +206,10 @@ class Part(Kernel):
 
 
 def plain_form_of(value: Any) -> Any:
-    """Return the replacement of a global or closed-over value in a plain twin; for a kernel, its plain twin."""
+    """Return the object that takes the place of a global or closed-over value in a plain twin.
+
+    For a kernel it is the kernel's plain twin, for most other values the value itself.
+    """
     if value is math:
         return plain_math
     return value.plain if isinstance(value, (Kernel, Builtin)) else value

@@ -30,7 +30,7 @@ _found: list[Any] = []  # numba, or None if it cannot be imported
 
 
 def compiler() -> Any:
-    """Return numba, imported at the first call; None if it cannot be imported, which is reported once."""
+    """Return numba, imported at the first call, or None if it cannot be imported. A failure is reported once."""
     if not _found:
         try:
             import numba
@@ -74,7 +74,7 @@ class TableView:
 
 
 def _table_view(array):
-    """Return the TableView of a structured array, which is cached as long as the array exists.
+    """Return the TableView of a structured array. It is cached as long as the array exists.
 
     Most tables are used in many calls: the cache saves 10 % of a plain step (three games).
     """
@@ -101,7 +101,10 @@ def _row_class(dtype):
 
 
 def view_of(argument: Any) -> Any:
-    """Return the form of an argument for plain kernels: TableView of a table, memoryview of an array, Python number."""
+    """Return an argument in the form for plain kernels: TableView of a table, memoryview of an array, Python number.
+
+    Tuples are converted item by item.
+    """
     kind = type(argument)
     if kind is float or kind is int or kind is bool:
         return argument
@@ -124,8 +127,8 @@ WORD_MASK = 0xFFFFFFFFFFFFFFFF
 class Builtin:
     """A function that kernels call and that has separate forms for plain and compiled kernels.
 
-    plain: the Python function. make: function that returns the form for numba. sources: functions whose source text is
-    part of the cache key of every kernel that calls this function.
+    plain: the Python function. make: function that returns the form for numba. sources: functions whose code is part of
+    the fingerprint of every kernel that calls this function.
     """
 
     def __init__(self, plain: Callable, make: Callable[[], Any], *sources: Callable) -> None:
@@ -152,7 +155,7 @@ def _masked(value):
 
 
 def _count_bits(typing_context, word):
-    """Return type and code generator of the number of set bits of a uint64, as numba.extending.intrinsic needs them."""
+    """Return (type, code generator) for counting the set bits of a uint64, as numba.extending.intrinsic needs them."""
 
     def generate(context, builder, signature, args):
         narrow = signature.args[0].bitwidth < 64
@@ -191,7 +194,7 @@ def _make_popcount():
 
 
 def put_in(function: Callable) -> Callable[[], Any]:
-    """Return a function that makes numba's form of `function`, inlined at every call, as `make` of a Builtin."""
+    """Return a `make` for Builtin: a function that returns numba's form of `function`, inlined at every call."""
     return lambda: compiler().njit(inline="always")(function)
 
 
@@ -208,7 +211,7 @@ def _copy_head(source, row_out, size):
 
 
 def _row_copy(typing_context, source, row_out):
-    """Return type and code generator of the copy of a row to another row, as numba.extending.intrinsic needs them."""
+    """Return (type, code generator) for copying a row to another row, as numba.extending.intrinsic needs them."""
 
     def generate(context, builder, signature, args):
         from numba.core import cgutils
@@ -221,7 +224,7 @@ def _row_copy(typing_context, source, row_out):
 
 
 def _head_copy(typing_context, source, row_out, size):
-    """Return type and code generator of the copy of a row's first bytes, as numba.extending.intrinsic needs them."""
+    """Return (type, code generator) for copying the first bytes of a row, as numba.extending.intrinsic needs them."""
 
     def generate(context, builder, signature, args):
         from numba.core import cgutils
@@ -261,7 +264,7 @@ Replace = Callable[[Any], Any]
 
 
 def names_in(code: CodeType) -> tuple[str, ...]:
-    """Return the names that a code object, and code nested in it, reads as globals or attributes."""
+    """Return the names that a code object, and code nested in it, reads as globals or attributes, sorted."""
     names = set(code.co_names)
     for each in code.co_consts:
         if isinstance(each, CodeType):
@@ -279,8 +282,8 @@ def globals_of(function: FunctionType) -> Iterator[tuple[str, Any]]:
 def rebound(function: FunctionType, replace: Replace, made: Callable[[FunctionType], Any] = lambda twin: None) -> Any:
     """Return a copy of a function in which every global and closed-over value is replaced by replace(value).
 
-    made(copy) is called before the values are replaced, so that in a function that refers to itself, `replace` can
-    return the copy.
+    made(copy) is called before the values are replaced. So if the function refers to itself, `replace` can return the
+    copy for it.
     """
     names = {"__builtins__": __builtins__, "__name__": function.__module__}
     cells = tuple(CellType() for _ in function.__closure__ or ())

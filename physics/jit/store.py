@@ -39,7 +39,7 @@ _opening = threading.Lock()
 
 
 def cache_home() -> Path:
-    """Return the folder for compiled kernels by the platform's rule, or HITBOX_CACHE_DIR, without creating it."""
+    """Return the folder for compiled kernels: HITBOX_CACHE_DIR, or the platform's usual place. It is not created."""
     override = os.environ.get("HITBOX_CACHE_DIR")
     if override:
         return Path(os.path.expanduser(override))
@@ -51,7 +51,7 @@ def cache_home() -> Path:
 
 
 def make_private(folder: Path) -> str:
-    """Make a folder that only this user can read and write. Return "", or the reason if that fails.
+    """Make a folder that only this user can read and write. Return "", or the reason why that failed.
 
     An existing folder is not changed, with one exception: if it holds only kernels, read permission of other users is
     removed.
@@ -75,7 +75,10 @@ def make_private(folder: Path) -> str:
 
 
 def _exposed(folder):
-    """Return a message if another user could read or write code in the folder; "": no other user can."""
+    """Return a message if another user could read or write code in the folder, else "".
+
+    A folder that holds only kernels, and that others could only read, is made private instead.
+    """
     info = folder.stat()
     if info.st_uid != os.getuid():
         return f"{folder} belongs to another user"
@@ -95,8 +98,8 @@ def _exposed(folder):
 def store() -> "Store":
     """Return the store of this process: in the user's cache folder, in a folder next to it, or in a temporary folder.
 
-    The first of these folders that is private and writable is used. The temporary folder lasts for this run only. The
-    use of the second or third folder is reported.
+    The first of these folders that is private and writable is used. If it is not the first, this is reported. The
+    temporary folder lasts for this run only.
     """
     with _opening:
         return _open_store()
@@ -124,7 +127,7 @@ def _tell(where):
 
 
 def _remove_at_exit(folder):
-    """Remove a temporary folder at exit. Until then a lock on a file in it marks it as in use."""
+    """Have a temporary folder removed at exit. Until then a lock on a file in it marks it as in use."""
     lock = _locked(folder / "in-use", wait=False)
 
     def remove():
@@ -136,7 +139,7 @@ def _remove_at_exit(folder):
 
 
 def _locked(path, wait):
-    """Return a file opened with an exclusive lock, held until the file is closed; None: another process holds the lock.
+    """Return a file opened with an exclusive lock, held until the file is closed; None if another process holds it.
 
     wait: whether to wait for the lock. On a system without such locks every process gets the file; then work may be
     done twice.
@@ -163,7 +166,7 @@ class Store:
         self._swept = False
 
     def read(self, name: str) -> bytes | None:
-        """Return the contents of a file, and record its use; None: it is absent or damaged."""
+        """Return the contents of a stored file, or None if it is absent or damaged. Its use is recorded."""
         path = self.folder / (name + SUFFIX)
         try:
             with open(path, "rb", opener=_no_link) as file:
@@ -242,7 +245,7 @@ class Store:
     def claim(self, name: str) -> Iterator[None]:
         """Hold a lock on a name while the context is open, so that only one process compiles the kernel of this name.
 
-        A process that enters while another process holds the lock waits, but no longer than PATIENCE [s].
+        If another process holds the lock, wait for it, but no longer than PATIENCE [s].
         """
         path, lock, until = self.folder / (name + CLAIMED), None, time.monotonic() + PATIENCE
         with contextlib.suppress(OSError):
@@ -258,7 +261,7 @@ class Store:
 
 
 def checksum(name: str, content: bytes) -> bytes:
-    """Return the checksum with which a stored file begins: a hash of the name and contents of the file."""
+    """Return the checksum with which a stored file begins: a hash of its name and contents."""
     return hashlib.blake2b(content, digest_size=CHECKSUM, key=hashlib.blake2b(name.encode()).digest()).digest()
 
 
@@ -267,7 +270,7 @@ def _no_link(path, flags):
 
 
 def _sweep_temporary():
-    """Remove the temporary folders that killed runs of this user have left; their locks are free."""
+    """Remove temporary folders that killed runs of this user have left. They are known by their free locks."""
     if fcntl is None:
         return
     for folder in Path(tempfile.gettempdir()).glob(f"{TEMPORARY}*"):

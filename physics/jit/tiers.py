@@ -1,4 +1,4 @@
-"""Calls of kernels from Python: the form that runs, its time, and references by which other processes find a kernel."""
+"""Calls of kernels from Python: which form runs, its time, and references by which other processes find a kernel."""
 
 import importlib
 from collections import deque
@@ -31,7 +31,7 @@ _recording = False
 
 
 def form_of(kernel: "Kernel", keys: "Keys") -> Form | None:
-    """Return the compiled form of a kernel for a first call with these argument types; None: run its plain twin."""
+    """Return the compiled form for the first call of a kernel with these argument types; None to run its plain twin."""
     if _collected is not None:
         return _note(kernel, keys, _collected)
     if background:
@@ -63,8 +63,8 @@ def _note(kernel, keys, collected):
 def collecting(all_calls: bool = False) -> Iterator[dict[tuple[Kernel, Keys], None]]:
     """Run kernels that are not on disk as plain Python while the context is open, and compile nothing.
 
-    Yield a dict whose keys are (kernel, types) of these kernels, in the order of their first calls. all_calls: treat
-    kernels on disk in the same way, unless they are already loaded.
+    Yield a dict whose keys are (kernel, types) of these kernels, in the order of their first calls. all_calls: also run
+    and record kernels that are on disk, unless they are already loaded.
     """
     global _collected, _recording
     before = _collected, _recording
@@ -76,7 +76,7 @@ def collecting(all_calls: bool = False) -> Iterator[dict[tuple[Kernel, Keys], No
 
 
 def start(when_asked: Callable[[], object]) -> None:
-    """Run each kernel without a compiled form as plain Python from now on, and call when_asked() once for each."""
+    """From now on, run each kernel without a compiled form as plain Python, and call when_asked() once for each."""
     global background, asked
     background, asked = True, when_asked
 
@@ -101,7 +101,7 @@ def take_over() -> None:
 
 
 def share_taken_over() -> float:
-    """Return the fraction of the called kernels that run compiled, 0..1; 1 before any kernel was called."""
+    """Return the fraction of the called kernels that run compiled, from 0 to 1; 1 before any kernel was called."""
     if not wanted:
         return 1.0
     compiled = sum(len(each.forms) for each in registry)
@@ -128,7 +128,7 @@ def forget() -> None:
 class StageKernel(Kernel):
     """A kernel that a stage calls. Once it is compiled, Python calls the compiled form directly.
 
-    A direct call does not inspect the types of the arguments: numba takes 1.07 us for that with six tables, and 0.1 us
+    A direct call does not inspect the types of the arguments. Numba takes 1.07 us for that with six tables, and 0.1 us
     for the call; a step of 55 boxes makes 15 calls. Unless it is `generic`, a kernel is called with the same types each
     time. A float for an int raises TypeError, and the compiled form refuses another element size. Other types are
     refused only under HITBOX_CHECK_CALLS=1.
@@ -139,7 +139,7 @@ class StageKernel(Kernel):
         self.run = self._generic_call if self.is_generic else self._first_call
 
     def install(self, keys: Keys, form: Form) -> None:
-        """Store a compiled form, which calls with these argument types run from now on."""
+        """Keep a compiled form, which runs from now on in calls with arguments of the types `keys`."""
         self.forms[keys] = form
         if self.is_generic:
             return
@@ -175,9 +175,9 @@ class StageKernel(Kernel):
 
 
 def _checked(kernel, keys, whole, form):
-    """Return a wrapper of a compiled form that refuses a float for an int, and under CHECKING all other types.
+    """Return a wrapper of a compiled form that refuses a float for an int, and under CHECKING any other new type.
 
-    keys: types of the arguments; whole: numbers of the arguments that must be ints.
+    keys: types of the arguments; whole: indices of the arguments that must be ints.
     """
 
     def call(*arguments):
@@ -207,7 +207,7 @@ Spec = tuple[str, str, str, tuple[tuple[bool, Any], ...], dict[str, bool]]
 
 
 def spec_of(kernel: Kernel) -> Spec:
-    """Return a reference, which can be pickled, by which another process finds or makes a kernel."""
+    """Return a reference to a kernel that can be pickled, by which another process finds or makes the same kernel."""
     function = kernel.py_func
     closed = tuple(
         (True, spec_of(cell.cell_contents)) if isinstance(cell.cell_contents, Kernel) else (False, cell.cell_contents)
@@ -260,7 +260,7 @@ def _codes_of(module, qualname):
 
 
 def code_of(kernel: Kernel, known: Container[Kernel]) -> int:
-    """Return the bytes of code of a kernel and of all kernels that it calls, without the kernels in `known`."""
+    """Return the size [bytes] of the code of a kernel and of all kernels that it calls, without those in `known`."""
     return sum(size for part, size in parts_of(kernel).items() if part not in known)
 
 

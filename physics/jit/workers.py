@@ -27,7 +27,7 @@ TURN = 0.0005  # [s] switch interval of the threads of this process while kernel
 
 @contextmanager
 def short_turns() -> Iterator[None]:
-    """Let the interpreter switch threads after TURN while the context is open.
+    """Have the interpreter switch threads after TURN [s] while the context is open.
 
     The main thread releases the interpreter in every call of NumPy, and would wait 5 ms to get it back. With short
     turns, frames of the platformer take 55 ms instead of 80 ms while the compiler is imported.
@@ -41,7 +41,7 @@ def short_turns() -> Iterator[None]:
 
 
 class _Pauses:
-    """An import hook that slows the imports of one thread: while kernels run plain, the hook sleeps before each import.
+    """An import hook that slows the imports of one thread: while kernels run plain, it sleeps before each import.
 
     It is a module finder that finds no module.
     """
@@ -57,7 +57,7 @@ class _Pauses:
 
 @contextmanager
 def unhurried_imports() -> Iterator[None]:
-    """Limit imports to the fraction SHARE of this thread's time while the context is open.
+    """Limit the imports of this thread to the fraction SHARE of its time while the context is open.
 
     So a game with plain kernels continues to run: importing the compiler takes 0.7 s of processor time, and without
     pauses a game showed 20 frames in this second.
@@ -77,11 +77,11 @@ IMPORTED_FROM = Path(__file__).resolve().parents[__name__.count(".")]  # the fol
 
 
 def start_module(module: str, **environment: str) -> "subprocess.Popen[str]":
-    """Start `python -m module` with pipes for lines, at low priority, ignoring Ctrl-C in the terminal.
+    """Start `python -m module` at low priority, with pipes for lines of text. It ignores Ctrl-C in the terminal.
 
     module: full name of the module, as in f"{__package__}.worker". The child imports from the same folders as this
     program, and not from the current folder, where a `physics.py` or `numpy.py` belongs to the user. environment:
-    additional environment variables. Raises OSError, ValueError if no process can be started.
+    additional environment variables. Raises OSError or ValueError if no process can be started.
     """
     # A process group, not a session: Linux divides processor time between sessions independent of the priority of their
     # processes (autogroups, man 7 sched), so a session of its own would take as much time as the program.
@@ -100,7 +100,7 @@ def start_module(module: str, **environment: str) -> "subprocess.Popen[str]":
 
 
 def search_path() -> dict[str, str]:
-    """Return {"PYTHONPATH": …} for a child process, so that the child imports this package from the same folder.
+    """Return the environment variable {"PYTHONPATH": …} with which a child process imports this same package.
 
     The dict is empty if the child does so without it.
     """
@@ -148,7 +148,7 @@ def encoded(value: Any) -> str:
 
 
 def decoded(line: str) -> Any:
-    """Return the value of a line from encoded().
+    """Return the value that encoded() turned into this line.
 
     Use it only for lines from this program's own processes, because the line is unpickled.
     """
@@ -156,9 +156,10 @@ def decoded(line: str) -> Any:
 
 
 class Task:
-    """An order for a worker process. Tasks with the largest urgency() are started first.
+    """A task for a worker process. Tasks with the largest urgency() are started first.
 
-    done(answer) is called in the thread of the worker process, with None if the task fails.
+    order: the value that is sent to the process. done(answer) is called in the thread of that process, with None if the
+    task fails.
     """
 
     def __init__(self, order: Any, urgency: Callable[[], float], done: Callable[[Any], object]) -> None:
@@ -167,7 +168,10 @@ class Task:
 
 
 class Workers:
-    """A pool of worker processes that run one module. `limit`: number of processes that may start tasks now."""
+    """A pool of worker processes that run one module. count: number of processes, None for one per core.
+
+    `limit`: number of processes that may start tasks now.
+    """
 
     def __init__(self, module: str, count: int | None = None) -> None:
         self.module = module
@@ -214,7 +218,7 @@ class Workers:
             self._changed.notify_all()
 
     def wait(self, seconds: float | None = None) -> bool:
-        """Wait until all tasks are done, at most `seconds` (None: no limit). Return whether all are done."""
+        """Wait until all tasks are done, at most `seconds` (None: without limit). Return whether all are done."""
         with self._changed:
             return self._changed.wait_for(lambda: not self.left or self._stopped, seconds) and not self.left
 
@@ -228,7 +232,7 @@ class Workers:
         atexit.unregister(self.stop)
 
     def _serve(self, number):
-        """Pass tasks one by one to process `number` until stop(). Each process has a thread that runs this."""
+        """Pass tasks one by one to process number `number` until stop(). This runs in a thread for each process."""
         while True:
             with self._changed:
                 self._changed.wait_for(lambda: self._stopped or (self._tasks and number < self._limit))
@@ -255,7 +259,7 @@ class Workers:
                 self._changed.notify_all()
 
     def _ask(self, number, order):
-        """Send an order to process `number`. Return (whether it answered, its answer).
+        """Send an order to process number `number`. Return (whether it answered, its answer).
 
         A process that has died or hangs is replaced when the next order is sent.
         """
