@@ -1,4 +1,4 @@
-"""Compilation of kernels in worker processes, while the program runs or before it needs the kernels."""
+"""Compilation of kernels in worker processes, in the background of a running program or ahead of its need."""
 
 import json
 import threading
@@ -29,7 +29,7 @@ _running: "list[Background]" = []
 
 
 def compile_in_background(workers: int | None = None) -> "Background":
-    """Run kernels as plain Python until worker processes have compiled them.
+    """Run kernels as plain Python until worker processes have compiled them. Return the Background.
 
     A kernel changes to its compiled form between two steps. Both forms give the same bits, so only the speed changes.
     The kernels that take the most time per byte of code are compiled first. workers: number of processes, at most 8;
@@ -37,8 +37,8 @@ def compile_in_background(workers: int | None = None) -> "Background":
     `python -m`, so a script needs no `if __name__ == "__main__"`. A frozen program has no workers and compiles in a
     thread. Without numba the call has no effect.
 
-    Call it before the first step. Return the Background; another call returns the same object. Raises ValueError if
-    workers is neither None nor a whole number of at least 0.
+    Call it before the first step. Another call returns the same object. Raises ValueError if workers is neither None
+    nor a whole number of at least 0.
     """
     if workers is not None and (not isinstance(workers, int) or isinstance(workers, bool) or workers < 0):
         raise ValueError(f"workers must be None or a whole number, at least 0 (got {workers!r})")
@@ -48,9 +48,9 @@ def compile_in_background(workers: int | None = None) -> "Background":
 
 
 class Background:
-    """The background compilation of this program's kernels: its progress and its end.
+    """The background compilation of this program's kernels, as returned by compile_in_background().
 
-    Made by compile_in_background().
+    It reports the progress and can be stopped.
     """
 
     def __init__(self, workers: int | None = None) -> None:
@@ -73,7 +73,7 @@ class Background:
 
     @property
     def share(self) -> float:
-        """The fraction of the called kernels that run compiled, 0..1."""
+        """The fraction of the kernels called so far that run compiled, from 0 to 1."""
         return tiers.share_taken_over()
 
     @property
@@ -82,11 +82,10 @@ class Background:
         return not tiers.wanted and not self._expected and not self.workers.left
 
     def expect(self, jobs: Iterable[Mapping[str, Any]]) -> None:
-        """Announce that the kernels of physics.warmup(**job) will be called, for each job.
+        """Announce jobs: for each of them, the kernels of physics.warmup(**job) will be called later.
 
         A job holds values that JSON can represent; it must contain `effects` as a list of names (see Effects.names).
-        The kernels of the first job are compiled first, whenever no kernel that has already been called waits for
-        compilation.
+        Kernels of jobs are compiled, job after job, whenever no kernel that was already called waits for compilation.
         """
         for job in jobs:
             self._expected.append((self._jobs, dict(job)))
@@ -103,7 +102,7 @@ class Background:
             tiers.stop()
 
     def _work(self):
-        """Load called kernels from the store and let workers compile missing ones, until stop(). Runs in a thread."""
+        """Load called kernels from the store and have workers compile missing ones, until stop(). Runs in a thread."""
         if store().empty and self.workers.alive:  # nothing to load yet, so numba is not needed here
             self._wake.wait()
             if tiers.wanted:
@@ -145,7 +144,7 @@ class Background:
         return True
 
     def _order_early(self, kernel, keys):
-        """Let a worker compile a kernel before numba is imported in this process. keys: types of its arguments.
+        """Have a worker compile a kernel before numba is imported in this process. keys: types of its arguments.
 
         Without numba, the name of the kernel's file in the store is not yet known here.
         """
@@ -166,13 +165,13 @@ class Background:
         self.workers.add([Task(("compile", spec_of(kernel), keys), lambda: self._urgency([each]), done)])
 
     def _take_in(self):
-        """Load the kernels that workers compiled before numba was imported here."""
+        """Load the kernels that workers compiled before numba was imported in this process."""
         with suppress(IndexError):  # another thread took the last one
             while self._came:
                 self._load([self._came.popleft()])
 
     def _find(self, kernel, keys):
-        """Load a called kernel from the store, or let a worker compile it. keys: types of its arguments."""
+        """Load a called kernel from the store, or have a worker compile it. keys: types of its arguments."""
         from physics.jit import compiling
 
         if (kernel, keys) in self._seen:
@@ -191,7 +190,7 @@ class Background:
                 self._take(*each, form)
 
     def _order(self, name, spec, keys, index):
-        """Let a worker compile a kernel: called kernels first, then announced kernels in the order of their jobs.
+        """Have a worker compile a kernel: called kernels first, then announced kernels in the order of their jobs.
 
         Among the called kernels, the kernel with the most run time per byte of code to compile comes first (Smith's
         rule, which minimises the sum of the waiting times: Smith 1956). name: name of its file in the store; spec,
@@ -217,9 +216,9 @@ class Background:
         self.workers.add([Task(("compile", spec, keys), urgency, done)])
 
     def _urgency(self, waiting):
-        """Return the priority of the kernels that share one file.
+        """Return the priority of the kernels `waiting` that wait for the same file.
 
-        The priority is 1 + (seconds as plain Python) / (bytes of code that are not yet compiled). waiting: the kernels.
+        It is 1 + (seconds for which they have run as plain Python) / (bytes of code that are not yet compiled).
         """
         code = LINK + code_of(waiting[0][0], self._compiled)
         return 1.0 + sum(kernel.seconds for kernel, _ in waiting) / code
@@ -247,7 +246,7 @@ class Background:
         tiers.arrived.append((kernel, keys, form))
 
     def _list(self, index, job):
-        """Compile the kernels of a job with workers, unless an earlier run of the program compiled all of them.
+        """Have workers compile the kernels of a job, unless an earlier run of the program compiled all of them.
 
         index: number of the job.
         """
@@ -265,7 +264,10 @@ class Background:
 
 
 def _mark(job):
-    """Return the name of a file in the store that exists if all kernels of a job are compiled from these sources."""
+    """Return the name of a marker file in the store for a job, as JSON text.
+
+    The file exists if all kernels of the job have been compiled from these sources.
+    """
     from physics.jit.content import environment
 
     digest = blake2b(f"{_sources()}{environment()}{job}".encode(), digest_size=20).hexdigest()
@@ -371,7 +373,7 @@ def compile_jobs(
 
 
 def _spread(found):
-    """Return the kernels in an order in which each kernel adds the most code that no earlier kernel contains.
+    """Return the kernels in an order in which each one adds as much code as possible that no earlier one contains.
 
     Workers that take kernels in this order compile different parts of the physics and seldom wait for each other: 1 %
     of their time, compared with 14 % if the kernel with the most code came first (the platformer, two cores).

@@ -1,4 +1,4 @@
-"""Body: a handle on one row of `world.bodies`. It holds an id and no state.
+"""Body: a handle on one row of `world.bodies`. It holds a world and an id, and no state of its own.
 
 Reading or changing a removed body raises KeyError.
 """
@@ -34,10 +34,7 @@ class Body(Handle):
     __slots__ = ()
 
     def __setattr__(self, name: str, value: Any) -> None:
-        """Set an attribute.
-
-        Raises AttributeError for an unknown name; the message suggests the most similar known name.
-        """
+        """Set an attribute. Raises AttributeError for an unknown name, and suggests the most similar known name."""
         try:
             object.__setattr__(self, name, value)
         except AttributeError:
@@ -72,7 +69,7 @@ class Body(Handle):
 
     @property
     def bounds(self) -> tuple[float, float, float, float] | None:
-        """The AABB (min_x, min_y, max_x, max_y) [px] of the shapes at the present pose; None if they are empty."""
+        """The AABB (min_x, min_y, max_x, max_y) [px] of all shapes at the present pose; None if they are empty."""
         self._must_exist()
         return bounds_of(self.world, self.id)
 
@@ -92,7 +89,7 @@ class Body(Handle):
         return Vec2(*rotate(x - row["x"].item(), y - row["y"].item(), math.cos(angle), -math.sin(angle)))
 
     def move_to(self, position: Pair, angle: float | None = None) -> None:
-        """Teleport the body to a position [px] and an angle [rad]. The path to the new pose is not swept.
+        """Teleport the body to a position [px] and an angle [rad]. Nothing on the way is hit.
 
         angle: None leaves the angle unchanged.
         """
@@ -169,7 +166,7 @@ class Body(Handle):
 
     @property
     def awake(self) -> bool:
-        """Whether the body takes part in the simulation."""
+        """Whether the body is awake. A sleeping body is left out of the steps until something wakes it."""
         return self._value("awake")
 
     @property
@@ -179,7 +176,7 @@ class Body(Handle):
 
     @property
     def inertia(self) -> float:
-        """Inertia about the centre of mass."""
+        """Moment of inertia about the centre of mass [density px⁴]."""
         return self._value("inertia")
 
     @property
@@ -200,10 +197,10 @@ class Body(Handle):
         )
 
     def apply_force(self, force: Pair, point: Pair | None = None) -> None:
-        """Add a force for the next step, at the centre of mass or at a world point [px].
+        """Add a force [mass px/s²] for the next step, at the centre of mass or at a world point [px].
 
-        Raises ValueError for a body that is not dynamic, and in a world without the effects response, gravity, drag and
-        wind.
+        Raises ValueError for a body that is not dynamic, and in a world with none of the effects response, gravity,
+        drag and wind.
         """
         self.world._unstepped()
         force = checks.vector("force", force)
@@ -242,7 +239,7 @@ class Body(Handle):
             )
 
     def apply_torque(self, torque: float) -> None:
-        """Add a torque for the next step.
+        """Add a torque [mass px²/s²] for the next step.
 
         Raises ValueError without the effect rotation, and for a body that is not dynamic.
         """
@@ -254,7 +251,10 @@ class Body(Handle):
         columns["torque"][row] += torque
 
     def _dynamic(self, what) -> tuple[int, dict[str, Any]]:
-        """Return the row number and the columns of a dynamic body. Raises ValueError for a body of another kind."""
+        """Return (row number, columns) of this body, which must be dynamic. Raises ValueError if it is not.
+
+        what: name of the operation, for the message.
+        """
         row, columns = self._world._row_at(self._id), self._world._bodies.columns
         if columns["kind"][row] != DYNAMIC:
             raise ValueError(f"{what} needs a dynamic body; body {self.id} is {self.kind}")
@@ -264,9 +264,9 @@ class Body(Handle):
 
     @property
     def contacts(self) -> np.ndarray:
-        """A copy of the CONTACT_POINT rows that name this body, in the order of shape ids.
+        """A copy of the CONTACT_POINT rows in which this body takes part, in the order of shape ids.
 
-        The rows are those of the last step and of the contacts of sleeping bodies.
+        They are contacts of the last step, and contacts of sleeping bodies.
         """
         world, row = self.world, self._row
         told = world.contacts
@@ -276,14 +276,14 @@ class Body(Handle):
         return both[np.lexsort((both["shape_b"], both["shape_a"]))]
 
     def carve(self, shape: Shape, pose: Pose, crumb: int = 4) -> Carved:
-        """Remove the pixels of the body's masks whose centres lie inside a shape at a world pose, or on its boundary.
+        """Remove the pixels of the body's masks whose centres lie inside a shape, or on its boundary. Return a Carved.
 
-        shape: a Circle, Capsule, Polygon or PixelMask. pose: (x, y) or (x, y, angle). Pieces are 8-connected. In a
-        dynamic body, each carved mask keeps only its largest piece. In a body of another kind, pieces that were
-        separate before the cut stay, and a piece that splits keeps its largest part. On ties, the piece with the first
-        pixel stays. The other pieces become dynamic bodies, whose pixels keep their velocities. Separated pieces of
-        fewer than `crumb` pixels are removed. The body is removed if no shape is left, or if it is dynamic and no mask
-        is left. Bodies that touch carved pixels wake.
+        shape: a Circle, Capsule, Polygon or PixelMask. pose: its pose in the world, (x, y) or (x, y, angle). Pieces are
+        8-connected. In a dynamic body, each carved mask keeps only its largest piece. In a body of another kind, pieces
+        that were separate before the cut stay, and a piece that splits keeps its largest part. On ties, the piece with
+        the first pixel stays. The other pieces become dynamic bodies, whose pixels keep their velocities. Separated
+        pieces of fewer than `crumb` pixels are removed. The body is removed if no shape is left, or if it is dynamic
+        and no mask is left. Bodies that touch carved pixels wake.
 
         Raises TypeError for an argument of another type, ValueError without the effect carving or for a body without a
         PixelMask, and RuntimeError during a step.
@@ -299,7 +299,7 @@ class Body(Handle):
         sleep.disturb(self.world, [self.id])
 
     def set_kind(self, kind: str) -> None:
-        """Set the kind: static, kinematic or dynamic. A body that becomes static stops.
+        """Set the kind: "static", "kinematic" or "dynamic". A body that becomes static stops.
 
         Raises ValueError for another kind, for shapes that a body of this kind cannot have, and for the body of a
         character, which must stay kinematic.
@@ -318,7 +318,7 @@ class Body(Handle):
 
     @property
     def kind(self) -> str:
-        """The kind: static, kinematic or dynamic. See set_kind."""
+        """The kind: "static", "kinematic" or "dynamic". See set_kind."""
         return KINDS[self._value("kind")]
 
     @property
@@ -345,7 +345,7 @@ class Body(Handle):
 
     @property
     def filter(self) -> Filter:
-        """The filter of the shapes without a filter of their own."""
+        """The collision filter of the shapes without a filter of their own."""
         return edit.filter_of(self.world, self.id)
 
     @filter.setter
@@ -393,10 +393,10 @@ class Body(Handle):
 
     @property
     def bullet(self) -> bool:
-        """Whether the body is also swept against other dynamic bodies.
+        """Whether the body is also swept against other dynamic bodies, so that it cannot pass through them.
 
-        A solver that does not stack sweeps all of these pairs. Setting True raises ValueError without the effect
-        continuous.
+        A solver that does not stack sweeps all pairs of dynamic bodies. Setting True raises ValueError without the
+        effect continuous.
         """
         return self._value("bullet")
 
@@ -408,9 +408,9 @@ class Body(Handle):
 
     @property
     def continuous(self) -> str:
-        """Continuous collision of the body: off, ray, swept, toi or auto.
+        """Continuous collision of the body: "off", "ray", "swept", "toi" or "auto".
 
-        Setting ray, swept or toi raises ValueError without the effect continuous.
+        Setting "ray", "swept" or "toi" raises ValueError without the effect continuous.
         """
         return CONTINUOUS[self._value("continuous")]
 
@@ -431,7 +431,7 @@ class Body(Handle):
 
     @property
     def shapes(self) -> tuple[Shape, ...]:
-        """The shapes that were given; with a tier, the shapes that replace them."""
+        """The shapes of the body. If a tier is set, they are the shapes that replace its PixelMask."""
         self._must_exist()
         return self.world._shapes_of[self.id]
 
@@ -443,8 +443,9 @@ class Body(Handle):
     def set_shapes(self, *shapes: Shape) -> None:
         """Replace the shapes. The body keeps its own values, such as its material; Body.tier becomes None.
 
-        The new shapes get new ids, except if all old and all new shapes are masks, and there are equally many: then the
-        ids stay. Contacts on unchanged surface keep their impulses. Raises TypeError, ValueError for invalid shapes.
+        The new shapes get new ids, with one exception: if all old and all new shapes are masks, and there are equally
+        many, the ids stay. Contacts on unchanged surface keep their impulses. Raises TypeError or ValueError for
+        invalid shapes.
         """
         edit.set_shapes(self.world, self.id, shapes)
 
@@ -459,16 +460,22 @@ class Body(Handle):
         edit.exchange_cells(self.world, self.id, cells, solid)
 
     def add_shape(self, shape: Shape) -> int:
-        """Append a shape, recompute the mass, and end a tier. Return the id of the shape."""
+        """Append a shape, and recompute the mass. Return the id of the shape. Body.tier becomes None."""
         return edit.add_shape(self.world, self.id, shape)
 
     def remove_shape(self, shape_id: int) -> None:
-        """Remove a shape, recompute the mass, and end a tier. Raises KeyError for an id of another body's shape."""
+        """Remove a shape, and recompute the mass. Body.tier becomes None.
+
+        Raises KeyError if shape_id is not the id of a shape of this body.
+        """
         edit.remove_shape(self.world, self.id, shape_id)
 
     @property
     def tier(self) -> str | None:
-        """The accuracy of the shapes that replace the body's PixelMask: one of TIERS; None for the given shapes."""
+        """How the body's PixelMask is simplified: one of TIERS, such as "hull"; None if its given shapes are used.
+
+        Setting it replaces the shapes of the body by those of physics.fit for the mask.
+        """
         self._must_exist()
         return self.world._tiers.get(self.id)
 
@@ -483,7 +490,7 @@ class Body(Handle):
         return self.world._body_row(self.id)
 
     def _value(self, name: str) -> Any:
-        """Return a value of the body's row as a Python number.
+        """Return a value of the body's BODY row as a Python number.
 
         The value is read from its column, in a tenth of the time that reading the row takes.
         """
@@ -501,7 +508,7 @@ class Body(Handle):
         return self.world._definitions.rows[self.world._row_number(self.id)]
 
     def _must_exist(self) -> None:
-        """Raise KeyError for a removed body."""
+        """Raise KeyError if the body was removed."""
         self._world._row_at(self._id)
 
     def _stir(self, row: int) -> int:

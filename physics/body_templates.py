@@ -26,7 +26,7 @@ POSE = tuple((name, kept + name) for kept in ("previous_", "still_", "rocking_")
 
 
 class Template(NamedTuple):
-    """The rows of a body, which are copied for further bodies, and the state of the world on which they depend.
+    """The rows of a body, to be copied for further bodies, and the state of the world for which they are valid.
 
     Pose and velocity are not copied.
     """
@@ -54,7 +54,7 @@ def key_of(
     gravity_scale: Any,
     allow_sleep: Any,
 ) -> tuple | None:
-    """Return the key of a template from arguments of add_body; None if an argument has an unusual type."""
+    """Return the key of the template for these arguments of add_body; None if an argument has an unusual type."""
     plain = (
         type(kind) is type(continuous) is str
         and type(sensor) is type(bullet) is type(fixed_rotation) is type(allow_sleep) is bool
@@ -72,8 +72,8 @@ def key_of(
 def find(world: WorldState, key: tuple | None) -> Template | None:
     """Return the template stored under `key`; None if there is none, or if it does not fit the world any more.
 
-    A template fits the effects, the library and the setting of sleeping with which it was stored. key: see key_of; None
-    has no template.
+    A template fits while the world has the effects, the library and the setting of sleeping with which it was stored.
+    The key None has no template.
     """
     try:
         found = world._templates.get(key)
@@ -85,7 +85,10 @@ def find(world: WorldState, key: tuple | None) -> Template | None:
 
 
 def keep(world: WorldState, key: tuple | None, shapes: Sequence[Shape]) -> None:
-    """Store the rows of the last added body as the template of a key. Nothing is stored for the key None."""
+    """Store the rows of the body that was added last as the template of a key. For the key None nothing is stored.
+
+    shapes: the shapes of this body.
+    """
     if key is None or not all(shape._may_turn for shape in shapes):
         return
     at, kind = world._bodies.count - 1, world.bodies["kind"][-1]
@@ -106,9 +109,9 @@ def keep(world: WorldState, key: tuple | None, shapes: Sequence[Shape]) -> None:
 def add_like(
     world: WorldState, template: Template, shapes: tuple, position: Vec2, velocity: Vec2, angle: float, spin: float
 ) -> int:
-    """Add a body with the rows of a template. Return its id, or -1 if nothing was added because add_rows must be used.
+    """Add a body with the rows of a template. Return its id, or -1 if it must be added by add_rows instead.
 
-    position [px]; velocity [px/s]; angle [rad]; spin [rad/s].
+    shapes: the shapes of the body; position [px]; velocity [px/s]; angle [rad]; spin [rad/s].
     """
     parts, free = template.shapes, world.pairs.free
     moves = spin != 0.0 or velocity != (0.0, 0.0)
@@ -140,9 +143,9 @@ def add_like(
 
 
 def _add_shapes(world, parts, identity, at):
-    """Append the SHAPE rows of a body and add their proxies. identity, at: id and row of the body.
+    """Append the SHAPE rows of a body and add their proxies.
 
-    parts: see Template.shapes.
+    parts: Template.shapes; identity, at: id and row number of the body.
     """
     pairs, first = world.pairs, world._next_shape
     world._next_shape += len(parts)

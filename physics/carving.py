@@ -66,9 +66,9 @@ def carve(world: WorldState, identity: int, shape: object, pose: object, crumb: 
 
 
 def _tool_in(mask, frame, shape, pose):
-    """Return (function that finds the pixels of a mask tile inside a shape, AABB of the shape [px]).
+    """Return (tool, box): a function that finds the pixels of a mask tile inside a shape, and the shape's AABB.
 
-    The AABB is in the raster of the mask. frame: pose of the mask's body. pose: pose of the shape.
+    The AABB [px] is in the raster of the mask. frame, pose: poses of the mask's body and of the shape in the world.
     """
     corners = shape.points if shape._is_convex else rectangle(*(shape.bounds or (0.0, 0.0, 0.0, 0.0)))
     radius = shape.radius if shape._is_convex else 0.0
@@ -84,7 +84,7 @@ def _tool_in(mask, frame, shape, pose):
 
 
 def _in_raster(mask, frame, x, y):
-    """Return the position of a world point in the raster of a mask [px]. frame: pose of the mask's body."""
+    """Return the position (x, y) [px] of a world point in the raster of a mask. frame: pose of the mask's body."""
     u, v = rotate(x - frame[0], y - frame[1], math.cos(frame[2]), -math.sin(frame[2]))
     return u + mask.origin[0], v + mask.origin[1]
 
@@ -92,7 +92,7 @@ def _in_raster(mask, frame, x, y):
 def _mask_tool(mask, frame, shape, pose) -> Tool:
     """Return a function that finds the pixels of `mask` whose centres lie in solid pixels of the mask `shape`.
 
-    frame: pose of the body of `mask`. pose: pose of `shape`.
+    frame, pose: poses of the body of `mask` and of `shape` in the world.
     """
     turn = frame[2] - pose[2]
     cosine, sine = math.cos(turn), math.sin(turn)
@@ -157,7 +157,7 @@ def _motion_and_weight(world, identity) -> _Given:
 
 
 def _values_of(world, identity) -> edit.BodyDef:
-    """Return the BodyDef of a fragment: all values that it inherits from the carved body, except the mass."""
+    """Return the BodyDef of fragments: all values that they inherit from the carved body, except the mass."""
     row, given = world._body_row(identity), world._definitions.rows[world._row_number(identity)]
     return edit.BodyDef(
         angular_velocity=row["angular_velocity"].item(),
@@ -173,10 +173,10 @@ def _values_of(world, identity) -> edit.BodyDef:
 
 
 def _add_fragment(world, mask: PixelMask, loose: Loose, frame, given: _Given, wanted: edit.BodyDef) -> int:
-    """Add a body for a loose piece of a mask. Its pixels keep their positions and velocities. Return the body's id.
+    """Add a body for a loose piece of a mask. Its pixels keep their places and velocities. Return the body's id.
 
-    mask: the carved mask; loose: the piece; frame: pose (x, y, angle) of the carved body; given: values of the carved
-    body, see _Given; wanted: definition of the new body.
+    mask: the carved mask; loose: the piece; frame: pose (x, y, angle) of the carved body; given: motion and density of
+    the carved body; wanted: definition of the new body.
     """
     # The origin of the fragment is a corner of the mask's pixel grid near the middle of the piece, so that its pixels
     # stay on whole pixels.

@@ -26,7 +26,7 @@ LONGEST_SHOWN = 200  # [characters] of a wrong value in a message
 def number(
     name: str, value: Any, low: float | None = None, above: float | None = None, high: float | None = None
 ) -> float:
-    """Return a value as a finite float that is >= low, > above and <= high. A limit of None does not apply.
+    """Return a value as a finite float that is >= low, > above and <= high. None means no such limit.
 
     name: the argument's name for messages. Raises TypeError for a value that is not a real number or is a bool, and
     ValueError for a number outside the limits.
@@ -57,9 +57,9 @@ def number(
 
 
 def known_attribute(thing: Any, name: str, strict: bool) -> None:
-    """Raise AttributeError if an existing name resembles the name of a missing attribute.
+    """Raise AttributeError if the missing attribute `name` resembles an existing one, and suggest that one.
 
-    The message suggests that name. thing: the object; strict: raise the error also if no existing name is similar.
+    thing: the object; strict: raise the error also if no existing name is similar.
     """
     public = [each for each in {*dir(type(thing)), *getattr(thing, "__dict__", ())} if not each.startswith("_")]
     near = difflib.get_close_matches(name, sorted(public), 1, NEAR_NAME)
@@ -69,7 +69,7 @@ def known_attribute(thing: Any, name: str, strict: bool) -> None:
 
 
 class NoSuchId(KeyError, ValueError):
-    """Error for an id that no body or shape has. It is both a KeyError and a ValueError."""
+    """Error for an id that no body, shape or joint has. It is both a KeyError and a ValueError."""
 
     def __str__(self) -> str:
         return str(self.args[0])  # str() of a KeyError puts its message in quotes
@@ -104,7 +104,7 @@ def vector(name: str, value: Any) -> Vec2:
 
 
 def position(name: str, value: Any) -> Vec2:
-    """Return a pair of numbers as a Vec2 whose coordinates are within POSITION_LIMIT.
+    """Return a pair of numbers as a Vec2 whose coordinates [px] are within POSITION_LIMIT.
 
     Up to this limit a double resolves a pixel. Raises TypeError for a value that is not a pair of numbers, and
     ValueError for a coordinate at or beyond the limit.
@@ -163,10 +163,10 @@ def choice(name: str, value: Any, allowed: Sequence[str]) -> str:
 
 
 def columns(name: str, value: Any, count: int | None = None, width: int = 2, like: str = "positions") -> np.ndarray:
-    """Return numbers as a C-ordered float64 copy of shape (n, width), or (n,) for width 1. All numbers must be finite.
+    """Return numbers as a C-ordered float64 copy of shape (n, width), or (n,) for width 1. All must be finite.
 
-    count: required n, which is the number of rows of the argument named `like`; None: any n. Raises TypeError for a
-    value that is not an array of numbers, and ValueError for another shape or a number that is not finite.
+    count: the n that is required, because the argument named `like` has as many rows; None: any n. Raises TypeError for
+    a value that is not an array of numbers, and ValueError for another shape or a number that is not finite.
     """
     try:
         array = np.array(value)

@@ -1,8 +1,8 @@
 """Worker process `python -m physics.compile_worker`: compiles kernels for another process.
 
-Each line on standard input is an order; each line on standard output is the answer to one order. The order ("compile",
-spec, keys) compiles one kernel and stores it (physics/jit/store.py); the answer is the kernel's name in the store. The
-order ("list", arguments of physics.warmup) runs this warm-up as plain Python; the answer is a list of (name, spec,
+Each line on standard input is an order; each line on standard output is the answer to one order. There are two orders.
+("compile", spec, keys) compiles one kernel and stores it (physics/jit/store.py); the answer is the kernel's name in the
+store. ("list", arguments of physics.warmup) runs this warm-up as plain Python; the answer is a list of (name, spec,
 keys) for the kernels that the warm-up calls and that are not in the store. The answer to an order that fails is None.
 The process ends when its standard input ends.
 """
@@ -19,7 +19,7 @@ NICE = 10  # niceness from 0 to 19: the program has priority over this process
 
 
 def answer(order: tuple) -> Any:
-    """Run one order and return its answer. The docstring of the module describes both."""
+    """Run one order and return its answer. The module's docstring describes both."""
     from physics.effects import Effects
     from physics.jit import compiling, tiers
     from physics.warmup import run_warmup

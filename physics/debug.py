@@ -81,7 +81,10 @@ DRAWN_JOINT = np.dtype(
 
 
 def bounds(world: World) -> np.ndarray:
-    """Return (n, 4) tight AABBs of all shapes at the present poses, in the order of shape ids."""
+    """Return the tight AABBs (n, 4) [px] of all shapes at their present poses, in the order of shape ids.
+
+    Columns: min_x, min_y, max_x, max_y.
+    """
     world.queries.refresh(world)
     return np.stack([world.shapes[name] for name in ("min_x", "min_y", "max_x", "max_y")], axis=1)
 
@@ -100,7 +103,10 @@ def shape_rows(world: World) -> np.ndarray:
 
 
 def motion(world: World) -> np.ndarray:
-    """Return the swept AABBs (n, 4) of the last step, for the shapes of bodies that are not static."""
+    """Return the swept AABBs (n, 4) [px] of the last step, for the shapes of bodies that are not static.
+
+    Columns: min_x, min_y, max_x, max_y.
+    """
     proxies = world.pairs.proxies
     rows = proxies[(proxies["row"] >= 0) & ~proxies["still"]]
     return np.stack([rows[name] for name in ("lower_x", "lower_y", "upper_x", "upper_y")], axis=1)
@@ -149,7 +155,10 @@ def pairs(world: World) -> np.ndarray:
 
 
 def _candidate_rows(world):
-    """Return the shape rows (m, 2) of the last step's candidate pairs. Pairs with a removed shape are omitted."""
+    """Return the SHAPE row numbers (m, 2) of the last step's candidate pairs.
+
+    Pairs with a removed shape are omitted.
+    """
     ids = world.pairs.ids(world.shapes)
     known = np.ascontiguousarray(world.shapes["id"])
     if not len(ids) or not len(known):
@@ -159,9 +168,9 @@ def _candidate_rows(world):
 
 
 def outlines(world: World, rows: Sequence[int] | np.ndarray | None = None) -> list:
-    """Return one tuple for each shape that describes its outline in world pixels.
+    """Return the outline of each shape as a tuple in world pixels, whose first item names its kind.
 
-    rows: rows of world.shapes, None: all shapes. The tuple by kind, with corners as arrays: ("circle", x, y, r),
+    rows: row numbers in world.shapes, None: all shapes. The tuples, with corners as arrays, are: ("circle", x, y, r),
     ("polygon", (k, 2)), ("rounded", (k, 2), r), ("capsule", ax, ay, bx, by, r), ("segment", (2, 2)), ("chain", (k, 2)),
     ("mask", shape id) or ("tiles", shape id). The last corner of a closed chain repeats its first corner.
     """
@@ -194,7 +203,10 @@ def outlines(world: World, rows: Sequence[int] | np.ndarray | None = None) -> li
 
 
 def _line(shape, kind, points):
-    """Return the entry of outlines() for a polygon, capsule, segment or chain with these points in world space."""
+    """Return the tuple of outlines() for a polygon, capsule, segment or chain.
+
+    points (k, 2) [px]: its corners in the world.
+    """
     if kind == CHAIN:
         return "chain", np.concatenate([points, points[:1]]) if shape.loop else points
     if kind == CAPSULE:
@@ -238,10 +250,10 @@ def joints(world: World) -> np.ndarray:
 
 
 def part_edges(world: World, rows: np.ndarray | None = None) -> np.ndarray:
-    """Return the edges of the convex polygons in the outlines of masks, as EDGE rows.
+    """Return the edges of the convex polygons of which the outlines of masks consist, as EDGE rows.
 
-    rows: rows of world.shapes, None: all shapes. Parts of outlines that are circles or capsules have no edges; see
-    outlines().
+    rows: row numbers in world.shapes, None: all shapes. Parts of outlines that are circles or capsules have no edges;
+    for these see outlines().
     """
     shapes = world.shapes
     if rows is None:
@@ -269,7 +281,7 @@ def part_edges(world: World, rows: np.ndarray | None = None) -> np.ndarray:
 
 
 class Drawn(NamedTuple):
-    """Masks rasterised at their poses. Masks with equal pixels share one array."""
+    """Masks rasterised at their present poses. Masks with equal pixels share one array."""
 
     solids: list  # bool arrays [row, column]
     which: np.ndarray  # (n,) index in solids of the pixels of each mask
@@ -278,7 +290,10 @@ class Drawn(NamedTuple):
 
 
 def masks(world: World) -> list:
-    """Return (shape id, left, top, solid[row, column]) of each mask, rasterised at its present pose."""
+    """Return (shape id, left, top, solid[row, column]) of each mask, rasterised at its present pose.
+
+    left, top [px]: position of the raster in the world; solid: bool pixels.
+    """
     ids = world.shapes["id"][world.shapes["kind"] == MASK].tolist()
     found = drawn_masks(world)
     return [
@@ -288,18 +303,15 @@ def masks(world: World) -> list:
 
 
 def drawn_masks(world: World) -> Drawn:
-    """Return all masks, rasterised at their present poses, in arrays.
-
-    The cost grows little with the number of masks.
-    """
+    """Return all masks, rasterised at their present poses, as arrays. The cost grows little with their number."""
     world.queries.refresh(world)
     return _drawn(world, np.flatnonzero(world.shapes["kind"] == MASK))
 
 
 def _drawn(world, rows):
-    """Return the masks of these shape rows, rasterised at their present poses.
+    """Return the masks of these SHAPE row numbers, rasterised at their present poses.
 
-    Rasters that the steps did not need are drawn first.
+    Rasters that no step has needed so far are drawn first.
     """
     draw_pictures(world.library, rows, world.bodies, world.shapes)
     shapes, library = world.shapes[rows], world.library
@@ -353,8 +365,8 @@ SPECULATIVE, NEW, PERSISTED, SENSOR, ASLEEP = range(5)
 def contact_points(world: World) -> np.ndarray:
     """Return the POINT rows of all contacts of the last step, including speculative and sleeping contacts.
 
-    state: SPECULATIVE, NEW, PERSISTED, SENSOR or ASLEEP. color: the contact's colour in the solver's graph colouring;
-    -1: no colour.
+    Column state: SPECULATIVE, NEW, PERSISTED, SENSOR or ASLEEP. Column color: the contact's colour in the solver's
+    graph colouring, -1 for none.
     """
     found, sensed = world.contact_rows, world.sensed
     if sensed is None:
@@ -368,7 +380,7 @@ def contact_points(world: World) -> np.ndarray:
 
 
 def _points(world, contacts, state):
-    """Return the POINT rows of CONTACT rows. state: state of all points; None: find the state of each point."""
+    """Return the POINT rows of CONTACT rows. state: state of all points; None: determine the state of each point."""
     reported = contacts_of(contacts)
     points = np.zeros(len(reported), POINT)
     for name in set(reported.dtype.fields or ()) & set(POINT.fields or ()):
@@ -393,7 +405,7 @@ def _points(world, contacts, state):
 
 
 def islands(world: World) -> np.ndarray:
-    """Return (n,) for each body the lowest body id in its island, which names the island; -1 for no island."""
+    """Return for each body (n,) the lowest body id in its island, which names the island; -1 for no island."""
     bodies = world.bodies
     return np.where(
         (bodies["kind"] == DYNAMIC) & ~bodies["quarantined"] & (bodies["island"] >= 0), bodies["island"], -1
@@ -408,7 +420,7 @@ GHOST = np.dtype(
 def impact_ghosts(world: World) -> np.ndarray:
     """Return the GHOST rows of the bodies that continuous collision stopped in the last step.
 
-    A row holds the pose that the body would have reached and the fraction of its motion at which it was stopped.
+    A row holds the pose that the body would have reached, and the fraction of its motion at which it was stopped.
     """
     rows = world.ghosts
     if rows is None or not len(rows):

@@ -1,4 +1,4 @@
-"""Bodies and shapes added, changed and removed: arguments are checked before anything is changed."""
+"""Bodies and shapes are added, changed and removed here. Arguments are checked before anything is changed."""
 
 from collections.abc import Sequence
 from typing import Any, NamedTuple
@@ -43,7 +43,7 @@ def check_ids(world: WorldState, bodies: int, shapes: Sequence[Shape]) -> None:
 
 
 def add_shapes(world: WorldState, first_row: int, bodies: int, shapes: Sequence[Shape]) -> np.ndarray:
-    """Append the SHAPE rows of new shapes, add their proxies, and return the ids of the rows that are not parts.
+    """Append the SHAPE rows of new shapes and add their proxies. Return the ids of the rows that are not parts.
 
     first_row: row of the first body; bodies: number of consecutive body rows, each of which gets these shapes. Own
     values of a shape override the values of the body.
@@ -57,7 +57,7 @@ def add_shapes(world: WorldState, first_row: int, bodies: int, shapes: Sequence[
 
 
 def _append_rows(world, first_row, bodies, pieces) -> np.ndarray:
-    """Append the SHAPE rows of pieces for consecutive body rows, without parent ids, and return the rows."""
+    """Append and return the SHAPE rows of pieces for consecutive body rows. Their parent ids are not yet written."""
     n, k = bodies, len(pieces)
     ids = np.arange(world._next_shape, world._next_shape + n * k)
     if n * k == 0:
@@ -91,7 +91,7 @@ NONE = NewParts((), (), ())
 
 
 def append_parts(world: WorldState, template: np.ndarray, parts: NewParts) -> None:
-    """Append SHAPE rows for further parts of a mask's outline. template: the mask's SHAPE row, as an array (1,)."""
+    """Append SHAPE rows for new parts of a mask's outline. template: the mask's SHAPE row, as an array (1,)."""
     count = len(parts.shapes)
     if not count:
         return
@@ -116,7 +116,7 @@ def _enter(world, rows):
 
 
 def write_own_values(rows: np.ndarray, given: np.ndarray, shape: Shape) -> None:
-    """Write a shape's own material, filter and sensor to SHAPE rows; values of `given`, BODY_DEF rows, for the rest."""
+    """Write material, filter and sensor flag to SHAPE rows: the shape's own, else those of `given` (BODY_DEF rows)."""
     for name in (*MATERIAL, "membership", "mask", "sensor"):
         rows[name] = given[name]
     for name in ("material", "filter", "sensor"):
@@ -131,7 +131,7 @@ def write_own_values(rows: np.ndarray, given: np.ndarray, shape: Shape) -> None:
 
 
 class Piece(NamedTuple):
-    """The values of a future SHAPE row: of a shape, or of a part of a mask's outline."""
+    """The values from which a SHAPE row is made, of a shape or of a part of a mask's outline."""
 
     shape: Shape
     role: int  # WHOLE, PIXELS or PART
@@ -141,7 +141,7 @@ class Piece(NamedTuple):
 
 
 def rows_of_shapes(shapes: Sequence[Shape], pushed: bool) -> list[Piece]:
-    """Return a Piece for each shape of a body; if `pushed` (response), also for each part of a mask's outline."""
+    """Return a Piece for each shape, and with `pushed` (effect response) one for each part of a mask's outline."""
     found: list[Piece] = []
     for shape in shapes:
         tiles, owner = shape._response_parts() if pushed else (), len(found)
@@ -161,7 +161,7 @@ def rows_of_shapes(shapes: Sequence[Shape], pushed: bool) -> list[Piece]:
 def replace_mask(
     world: WorldState, identity: int, place: int, shape_id: int, mask: PixelMask, changed: Sequence[int] | None = None
 ) -> None:
-    """Replace a mask of a body by another mask. The shape id does not change, and equal parts keep their SHAPE rows.
+    """Replace a mask of a body by another mask. The shape id stays, and equal parts keep their SHAPE rows.
 
     place: index of the shape in the body; shape_id: id of the shape; changed: tiles in which the masks may differ,
     None: all. Bodies that touch changed parts wake. Contacts on unchanged parts keep their cached forces. O(changes),
@@ -241,7 +241,7 @@ def exchange_cells(world: WorldState, identity: int, cells: Any, solid: Any) -> 
 
 
 def checked_cells(cells: Any, solid: Any, rows: int, columns: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return (cells (n, 2) int64, solid (n,) bool). Raises TypeError, ValueError for invalid arguments."""
+    """Return (cells (n, 2) int64, solid (n,) bool). Raises TypeError or ValueError for invalid arguments."""
     found = checks.columns("cells", cells)
     if found.size and np.asarray(cells).dtype.kind not in "iu":
         raise TypeError(f"cells must be whole numbers (column, row) (got {checks.shown(cells)})")
@@ -261,7 +261,7 @@ def checked_cells(cells: Any, solid: Any, rows: int, columns: int) -> tuple[np.n
 
 
 def rows_at_cells(world: WorldState, at: int, size: float, cells: np.ndarray, margin: float) -> np.ndarray:
-    """Return the SHAPE rows of other bodies whose AABB, enlarged by a margin [px], meets a marked cell of a grid.
+    """Return the rows of other bodies' shapes whose AABB, enlarged by a margin [px], meets a marked cell of a grid.
 
     at: row of the grid's body; size [px]: size of a tile; cells (rows, columns) bool: the marked cells.
     """
@@ -283,7 +283,7 @@ def rows_at_cells(world: WorldState, at: int, size: float, cells: np.ndarray, ma
 
 
 def _wake_at_cells(world, at, rows):
-    """Wake islands at changed cells of a grid, and disturb bodies there that may touch it. rows: SHAPE rows there."""
+    """Wake islands at changed cells of a grid, and disturb bodies there. rows: rows of the shapes at these cells."""
     if not world.sleeps:
         return
     bodies = world.bodies[np.unique(world.shapes["body_row"][rows])]
@@ -301,12 +301,12 @@ def _wake_at_cells(world, at, rows):
 
 
 def rows_of_parent(world: WorldState, shape_id: int) -> np.ndarray:
-    """Return the SHAPE rows of a shape and its parts. shape_id: id of the shape."""
+    """Return the SHAPE row numbers of a shape (id) and of its parts."""
     return np.flatnonzero(world.shapes["parent"] == shape_id)
 
 
 def _differences(world, shape_id, before, mask, changed):
-    """Return (SHAPE rows of parts to remove, NewParts to add) for a new mask, and update the other parts' rows."""
+    """Return (rows of parts to remove, NewParts to add) for a new mask. Update the rows of parts that stay."""
     shapes = world.shapes
     if not world.effects.response:
         return np.zeros(0, np.int64), NONE
@@ -326,7 +326,7 @@ def _differences(world, shape_id, before, mask, changed):
 
 
 def _differences_in_tiles(world, shape_id, before, mask, changed):
-    """Return the result of _differences for tiled masks that differ only in the tiles `changed`."""
+    """Do the same as _differences for tiled masks that differ only in the tiles `changed`."""
     tiles = keep_tiles(mask.bare, before.bare, before.tiles.differences(mask.tiles, changed))
     if not tiles:
         return np.zeros(0, np.int64), NONE
@@ -355,7 +355,7 @@ def _rewrite_own_values(world, at, shape_id, mask):
 
 
 def _rejoin(world, at, touched):
-    """Mark SHAPE rows of a body as changed for the broad phase of the next step. at: row of the body."""
+    """Have the broad phase search the pairs of these SHAPE rows of a body again. at: row of the body."""
     world.pairs.touch(world.shapes["proxy"][touched])
     if world.bodies["quarantined"][at]:
         world.pairs.free_proxies(world.shapes["proxy"][touched])
@@ -373,7 +373,7 @@ def _rejoin(world, at, touched):
 
 
 def check_grid_stands(shapes: Sequence[Shape], turn: float, what: str = "angular_velocity") -> None:
-    """Raise ValueError for a TileGrid if `turn`, an angle or angular velocity, is not 0. what: name of turn."""
+    """Raise ValueError if a TileGrid would turn: if `turn`, an angle or angular velocity called `what`, is not 0."""
     for shape in shapes if turn != 0.0 else ():
         if not shape._may_turn:
             raise ValueError(
@@ -391,7 +391,7 @@ def set_mass_of(world: WorldState, identity: int, mass: float) -> None:
 
 
 def _weigh(world, at, used):
-    """Write mass, inertia and centre of mass of a body row with shapes `used`; update its cached contacts."""
+    """Write mass, inertia and centre of mass of a body (row number) with shapes `used`; update its cached contacts."""
     given, body = world._definitions.rows[at], world.bodies[at]
     x, y = body["center_x"], body["center_y"]
     mass = weigh(used, float(given["density"]), float(given["mass"]))
@@ -434,9 +434,8 @@ def shape_ids(world: WorldState, identity: int) -> tuple[int, ...]:
 def set_shapes(world: WorldState, identity: int, shapes: Sequence[Shape]) -> None:
     """Replace the shapes of a body, and end its tier.
 
-    The body's values stay; contacts on unchanged surface keep impulses. If all old and all new shapes are masks, and
-    there are equally many, the ids stay; otherwise the shapes get new ids. Raises TypeError, ValueError for invalid
-    shapes.
+    The body's values stay, and contacts on unchanged surface keep impulses. If all old and all new shapes are masks,
+    and equally many, the ids stay; otherwise the shapes get new ids. Raises TypeError or ValueError for invalid shapes.
     """
     ids, before = shape_ids(world, identity), world._shapes_of.get(identity, ())
     _check(world, identity, shapes, ids)
@@ -456,7 +455,7 @@ def set_shapes(world: WorldState, identity: int, shapes: Sequence[Shape]) -> Non
 
 
 def add_shape(world: WorldState, identity: int, shape: Shape) -> int:
-    """Append a shape to a body and return its id. Raises TypeError, ValueError if the body cannot have the shape."""
+    """Append a shape to a body and return its id. Raises TypeError or ValueError if the body cannot have it."""
     world._row_number(identity)
     together = (*world._shapes_of[identity], shape)
     _check(world, identity, together, [])
@@ -477,14 +476,14 @@ def remove_shape(world: WorldState, identity: int, shape_id: int) -> None:
 
 
 def check_own_values(world: WorldState, shapes: Sequence[Shape]) -> None:
-    """Raise ValueError for sensor shapes without the effect sensors, and one-way shapes without the effect one_way."""
+    """Raise ValueError for sensor shapes without the effect sensors, or one-way shapes without the effect one_way."""
     world._needs("sensors", "a shape with_(sensor=True)", any(shape.sensor for shape in shapes))
     for shape in shapes:
         world._needs("one_way", f"{type(shape).__name__} with one_way", bool(np.any(getattr(shape, "one_way", False))))
 
 
 def check_weight(world: WorldState, shapes: Sequence[Shape], kind: int, mass: float) -> None:
-    """Raise ValueError if the mass of a dynamic body comes only from masks without a pixel."""
+    """Raise ValueError for a dynamic body without a mass whose shapes are all masks without a solid pixel."""
     empty = [each for each in shapes if each._kind == MASK and each.bounds is None]
     if world.effects.response and kind == DYNAMIC and empty and len(empty) == len(shapes) and mass == 0.0:
         raise ValueError(
@@ -505,7 +504,7 @@ def _check(world, identity, shapes, gone):
 
 
 def _add(world, identity, shapes, new) -> np.ndarray:
-    """Set the shapes of a body. Add rows for those of its shapes that have none, `new`, and return their ids."""
+    """Set the shapes of a body, add rows for those that have none yet, `new`, and return the ids of these."""
     at = world._row_number(identity)
     world._shapes_of[identity] = shapes
     ids = add_shapes(world, at, 1, new)
@@ -523,7 +522,7 @@ def _add(world, identity, shapes, new) -> np.ndarray:
 
 
 def rebuild_masks(world: WorldState) -> None:
-    """Rebuild the SHAPE rows of bodies with masks: masks have parts only with the effect response.
+    """Rebuild the SHAPE rows of bodies with masks, because masks have parts only with the effect response.
 
     Bodies keep their tiers; their shapes get new ids.
     """
@@ -538,7 +537,7 @@ def rebuild_masks(world: WorldState) -> None:
 
 
 def shapes_for_tier(shapes: Sequence[Shape], tier: str | None) -> tuple:
-    """Return the shapes of a tier for one PixelMask; `shapes` for None. Raises ValueError for an unknown tier."""
+    """Return the shapes that replace one PixelMask at a tier; `shapes` if the tier is None."""
     if tier is None:
         return tuple(shapes)
     if len(shapes) != 1 or not isinstance(shapes[0], PixelMask):
@@ -586,9 +585,9 @@ def add_rows(
     angles: Sequence[float] | np.ndarray,
     wanted: BodyDef,
 ) -> np.ndarray:
-    """Check the arguments of new bodies, append their rows, and return the ids (n) int64.
+    """Check the arguments of new bodies, append their rows, and return the ids (n,) int64.
 
-    positions (n, 2) [px]; velocities (n, 2) [px/s]; angles (n) [rad]; wanted: the other arguments. Raises TypeError,
+    positions (n, 2) [px]; velocities (n, 2) [px/s]; angles (n,) [rad]; wanted: the other arguments. Raises TypeError or
     ValueError for invalid arguments; the world is then unchanged.
     """
     world._unlocked()
@@ -669,21 +668,21 @@ def checked_filter(value: Any) -> Filter:
 
 
 def checked_sensor(world: WorldState, value: Any) -> bool:
-    """Return a bool. Raises TypeError for anything else, ValueError for True without the effect sensors."""
+    """Return `value`, a bool. Raises TypeError for anything else, ValueError for True without the effect sensors."""
     value = checks.flag("sensor", value)
     world._needs("sensors", "sensor=True", value)
     return value
 
 
 def checked_bullet(world: WorldState, value: Any) -> bool:
-    """Return a bool. Raises TypeError for anything else, ValueError for True without the effect continuous."""
+    """Return `value`, a bool. Raises TypeError for anything else, ValueError for True without the effect continuous."""
     value = checks.flag("bullet", value)
     world._needs("continuous", "bullet=True", value)
     return value
 
 
 def checked_continuous(world: WorldState, value: Any) -> int:
-    """Return a value's index in CONTINUOUS. Raises TypeError, ValueError for other values or without the effect."""
+    """Return the index of `value` in CONTINUOUS. Raises TypeError or ValueError if it is invalid or not allowed."""
     swept = CONTINUOUS.index(checks.choice("continuous", value, CONTINUOUS))
     world._needs("continuous", f"continuous={value!r}", swept not in (OFF, AUTO))
     return swept
@@ -693,30 +692,30 @@ def checked_continuous(world: WorldState, value: Any) -> int:
 
 
 def write_material(rows: np.ndarray, material: Material) -> None:
-    """Write a material to SHAPE or BODY_DEF rows."""
+    """Write the values of a material to SHAPE or BODY_DEF rows."""
     for name in MATERIAL:
         rows[name] = getattr(material, name)
 
 
 def _own_rows(world, identity, own) -> np.ndarray:
-    """Return the SHAPE rows of a body without an own value. own: "own_material", "own_filter" or "own_sensor"."""
+    """Return the rows of a body's shapes without an own value. own: "own_material", "own_filter" or "own_sensor"."""
     return np.flatnonzero((world.shapes["body"] == identity) & ~world.shapes[own])
 
 
 def material_of(world: WorldState, identity: int) -> Material:
-    """Return the material of a body, which its shapes without an own material have."""
+    """Return the material of a body. Shapes without a material of their own have it."""
     given = world._definitions.rows[world._row_number(identity)]
     return Material(*(given[name].item() for name in MATERIAL))
 
 
 def filter_of(world: WorldState, identity: int) -> Filter:
-    """Return the filter of a body, which its shapes without an own filter have."""
+    """Return the collision filter of a body. Shapes without a filter of their own have it."""
     given = world._definitions.rows[world._row_number(identity)]
     return Filter(given["membership"].item(), given["mask"].item())
 
 
 def set_material(world: WorldState, identity: int, value: Material) -> None:
-    """Set the material of a body, for shapes without an own material. Raises TypeError if not a Material."""
+    """Set the material of a body and of its shapes without an own one. Raises TypeError if not a Material."""
     world._unlocked()
     value = checked_material(value)
     at = world._row_number(identity)
@@ -727,7 +726,7 @@ def set_material(world: WorldState, identity: int, value: Material) -> None:
 
 
 def set_filter(world: WorldState, identity: int, value: Filter) -> None:
-    """Set the filter of a body, for shapes without an own filter. Raises TypeError if not a Filter."""
+    """Set the filter of a body and of its shapes without an own one. Raises TypeError if not a Filter."""
     world._unlocked()
     value = checked_filter(value)
     given = world._definitions.rows[world._row_number(identity)]
@@ -739,7 +738,7 @@ def set_filter(world: WorldState, identity: int, value: Filter) -> None:
 
 
 def set_sensor(world: WorldState, identity: int, value: bool) -> None:
-    """Set whether shapes without an own value are sensors. Raises as checked_sensor."""
+    """Set whether the shapes of a body without an own value are sensors. Raises the errors of checked_sensor."""
     world._unlocked()
     value = checked_sensor(world, value)
     world._definitions.rows["sensor"][world._row_number(identity)] = value
@@ -750,7 +749,7 @@ def set_sensor(world: WorldState, identity: int, value: bool) -> None:
 
 
 def set_continuous(world: WorldState, identity: int, value: str) -> None:
-    """Set the kind of continuous collision of a body. Raises as checked_continuous."""
+    """Set the mode of continuous collision of a body. Raises the errors of checked_continuous."""
     world._unlocked()
     swept, row = checked_continuous(world, value), world._body_row(identity)
     row["continuous"] = swept

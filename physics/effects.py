@@ -71,15 +71,15 @@ class Effects:
 
     @classmethod
     def named(cls, names: Iterable[str]) -> "Effects":
-        """Return the Effects in which exactly the named effects are on; `narrowphase` must be named, too, to be on.
+        """Return the Effects in which exactly the named effects are on. Also `narrowphase` is on only if it is named.
 
-        This reverses names(). Raises TypeError for an unknown effect, and ValueError if an effect that a named one
-        needs is not named.
+        It is the inverse of names(). Raises TypeError for an unknown effect, and ValueError if an effect that a named
+        one needs is not named.
         """
         return cls(narrowphase=False).with_(**dict.fromkeys(names, True))
 
     def with_(self, **changes: bool) -> "Effects":
-        """Return a copy with the given effects changed: with_(gravity=True).
+        """Return a copy with the given effects changed, for example with_(gravity=True).
 
         Raises TypeError for an unknown effect or a value that is not a bool, and ValueError if an effect is then on
         without an effect that it needs.
@@ -92,16 +92,16 @@ class Effects:
         return replace(self, **changes)
 
     def without(self, name: str) -> "Effects":
-        """Return a copy in which an effect and all effects that need it are off.
+        """Return a copy in which the effect `name`, and all effects that need it, are off.
 
         Raises TypeError for an unknown effect.
         """
         return self.with_(**{name: False}, **{each: False for each in self.names() if name in NEEDS.get(each, ())})
 
     def and_needed(self, name: str) -> "Effects":
-        """Return a copy in which all effects that the named effect needs are on.
+        """Return a copy in which all effects that the effect `name` needs are on.
 
-        The named effect itself is unchanged.
+        The effect `name` itself is unchanged.
         """
         return self.with_(**dict.fromkeys(NEEDS.get(name, ()), True))
 

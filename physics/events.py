@@ -1,4 +1,4 @@
-"""Events of a step: pairs that begin, continue or cease to touch, hits, and overlaps of sensors, as arrays."""
+"""Events of a step, as arrays: pairs that begin, continue or cease to touch, hits, and overlaps of sensors."""
 
 import math
 from typing import NamedTuple
@@ -35,7 +35,7 @@ def write_event(contact, second, at, events_out):
 
 
 class Comparison(NamedTuple):
-    """The output arrays of compare_pairs: differences between the touching pairs of a step and of the last step."""
+    """The output arrays of compare_pairs: how the touching pairs of a step differ from those of the last step."""
 
     now: np.ndarray  # EVENT rows of the pairs that touch
     begin: np.ndarray  # EVENT rows of the pairs that began to touch
@@ -95,13 +95,13 @@ def look_at_pair(contacts, first, last, slop):
 def compare_pairs(before, contacts, fell_asleep, sensors, persisting, slop, hit_speed, comparison_inout):
     """Compare the pairs that touched in the last step with the contacts of this step, and write the changes.
 
-    Return False if the comparison stopped at a contact of a child shape, whose ids the caller must first replace by the
-    parent ids; otherwise True. before: EVENT rows of the pairs that touched in the last step; contacts: CONTACT rows of
-    this step; both in the order of shape ids. fell_asleep: CONTACT rows of pairs whose island fell asleep: these pairs
-    still touch, are not reported, and are written to `aside`. sensors: 1 to read only contacts of sensors, 0 to read
-    only the other contacts. persisting: 1 to report pairs that continue to touch. slop [px]: greatest separation at
-    which a pair that touched in the last step still touches. hit_speed [px/s]: approach speed above which a hit is
-    reported. comparison_inout: Comparison. O(before + contacts).
+    Return False if the comparison stopped at a contact of a part, whose ids the caller must first replace by those of
+    the whole shape; otherwise True. before: EVENT rows of the pairs that touched in the last step; contacts: CONTACT
+    rows of this step; both in the order of shape ids. fell_asleep: CONTACT rows of pairs whose island fell asleep:
+    these pairs still touch, are not reported, and are written to `aside`. sensors: 1 to read only contacts of sensors,
+    0 to read only the other contacts. persisting: 1 to report pairs that continue to touch. slop [px]: greatest
+    separation at which a pair that touched in the last step still touches. hit_speed [px/s]: approach speed above which
+    a hit is reported. O(before + contacts).
     """
     counts = comparison_inout.counts
     now = comparison_inout.now
@@ -186,7 +186,7 @@ def compare_pairs(before, contacts, fell_asleep, sensors, persisting, slop, hit_
 
 
 class Changes:
-    """The changes of the touching pairs in one step, see Comparison.
+    """The changes of the touching pairs in one step; the fields are those of Comparison.
 
     The arrays are valid until the next compare() call.
     """
@@ -210,7 +210,7 @@ class Pairs:
         self.count = 0
 
     def _make_room(self, room):
-        """Allocate arrays with room for a number of pairs, for two comparisons. The old contents are dropped."""
+        """Allocate arrays for two comparisons, each with room for `room` pairs. The old contents are lost."""
         compared = new_comparison(room)
         self.compared, self.last, self.changes = compared, compared._replace(now=np.zeros(room, EVENT)), Changes()
 
@@ -237,7 +237,7 @@ class Pairs:
     ) -> Changes | None:
         """Update the touching pairs from the contacts of a step, and return the changes. Arguments: see compare_pairs.
 
-        If a contact belongs to a child shape, the result is None, and nothing is changed.
+        If a contact belongs to a part of a shape, the result is None, and nothing is changed.
         """
         if self.count + len(contacts) > len(self.compared.keep):
             self._grow(2 * (self.count + len(contacts)))
@@ -268,7 +268,7 @@ class Pairs:
             self.restore(both[np.lexsort((both["shape_b"], both["shape_a"]))])
 
     def take_resting(self, bodies: np.ndarray) -> np.ndarray:
-        """Remove the pairs of two bodies that are both not active. Return their EVENT rows, for the sleeping set."""
+        """Remove and return the pairs of two bodies that are both not active, as EVENT rows for the sleeping set."""
         rows = self.rows
         if not len(rows):
             return rows.copy()
@@ -290,7 +290,7 @@ class Pairs:
 
 
 def touching_bodies(world: WorldTables) -> np.ndarray:
-    """Return the pairs (n, 2) int64 of ids a < b of touching bodies, awake or asleep; each pair once, sorted."""
+    """Return the pairs of touching bodies, awake or asleep: (n, 2) int64 ids a < b, each pair once, sorted."""
     asleep = world.sleeping_set
     parts = [world.touching_pairs.rows, asleep.touching_pairs, *(each.touching for each in asleep.islands.values())]
     rows = joined(parts)
@@ -310,7 +310,7 @@ def touching_bodies(world: WorldTables) -> np.ndarray:
 
 @kernel
 def is_any_sensor(pairs, shapes):
-    """Return whether any pair (n, 2) of shape rows has a sensor. O(pairs)."""
+    """Return whether a shape in the pairs (n, 2), SHAPE row numbers, is a sensor. O(pairs)."""
     for i in range(len(pairs)):
         if shapes[pairs[i, 0]].sensor or shapes[pairs[i, 1]].sensor:
             return True
@@ -333,7 +333,7 @@ def is_any_sensor(pairs, shapes):
     writes=("sensed", "swept_sensors", "pairs", "broadphase", "work", "workspace", "library", *PLACED),
 )
 def sense(state: StepState) -> None:
-    """Detect sensor overlaps at the final poses of the step, and add the sensors that the sweep has hit."""
+    """Detect sensor overlaps at the final poses of the step, and add the overlaps that the sweep has found."""
     bodies, shapes, swept = state.bodies, state.shapes, state.swept_sensors
     # Without sensors the loops are empty. The same kernels are called in every step, so that none has to be compiled
     # when the first sensor is added.
@@ -357,7 +357,7 @@ def sense(state: StepState) -> None:
 
 
 class Events:
-    """Events of the last step, one structured array for each kind, valid until the next step."""
+    """The events of the last step, one structured array for each kind. They are valid until the next step."""
 
     def __init__(self) -> None:
         self.begin = self.persist = self.end = self.sensor_begin = self.sensor_end = NO_EVENTS
@@ -375,7 +375,7 @@ class Events:
     writes=("touching_pairs", "sensing_pairs", "sleeping_set", "events", "reported", "work"),
 )  # fmt: skip
 def report_events(state: StepState) -> None:
-    """Compare the touching pairs of this step and of the last step, and write the changes to the Events of the step."""
+    """Compare the touching pairs of this step and the last one, and write the changes to the Events of the step."""
     contacts, events, tolerances, effects = state.contact_rows, state.events, state.tolerances, state.effects
     fell_asleep, keys = state.fell_asleep or (NOTHING, None)
     usual = False, effects.persist, tolerances.slop, tolerances.hit_speed

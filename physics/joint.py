@@ -1,4 +1,4 @@
-"""Joint: a handle on one row of `world.joints`; adding, changing and removing joints."""
+"""Joint, a handle on one row of `world.joints`; and the functions that add, change and remove joints."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -37,11 +37,11 @@ NO_JOINTS, NONE_BROKEN = np.zeros(0, JOINT), np.zeros(0, BROKEN)
 def add(
     world: WorldState, kind: Any, bodies_a: np.ndarray, bodies_b: np.ndarray, columns: dict[str, Any]
 ) -> np.ndarray:
-    """Append joints of one kind to a world, and return their ids.
+    """Append joints of one kind to a world, and return their ids (n,).
 
-    kind: a Kind with the settings of all joints; bodies_a, bodies_b: ids (n) int64, WORLD for the world; columns: by
-    argument name, anchors (n, 2) [px] and axes (n, 2). Raises TypeError, ValueError for invalid arguments, KeyError for
-    an unknown body; the world is then unchanged.
+    kind: a Kind with the settings of all joints; bodies_a, bodies_b: ids (n,) int64, WORLD for the world; columns: by
+    argument name, anchors (n, 2) [px] and axes (n, 2). Raises TypeError or ValueError for invalid arguments, KeyError
+    for an unknown body; the world is then unchanged.
     """
     n = len(bodies_a)
     check_bodies(world, bodies_a, bodies_b)
@@ -86,7 +86,7 @@ def add(
 
 
 def _poses(world, ids):
-    """Return the poses (n, 3) x, y [px], angle [rad] of bodies by id; (0, 0, 0) for WORLD."""
+    """Return the poses of bodies (ids): (n, 3) x, y [px], angle [rad]; (0, 0, 0) for WORLD."""
     found = np.zeros((len(ids), 3))
     there = ids != WORLD
     rows = world.rows(ids[there])
@@ -96,7 +96,7 @@ def _poses(world, ids):
 
 
 def _anchors(kind, columns, poses):
-    """Return the anchors (n, 2) of A and of B that `columns` contains; zeros for a kind without anchors."""
+    """Return (anchors of A, anchors of B), each (n, 2), from `columns`; zeros for a kind without anchors."""
     n = len(poses[0])
     if not kind.POINTS:
         return np.zeros((n, 2)), np.zeros((n, 2))
@@ -117,9 +117,9 @@ def _to_world(points, poses):
 
 
 def check_bodies(world: WorldState, bodies_a: np.ndarray, bodies_b: np.ndarray) -> None:
-    """Check that each joint has two different bodies, at least one dynamic body, and no body of a character.
+    """Raise ValueError unless each joint has two different bodies, one of them dynamic, and no body of a character.
 
-    bodies_a, bodies_b: ids (n), WORLD for the world. Raises ValueError if not, KeyError for an unknown body.
+    bodies_a, bodies_b: ids (n,), WORLD for the world. Raises KeyError for an unknown body.
     """
     same = bodies_a == bodies_b
     if same.any():
@@ -143,7 +143,10 @@ def check_bodies(world: WorldState, bodies_a: np.ndarray, bodies_b: np.ndarray) 
 
 
 def _check_effects(world, kind, given):
-    """Raise ValueError if a world lacks the solver or an effect that a kind with these columns (`given`) needs."""
+    """Raise ValueError if the world lacks the solver or an effect that joints of a kind need.
+
+    given: the JOINT columns of the kind.
+    """
     name = type(kind).__name__
     world._needs("joints", name, True)
     if not world.stacks:
@@ -157,7 +160,7 @@ def _check_effects(world, kind, given):
 
 
 def add_one(world: WorldState, kind: Any) -> "Joint":
-    """Add the joint that a Kind describes, and return its handle. Raises as World.add_joint."""
+    """Add the joint that a Kind describes, and return its handle. Raises the errors of World.add_joint."""
     world._unlocked()
     if not isinstance(kind, Kind) or type(kind) not in KINDS:
         raise TypeError(f"joint must be one of {_names()} (got {checks.shown(kind)})")
@@ -182,9 +185,9 @@ def _names() -> str:
 
 
 def _default_point(world, kind, name, body):
-    """Return the anchor that None stands for: kind.at for Target.point, B's centre of mass for Motor.at, else None.
+    """Return the anchor for which an argument None stands, or None if the argument must be given.
 
-    name: name of the argument; body: id of B.
+    It is kind.at for Target.point, and B's centre of mass for Motor.at. name: name of the argument; body: id of B.
     """
     if name == "point":
         return kind.at
@@ -195,9 +198,9 @@ def _default_point(world, kind, name, body):
 
 
 def _body_ids(world, name, values) -> np.ndarray:
-    """Return the ids (n) int64 of Bodies, ids or None (the world). name: name of the argument in messages.
+    """Return the ids (n,) int64 of Bodies, ids or None (the world). name: name of the argument in messages.
 
-    Raises TypeError, ValueError for invalid arguments, KeyError for an unknown body.
+    Raises TypeError or ValueError for invalid arguments, KeyError for an unknown body.
     """
     found = [WORLD if each is None else world._identity(name, each) for each in values]
     for each in found:
@@ -236,9 +239,10 @@ def add_many(world: WorldState, kind: Any, bodies_a: Any, bodies_b: Any, setting
 
 
 def _column(kind, name, settings, n) -> np.ndarray:
-    """Return the anchors or axes (n, 2) of many joints. A single pair is used for all joints.
+    """Return the argument `name`, anchors or an axis, as an array (n, 2) for n joints.
 
-    Raises TypeError, ValueError for invalid arguments.
+    A single pair is repeated for all joints. settings: the keyword arguments of World.add_joints. Raises TypeError or
+    ValueError for invalid arguments.
     """
     if name not in settings and name != "axis":
         raise TypeError(f"add_joints() needs {name}, an array (n, 2) of points, for {kind.__name__}")
@@ -252,7 +256,7 @@ def _column(kind, name, settings, n) -> np.ndarray:
 
 
 def wake(world: WorldState, rows: np.ndarray) -> list[int]:
-    """Wake the bodies of JOINT rows that still exist, and return their ids."""
+    """Wake the bodies of JOINT rows, if they still exist, and return their ids."""
     ids = np.unique(np.concatenate([rows["body_a"], rows["body_b"]]))
     ids = [each for each in ids.tolist() if each in world._shapes_of]
     sleep.disturb(world, ids)
@@ -262,8 +266,8 @@ def wake(world: WorldState, rows: np.ndarray) -> list[int]:
 def set_apart(world: WorldState, ids: Sequence[int]) -> None:
     """Tell the broad phase which pairs of bodies never collide because a joint forbids contacts between them.
 
-    Call this function after a change of joints. ids: bodies of the changed joints, whose boxes are tested again if the
-    pairs changed.
+    Call this function after a change of joints. ids: bodies of the changed joints. If the pairs changed, the pairs of
+    these bodies are searched again.
     """
     joints = world.joints
     apart = joints[~joints["contacts"] & joints["enabled"] & (joints["body_a"] != WORLD) & (joints["body_b"] != WORLD)]
@@ -284,7 +288,7 @@ def remove(world: WorldState, ids: Any) -> None:
 
 
 def drop(world: WorldState, rows: np.ndarray) -> np.ndarray:
-    """Remove the joints in these rows, wake their bodies, and return copies of the rows."""
+    """Remove the joints with these row numbers and wake their bodies. Return copies of the rows."""
     gone = world.joints[rows].copy()
     keep = np.ones(world._joints.count, bool)
     keep[rows] = False
@@ -336,7 +340,7 @@ def break_joints(world: WorldState, events: Any) -> None:
 
 
 def joint_rows(world: WorldState, ids: Any) -> np.ndarray:
-    """Return the rows of joints, given as Joints or ids, one or many. Each row is listed once.
+    """Return the row numbers of joints, given as Joints or ids, one or many. Each row is listed once.
 
     Raises KeyError for an unknown joint, TypeError for anything but Joints and ids, ValueError for a Joint of another
     world.
@@ -353,7 +357,7 @@ def joint_rows(world: WorldState, ids: Any) -> np.ndarray:
 
 
 def row_of(world: WorldState, joint: Any) -> int:
-    """Return the row of one joint, given as a Joint or id.
+    """Return the row number of one joint, given as a Joint or id.
 
     Raises KeyError for an unknown one, TypeError for anything else.
     """
@@ -420,7 +424,7 @@ class Joint:
         return self._world._joints.data[self._must_exist()]
 
     def _set(self, **columns) -> None:
-        """Write columns of the JOINT row, and wake the two bodies."""
+        """Write these columns of the JOINT row, and wake the two bodies."""
         self._world._unlocked()
         at = self._must_exist()
         rows = self._world.joints[at : at + 1]
@@ -483,9 +487,9 @@ class Joint:
 
     @property
     def speed(self) -> float:
-        """Rate of change of the coordinate after the last step [px/s or rad/s].
+        """Rate of change of the joint's angle [rad/s], or of its translation or length [px/s], after the last step.
 
-        Without a coordinate: that of the angle.
+        For a joint whose kind controls neither, it is that of the angle.
         """
         return self._row["speed"].item()
 
@@ -496,13 +500,16 @@ class Joint:
 
     @property
     def force(self) -> float:
-        """Magnitude of the force in the last step: impulse per second; columns force_x and force_y hold the vector."""
+        """Magnitude of the force in the last step [mass px/s²].
+
+        The JOINT columns force_x and force_y hold the vector.
+        """
         row = self._row
         return math.hypot(row["force_x"].item(), row["force_y"].item())
 
     @property
     def torque(self) -> float:
-        """The torque on B in the last step, in addition to the torque of the force at the anchor."""
+        """The torque on B in the last step [mass px²/s²], in addition to the torque of the force at the anchor."""
         return self._row["torque"].item()
 
     @property
@@ -529,7 +536,7 @@ class Joint:
 
     @property
     def spring(self) -> Spring | None:
-        """The spring of the coordinate, a Spring or None."""
+        """The spring on the joint's angle, translation or length: a Spring or None."""
         row = self._row
         names = ("spring_hertz", "spring_damping", "spring_target")
         return Spring(*(row[name].item() for name in names)) if row["spring_hertz"] > 0.0 else None
@@ -551,7 +558,10 @@ class Joint:
 
     @property
     def limits(self) -> tuple[float, float] | None:
-        """The limits (low, high) of the coordinate, with -inf or inf for no limit on a side; None: no limits."""
+        """The limits (low, high) of the joint's angle, translation or length; None: no limits.
+
+        A value is -inf or inf where only the other side is limited.
+        """
         row = self._row
         lower, upper = row["lower"].item(), row["upper"].item()
         return None if (lower, upper) == (-math.inf, math.inf) else (lower, upper)
@@ -570,7 +580,7 @@ class Joint:
 
     @property
     def breaks(self) -> tuple[float, float]:
-        """The (force, torque) above which the joint breaks; inf for a value at which the joint never breaks."""
+        """The (force, torque) above which the joint breaks. inf means that the joint never breaks by that value."""
         row = self._row
         return row["break_force"].item(), row["break_torque"].item()
 
@@ -617,7 +627,7 @@ class Joint:
 
     @property
     def user(self) -> Any:
-        """Any object set by the user, or None."""
+        """Any object that the caller attached to the joint, or None."""
         self._must_exist()
         return self._world._joint_users.get(self._id)
 

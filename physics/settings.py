@@ -1,4 +1,4 @@
-"""The tolerances of the physics: value, unit, reason. Lengths are in metres and scaled by `pixels_per_meter`.
+"""The tolerances of the physics, each with unit and reason. Lengths are in metres; `pixels_per_meter` scales them.
 
 Everything else is in pixels, seconds, radians; x right, y down. No tolerance is a bare number of pixels, so a world in
 metres (`pixels_per_meter=1`) behaves as its copy in pixels.
@@ -89,7 +89,7 @@ POSITION_LIMIT = 2.0**52  # [px], [rad] above it a double does not resolve 1: bo
 
 
 class Limits(NamedTuple):
-    """Thresholds of a contact for resting, sticking and approaching."""
+    """The thresholds at which a contact counts as resting, sticking or approaching."""
 
     calm_speed: float  # [px/s] slower approach speeds count as 0
     sticking: float  # [px] see rows.sticks

@@ -45,7 +45,7 @@ from physics.world_state import WorldState, checked_substeps
 
 
 def pack_geometry(geometry: Geometries) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-    """Return shapes in the form for files: (arrays by name, other values as a dict for JSON)."""
+    """Return shapes in the form for files: (arrays by name, all other values as a dict for JSON)."""
     arrays = {}
     for number, shape in enumerate(geometry.outlines):
         arrays[f"hull_{number}"] = np.array(shape.points)
@@ -69,9 +69,9 @@ def pack_geometry(geometry: Geometries) -> tuple[dict[str, np.ndarray], dict[str
 
 
 def unpack_geometry(arrays: dict[str, np.ndarray], facts: dict[str, Any]) -> Geometries:
-    """Return the shapes from `arrays` and `facts`, the result of pack_geometry.
+    """Return the shapes from `arrays` and `facts`, the two results of pack_geometry.
 
-    Raises KeyError, TypeError, ValueError for damaged data.
+    Raises KeyError, TypeError or ValueError for damaged data.
     """
     outlines, masks = [], []
     types = {each.__name__: each for each in SHAPES if issubclass(each, Convex)}
@@ -136,7 +136,7 @@ LATER = {"joints": np.zeros(0, JOINT), "lost_joints": np.zeros(0, BROKEN)}  # ab
 
 
 def _as_laid_out(name, rows, dtype) -> np.ndarray:
-    """Return the rows of a stored table in this program's dtype. The order of the columns may differ.
+    """Return the rows of a stored table with this program's dtype. The order of the columns may differ.
 
     Raises ValueError if the columns are not the same.
     """
@@ -154,7 +154,7 @@ def _as_laid_out(name, rows, dtype) -> np.ndarray:
 
 
 class Snapshot:
-    """A copy of the state of a world. `save` writes a snapshot to a file, `load` reads a file."""
+    """A copy of the state of a world. `save` writes it to a file, `load` reads one from a file."""
 
     def __init__(self, arrays: dict[str, np.ndarray], facts: dict[str, Any], geometry: Any = None) -> None:
         for name, value in (("arrays", arrays), ("facts", facts)):
@@ -214,7 +214,7 @@ class Snapshot:
 
 
 def _remove_abandoned(path: str) -> None:
-    """Remove the .part files of this path that were last written more than an hour ago, see Snapshot.save."""
+    """Remove .part files of this path that were last written more than an hour ago, see Snapshot.save."""
     folder, name = os.path.split(os.path.abspath(path))
     part = re.compile(re.escape(name) + r"\.[0-9]+\.part")
     with contextlib.suppress(OSError):
@@ -326,7 +326,7 @@ def restore(world: WorldState, taken: Snapshot) -> None:
 def _islands_apart(islands) -> dict:
     """Return the sleeping islands as arrays by name: keys, rows of all islands joined, numbers of rows per island.
 
-    islands: see SleepingSet.islands.
+    islands: SleepingSet.islands.
     """
     keys = sorted(islands)
     apart: dict[str, np.ndarray] = {"island_keys": np.array(keys, np.int64)}
@@ -357,7 +357,7 @@ def _sleepers(arrays) -> SleepingSet:
 def _unpack(arrays, facts, geometry):
     """Check the data of a snapshot. Return (library, shapes by body id, original masks by body id, random generator).
 
-    Original masks exist for bodies with a tier. Raises one of the errors in DAMAGE for invalid data.
+    Bodies with a tier have an original mask. Raises one of the errors in DAMAGE for invalid data.
     """
     library = Library.of(geometry)
     shapes_of: dict[int, tuple[Shape, ...]] = {identity: () for identity in arrays["bodies"]["id"].tolist()}
@@ -428,7 +428,7 @@ WALK = (
 def digest(world: WorldState) -> str:
     """Return the blake2b-128 hash of the state on which the next step depends, as hexadecimal digits.
 
-    The hash covers the solver, dt and substeps; in the order of ids poses, velocities, flags, masses, filters,
+    It covers the solver, dt and substeps. In the order of ids follow poses, velocities, flags, masses, filters,
     characters, contacts and impulses; then joints, targets and forces of the next step. −0.0 counts as 0.0. Materials
     and random numbers are not included.
     """

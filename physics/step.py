@@ -1,4 +1,4 @@
-"""The step: its stages in order, the targets of kinematic bodies, and a step that pauses between stages."""
+"""The step: its stages in order, the targets of kinematic bodies, and a step that can be paused between stages."""
 
 from collections.abc import Generator
 from time import perf_counter
@@ -78,9 +78,9 @@ def set_target(world: WorldState, identity: int, position: Pair, angle: float | 
 
 
 def _velocities(bodies: np.ndarray, targets: np.ndarray, dt: float) -> np.ndarray:
-    """Return the velocities (n, 3) with which BODY rows (n,) reach the poses `targets` (n, 3) in dt [s].
+    """Return the velocities with which bodies reach target poses in dt [s]: vx, vy [px/s], angular [rad/s], (n, 3).
 
-    A velocity is vx, vy [px/s] of the centre of mass, and the angular velocity [rad/s].
+    bodies: BODY rows (n,); targets (n, 3): x, y [px], angle [rad]. vx, vy are those of the centre of mass.
     """
     cosine, sine = np.cos(targets[:, 2]), np.sin(targets[:, 2])
     x, y = bodies["local_center_x"], bodies["local_center_y"]
@@ -95,12 +95,12 @@ def _velocities(bodies: np.ndarray, targets: np.ndarray, dt: float) -> np.ndarra
 
 
 def _rows(world) -> tuple[np.ndarray, np.ndarray]:
-    """Return (body rows with a target, target poses (n, 3) of these bodies)."""
+    """Return (row numbers of the bodies with a target, their target poses (n, 3))."""
     return rows_of(world.bodies, np.array([*world._targets], np.int64)), np.array([*world._targets.values()])
 
 
 def aim(world: WorldState, dt: float) -> None:
-    """Set the velocities with which bodies with targets reach their targets in dt [s].
+    """Give bodies with targets the velocities with which they reach their targets in dt [s].
 
     Do nothing for a step of length 0.
     """
@@ -160,7 +160,10 @@ def swept_aabbs_of_finite_bodies(state: StepState) -> None:
 
 @stage("rest", reads=rest.reads, writes=rest.writes)
 def evaluate_contacts_before_sleep(state: StepState) -> None:
-    """Put islands at rest to sleep. Evaluate their contacts at the final poses, so that they are valid on waking."""
+    """Put islands at rest to sleep.
+
+    First evaluate their contacts at the final poses, so that they are valid on waking.
+    """
     rest(state)
     if state.fell_asleep is not None:
         for key in np.unique(state.fell_asleep[1]).tolist():
@@ -229,14 +232,14 @@ def plan(effects: Effects, solver: str, characters: bool = True) -> Plan:
 
 
 def plans(effects: Effects, solver: str) -> tuple[Plan, Plan]:
-    """Return the Plans of a step (for a world without a Character, for a world with a Character)."""
+    """Return the Plans of a step as (Plan for a world without a Character, Plan for a world with one)."""
     return plan(effects, solver, characters=False), plan(effects, solver)
 
 
 class Workspace:
-    """The scratch arrays of the stages of one world, which grow and are reused.
+    """The scratch arrays of the stages of one world. They are reused and grow as needed.
 
-    The contents of the arrays do not outlive a stage, except for CONTACT rows.
+    Their contents do not outlive a stage, except for CONTACT rows.
     """
 
     def __init__(self, effects: Effects, solver: str) -> None:
@@ -264,8 +267,8 @@ class Workspace:
 def next_span(span: float, dt: float, usual: float) -> float:
     """Return the averaging window [s] of the cached contact forces after a step of dt [s].
 
-    span [s]: window before the step; usual [s]: world.dt. For dt >= span the result is dt, limited to STALL times the
-    greater of span and usual. A shorter step moves the window from span towards dt by the fraction dt / span.
+    span [s]: window before the step; usual [s]: world.dt. If dt >= span, the window becomes dt, but at most STALL times
+    the greater of span and usual. A shorter step moves it from span towards dt by the fraction dt / span.
     """
     if dt >= span:
         return min(dt, STALL * max(span, usual))
@@ -349,9 +352,9 @@ def staged_step(world: WorldState, dt: float | None = None) -> Generator[Stage |
     """Run the step of World.step(dt) stage by stage. Yield None before the first stage, then each stage after its run.
 
     Between stages the world shows intermediate results: bodies, candidates, contacts and events, and times and counters
-    in `profile`. The world cannot be changed then, and its state is not valid for further steps. A caller that stops
-    before the end, or reads the world by debug or a query between stages, must restore a snapshot afterwards. Raises
-    ValueError for a negative or non-finite dt, RuntimeError during a step.
+    in `profile`. Meanwhile the world cannot be changed, and its state is not valid for further steps. If the caller
+    stops before the end, or reads the world by debug or a query between stages, it must restore a snapshot afterwards.
+    Raises ValueError for a negative or non-finite dt, RuntimeError during a step.
     """
     world._unlocked()
     dt = step_length(world, dt)
@@ -373,7 +376,7 @@ def staged_step(world: WorldState, dt: float | None = None) -> Generator[Stage |
 
 
 def _show(world: WorldState, state: StepState) -> None:
-    """Store the results of the stages so far in the world; before the stage `events`, report touching contacts."""
+    """Store the results of the stages so far in the world. Before the stage `events`, also report touching contacts."""
     world.contact_rows, world.sensed = state.contact_rows, state.sensed
     world.ghosts, world.events = state.ghosts, state.events
     _, keep = state.reported
@@ -381,7 +384,7 @@ def _show(world: WorldState, state: StepState) -> None:
 
 
 def _touching(state: StepState) -> np.ndarray:
-    """Return a bool for each CONTACT row: whether it touches and has no sensor, as the stage `events` decides.
+    """Return for each CONTACT row, as a bool, whether it touches and has no sensor, as the stage `events` decides.
 
     A contact touches if it overlaps, has an impulse, or was found by the sweep. A pair that touched in the last step
     also touches if it is within the slop.

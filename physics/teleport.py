@@ -1,4 +1,4 @@
-"""Teleporting between steps: a new pose of one body, or of many bodies in one call."""
+"""Teleporting between steps: a new pose for one body, or for many bodies in one call."""
 
 import math
 from typing import Any, NamedTuple
@@ -22,7 +22,7 @@ NOT_SET = np.zeros((1, 2))
 
 
 def move_to(world: WorldState, identity: int, position: Pair | None, angle: float | None) -> None:
-    """Move a body (id) to a position [px] and an angle [rad]; None leaves the value unchanged.
+    """Move a body (id) to a position [px] and an angle [rad]; None leaves that value unchanged.
 
     Raises ValueError for an angle of a TileGrid other than 0, RuntimeError during a step.
     """
@@ -42,7 +42,7 @@ def move_to(world: WorldState, identity: int, position: Pair | None, angle: floa
 
 
 class Motions(NamedTuple):
-    """The new poses and velocities of n bodies. For angles or velocities that stay unchanged the array is a dummy."""
+    """The new poses and velocities of n bodies. Angles or velocities that stay unchanged are dummy arrays."""
 
     positions: np.ndarray  # (n, 2) float64 [px]
     angles: np.ndarray  # (n,) float64 [rad]
@@ -56,9 +56,8 @@ def find_movable(ids, motions, limit, bodies, rows_out, dynamic_out, marks_inout
     """Write the rows of bodies, and the rows of the dynamic bodies among them. Return the number of dynamic bodies.
 
     The result is -1 for any fault: an id that is absent or listed twice, a number that is not finite, a position of at
-    least `limit` [px], or a velocity of a static body. ids, rows_out, dynamic_out (n,) int64; motions: see Motions;
-    marks_inout (bodies) bool: all False before and after the call. O(n) if no body was ever removed, otherwise O(n log
-    bodies).
+    least `limit` [px], or a velocity of a static body. ids, rows_out, dynamic_out (n,) int64; marks_inout (bodies,)
+    bool: scratch, all False before and after the call. O(n) if no body was ever removed, otherwise O(n log bodies).
     """
     found = 0
     known = 0
@@ -94,9 +93,9 @@ def find_movable(ids, motions, limit, bodies, rows_out, dynamic_out, marks_inout
 def place_bodies(rows, motions, runs, shapes, bodies_inout, proxies_inout):
     """Write the poses and velocities of bodies, and mark their proxies as changed for the next step.
 
-    Return the number of bodies whose shape rows are not consecutive (SCATTERED); the caller must mark the proxies of
-    these bodies. rows: BODY rows; motions: see Motions; runs: RUN rows. O(shapes of these bodies) if no shape was ever
-    removed, otherwise O(log shapes) more for each body.
+    Return the number of bodies whose shape rows are not consecutive (SCATTERED). If it is not 0, the caller must mark
+    the proxies of these bodies. rows: row numbers in BODY; runs: RUN table. O(shapes of these bodies) if no shape was
+    ever removed, otherwise O(log shapes) more for each body.
     """
     scattered = 0
     for k in range(len(rows)):
@@ -128,7 +127,7 @@ def move(
     """Move bodies to positions (n, 2) [px], angles (n,) [rad] and velocities (n, 2) [px/s]; None: unchanged.
 
     The result is the same as setting position, angle and velocity of one Body after another, in the order of `ids`.
-    Raises as World.move; nothing is changed then.
+    Raises the errors of World.move; nothing is changed then.
     """
     world._unlocked()
     ids = world._identities("ids", ids, repeats=True)
@@ -154,7 +153,7 @@ def move(
 def _numbers(name, value, count, width=2) -> np.ndarray:
     """Return an argument as a float64 array (count, width), or (count,) for width 1.
 
-    Raises TypeError, ValueError for invalid arguments.
+    Raises TypeError or ValueError for invalid arguments.
     """
     if type(value) is np.ndarray and value.dtype == np.float64 and value.flags.c_contiguous:
         if value.shape == ((count, width) if width > 1 else (count,)):
@@ -163,7 +162,7 @@ def _numbers(name, value, count, width=2) -> np.ndarray:
 
 
 def _explain(world, ids, motions):
-    """Raise the error of the first invalid argument of move."""
+    """Find the first invalid argument of move, and raise its error."""
     checks.ids("ids", ids)
     rows = world.rows(ids)
     positions = checks.columns("positions", motions.positions)
@@ -201,7 +200,10 @@ def _move(world, ids, rows, dynamic, motions):
 
 
 def _contacts_at(world, keys):
-    """Return the CONTACT rows of the step, of the sleeping islands `keys`, and of islands that touch their bodies."""
+    """Return the CONTACT rows of the last step, of the islands `keys`, and of islands that touch their bodies.
+
+    keys: keys of sleeping islands.
+    """
     sleeping_set = world.sleeping_set
     keys = set(keys)
     for key in [*keys]:
@@ -211,7 +213,7 @@ def _contacts_at(world, keys):
 
 
 def touch(world: WorldState, ids: Any) -> None:
-    """Wake bodies after their columns were written, and refresh their centres of mass and boxes. See World.touch."""
+    """Wake bodies after their columns were written, and update their centres of mass and boxes. See World.touch."""
     numbers = world._identities("ids", ids)
     rows = world.rows(numbers)
     sleep.disturb(world, numbers)

@@ -1,4 +1,4 @@
-"""Compilation ahead of time: small worlds call the kernels that a world with given effects calls."""
+"""Compilation ahead of time: small worlds call the kernels that a world with given effects will call."""
 
 from collections.abc import Callable, Iterable
 from typing import Any
@@ -81,7 +81,7 @@ def run_warmup(
 
 
 def _runs(effects, broadphase, solver, pieces):
-    """Return [(name, function)] of the small worlds to run. Raises KeyError for an unknown broad phase or piece."""
+    """Return the small worlds to run as [(name, function)]. Raises KeyError for an unknown broad phase or piece."""
     effects = Effects() if effects is None else effects
     names = list(STRATEGIES) if broadphase == "all" else [broadphase]
     runs: list[tuple[str, Callable[[], None]]] = [
@@ -173,7 +173,7 @@ def _small_world(effects, solver, strategy, pair):
 
 
 def _together(effects, solver, pairs):
-    """Run a step in which pairs of several kinds collide, so that their contacts are sorted into one order."""
+    """Run a step in which pairs of several kinds collide, so that the contacts must be sorted."""
     world = World(effects, solver=solver)
     for number, pair in enumerate(pairs):
         for shape in pair:
@@ -191,7 +191,7 @@ def _ground(effects, solver, tiles):
 
 
 def _rest(effects, solver):
-    """Run touching circles whose contacts are kept, added, put to sleep and woken.
+    """Run touching circles: contacts are kept and added, and circles are put to sleep and woken.
 
     The last step has fixed substeps, all others adaptive substeps.
     """
@@ -211,7 +211,7 @@ def _rest(effects, solver):
 
 
 def _carve(effects, solver):
-    """Carve a large and a small mask, each with a body on top, with a circle, a polygon and a mask."""
+    """Carve a large and a small mask, on each of which a body lies, with a circle, a polygon and a mask."""
     world = World(effects, solver=solver)
     solid = np.ones((20, LARGE_MASK + MASK_TILE), bool)
     solid[0, 0] = False
@@ -225,7 +225,7 @@ def _carve(effects, solver):
 
 
 def _sensor(effects, solver):
-    """Run a sensor during a body's overlap with it and after the body has left."""
+    """Run a sensor while a body overlaps it, and after the body has left."""
     world = World(effects, solver=solver)
     world.add_body(BOX, kind="static", sensor=True)
     body = world.add_body(BOX, position=(1, 0))
@@ -254,9 +254,9 @@ def _impacts(effects, solver):
 
 
 def _amid(effects, solver):
-    """Run a box in the middle of a cross-shaped mask and a box above the mask.
+    """Run a box in the middle of a cross-shaped mask, and a box above the mask.
 
-    The first box is one that no single part of the mask's outline can push out.
+    No single part of the mask's outline can push out the first box.
     """
     arm = abs(np.arange(12) - 5.5) < 2.0
     world = World(effects, solver=solver, gravity=(0.0, 0.0) if effects.gravity else None)
@@ -268,17 +268,14 @@ def _amid(effects, solver):
 
 
 def _fit():
-    """Fit the outline of a mask with a hole and a notch, which the file of outlines in the package does not contain."""
+    """Fit the outline of a mask with a hole and a notch. Its outline is not in the package's file of outlines."""
     solid = np.ones((23, 29), bool)
     solid[8:13, 9:17] = solid[:5, 20:] = False
     outline_of(PixelMask(solid))
 
 
 def _zone(effects, solver):
-    """Run masks that overlap a sensor, one of them at high speed.
-
-    With the effect response, masks collide by their outlines.
-    """
+    """Run masks that overlap a sensor, one of them at high speed. With response, masks collide by their outlines."""
     world = World(effects, solver=solver)
     world.add_body(BOX, kind="static", sensor=True)
     world.add_body(MASK, position=(1, 0))

@@ -1,4 +1,4 @@
-"""World: the tables of a simulation and the stages that advance them. Start reading at `step`."""
+"""World: the tables of a simulation and the stages that advance them. Start reading at `World.step`."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
@@ -54,9 +54,9 @@ class World(WorldState):
 
     effects: the declared effects, None for Effects.rigid_bodies(). broadphase: an instance of one of the four
     strategies, None for SpatialHashGrid(). solver: one of SOLVERS; None: "soft_step" with the effect stacking,
-    "projection" without it. gravity [px/s2], None for 9.8 m/s2 downwards. drag [1/s]. wind [px/s]. dt [s].
-    restitution_speed [px/s]: slower impacts do not bounce; None: 1 m/s. seed: seed of `world.random`. Gravity, drag and
-    wind other than 0 need their effects.
+    "projection" without it. gravity [px/s2], None for 9.8 m/s2 downwards. drag [1/s]. wind [px/s]. pixels_per_meter:
+    scale of all tolerances. dt [s]: length of a step. restitution_speed [px/s]: slower impacts do not bounce; None: 1
+    m/s. seed: seed of `world.random`. Gravity, drag and wind other than 0 need their effects.
 
     substeps: the number of substeps of the stacking solvers, or "auto". With "auto" each island takes 4 to 32 substeps:
     as many as keep the sag of its contacts within accuracy [px] (None: 1 mm). A leaning island takes up to 128. An
@@ -190,11 +190,13 @@ class World(WorldState):
         tier: str | None = None,
         user: Any = None,
     ) -> Body:
-        """Add one body and return it.
+        """Add one body with these shapes, and return it.
 
-        mass [density px2] replaces the mass from the densities of the shapes. A dynamic body with allow_sleep=False
-        keeps its island awake. Raises TypeError or ValueError naming the argument, RuntimeError during a step. The
-        world is then unchanged.
+        position [px], angle [rad], velocity [px/s], angular_velocity [rad/s]: its initial motion. kind: "static",
+        "kinematic" or "dynamic". mass [density px2] replaces the mass from the densities of the shapes. material,
+        filter, sensor: values for the shapes without own values. A dynamic body with allow_sleep=False keeps its island
+        awake. The other arguments are explained at the properties of Body with the same names. Raises TypeError or
+        ValueError naming the argument, RuntimeError during a step. The world is then unchanged.
         """
         position, velocity = checks.position("position", position), checks.vector("velocity", velocity)
         angle, spin = checks.number("angle", angle), checks.number("angular_velocity", angular_velocity)
@@ -223,7 +225,7 @@ class World(WorldState):
         """Add a body with the same shape at each position, and return the ids (n,) of the bodies.
 
         positions (n, 2) [px]; velocities (n, 2) [px/s], None: 0; angles (n,) [rad], None: 0; definition: the other
-        arguments of add_body, the same for all bodies. Raises as add_body.
+        arguments of add_body, the same for all bodies. Raises the errors of add_body.
         """
         for name in sorted(definition.keys() - set(edit.BodyDef._fields)):
             raise TypeError(f"World.add_bodies() got an unexpected keyword argument {name!r}")
@@ -248,7 +250,7 @@ class World(WorldState):
     def remove_bodies(self, ids: Body | int | Iterable[Body | int] | np.ndarray) -> None:
         """Remove many bodies, given as Bodies or ids, in one pass over the tables. A body may be listed more than once.
 
-        Raises as remove_body. Nothing is removed then.
+        Raises the errors of remove_body. Nothing is removed then.
         """
         self._remove(np.unique(self._identities("ids", ids, repeats=True)))
 
@@ -269,17 +271,17 @@ class World(WorldState):
         teleport.move(self, ids, positions, angles, velocities)
 
     def touch(self, ids: Body | int | Iterable[Body | int] | np.ndarray) -> None:
-        """Report that columns of these bodies were written: dynamic bodies wake, and the next step refreshes the boxes.
+        """Report that table columns of these bodies were written. Dynamic bodies wake, and the next step updates boxes.
 
         ids: a Body, an id, or many. Awake bodies, and worlds without the effect sleeping, need no touch. Raises
-        KeyError for an unknown body; TypeError, ValueError for anything but different Bodies or ids; RuntimeError
+        KeyError for an unknown body; TypeError or ValueError for anything but different Bodies or ids; RuntimeError
         during a step. Nothing is touched then.
         """
         self._unlocked()
         teleport.touch(self, ids)
 
     def clear(self) -> None:
-        """Remove all bodies. New bodies and shapes do not reuse the ids."""
+        """Remove all bodies. Their ids, and those of their shapes, are not used again."""
         self.remove_bodies(self.bodies["id"])
 
     # --- joints ----------------------------------------------------------------------------------------------------
@@ -288,7 +290,7 @@ class World(WorldState):
     def joints(self) -> np.ndarray:
         """JOINT rows in the order of ids: a view, valid until a joint is added, removed or broken.
 
-        Columns with settings may be written between steps; afterwards call `touch` to wake the bodies.
+        Columns with settings may be written between steps. Afterwards call `touch` to wake the bodies.
         """
         if self._removed:
             self._drop_removed()
@@ -308,12 +310,15 @@ class World(WorldState):
 
         bodies_a, bodies_b: n Bodies or ids; an entry None, or None instead of all entries, means the world. settings:
         the arguments of the kind, the same for all joints. Anchors (at, or at_a and at_b) are arrays (n, 2) [px], and
-        an axis may be an array (n, 2). Raises as add_joint.
+        an axis may be an array (n, 2). Raises the errors of add_joint.
         """
         return joint.add_many(self, kind, bodies_a, bodies_b, settings)
 
     def joint(self, identity: Joint | int) -> Joint:
-        """Return the Joint of an id, or of a Joint. Raises KeyError for an unknown joint, TypeError, ValueError."""
+        """Return the Joint with this id, or the Joint itself if given one.
+
+        Raises KeyError for an unknown joint, TypeError or ValueError for an invalid argument.
+        """
         return Joint(self, self.joints["id"].item(joint.row_of(self, identity)))
 
     def remove_joints(self, ids: Any) -> None:
@@ -354,7 +359,10 @@ class World(WorldState):
 
     @property
     def contact_rows(self) -> np.ndarray:
-        """CONTACT rows of the last step, in the order of shape ids. Stacking solvers read them in the next step."""
+        """CONTACT rows of the last step, in the order of shape ids.
+
+        Stacking solvers continue from them in the next step.
+        """
         if self._removed:
             self._drop_removed()
         return self._contact_rows
@@ -400,14 +408,14 @@ class World(WorldState):
 
     @property
     def stacks(self) -> bool:
-        """Whether the solver warm starts its contacts (soft_step, sequential_impulse)."""
+        """Whether the solver stacks: it warm starts its contacts from the last step (soft_step, sequential_impulse)."""
         return self._solver in STACKING
 
     @property
     def ignored_effects(self) -> tuple[str, ...]:
         """Names of the declared effects that the present solver ignores, in the order of Effects.names().
 
-        A run with and without such an effect is the same, with two exceptions: with the solver blocking, a body rotates
+        A run with and without such an effect is the same, with two exceptions. With the solver blocking, a body rotates
         by its own angular velocity, although contacts do not rotate it. Characters stand on dynamic bodies if the
         effect stacking is declared, with any solver.
         """
@@ -415,7 +423,7 @@ class World(WorldState):
 
     @property
     def sleeps(self) -> bool:
-        """Whether bodies at rest are left out of the steps: effect sleeping and a stacking solver."""
+        """Whether bodies at rest are left out of the steps. This needs the effect sleeping and a stacking solver."""
         return self.stacks and self._effects.sleeping
 
     def _checked_solver(self, name):
@@ -426,7 +434,7 @@ class World(WorldState):
         return name
 
     def set_narrowphase(self, on: bool) -> None:
-        """Use the narrow phase (True), or only AABBs (False), from the next step on. Raises TypeError otherwise."""
+        """From the next step on, use the narrow phase (True), or only AABBs (False). Raises TypeError otherwise."""
         self.set_effects(self._effects.with_(narrowphase=checks.flag("narrowphase", on)))
 
     def set_effects(self, effects: Effects) -> None:
@@ -465,7 +473,7 @@ class World(WorldState):
         self.profile = Profile(self._plan_now.names)
 
     def _let_sleep(self, sleeping):
-        """Set whether later steps process only the awake bodies (`sleeping` True) or all bodies (False)."""
+        """Have later steps process only the awake bodies (`sleeping` True) or all bodies (False)."""
         self.awake = Awake(sleeping)
         self.bodies["active"] = not sleeping
         self.awake.mark_dirty(self.bodies["id"][self.bodies["kind"] != DYNAMIC].tolist())
@@ -489,9 +497,9 @@ class World(WorldState):
 
     @property
     def accuracy(self) -> float:
-        """Greatest sag [px] of a contact under its load if substeps is "auto"; with 32 substeps the sag may be greater.
+        """Greatest sag [px] of a contact under its load that substeps="auto" allows.
 
-        It can be set between steps; None sets 1 mm.
+        With 32 substeps it may be exceeded. It can be set between steps; None sets 1 mm.
         """
         return ACCURACY * self.tolerances.pixels_per_meter if self._accuracy is None else self._accuracy
 
@@ -502,7 +510,10 @@ class World(WorldState):
 
     @property
     def broadphase(self) -> Strategy:
-        """The strategy that finds the candidate pairs. It can be set between steps, and does not change results."""
+        """The broad phase, which finds the candidate pairs.
+
+        It can be set between steps, and does not change results.
+        """
         return self._broadphase
 
     @broadphase.setter
@@ -547,9 +558,9 @@ class World(WorldState):
         self._gravity = self._felt(self._gravity, gravity, self._effects.gravity)
 
     def _felt(self, before, now, felt):
-        """Return `now`, the new value of a force field. If it differs from `before`, wake all sleeping bodies.
+        """Return `now`, the new value of gravity, drag or wind. If it differs from `before`, wake all sleeping bodies.
 
-        felt: whether the force field acts on bodies; otherwise none wake.
+        felt: whether the value acts on bodies at all; otherwise none wake.
         """
         if felt and now != before:
             sleep.wake_all(self)
@@ -567,7 +578,7 @@ class World(WorldState):
 
     @property
     def drag(self) -> float:
-        """Drag [1/s]. It can be set between steps; a change wakes all bodies."""
+        """Rate [1/s] at which drag slows bodies down. It can be set between steps; a change wakes all bodies."""
         return self._drag
 
     @drag.setter
@@ -590,7 +601,7 @@ class World(WorldState):
         self._wind = self._felt(self._wind, wind, self._effects.wind)
 
     def _needs_fields(self, gravity: Vec2 | None = None, drag: float = 0.0, wind: Vec2 | None = None) -> None:
-        """Raise ValueError for a force field other than 0 without its effect.
+        """Raise ValueError for a gravity, drag or wind other than 0 whose effect is not declared.
 
         For drag the effect wind is also enough.
         """
@@ -600,7 +611,7 @@ class World(WorldState):
 
     @property
     def restitution_speed(self) -> float:
-        """Speed [px/s] of an impact above which it bounces; None sets 1 m/s. It can be set between steps."""
+        """Speed [px/s] above which an impact bounces. It can be set between steps; None sets 1 m/s."""
         return self.tolerances.restitution_speed
 
     @restitution_speed.setter
@@ -656,19 +667,26 @@ class World(WorldState):
     def ray_cast(
         self, origin: Pair, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False
     ) -> RayHit | None:
-        """Return the first hit of a ray from `origin` along `translation` [px], or None. sensors: also hit sensors."""
+        """Return the first RayHit of a ray from `origin` along `translation` [px], or None without a hit.
+
+        filter: which shapes can be hit; sensors: whether sensors can also be hit.
+        """
         hits = casts.ray_cast_all(self, origin, translation, filter, sensors, first=True)
         return hits[0] if hits else None
 
     def ray_cast_all(self, origin: Pair, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False) -> list:
         """Return the RayHits of all shapes on a ray from `origin` along `translation` [px], nearest first.
 
-        Ties are in the order of shape ids. sensors: also hit sensors.
+        Equally near hits are in the order of shape ids. filter: which shapes can be hit; sensors: whether sensors can
+        also be hit.
         """
         return casts.ray_cast_all(self, origin, translation, filter, sensors)
 
     def shape_cast(self, shape: Shape, pose: Pose, translation: Pair, filter: Filter = Filter.ALL) -> RayHit | None:
-        """Return the first RayHit of a shape that moves from a pose by a translation [px], or None without a hit."""
+        """Return the first RayHit of a shape that moves from a pose by a translation [px], or None without a hit.
+
+        pose: (x, y) or (x, y, angle); filter: which shapes can be hit.
+        """
         return casts.shape_cast(self, shape, pose, translation, filter)
 
     def closest(self, point: Pair, filter: Filter = Filter.ALL) -> tuple[Body, Vec2, float] | None:
@@ -676,7 +694,10 @@ class World(WorldState):
         return casts.closest(self, point, filter)
 
     def overlap(self, shape: Shape, pose: Pose, filter: Filter = Filter.ALL) -> list[Body]:
-        """Return the bodies that a shape at a pose overlaps, in the order of ids."""
+        """Return the bodies that a shape at a pose overlaps, in the order of ids.
+
+        pose: (x, y) or (x, y, angle); filter: which shapes are considered.
+        """
         return casts.overlap(self, shape, pose, filter)
 
     def query_aabb(self, lower: Pair, upper: Pair) -> list[Body]:

@@ -1,4 +1,4 @@
-"""WorldState: the tables and settings that a world keeps between steps, and the times of its stages."""
+"""WorldState: the tables and settings that a world keeps from step to step, and the times of its stages."""
 
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
@@ -30,7 +30,7 @@ from physics.tables.table import Table, row_number, rows_in, rows_of
 
 
 class Profile:
-    """Times and work counters of the last step."""
+    """Times of the stages, and counters of the work done, in the last step."""
 
     def __init__(self, names: Sequence[str]) -> None:
         self.work = np.zeros(len(COUNTERS), np.int64)
@@ -64,9 +64,9 @@ class Profile:
 
 
 def checked_substeps(value: Any) -> int | str:
-    """Return a number of substeps from 1 to 1000, or "auto" (adaptive), unchanged.
+    """Return `value` unchanged: a number of substeps from 1 to 1000, or "auto".
 
-    Raises TypeError, ValueError for invalid arguments.
+    Raises TypeError or ValueError for other values.
     """
     if isinstance(value, str):
         return checks.choice("substeps", value, ("auto",))
@@ -74,7 +74,7 @@ def checked_substeps(value: Any) -> int | str:
 
 
 def checked_accuracy(value: Any) -> float | None:
-    """Return a positive length [px], or None, unchanged. Raises TypeError, ValueError for invalid arguments."""
+    """Return `value` unchanged: a positive length [px], or None. Raises TypeError or ValueError for other values."""
     return None if value is None else checks.number("accuracy", value, above=0.0)
 
 
@@ -191,13 +191,13 @@ class WorldState:
 
     @property
     def contacts(self) -> np.ndarray:
-        """CONTACT_POINT rows of pairs that touched, or that the sweep hit, in the last step; sorted by shape ids."""
+        """CONTACT_POINT rows of pairs that touched, or that the sweep found, in the last step; sorted by shape ids."""
         if self._contacts is None:
             self._contacts = contacts_of(with_areas(self, self.reported_rows()))
         return self._contacts
 
     def reported_rows(self) -> np.ndarray:
-        """Return the CONTACT rows that `contacts` lists."""
+        """Return the CONTACT rows whose points `contacts` lists."""
         rows, keep = self._reported
         return rows if keep is None or keep.all() else rows[keep]
 
@@ -207,7 +207,7 @@ class WorldState:
         return contacts_of(with_areas(self, self.sleeping_set.contacts()))
 
     def report_contacts(self, rows: np.ndarray, keep: np.ndarray | None = None) -> None:
-        """Store the CONTACT rows that `contacts` lists.
+        """Store the CONTACT rows whose points `contacts` will list.
 
         keep: a bool for each row, whether it is listed; None: all are.
         """
@@ -215,7 +215,7 @@ class WorldState:
 
     @property
     def candidates(self) -> np.ndarray:
-        """Pairs of shape ids that passed broad phase and filters in the last step: (n, 2) int32, a < b, sorted."""
+        """Pairs of shapes (ids) that passed broad phase and filters in the last step: (n, 2) int32, a < b, sorted."""
         return self.pairs.ids(self.shapes).astype(np.int32)
 
     def rows(self, ids: Any) -> np.ndarray:
@@ -294,8 +294,8 @@ class WorldState:
     def _row_at(self, identity: int) -> int:
         """Return the row number of a body, without dropping the rows of removed bodies first.
 
-        The number is valid until `bodies` or `shapes` is read, which drops these rows and moves other rows. So use the
-        number only to access single values by Table.columns. Raises KeyError for an unknown body.
+        The number is valid until `bodies` or `shapes` is read, which drops these rows and so moves other rows. Use it
+        only to access single values by Table.columns. Raises KeyError for an unknown body.
         """
         row = -1 if identity in self._removed else row_number(self._bodies, identity)
         if row < 0:
@@ -303,7 +303,10 @@ class WorldState:
         return row
 
     def _shape_rows(self, row: int) -> np.ndarray:
-        """Return the SHAPE rows of a body row, ascending, without dropping the rows of removed bodies first."""
+        """Return the SHAPE row numbers of a body (row number), ascending.
+
+        The rows of removed bodies are not dropped first.
+        """
         run = self._runs.data
         count = run["count"].item(row)
         if count == SCATTERED:
@@ -314,7 +317,10 @@ class WorldState:
         return np.arange(first, first + count)
 
     def _shape_rows_of(self, rows: np.ndarray) -> np.ndarray:
-        """Return the SHAPE rows of body rows, in any order, without dropping the rows of removed bodies first."""
+        """Return the SHAPE row numbers of bodies (row numbers), in any order.
+
+        The rows of removed bodies are not dropped first.
+        """
         runs, shapes = self._runs.data[rows], self._shapes.rows
         firsts, counts = runs["first"], runs["count"]
         least = int(counts.min()) if len(rows) else 0
@@ -333,7 +339,7 @@ class WorldState:
         return np.repeat(starts - ends + counts, counts) + np.arange(ends[-1])
 
     def _write_runs(self) -> None:
-        """Write the RUN rows (where a body's shape rows are) of all bodies, after the tables were replaced."""
+        """Write the RUN rows of all bodies, which say where a body's shape rows are, after the tables were replaced."""
         bodies, owners, ids = self._bodies.count, self.shapes["body_row"], self.shapes["id"]
         self._runs.count = 0
         runs, numbers = self._runs.append(bodies), np.arange(len(owners))
@@ -344,13 +350,13 @@ class WorldState:
         runs["first"][counts > 0] = ids[starts[counts > 0]]
 
     def _write_run(self, row: int) -> None:
-        """Write the RUN row (where its shape rows are) of a body row, after the body's shapes changed."""
+        """Write the RUN row of a body (row number), which says where its shape rows are, after its shapes changed."""
         mine, run = np.flatnonzero(self.shapes["body_row"] == row), self._runs.data
         run["count"][row] = len(mine) if not len(mine) or mine[-1] - mine[0] + 1 == len(mine) else SCATTERED
         run["first"][row] = self.shapes["id"][mine[0]] if len(mine) else 0
 
     def _identity(self, name: str, value: Any) -> int:
-        """Return the id that `value` (a Body or an id) stands for, without testing whether the body exists.
+        """Return the id of `value`, a Body or an id. Whether the body exists is not tested.
 
         name: name of the argument in messages. Raises TypeError for anything else, ValueError for a Body of another
         world, KeyError for a number outside the range of ids (0 to 2**62 - 1).
@@ -366,9 +372,9 @@ class WorldState:
         return int(value)
 
     def _identities(self, name: str, value: Any, repeats: bool = False) -> np.ndarray:
-        """Return the ids (n) int64 of one or many Bodies or ids, without testing whether the bodies exist.
+        """Return the ids (n,) int64 of one or many Bodies or ids. Whether the bodies exist is not tested.
 
-        name: name of the argument in messages; repeats: whether an id may repeat. Raises TypeError, ValueError,
+        name: name of the argument in messages; repeats: whether an id may repeat. Raises TypeError, ValueError or
         KeyError for invalid arguments.
         """
         if isinstance(value, (Handle, int, np.integer)):
@@ -388,7 +394,7 @@ class WorldState:
         return checks.ids(name, np.array(each, np.int64), repeats)
 
     def _tidy_library(self) -> None:
-        """Drop the geometry that no shape uses, if it may be half of the library."""
+        """Drop the geometry that no shape uses, if it may be half of the library or more."""
         if self.library.may_be_half_unused(self._shapes.count):
             self.library = self.library.without_unused(self.shapes)
 
@@ -421,7 +427,7 @@ class WorldState:
     def _remove_one(self, identity: int) -> None:
         """Remove a body by id. Raises KeyError for an unknown id.
 
-        In a world without characters and joints, its rows are dropped later, when the tables are read.
+        In a world without characters and joints, its rows are dropped only when the tables are next read.
         """
         self._unstepped()
         if self.characters.count or self._joints.count:
@@ -434,7 +440,7 @@ class WorldState:
         self._removed[identity] = None
 
     def _refresh_joint_rows(self) -> None:
-        """Write the present body rows of all joints."""
+        """Write the present row numbers of their bodies to all joints."""
         if self._joints.count:
             joints = self._joints.rows
             for side in ("a", "b"):
@@ -454,7 +460,7 @@ class WorldState:
         self._drop_rows(ids, rows_in(self._bodies, ids))
 
     def _drop_rows(self, ids: np.ndarray, rows: np.ndarray) -> None:
-        """Drop the rows of bodies, given by ids and rows, and the rows of their shapes and contacts."""
+        """Drop the rows of bodies, given by ids and row numbers, and the rows of their shapes and contacts."""
         keep = np.ones(self._bodies.count, bool)
         keep[rows] = False
         kept_shapes = keep[self.shapes["body_row"]]
