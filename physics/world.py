@@ -690,7 +690,10 @@ class World(WorldState):
         return casts.shape_cast(self, shape, pose, translation, filter)
 
     def closest(self, point: Pair, filter: Filter = Filter.ALL) -> tuple[Body, Vec2, float] | None:
-        """Return (body, point, distance [px]) of the point of a shape that is nearest to `point` [px], or None."""
+        """Return (body, nearest point on its shapes, distance [px]) for the shape nearest to `point` [px], or None.
+
+        filter: which shapes are considered.
+        """
         return casts.closest(self, point, filter)
 
     def overlap(self, shape: Shape, pose: Pose, filter: Filter = Filter.ALL) -> list[Body]:

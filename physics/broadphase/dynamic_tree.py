@@ -71,7 +71,7 @@ def refit(index, nodes_inout):
 def replace_child(parent, old, new, root, nodes_inout, state_inout):
     """Put the node `new` in the place of the node `old`: as a child of `parent`, or as the root if `parent` is -1.
 
-    All three are indices of nodes. root: index of the root in state_inout, ROOT_MOVING or ROOT_STILL.
+    parent, old, new: indices of nodes; root: index of the root in state_inout, ROOT_MOVING or ROOT_STILL.
     """
     nodes_inout[new].parent = parent
     if parent < 0:

@@ -50,9 +50,9 @@ def overlaps(proxies, a, b, work_inout):
 def may_meet(proxies, a, b, work_inout):
     """Return whether two proxies whose boxes touch may pair. O(1).
 
-    Excluded are pairs of two static proxies, of two sleeping proxies, of two proxies of one body, of proxies whose
-    `plane` and `avoids` exclude each other, and pairs that a filter excludes. The last are counted in work_inout
-    (FILTERED). proxies: PROXY table; a, b: slots.
+    Excluded are pairs of two static proxies, of two sleeping proxies, and of two proxies of one body. Also excluded are
+    pairs whose `plane` and `avoids` exclude each other, and pairs that a filter excludes. The last are counted in
+    work_inout (FILTERED). proxies: PROXY table; a, b: slots.
     """
     p, q = proxies[a], proxies[b]
     if (p.still and q.still) or p.body == q.body or not (p.awake or q.awake) or (p.plane & q.avoids) != 0:
@@ -95,10 +95,9 @@ class Arena:
         self.work = np.zeros(len(COUNTERS), np.int64)
 
     def collect(self, query: Query) -> int:
-        """Run query(pairs, work) -> count, and repeat it with a larger array if the pairs did not fit.
+        """Run query(pairs, work) -> count and return the count. Repeat it with a larger array if the pairs did not fit.
 
         query: result of Strategy.query. It writes pairs to the array and returns their number, even if they do not fit.
-        Return the count.
         """
         work = self.work.copy()
         count = query(self.pairs, self.work)

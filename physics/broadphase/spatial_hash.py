@@ -73,8 +73,8 @@ def bucket_at(level, cell_x, cell_y, mask):
 def level_of(lower_x, lower_y, upper_x, upper_y, base):
     """Return the finest level whose cells are at least as large as a box; LEVELS if there is none.
 
-    lower_x, lower_y, upper_x, upper_y [px]: the box, for which the result is also LEVELS if it is outside CELL_RANGE;
-    base [px]: cell size on level 0.
+    lower_x, lower_y, upper_x, upper_y [px]: the box. If it is outside CELL_RANGE, the result is also LEVELS. base [px]:
+    cell size on level 0.
     """
     extent = max(upper_x - lower_x, upper_y - lower_y)
     size = base

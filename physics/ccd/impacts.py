@@ -343,9 +343,9 @@ def find_rotational_impacts(moving, rotation, sweep_inout, impacts_out):
     """Find the impacts of fast bodies along their paths, with rotation. Return their number. O(candidates).
 
     impacts_out (n, 8), columns: index of the candidate pair, fraction of the step, nx and ny from A to B, 1.0 if the
-    body stops, feature. moving: see is_swept. Without a stacking solver, a body does not stop if it would move into the
-    obstacle by at most a quarter of its smallest half extent, because the contact resolves the overlap in the same
-    step. rotation: whether bodies rotate; if not, pairs with a closed form are left to find_impacts.
+    body stops, feature. moving: see is_swept. Without a stacking solver, a small motion into the obstacle does not stop
+    a body, because the contact resolves the overlap in the same step. Small means at most a quarter of the smallest
+    half extent. rotation: whether bodies rotate; if not, pairs with a closed form are left to find_impacts.
     """
     bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
     stacking, slack = sweep_inout.stacking, sweep_inout.slack

@@ -151,8 +151,8 @@ def sweep_core(core_radius, other_count, other_radius, workspace):
     core_radius [px]: radius of the core circle, a small circle around the centre of mass. The hull is in
     workspace.advance.local_b, with other_count corners and the rounding radius other_radius [px]. The result is MISS if
     the centre is inside the hull at the start. If the circle would overlap the hull at the start, its radius is reduced
-    to CORE_LEFT of the centre's distance, so that the centre never crosses the surface. With half of the distance, 3 of
-    768 test rooms lost a body whose centre reached the wall step by step.
+    to CORE_LEFT of the centre's distance. So the centre never crosses the surface. With half of the distance, 3 of 768
+    test rooms lost a body whose centre reached the wall step by step.
     """
     workspace.advance.local_a[0, 0] = 0.0
     workspace.advance.local_a[0, 1] = 0.0
@@ -193,9 +193,9 @@ def back_to(mover, other_count, other_radius, depth, fraction, size, workspace):
 def sweep_part(mover, other_count, other_radius, depth, workspace):
     """Sweep the mover against a convex piece of an obstacle.
 
-    The piece is in workspace.advance.local_b, with other_count corners and the rounding radius other_radius [px]. depth
-    [px]: depth of the mover in the whole obstacle at the start, up to which an overlap is not an impact. Return
-    (fraction or MISS, whether the core circle was swept).
+    Return (fraction or MISS, whether the core circle was swept). The piece is in workspace.advance.local_b, with
+    other_count corners and the rounding radius other_radius [px]. depth [px]: depth of the mover in the whole obstacle
+    at the start, up to which an overlap is not an impact.
     """
     count, radius, half, slack = mover
     reach = place_mover(count, workspace)

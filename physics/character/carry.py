@@ -175,7 +175,7 @@ def carried_by(way, stopped):
 
 @subkernel
 def carry_riders(along_x, walk_inout):
-    """Move all characters that stand on a carried character by the same pixels, in stacks of any height.
+    """Move each character that stands on a carried character by the same pixels, and so on up a stack.
 
     along_x: 1 for the x axis, 0 for the y axis.
     """

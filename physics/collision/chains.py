@@ -234,9 +234,9 @@ def classify_normal(link, points, towards_end, nx, ny):
 def neighbour_separates(points, nx, ny, hull, x, y, face):
     """Return whether a neighbouring link is a better reference face than this link for the contact with a Hull.
 
-    It is better if the Hull's centre is in front of it, and the Hull's separation from it is greater than `face` [px],
-    the Hull's separation from this link. The neighbour is the one at the end towards which (nx, ny) points. points: see
-    link_at; x, y: centre of the Hull.
+    The neighbour is the one at the end towards which (nx, ny) points. It is better under two conditions. The Hull's
+    centre must be in front of it. And the Hull's separation from it must be greater than `face` [px], the separation
+    from this link. points: see link_at; x, y: centre of the Hull.
     """
     towards_end = is_towards_end(points, nx, ny)
     i = 1 if towards_end else 2
@@ -254,8 +254,8 @@ def push_at_open_end(link, points, hull, face, margin, manifold_out):
     """Write a contact point that pushes a Hull out past an open end of the chain. Return the number of points, 0 or 1.
 
     The reference plane goes through the open end, perpendicular to the link. A point is written only if the Hull's
-    separation from this plane exceeds `face` [px], its separation from the link's face, and is at most `margin` [px].
-    link: LINK row; points: see link_at; manifold_out (11,): see hulls.clip_edges.
+    separation from this plane is greater than that from the link's face, `face` [px], and at most `margin` [px]. link:
+    LINK row; points: see link_at; manifold_out (11,): see hulls.clip_edges.
     """
     ex, ey = unit(points[1, 0] - points[0, 0], points[1, 1] - points[0, 1], 1.0, 0.0)
     manifold_out[0] = 0.0

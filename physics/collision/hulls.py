@@ -134,10 +134,10 @@ def middle_of(corners, count):
 def is_normal_at_corner(corners, count, edges, corner, nx, ny):
     """Return whether the unit direction (nx, ny) is a valid contact normal at a corner of a hull.
 
-    At a corner that is not touchable (covered by a neighbouring part of the same shape) no normal is valid. At a corner
-    where only one edge is on the outline of the whole shape, the normal may deviate from the normal of this edge by at
-    most the angle stored in `edges`. At all other corners every normal is valid. corner: index of the corner; edges:
-    bits, see ALL_EDGES.
+    At a corner that is not touchable (covered by a neighbouring part of the same shape) no normal is valid. At some
+    corners only one edge is on the outline of the whole shape. There the normal may deviate from the normal of this
+    edge by at most the angle stored in `edges`. At all other corners every normal is valid. corner: index of the
+    corner; edges: bits, see ALL_EDGES.
     """
     if (edges >> (16 + corner)) & 1 == 0:
         return False
@@ -577,8 +577,8 @@ def pushing_edges(a, b, over_ends):
     """Return bits of the edges of Hull A whose normals may push A out of Hull B, which is a part of a larger outline.
 
     An edge of A may push if it faces a touchable corner of B. It may not if B's neighbour continues the surface at this
-    corner. over_ends: also include an edge of A that is nearly parallel to a touchable edge of B and lies over an end
-    of it, because the other end may also be touched. In the result all bits of corners are set, see ALL_EDGES.
+    corner. over_ends: also include edges of A that are nearly parallel to a touchable edge of B and lie over an end of
+    it. The other end of such an edge may also be touched. In the result all bits of corners are set, see ALL_EDGES.
     """
     if b.edges == ALL_EDGES:
         return ALL_EDGES
@@ -658,9 +658,9 @@ def path_misses(a, b, allowed, vx, vy):
 def collide_hulls(a, b, margin, bias, deepest, manifold_out):
     """Write the manifold of two Hulls of two or more corners each (SAT, clipping). Return the number of points.
 
-    bias [px]: B has the reference face only if its greatest face separation exceeds that of A by more than this, so
-    that the reference does not alternate between equal faces. deepest [px]: a deeper overlap is left to a neighbouring
-    part, if that part covers an edge behind which the overlap is less deep. Then 0 is returned and manifold_out[0] is
+    bias [px]: B has the reference face only if its greatest face separation exceeds that of A by more than this. So the
+    reference does not alternate between equal faces. deepest [px]: a deeper overlap is left to a neighbouring part, if
+    that part covers an edge behind which the overlap is less deep. Then 0 is returned and manifold_out[0] is
     COVERED_OVERLAP. If the separation exceeds `margin` [px], 0 is returned. manifold_out (11,): see clip_edges.
     O(corners of A · corners of B).
     """

@@ -124,9 +124,9 @@ def hulls_of_pair(batch, pair, workspace):
 def write_fallback(batch, pairs, last_x, last_y, workspace, starts_out, faces_out, manifolds_out):
     """Write the contact that pushes shape B out of shape A by the shortest translation.
 
-    pairs: indices of the candidates whose sides are overlapping parts of A and B; last_x, last_y: unit normal of the
-    last step, or (0, 0); starts_out (pairs + 1,), faces_out (FACES · pairs, 4): scratch. O(faces²). Return 1, or 0 if
-    there is none.
+    Return 1, or 0 if no such contact exists. pairs: indices of the candidates whose sides are overlapping parts of A
+    and B; last_x, last_y: unit normal of the last step, or (0, 0); starts_out (pairs + 1,), faces_out (FACES · pairs,
+    4): scratch. O(faces²).
     """
     starts_out[0] = 0
     for k in range(len(pairs)):
@@ -188,8 +188,8 @@ def find_deep(bodies, manifolds, count, deep, flags_out):
 def drop_opposed_rows(order, deep, manifolds_inout):
     """Drop each deep contact if a shallower contact of the same two shapes has an opposite normal.
 
-    order: row numbers of the contacts, sorted by the ids of the whole shapes; deep (contacts,) bool: flags of
-    find_deep. The remaining contacts are moved to the front. Return their number. O(contacts · contacts of a pair).
+    The remaining contacts are moved to the front. Return their number. order: row numbers of the contacts, sorted by
+    the ids of the whole shapes; deep (contacts,) bool: flags of find_deep. O(contacts · contacts of a pair).
     """
     first = 0
     count = len(order)

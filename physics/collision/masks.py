@@ -433,9 +433,9 @@ def border_pixels(raster, line, low, high, level):
 def collide_mask_line(raster, hull, depths_out):
     """Collide a PlacedRaster with a line segment (Hull of two corners).
 
-    The line is solid from both sides. It touches the mask where it crosses a solid pixel, or lies on the border between
-    two solid pixels. On a border the normal points away from the middle of the mask, and the separation is -1. Other
-    values as in collide_mask_polygon. depths_out (16,): scratch. Return (area, nx, ny, x, y, separation, feature).
+    Return (area, nx, ny, x, y, separation, feature). The line is solid from both sides. It touches the mask where it
+    crosses a solid pixel, or lies on the border between two solid pixels. On a border the normal points away from the
+    middle of the mask, and the separation is -1. Other values as in collide_mask_polygon. depths_out (16,): scratch.
     """
     points = hull.corners
     left, top = raster.left, raster.top
@@ -538,10 +538,10 @@ sum_pixels_in_rounded = make_pixel_sum(square_in_rounded)
 def collide_mask_rounded(raster, hull, depths_out):
     """Collide a PlacedRaster with a rounded Hull of two or more corners.
 
-    The normal is opposite to that of a face, or points from the centroid of the overlapping pixels to the hull's core.
-    Of these directions, the one with the shortest move that clears the pixels is used. The separation is minus this
-    move. Other values as in collide_mask_circle. O(pixels in the hull's AABB · corners). Return (area, nx, ny, x, y,
-    separation, feature).
+    Return (area, nx, ny, x, y, separation, feature). The normal is opposite to that of a face, or points from the
+    centroid of the overlapping pixels to the hull's core. Of these directions, the one with the shortest move that
+    clears the pixels is used. The separation is minus this move. Other values as in collide_mask_circle. O(pixels in
+    the hull's AABB · corners).
     """
     corners = hull.corners
     count = hull.count

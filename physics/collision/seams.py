@@ -57,7 +57,7 @@ class BodyLists(NamedTuple):
 
 @subkernel
 def ground_side(bodies, shapes, manifold):
-    """Return on which side of a CONTACT row the ground is that a dynamic body touches: 0 for A, 1 for B, or NONE.
+    """Return the side of a CONTACT row that is ground and touches a dynamic body: 0 for A, 1 for B, or NONE.
 
     NONE: both bodies or neither are dynamic, or a shape is a mask.
     """

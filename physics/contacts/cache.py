@@ -372,9 +372,9 @@ def recycle_distance(contact, distance):
 def can_recycle(shapes, a, turn_a, b, turn_b, distance, wander, contact_inout):
     """Update a contact to the present poses, and return whether the next step can use it without a new narrow phase.
 
-    Three conditions must hold: the points have moved by at most recycle_distance, relative rotation has moved them by
-    at most `distance` [px], and no clipped point needs a correction of more than `wander` [px]. shapes: SHAPE rows; a,
-    b: BODY rows; turn_a, turn_b: (cosine, sine) of their angles.
+    Three conditions must hold. The points have moved by at most recycle_distance. Relative rotation has moved them by
+    at most `distance` [px]. No clipped point needs a correction of more than `wander` [px]. shapes: SHAPE rows; a, b:
+    BODY rows; turn_a, turn_b: (cosine, sine) of their angles.
     """
     c = contact_inout
     moved, rolled, wandered = update_contact(a, turn_a, b, turn_b, wander, c)

@@ -399,9 +399,9 @@ def write_depth(a, b, count, polytope, gap_out):
 def measure_depth(a, a_count, b, b_count, workspace):
     """Find the shortest move of B that ends its overlap with A (EPA).
 
-    Write separation, normal, points to workspace.gap. The separation is minus the length of this move, which is along
-    the normal. a, b (n, 2) [px]: corners, a_count and b_count of them. The rounds are added to workspace.state[ROUNDS];
-    if they reach EPA_CAP, 1 is added to workspace.state[CAPPED]. O(corners squared).
+    Separation, normal and points are written to workspace.gap. The separation is minus the length of this move, which
+    is along the normal. a, b (n, 2) [px]: corners, a_count and b_count of them. The rounds are added to
+    workspace.state[ROUNDS]; if they reach EPA_CAP, 1 is added to workspace.state[CAPPED]. O(corners squared).
     """
     count = start_polytope(a, a_count, b, b_count, workspace.polytope)
     if count > 1:

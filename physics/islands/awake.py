@@ -672,8 +672,8 @@ def keep_free_awake(rows, bodies, groups, fall, islands, least_out):
 def keep_sprung_awake(bodies, joints, slop, islands, least_out):
     """Set the least sleep time of an island to 0 if one of its bodies still moves on a joint spring. O(joints).
 
-    A body on a spring is slow where it turns back. So it may sleep only after it has stayed in place for half a period,
-    and if its speed means an amplitude of at most about a slop [px]. islands, least_out: see keep_free_awake.
+    A body on a spring is slow where it turns back. So it may sleep only after it has stayed in place for half a period.
+    Also its speed must mean an amplitude of at most about a slop [px]. islands, least_out: see keep_free_awake.
     """
     for i in range(len(joints)):
         j = joints[i]

@@ -3,9 +3,9 @@
 An edge of the graph is a constraint. Its nodes are the one to four bodies on which the constraint acts. Islands are
 found by union-find over the edges in the order of shape ids, with the lowest node as the root. So islands do not depend
 on the broad phase (Catto, Box2D v3, Simulation Islands, 2023). No two edges of one colour share a node of finite mass.
-So the result is the same to the last bit for any order of the edges within a colour, and any number of SIMD lanes or
-threads (Catto, SIMD Matters, 2024). Edges with a static or kinematic body get the last colours. They are solved last,
-so that they prevail over other edges.
+So neither the order of the edges within a colour nor the number of SIMD lanes or threads changes a bit of the result
+(Catto, SIMD Matters, 2024). Edges with a static or kinematic body get the last colours. They are solved last, so that
+they prevail over other edges.
 """
 
 from typing import NamedTuple

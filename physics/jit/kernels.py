@@ -42,7 +42,7 @@ def compiling() -> Iterator[None]:
 
 @contextmanager
 def measured() -> Iterator[Callable[[], float]]:
-    """Context manager that yields a function: the seconds of compiling and loading since the context was entered."""
+    """Context manager that yields a function. It returns the seconds of compiling and loading since the entry."""
     before = seconds + loading
     yield lambda: seconds + loading - before
 
