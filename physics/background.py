@@ -264,7 +264,7 @@ class Background:
 
 
 def _mark(job):
-    """Return the name of a marker file in the store for a job, as JSON text.
+    """Return the name of a marker file in the store. job: a job of Background.expect as JSON text.
 
     The file exists if all kernels of the job have been compiled from these sources.
     """

@@ -756,7 +756,10 @@ def set_continuous(world: WorldState, identity: int, value: str) -> None:
 
 
 def set_fixed_rotation(world: WorldState, identity: int, value: bool) -> None:
-    """Set whether impulses leave the rotation unchanged; True also stops it. Raises TypeError if not a bool."""
+    """Set whether impulses leave the rotation unchanged. True also stops the rotation.
+
+    Raises TypeError if not a bool.
+    """
     world._unlocked()
     value, row = checks.flag("fixed_rotation", value), world._body_row(identity)
     row["fixed_rotation"] = value

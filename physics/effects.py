@@ -71,7 +71,7 @@ class Effects:
 
     @classmethod
     def named(cls, names: Iterable[str]) -> "Effects":
-        """Return the Effects in which exactly the named effects are on. Also `narrowphase` is on only if it is named.
+        """Return the Effects in which exactly the named effects are on. `narrowphase`, too, must be named to be on.
 
         It is the inverse of names(). Raises TypeError for an unknown effect, and ValueError if an effect that a named
         one needs is not named.

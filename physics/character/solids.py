@@ -147,7 +147,7 @@ def manifold_depth(points, manifold):
 
 @subkernel
 def meet_disc(scratch, count, radius, x, y, other):
-    """Return the overlap (depth, nx, ny, x, y) [px] of a character's outline with a disc, see meet.
+    """Return the overlap (depth, nx, ny, px, py) [px] of a character's outline with a disc, see meet.
 
     x, y, other [px]: centre and radius of the disc; count, radius: result of place_outline, which writes the outline.
     """

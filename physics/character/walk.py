@@ -109,10 +109,10 @@ def is_wedged(walk, me, rows, slope):
 
 @subkernel
 def steep_below(walk, me, rows, slope):
-    """Return the slope of ground just below a sliding character that is too steep to walk on; 0 if there is none.
+    """Return the slope of the ground just below a sliding character if it is too steep to walk on, else 0.
 
-    The search covers the drop of a ground of slope `slope` over one pixel along x. me: CHARACTER row; rows: nearby
-    solids, see solids.gather.
+    The search goes down by the drop of `slope` over one pixel along x. me: CHARACTER row; rows: nearby solids, see
+    solids.gather.
     """
     c = walk.characters[me]
     for drop in range(1, pixels_along(slope) + 1):

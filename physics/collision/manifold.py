@@ -444,7 +444,7 @@ def center_velocity(a, b):
 
 @subkernel
 def closing_speed_bound(a, b):
-    """Return a speed [px/s] that neither body exceeds, nor the speed that center_velocity returns for them.
+    """Return an upper bound [px/s] of three speeds: those of both bodies, and the one that center_velocity returns.
 
     a, b: BODY rows.
     """

@@ -1,4 +1,4 @@
-"""Calls of kernels from Python: which form runs, its time, and references by which other processes find a kernel."""
+"""Calls of kernels from Python: which form of a kernel runs, and references by which other processes find a kernel."""
 
 import importlib
 from collections import deque
