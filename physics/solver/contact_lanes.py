@@ -1,8 +1,8 @@
-"""The contacts of a step as constraints: graph edges, substeps, order, groups, and storing of lanes in CONTACT rows.
+"""The contacts of a step as constraints: choose substeps, order them for the solver, and store the resulting impulses.
 
-A lane holds one contact for the SIMD passes, see lanes.py. Islands with the same number of substeps form a group, which
-advances by the whole step before the next group begins. Groups may differ in their substeps because islands do not
-affect each other: the motion of kinematic bodies between them depends on the time alone.
+The solver works on lanes: a lane holds one contact for the SIMD passes, see lanes.py. Islands with the same number of
+substeps form a group. The solver advances one group by the whole step, then the next. Islands do not affect each other,
+and the motion of kinematic bodies between them depends on time alone, so groups may have different substeps.
 """
 
 import math
@@ -67,7 +67,7 @@ BY_LOAD = AUTO_SUBSTEPS.index(LOAD_SUBSTEPS)  # index of the most substeps that 
 
 
 class Plan(NamedTuple):
-    """The constraints to solve and their order, as a graph: a node is a MOTION row, an edge is a constraint.
+    """The constraints to solve and their order, as a graph: each node is a MOTION row, each edge a contact or joint.
 
     An array marked (edges), (motions) or (joints) is at least as long as the number of constraints, MOTION rows or
     JOINT rows in use.
@@ -98,10 +98,7 @@ class Plan(NamedTuple):
 
 
 def new_plan(edges: int, motions: int, joints: int) -> Plan:
-    """Return a Plan with capacities.
-
-    edges: for contacts and joints together; motions: for MOTION rows; joints: for joints.
-    """
+    """Return an empty Plan. edges, motions, joints: capacities for constraints, MOTION rows and joints."""
     slots = len(AUTO_SUBSTEPS) * (COLORS + 1) + 1
     return Plan(
         edges=new_edges(edges),
@@ -130,7 +127,7 @@ def new_plan(edges: int, motions: int, joints: int) -> Plan:
 
 
 class Group(NamedTuple):
-    """The islands that take the same number of substeps, and the range of their contacts."""
+    """The islands that take the same number of substeps, with their bodies, joints and range of contacts."""
 
     substeps: int
     edges: int  # number of contacts of all groups together
@@ -146,9 +143,10 @@ class Group(NamedTuple):
 
 @subkernel
 def credit_overlap(overlap, motion, balance_inout):
-    """Add the energy that lifts a body by an overlap [px] to the energy reserve of the body.
+    """Add to a body's energy reserve the energy that it takes to lift the body by an overlap [px].
 
-    motion: MOTION row; balance_inout: BALANCE row of the body.
+    A reserve is energy that the solver may give back, see energy.py. motion, balance_inout: MOTION and BALANCE row of
+    the body.
     """
     m = motion
     if m.inverse_mass > 0.0:
@@ -162,9 +160,10 @@ ALIKE = math.sqrt(0.5 + 0.5 * FACING) + 1e-6
 
 @inlined
 def traits_of(row_a, row_b, lists):
-    """Return the traits of the two bodies of a contact on which graph.color_edges depends, as bits of one number.
+    """Return the traits of two bodies on which the colour of their contact depends, as the bits of one number.
 
-    The traits of a body are its rank and whether it has finite mass. row_a, row_b: MOTION rows; lists: MotionLists.
+    The traits of a body are its rank and whether it has finite mass, see graph.color_edges. row_a, row_b: MOTION rows;
+    lists: MotionLists.
     """
     a = lists.rank[row_a] << 1 | int(lists.has_finite_mass[row_a])
     b = lists.rank[row_b] << 1 | int(lists.has_finite_mass[row_b])
@@ -173,14 +172,18 @@ def traits_of(row_a, row_b, lists):
 
 @subkernel
 def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, plan_out):
-    """List the contacts to solve as graph edges between MOTION rows. O(contacts).
+    """Write the contacts to solve as graph edges between MOTION rows. O(contacts).
 
     Return (number of edges, whether islands may be squeezed, greatest overlap [px], whether the colours of the last
-    step are valid). They are valid if the edges connect the same MOTION rows with the same traits, see traits_of.
+    step are still valid). The colours are valid if the edges connect the same MOTION rows with the same traits, see
+    traits_of.
+
     Sensors, contacts without a body of finite mass, and contacts under a character's feet are left out. Islands may be
-    squeezed only if overlapped faces of bodies of infinite mass point in different directions, or if such a face moves.
-    limits: see settings.Limits; lists_inout: MotionLists, whose reserves of energy grow for bodies created inside
-    others.
+    squeezed only by faces of bodies of infinite mass: such faces overlap and point in different directions, or one
+    moves.
+
+    contacts, bodies, motions: CONTACT, BODY and MOTION rows; dt [s]; limits: see settings.Limits. lists_inout:
+    MotionLists, in which a body created inside another gets an energy reserve. plan_out: see Plan.
     """
     edges_out, traits_out = plan_out.edges, plan_out.traits
     motion_of = lists_inout.motion_of
@@ -245,7 +248,7 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, plan_
 
 @subkernel
 def list_joint_edges(joints, count, edges_out):
-    """Write the joints to solve as graph edges, after the edges of contacts. Return the number of all edges. O(joints).
+    """Write the joints to solve as graph edges, after those of the contacts. Return the number of all edges. O(joints).
 
     joints: result of joint_rows.list_joints; count: number of edges of contacts; edges_out: Edges of the graph.
     """
@@ -263,11 +266,12 @@ def list_joint_edges(joints, count, edges_out):
 
 @subkernel
 def list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, plan_out):
-    """List the constraints to solve as graph edges, and colour the edges of contacts. O(constraints + motions).
+    """Write the constraints to solve as graph edges, and colour the edges of contacts. O(constraints + motions).
 
-    Return (number of contacts, whether their edges and colours are those of the last step). Also find islands that are
-    squeezed between faces (see energy.find_squeezed), and clear MOTION.halves of bodies with contacts. dt [s]: step
-    length; limits: see settings.Limits; lists_inout: see MotionLists; plan_out: see Plan.
+    Return (number of contacts to solve, whether edges and colours are unchanged since the last step). The function also
+    finds islands that are squeezed between faces (see energy.find_squeezed). It sets MOTION.halves to False for bodies
+    with contacts. contacts, bodies: CONTACT and BODY rows; dt [s]: step length; limits: see settings.Limits;
+    lists_inout: MotionLists; plan_out: see Plan.
     """
     nodes = len(motions_inout)
     count, may_squeeze, deepest, unchanged = list_contact_edges(
@@ -295,7 +299,7 @@ def list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, pla
 
 @subkernel
 def order_joints(joints, classes, starts_out, rows_out):
-    """Write the JOINT rows sorted by the class of their islands (stable). O(classes · joints).
+    """Write the JOINT rows sorted by class, the index of their number of substeps (stable). O(classes · joints).
 
     joints: result of joint_rows.list_joints; classes (motions,): class of each MOTION row; starts_out: index of the
     first joint of each class, then the number of joints; rows_out: the sorted JOINT rows.
@@ -312,9 +316,10 @@ def order_joints(joints, classes, starts_out, rows_out):
 
 @kernel
 def order_in_one_group(contacts, bodies, dt, limits, motions_inout, lists_inout, plan_out):
-    """List the constraints to solve as one group, with contacts sorted by colour. O(constraints + motions).
+    """Order all constraints as one group in which every island has the same number of substeps.
 
-    Return (number of contacts to solve, number of these without a colour). Arguments: see list_and_color.
+    O(constraints + motions). Contacts are sorted by colour. Return (number of contacts to solve, number of these
+    without a colour). Arguments: see list_and_color.
     """
     count, unchanged = list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, plan_out)
     plan, starts = plan_out, plan_out.starts[: COLORS + 2]
@@ -326,10 +331,10 @@ def order_in_one_group(contacts, bodies, dt, limits, motions_inout, lists_inout,
 
 @kernel
 def order_by_load(contacts, bodies, islands, dt, limits, motions_inout, lists_inout, plan_out):
-    """List the constraints in groups by the number of substeps of their islands, with contacts sorted by colour.
+    """Order the constraints in groups by the number of substeps of their islands, and sort the contacts by colour.
 
-    Return the number of contacts to solve. islands: see Islands; other arguments: see list_and_color. O(constraints +
-    motions).
+    Return the number of contacts to solve. islands: see substeps.Islands; other arguments: see list_and_color.
+    O(constraints + motions).
     """
     plan, motions = plan_out, motions_inout
     nodes = len(motions)
@@ -353,15 +358,19 @@ def order_by_load(contacts, bodies, islands, dt, limits, motions_inout, lists_in
 
 
 class Selection:
-    """The constraints of one world in the order in which they are solved. The arrays grow and are reused."""
+    """The constraints of one world in the order in which they are solved.
+
+    The arrays grow when needed and are reused.
+    """
 
     def __init__(self) -> None:
         self.plan = new_plan(16, 16, 0)
 
     def choose(self, state: StepState, motions: Motions, substeps: int) -> list[Group]:
-        """Select, colour and order the constraints. Return the groups in ascending order of substeps.
+        """Choose the constraints to solve, colour and order them. Return the groups in ascending order of substeps.
 
-        substeps: number of substeps of all islands; 0: each island takes as many as it needs.
+        motions: Motions of the world; substeps: number of substeps of all islands, 0: each island takes as many as it
+        needs.
         """
         rows, contacts, limits = motions.used, state.contact_rows, state.tolerances.limits
         joints, plan = state.joints, self.plan
@@ -404,10 +413,10 @@ class Selection:
 
 @subkernel
 def add_estimates(blocks, count, substeps, rules, motions_inout):
-    """Raise MOTION.estimate to the square of the number of substeps that the contacts of a body need. O(contacts).
+    """Raise MOTION.estimate of each body to the square of the number of substeps that its contacts need. O(contacts).
 
-    Also set MOTION.capped if a load needs more substeps than both the present number and most_by_load. blocks: the
-    contacts, in `count` blocks; substeps: the present number; rules: see LoadRules.
+    Also set MOTION.capped if a load needs more substeps than both the present number and rules.most_by_load. blocks,
+    count: the contacts, in the first `count` blocks; substeps: the present number; rules: see LoadRules.
     """
     reach = max(substeps, rules.most_by_load)
     reach_squared = float(reach * reach)
@@ -441,11 +450,12 @@ def add_estimates(blocks, count, substeps, rules, motions_inout):
 
 @kernel
 def choose_by_load(blocks, count, group, links_islands, rules, plan_inout, motions_inout):
-    """Write the number of substeps that each island of a group takes in the next step. O(members + constraints).
+    """Write to the MOTION rows how many substeps each island of a group takes in the next step.
 
-    Return the number of islands that have needed more substeps than allowed for at least rules.patience [s]; a short
-    impact does not count. blocks: the contacts of the group, in `count` blocks; links_islands: see MotionLists; rules:
-    see LoadRules; plan_inout: see Plan. Islands are determined only if a body needs another number than in this step.
+    O(members + constraints). Return how many islands have needed more substeps than allowed for at least rules.patience
+    [s]. This time excludes short impacts. blocks, count: the contacts of the group, in the first `count` blocks;
+    links_islands: see MotionLists; rules: see LoadRules; plan_inout: see Plan. Islands are searched only if a body
+    needs another number of substeps.
     """
     plan = plan_inout
     substeps = group.substeps
@@ -460,9 +470,10 @@ def choose_by_load(blocks, count, group, links_islands, rules, plan_inout, motio
 
 
 def estimate_substeps(state: StepState, motions: Motions, plan: Plan, group: Group, blocks: Blocks, count: int) -> None:
-    """Write the number of substeps of the next step to the MOTION rows of a group, from the loads in this step.
+    """Write to a group's MOTION rows the number of substeps of the next step, from the loads in this step.
 
-    blocks: the contacts of the group, in `count` blocks.
+    motions: Motions of the world; plan: see Plan; blocks, count: the contacts of the group, in the first `count`
+    blocks.
     """
     rate = estimate_rate(state)
     rules = LoadRules(
@@ -482,7 +493,7 @@ def estimate_substeps(state: StepState, motions: Motions, plan: Plan, group: Gro
 def limit_friction(count, motions_inout, blocks_inout):
     """Limit the friction impulses of the step to the friction coefficient times the final normal impulse. O(lanes).
 
-    The excess is taken back from the bodies. blocks_inout: the contacts, in `count` blocks.
+    The excess is undone in the velocities of both bodies. blocks_inout: the contacts, in the first `count` blocks.
     """
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
@@ -502,11 +513,11 @@ def limit_friction(count, motions_inout, blocks_inout):
 
 @subkernel
 def store_lanes(blocks, count, inverse_h, share, contacts_inout):
-    """Write the impulses of the step, and the cached forces for the next step, to the contacts. O(lanes).
+    """Write the impulses of the step, and the cached forces for the next step, to the CONTACT rows. O(lanes).
 
-    blocks: the contacts, in `count` blocks; inverse_h [1/s]: inverse of the length of a substep; share: weight of this
-    step's forces in the cached forces. A very short step has a small weight, because an impulse that stops a small
-    motion in it would count as a large force in a step of usual length.
+    blocks, count: the contacts, in the first `count` blocks; inverse_h [1/s]: inverse of the length of a substep.
+    share: weight of this step's forces in the cached forces, which are a moving average. A very short step gets a small
+    weight: its impulses, divided by its length, would count as large forces.
     """
     rest = 1.0 - share
     for block in range(count):
@@ -527,13 +538,14 @@ def store_lanes(blocks, count, inverse_h, share, contacts_inout):
 
 
 def make_finish_lanes(restitution: bool, friction: bool) -> Callable:
-    """Return the kernel that ends a step after its last substep, with or without restitution and friction."""
+    """Return the kernel that ends a step after its last substep. restitution, friction: whether the world has them."""
 
     @kernel
     def finish_lanes(count, context, impacts_inout, motions_inout, blocks_inout, contacts_inout, work_inout):
-        """Apply restitution, limit friction, and write the impulses back to the contacts. O(lanes).
+        """Apply restitution, limit friction, and write the impulses from the lanes to the CONTACT rows. O(lanes).
 
-        count: number of blocks; context: see StepContext; impacts_inout: scratch IMPACT rows, as many as contacts.
+        count: number of blocks; context: see StepContext; impacts_inout: IMPACT rows for scratch use, at least as many
+        as contacts.
         """
         if restitution:
             # Impact speeds are measured at the start of the step, so its normals and moment arms are used.
@@ -560,7 +572,7 @@ FINISH = {(e, f): make_finish_lanes(restitution=e, friction=f) for e in BOTH for
 
 
 class ContactLanes:
-    """The contacts of one world as constraints in SIMD lanes. The arrays grow and are reused."""
+    """The contacts of one world as constraints in SIMD lanes. The arrays grow when needed and are reused."""
 
     def __init__(self) -> None:
         self.selection = Selection()
@@ -569,11 +581,11 @@ class ContactLanes:
         self.trees = Trees()
 
     def choose(self, state: StepState, motions: Motions, substeps: int) -> list[Group]:
-        """Return the groups of islands with the same number of substeps, see Selection.choose."""
+        """Return the groups of islands with the same number of substeps. Arguments: see Selection.choose."""
         return self.selection.choose(state, motions, substeps)
 
     def prepare(self, state: StepState, motions: Motions, group: Group, context: StepContext) -> tuple[Blocks, int]:
-        """Write the contacts of a group into blocks of SIMD lanes. Return (blocks, number of blocks in use)."""
+        """Write the contacts of a group into SIMD lanes. Return (Blocks, number of blocks in use)."""
         needed = blocks_needed(group.count, group.uncolored)
         if len(self.blocks.contact) < needed:
             self.blocks = make_blocks(2 * needed)
@@ -582,7 +594,7 @@ class ContactLanes:
         return blocks, prepare(state.bodies, motions.used, plan, group, context, contacts, blocks, state.work)
 
     def joints(self, state: StepState, motions: Motions, group: Group, h: float) -> JointSet:
-        """Begin the step of a group's joints with substeps of h [s], and find their trees. Return the JointSet.
+        """Prepare the joints of a group for a step with substeps of h [s], and find their trees. Return the JointSet.
 
         motions: Motions of the world; group: see Group.
         """

@@ -115,7 +115,7 @@ IN_CONTACT, UNLOADED = 1.0, 2.0  # summed in OUTCOME: the contact has an impulse
 
 
 def _lanes_in_use(contacts, block):
-    """Return the number of lanes in use in a block. They are the first lanes; plain Python skips the others."""
+    """Return how many lanes of a block hold a contact: they are the first lanes. contacts: see Blocks.contact."""
     count = 0
     while count < LANES and contacts[block, count] >= 0:
         count += 1
@@ -135,7 +135,7 @@ lanes_of: Any = Builtin(_lanes_in_use, put_in(ALL_LANES), ALL_LANES) if JIT else
 
 
 class Blocks(NamedTuple):
-    """Arrays that hold contacts in blocks of LANES lanes: each lane of a block is one contact."""
+    """Arrays for contacts in blocks. A block has LANES lanes, and each lane holds the values of one contact."""
 
     contact: np.ndarray  # (blocks, LANES) int32 contact of each lane, -1 for none
     motion_a: np.ndarray  # (blocks, LANES) uint32 MOTION rows of the bodies of each contact, 0 for none
@@ -148,7 +148,7 @@ class Blocks(NamedTuple):
 
 
 def make_blocks(count: int) -> Blocks:
-    """Return arrays for `count` blocks."""
+    """Return a Blocks with cleared arrays for `count` blocks."""
     lanes = (count, LANES)
     return Blocks(
         contact=np.zeros(lanes, np.int32),
@@ -163,16 +163,17 @@ def make_blocks(count: int) -> Blocks:
 
 
 def blocks_needed(contacts: int, uncolored: int) -> int:
-    """Return the greatest number of blocks that contacts need. uncolored: number of contacts without a colour."""
+    """Return the most blocks that a number of contacts can need. uncolored: how many of them have no graph colour."""
     return contacts // LANES + COLORS + 1 + uncolored  # the last block of a colour may be partly empty
 
 
 @subkernel
 def lay_out(starts, blocks_out):
-    """Assign blocks to the contacts of each colour, and clear the unused lanes. Return the number of blocks. O(blocks).
+    """Assign blocks to the contacts of each graph colour, and clear the unused lanes. Return the number of blocks.
 
     starts (colours + 2) int64: index of the first contact of each slot, then the number of contacts. Slot 0 holds the
-    contacts without a colour, each of which gets a separate block. Slot k + 1 holds the contacts of colour k.
+    contacts without a colour, each of which gets a block of its own. Slot k + 1 holds the contacts of colour k.
+    O(blocks).
     """
     found = 0
     for slot in range(len(starts) - 1):
@@ -195,7 +196,7 @@ def lay_out(starts, blocks_out):
 
 @inlined
 def next_lane(slot, blocks_inout):
-    """Return (block, lane) for the next contact of a slot, and advance to the lane after it. slot: see lay_out."""
+    """Return the (block, lane) for the next contact of a slot, and advance the slot by one lane. slot: see lay_out."""
     block = blocks_inout.block_of[slot]
     lane = blocks_inout.lane_of[slot]
     last = slot == 0 or lane == LANES - 1
@@ -216,9 +217,9 @@ FLAT = 1e-3  # determinant relative to k_11 · k_22 below which the two points c
 
 @inlined
 def block_factor(off_diagonal_1, off_diagonal_2):
-    """Return 1 / (1 - off_diagonal_1 · off_diagonal_2), which solve_two needs if both points have an impulse.
+    """Return 1 / (1 - off_diagonal_1 · off_diagonal_2), or 0 if the two contact points nearly coincide.
 
-    The result is 0 if the points nearly coincide. off_diagonal_1, off_diagonal_2: see solve_two.
+    solve_two multiplies by this factor if both points have an impulse. off_diagonal_1, off_diagonal_2: see solve_two.
     """
     apart = 1.0 - off_diagonal_1 * off_diagonal_2
     return 1.0 / apart if apart > FLAT else 0.0
@@ -226,12 +227,13 @@ def block_factor(off_diagonal_1, off_diagonal_2):
 
 @inlined
 def solve_two(change_1, change_2, off_diagonal_1, off_diagonal_2, factor, old_1, old_2):
-    """Return the accumulated impulses >= 0 of two points, such that each point gets its velocity change or separates.
+    """Return the new accumulated normal impulses (>= 0) of two contact points that are solved together (block solver).
 
-    change_1, change_2: change of impulse that each point would need alone. off_diagonal_1, off_diagonal_2: k_12 / k_11
-    and k_12 / k_22, of the inverse effective masses k. factor: see block_factor. old_1, old_2: impulses before. If the
-    points nearly coincide, or rounding excludes all four cases, one point is solved after the other. All cases are
-    computed and one is selected, so that the loop has no branch and vectorises.
+    Each point reaches its required velocity, or separates with impulse 0. change_1, change_2: change of impulse that
+    each point would need without the other. off_diagonal_1, off_diagonal_2: k_12 / k_11 and k_12 / k_22 of the matrix k
+    of inverse effective masses. factor: see block_factor. old_1, old_2: impulses before. Point 2 is solved after point
+    1 if they nearly coincide, or if no case fits because of rounding. All cases are computed and one is selected: the
+    loop has no branches, so the compiler vectorises it.
     """
     only_1 = old_1 + change_1 + off_diagonal_1 * old_2
     only_2 = old_2 + change_2 + off_diagonal_2 * old_1
@@ -258,7 +260,7 @@ def solve_two(change_1, change_2, off_diagonal_1, off_diagonal_2, factor, old_1,
 
 @inlined
 def gather_velocities(a, b, lane, s_out):
-    """Copy the velocities of MOTION rows a and b to a lane of the gathered values s_out, see GATHERED."""
+    """Copy the velocities of bodies A and B (MOTION rows a, b) into a lane of s_out. Its layout: see GATHERED."""
     s_out[VX_A + lane] = a.vx
     s_out[VY_A + lane] = a.vy
     s_out[W_A + lane] = a.angular_velocity
@@ -269,10 +271,7 @@ def gather_velocities(a, b, lane, s_out):
 
 @inlined
 def gather_poses(a, b, lane, s_out):
-    """Copy displacements and rotations since the start of the step from MOTION rows a and b to a lane of s_out.
-
-    s_out: gathered values, see GATHERED.
-    """
+    """Copy the displacements and rotations of MOTION rows a and b into a lane of s_out. Its layout: see GATHERED."""
     s_out[DX_A + lane] = a.dx
     s_out[DY_A + lane] = a.dy
     s_out[COS_A + lane] = a.cosine
@@ -285,7 +284,7 @@ def gather_poses(a, b, lane, s_out):
 
 @inlined
 def scatter_velocities(s, lane, a_out, b_out):
-    """Write the velocities in a lane of the gathered values s back to the MOTION rows a and b."""
+    """Write the velocities from a lane of the gathered values s back to bodies A and B (MOTION rows a_out, b_out)."""
     a_out.vx, a_out.vy = s[VX_A + lane], s[VY_A + lane]
     a_out.angular_velocity = s[W_A + lane]
     b_out.vx, b_out.vy = s[VX_B + lane], s[VY_B + lane]
@@ -294,10 +293,11 @@ def scatter_velocities(s, lane, a_out, b_out):
 
 @inlined
 def measure_gaps(lane, s, c_inout):
-    """Write the separations [px] at both points of a contact at the present poses. s: gathered poses, see GATHERED.
+    """Compute the separations [px] at both points of a contact at the present poses, and write them to GAP_1 and GAP_2.
 
-    Both points rotate with their bodies. On a rounded shape, the point on the core (the shape without its radius)
-    rotates, and the distance from the core to the surface is constant.
+    The contact points rotate with their bodies. The core of a rounded shape is the shape without its radius: the point
+    on the core rotates, and the surface stays one radius away from it along the normal. s: gathered poses, see
+    GATHERED.
     """
     c = c_inout
     nx = c[NX + lane]
@@ -321,11 +321,11 @@ def measure_gaps(lane, s, c_inout):
 
 @inlined
 def arms_of(x, y, radius, cosine, sine, start_nx, start_ny, nx, ny):
-    """Return the moment arms [px] of an impulse at a point of a rotated body: (along the normal, along the tangent).
+    """Return the moment arms [px] of a contact point on a rotated body: (for normal impulses, for tangential impulses).
 
-    x, y [px]: the point relative to the centre of mass before the rotation by (cosine, sine). radius [px]: distance of
-    the point from the core of the shape, in the direction of the normal. (start_nx, start_ny), (nx, ny): normal before
-    and after the rotation.
+    x, y [px]: the point relative to the centre of mass, before the rotation by (cosine, sine). radius [px]: distance of
+    the point from the core of the shape along the normal. (start_nx, start_ny), (nx, ny): normal before and after the
+    rotation.
     """
     x -= radius * start_nx
     y -= radius * start_ny
@@ -336,10 +336,10 @@ def arms_of(x, y, radius, cosine, sine, start_nx, start_ny, nx, ny):
 
 @inlined
 def write_arms(lane, cos_a, sin_a, cos_b, sin_b, c_inout):
-    """Write the moment arms of both points of a contact, for bodies rotated since the start of the step.
+    """Write the moment arms of both points of a contact, for bodies that have rotated since the start of the step.
 
-    cos_a, sin_a, cos_b, sin_b: the rotations. The point on the core of a shape rotates with the body; the radius from
-    the core to the surface stays along the normal.
+    (cos_a, sin_a), (cos_b, sin_b): rotations of A and B. The core of a shape (the shape without its radius) rotates
+    with its body. The surface stays one radius away from the core along the normal.
     """
     c = c_inout
     nx = c[NX + lane]
@@ -356,7 +356,7 @@ def write_arms(lane, cos_a, sin_a, cos_b, sin_b, c_inout):
 
 @inlined
 def write_masses(lane, c_inout):
-    """Write the effective masses of a contact at the present moment arms, and the factors of the block solver."""
+    """Write the effective masses and the block solver's factors of a contact, from its present moment arms."""
     c = c_inout
     masses = c[IM_A + lane] + c[IM_B + lane]
     ii_a, ii_b = c[II_A + lane], c[II_B + lane]
@@ -387,9 +387,9 @@ def clamp(impulse, limit):
 
 
 def make_friction(second: bool, rotation: bool, sums: bool) -> Any:
-    """Return the function that applies friction at one point of a contact, in a world with or without rotation.
+    """Return a function that applies friction at one of the two points of a contact.
 
-    second: True for the second point; sums: True to also add each impulse to the total of a step of several substeps.
+    second: True for the second point; rotation: whether bodies rotate; sums: whether to add up impulses over substeps.
     """
     a_line, b_line = (TANGENT_A_2, TANGENT_B_2) if second else (TANGENT_A_1, TANGENT_B_1)
     mass_line, impulse_line = (TANGENT_MASS_2, TANGENT_2) if second else (TANGENT_MASS_1, TANGENT_1)
@@ -397,9 +397,10 @@ def make_friction(second: bool, rotation: bool, sums: bool) -> Any:
 
     @inlined
     def apply_friction(lane, vx, vy, wa, wb, normal_impulse, c_inout):
-        """Apply friction under a normal impulse. Return (x, y of the change of impulse on B, new wa, new wb).
+        """Apply Coulomb friction at the point. Return (x, y of the change of impulse on B, new wa, new wb).
 
-        vx, vy [px/s]: velocity of B's centre relative to A's centre. wa, wb [1/s]: angular velocities of A and B.
+        vx, vy [px/s]: velocity of B's centre relative to A's centre. wa, wb [rad/s]: angular velocities of A and B.
+        normal_impulse: accumulated normal impulse of the point, which limits the friction.
         """
         c = c_inout
         nx, ny = c[NX + lane], c[NY + lane]
@@ -421,7 +422,7 @@ def make_friction(second: bool, rotation: bool, sums: bool) -> Any:
 
 @inlined
 def resist_rolling(lane, wa, wb, normal_impulse, c_inout):
-    """Apply rolling resistance under a normal impulse. Return the new angular velocities (wa, wb) [1/s] of A and B."""
+    """Apply rolling resistance, up to its limit. Return the new angular velocities (wa, wb) [rad/s] of A and B."""
     c = c_inout
     old = c[ROLLING + lane]
     impulse = clamp(old - c[ROLLING_MASS + lane] * (wb - wa), c[ROLLING_LIMIT + lane] * normal_impulse)
@@ -435,7 +436,7 @@ def resist_rolling(lane, wa, wb, normal_impulse, c_inout):
 
 @subkernel
 def relative_speed(c, lane, second, a, b):
-    """Return the speed [px/s] of B relative to A along the normal at a contact point; negative: the sides approach."""
+    """Return the speed [px/s] of B relative to A along the normal, at a point of a contact; negative: they approach."""
     speed = (b.vx - a.vx) * c[NX + lane] + (b.vy - a.vy) * c[NY + lane]
     speed += b.angular_velocity * c[(B_2 if second else B_1) + lane]
     return speed - a.angular_velocity * c[(A_2 if second else A_1) + lane]
@@ -443,7 +444,7 @@ def relative_speed(c, lane, second, a, b):
 
 @subkernel
 def push_pair(c, lane, second, impulse, a_inout, b_inout):
-    """Apply an impulse along the normal at a contact point: `impulse` to B along the normal, the opposite one to A."""
+    """Apply a normal impulse at one point of a contact: `impulse` along the normal to B, and the opposite to A."""
     x, y = impulse * c[NX + lane], impulse * c[NY + lane]
     a_inout.vx -= a_inout.inverse_mass * x
     a_inout.vy -= a_inout.inverse_mass * y
@@ -455,7 +456,7 @@ def push_pair(c, lane, second, impulse, a_inout, b_inout):
 
 @subkernel
 def tangential_speed(c, lane, second, a, b):
-    """Return the speed [px/s] of B relative to A along the tangent at a contact point, minus the surface speed."""
+    """Return the speed [px/s] of B relative to A along the tangent, at a point of a contact, less its surface speed."""
     speed = (b.vy - a.vy) * c[NX + lane] - (b.vx - a.vx) * c[NY + lane] - c[SURFACE + lane]
     speed += b.angular_velocity * c[(TANGENT_B_2 if second else TANGENT_B_1) + lane]
     return speed - a.angular_velocity * c[(TANGENT_A_2 if second else TANGENT_A_1) + lane]
@@ -463,7 +464,7 @@ def tangential_speed(c, lane, second, a, b):
 
 @subkernel
 def push_along(c, lane, second, impulse, a_inout, b_inout):
-    """Apply an impulse along the tangent at a contact point: to B along the tangent, to A in the opposite direction."""
+    """Apply a tangential impulse at one point of a contact: `impulse` along the tangent to B, and the opposite to A."""
     x, y = -impulse * c[NY + lane], impulse * c[NX + lane]
     a_inout.vx -= a_inout.inverse_mass * x
     a_inout.vy -= a_inout.inverse_mass * y
@@ -487,16 +488,16 @@ TURNING = 1e-5  # [rad] rotation in a step above which the arms of a round conta
 
 @subkernel
 def touches_slowly(separation, speed, limits):
-    """Return whether a contact point is within the slop, with a normal speed of at most impact_speed, up or down."""
+    """Return whether a contact point is within the slop and its normal speed is at most impact_speed in size."""
     return separation <= limits.slop and abs(speed) <= limits.impact_speed
 
 
 @subkernel
 def limit_impulses(count, motions, squeeze, h, blocks_inout):
-    """Limit the normal impulses of the contacts in islands squeezed between faces, for a substep of h [s]. O(lanes).
+    """Limit the normal impulses of contacts in islands that are squeezed between static or kinematic faces. O(lanes).
 
-    The cached impulses in the lanes are limited at once. count: number of blocks; motions: MOTION rows; squeeze:
-    SQUEEZE rows with the limits, one for each MOTION row.
+    The limit is written to the lane field MOST, and the cached impulses are reduced to it. count: number of blocks;
+    motions: MOTION rows; squeeze: SQUEEZE rows with the limits, one for each MOTION row; h [s]: length of a substep.
     """
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
@@ -516,11 +517,11 @@ def limit_impulses(count, motions, squeeze, h, blocks_inout):
 
 @inlined
 def sticks(a, b, contact, distance):
-    """Return whether two faces stick: the step then uses the normal and moment arms from the time of detection.
+    """Return whether a contact between two faces sticks. Its normal and moment arms are then kept from its detection.
 
-    Two faces stick if the contact carries a load, neither shape is round, neither body has rotated by more than
-    STICKING_TURN since detection, and the relative displacement of the centres is at most `distance` [px]. An unloaded
-    contact never sticks, because it has to leave its overlap. a, b: BODY rows; contact: CONTACT row.
+    A contact sticks if it carries a load, neither shape is round, and neither body has rotated by more than
+    STICKING_TURN since detection. The relative displacement of the centres must also be at most `distance` [px]. An
+    unloaded contact never sticks, because its overlap has to be removed. a, b: BODY rows; contact: CONTACT row.
     """
     c = contact
     x, y = b.center_x - a.center_x - c.apart_x, b.center_y - a.center_y - c.apart_y
@@ -563,9 +564,9 @@ def slips(contact):
 def speed_of_drift(a, b, rate, slop, contact_inout):
     """Return the surface speed [px/s] that undoes the tangential drift of a sticking contact since its last slip.
 
-    Without this speed a light plank under a heavy load creeps, because the passes leave a small tangential speed. A
-    drift of more than DRIFT_SLOPS · slop [px] counts as a slip, and is not undone. a, b: BODY rows; rate [1/s]:
-    fraction of the drift that is undone per second.
+    The solver's passes leave a small tangential speed. Without this correction a light plank under a heavy load creeps.
+    A drift of more than DRIFT_SLOPS · slop [px] counts as a slip, and is not undone. a, b: BODY rows; rate [1/s]:
+    fraction of the drift that is undone per second; contact_inout: CONTACT row, in which a slip is recorded.
     """
     c = contact_inout
     drift = tangential_drift(a, b, c)
@@ -579,10 +580,10 @@ def speed_of_drift(a, b, rate, slop, contact_inout):
 
 @inlined
 def how_it_turns(contact, a, b, dt, lane, c):
-    """Return how the normal and moment arms of a contact follow its bodies in the step: FIXED, ARMS or NORMAL_OF_….
+    """Return how the solver updates the normal and arms of a contact within a step: FIXED, ARMS or NORMAL_OF_….
 
-    The result is FIXED if no shape is round, if the bodies (MOTION rows a, b) hardly rotate in dt [s], or if the impact
-    is elastic, because restitution uses the arms at the start of the step. c, lane: the contact's lane in a block.
+    It is FIXED if no shape is round, if the bodies (MOTION rows a, b) hardly rotate in dt [s], or if the impact is
+    elastic: restitution uses the arms at the start of the step. c, lane: the contact's lane in a block.
     """
     m = contact
     elastic = m.restitution > 0.0 and (c[LOADED + lane] == 0.0 or c[BOUNCING + lane] > 0.0)
@@ -596,13 +597,13 @@ def how_it_turns(contact, a, b, dt, lane, c):
 
 @inlined
 def rocks(body):
-    """Return whether rocking on a BODY row may be damped: it is static, or has rocked in place for ROCKING_TIME."""
+    """Return whether a rocking BODY row may be slowed: it is static, or has rocked in place for ROCKING_TIME."""
     return body.kind == STATIC or (body.kind == DYNAMIC and body.rocking_time >= ROCKING_TIME)
 
 
 @inlined
 def rolling_limit(contact, p, q, limits):
-    """Return the greatest torque of rolling resistance per normal impulse of a contact [px]. p, q: its BODY rows."""
+    """Return the most rolling resistance of a contact: torque per normal impulse [px]. p, q: BODY rows of A and B."""
     is_round = contact.radius_a > 0.0 or contact.radius_b > 0.0
     still = is_round and contact.friction > 0.0 and rocks(p) and rocks(q)
     return max(contact.rolling_resistance, limits.rocking_resistance if still else 0.0)
@@ -610,10 +611,10 @@ def rolling_limit(contact, p, q, limits):
 
 @inlined
 def write_softness(contact, sticking, a, b, degrees, context, lane, c_out):
-    """Write the lane fields that determine how a contact separates, from PUSH_OUT_SHARE to STRIKE_LIMIT and STIFFNESS.
+    """Write the fields of a lane that set how softly its contact separates.
 
-    Also write whether the contact is resting, loaded and bouncing. sticking: see sticks; a, b: MOTION rows; degrees:
-    numbers of contacts of A and of B; context: see StepContext.
+    They are PUSH_OUT_SHARE, BIAS_RATE, IMPULSE_SCALE, STRIKE_LIMIT and STIFFNESS, then RESTING, LOADED and BOUNCING.
+    sticking: result of sticks; a, b: MOTION rows; degrees: numbers of contacts of A and of B; context: see StepContext.
     """
     m = contact
     limits = context.limits
@@ -649,7 +650,7 @@ def write_softness(contact, sticking, a, b, degrees, context, lane, c_out):
 
 
 def make_write_point(second: bool) -> Callable:
-    """Return the function that writes the first or the second point of a contact into its SIMD lane."""
+    """Return the function that writes one point of a contact into its lane. second: True for the second point."""
     arm_lines = (AX_2, AY_2, BX_2, BY_2) if second else (AX_1, AY_1, BX_1, BY_1)
     ax_line, ay_line, bx_line, by_line = arm_lines
     base_line, gap_line = (BASE_2, GAP_2) if second else (BASE_1, GAP_1)
@@ -658,9 +659,9 @@ def make_write_point(second: bool) -> Callable:
 
     @inlined
     def write_point(contact, p, q, sticking, h, lane, c_out):
-        """Write one point of a contact, its separation, and its cached impulses for a substep of h [s].
+        """Write the position and separation of the point, and its cached impulses for a substep of h [s].
 
-        contact: CONTACT row; p, q: BODY rows of A and B; sticking: see sticks.
+        contact: CONTACT row; p, q: BODY rows of A and B; sticking: result of sticks.
         """
         m = contact
         c = c_out
@@ -696,7 +697,7 @@ write_first, write_second = make_write_point(False), make_write_point(True)
 
 @inlined
 def copy_first(lane, c_inout):
-    """Write the second point of a contact that has one point: a copy of the first point, without impulses."""
+    """Fill the second point of a contact with one point: copy the first point, and set the impulses to 0."""
     c = c_inout
     c[AX_2 + lane] = c[AX_1 + lane]
     c[AY_2 + lane] = c[AY_1 + lane]
@@ -712,7 +713,7 @@ def copy_first(lane, c_inout):
 
 @subkernel
 def write_all_masses(count, blocks_inout):
-    """Write moment arms and effective masses of all lanes: whole blocks, because the compiler vectorises such loops."""
+    """Write moment arms and effective masses in all lanes of `count` blocks: the compiler vectorises such a loop."""
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
         for lane in range(lanes_of(blocks_inout.contact, block)):
@@ -723,13 +724,13 @@ def write_all_masses(count, blocks_inout):
 
 
 def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
-    """Return the function that writes contacts into lanes, for a world with or without friction and conveyors."""
+    """Return the kernel that writes contacts into lanes, for a world with or without friction and moving surfaces."""
 
     @kernel
     def prepare_lanes(bodies, motions, plan, group, context, contacts_inout, blocks_out, work_inout):
-        """Write the contacts of a group into the lanes of blocks, each block with contacts of one colour. O(edges).
+        """Write the contacts of a group into lanes, each block with contacts of one colour. O(edges).
 
-        plan, group: see contact_lanes.Plan and Group. Return the number of blocks. Contacts are read in memory order,
+        Return the number of blocks. plan, group: see contact_lanes.Plan and Group. Contacts are read in memory order,
         which the processor prefetches. The blocks being filled, one for each colour, fit into its cache.
         """
         starts = group.starts

@@ -1,12 +1,14 @@
 """Sequential impulses: one step, several passes, warm start, Baumgarte stabilisation.
 
-Unlike in `soft_step`, bodies move once, after all passes, and contacts are rigid: stacks are livelier and sag by the
-slop. Unloaded contacts separate by a pseudo-velocity (split impulses). A step takes ITERATIONS_PER_SUBSTEP passes for
-each substep that soft_step would take, and in both solvers the loads determine this number. Each pass transmits a load
-by one or two rows of a stack. With ten passes for all islands, a pyramid of 45 rows moves at 8 to 60 px/s for over a
-minute, and a plank with a hundredth of the mass of its load creeps by 0.4 to 5 m in that time. With passes by load both
-come to rest, and a step takes 1.5 times as long. Source: Catto, Iterative Dynamics with Temporal Coherence, GDC 2005,
-and Box2D-Lite, 2006.
+Unlike in `soft_step`, bodies move once, after all passes, and contacts are rigid: stacks tremble more and sag by the
+slop. Unloaded contacts separate by a pseudo-velocity (split impulses). The loads determine the number of substeps that
+soft_step would take, and this solver takes ITERATIONS_PER_SUBSTEP passes for each of them.
+
+Each pass transmits a load by one or two rows of a stack. With ten passes for all islands, a pyramid of 45 rows moves at
+8 to 60 px/s for over a minute. A plank with a hundredth of the mass of its load creeps by 0.4 to 5 m in that time. With
+passes by load both come to rest, and a step takes 1.5 times as long.
+
+Source: Catto, Iterative Dynamics with Temporal Coherence, GDC 2005, and Box2D-Lite, 2006.
 """
 
 import math
@@ -53,7 +55,7 @@ LEAD = 0.1
 
 
 class Passes(NamedTuple):
-    """Constants of the passes over the contacts in one step."""
+    """Settings of the passes that a step makes over its contacts."""
 
     count: int  # number of passes
     warm: bool  # whether the passes start from the cached impulses
@@ -64,10 +66,11 @@ class Passes(NamedTuple):
 
 @inlined
 def bias_speed(gap, inverse_h, slop, rate, most):
-    """Return the separation speed [px/s] of a point of a loaded contact; negative: the speed at which a gap may close.
+    """Return the speed [px/s] at which a point of a loaded contact should separate (Baumgarte stabilisation).
 
-    gap [px]: negative for an overlap; inverse_h [1/s]: inverse of the step length; rate [1/s]: speed per px of overlap
-    beyond the slop [px]; most [px/s]: greatest result.
+    A negative result is the speed at which a gap may close within the step. gap [px]: negative for an overlap;
+    inverse_h [1/s]: inverse of the step length; rate [1/s]: speed per px of overlap beyond the slop [px]; most [px/s]:
+    greatest result.
     """
     beyond = -gap - slop
     speed = rate * (beyond if beyond > 0.0 else 0.0)
@@ -76,7 +79,7 @@ def bias_speed(gap, inverse_h, slop, rate, most):
 
 
 def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
-    """Return the function that solves all contacts once, for a world with or without rotation and friction."""
+    """Return the function that solves all contacts once. rotation, friction: whether the world has these effects."""
     friction_1, friction_2 = make_friction(False, rotation, False), make_friction(True, rotation, False)
 
     @noalias
@@ -91,9 +94,9 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
     ):
         """Solve every contact once: friction first, then both normal impulses together. O(count).
 
-        count: number of blocks; context: see StepContext; passes: see Passes. Loaded contacts separate by the
-        velocities of their bodies, not by pseudo-velocities. The impulses that separate them act in every pass and are
-        cached, otherwise columns would sag.
+        count: number of blocks; context: see StepContext; passes: see Passes. Overlaps of loaded contacts are removed
+        through the velocities of their bodies, not through pseudo-velocities. The impulses for this act in every pass
+        and are cached, otherwise columns would sag.
         """
         s = blocks_inout.gathered
         for block in range(count):
@@ -171,16 +174,20 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
 
 
 def make_push_point(second: bool, rotation: bool) -> Callable:
-    """Return the function that pushes out one point of a contact, for a world with or without rotation."""
+    """Return the function that pushes bodies apart at one point of an unloaded contact.
+
+    second: True for the second point; rotation: whether bodies rotate.
+    """
     gap_line, push_line = (at.GAP_2, at.PUSH_2) if second else (at.GAP_1, at.PUSH_1)
     mass_line = at.MASS_2 if second else at.MASS_1
 
     @inlined
     def push_point(lane, a_arm, b_arm, context, rate, s_inout, c_inout):
-        """Change the gathered pseudo-velocities of two bodies so that one point of their unloaded contact separates.
+        """Change the gathered pseudo-velocities of two bodies so that their unloaded contact separates at the point.
 
-        lane: lane of the contact in the block c_inout; a_arm, b_arm [px]: moment arms of the normal impulse; context:
-        see StepContext; rate [1/s]: see separation_speed; s_inout: gathered values. A loaded contact is left unchanged.
+        A loaded contact is left unchanged. lane: lane of the contact in the block c_inout; a_arm, b_arm [px]: moment
+        arms of the normal impulse; context: see StepContext; rate [1/s]: see separation_speed; s_inout: gathered
+        values.
         """
         c = c_inout
         s = s_inout
@@ -213,7 +220,10 @@ def make_push_point(second: bool, rotation: bool) -> Callable:
 
 
 def make_push_pass(rotation: bool) -> Callable:
-    """Return the function of one push-out pass over all contacts, for a world with or without rotation."""
+    """Return the function that goes once over all contacts and pushes unloaded ones apart.
+
+    rotation: whether bodies rotate.
+    """
     push_first, push_second = make_push_point(False, rotation), make_push_point(True, rotation)
 
     @noalias
@@ -228,8 +238,8 @@ def make_push_pass(rotation: bool) -> Callable:
     ):
         """Give bodies pseudo-velocities that separate their unloaded contacts. O(count).
 
-        count: number of blocks; context: see StepContext; rate [1/s]: see separation_speed. The impulses that cause the
-        pseudo-velocities are summed separately from the contact impulses.
+        count: number of blocks; context: see StepContext; rate [1/s]: see separation_speed. The impulses behind the
+        pseudo-velocities are accumulated separately from the contact impulses.
         """
         s = blocks_inout.gathered
         for block in range(count):
@@ -264,11 +274,11 @@ def make_push_pass(rotation: bool) -> Callable:
 
 @subkernel
 def stop_impacts(count, motions_inout, blocks_inout):
-    """Remove the approach speed that remains after the passes at points of contacts that are BOUNCING. O(lanes).
+    """Remove the approach speed that the passes have left at impacts (contacts with the lane field BOUNCING). O(lanes).
 
-    count: number of blocks. Only points with a normal impulse are changed: if they still approached, they would hit
-    again in the next step. Slow contacts are excluded: the passes leave a small approach speed in loaded stacks, which
-    the next step removes.
+    Only points with a normal impulse are changed: if they still approached, they would hit again in the next step. Slow
+    contacts are excluded: in loaded stacks the passes leave a small approach speed, which the next step removes. count:
+    number of blocks.
     """
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
@@ -300,7 +310,7 @@ def sum_up(count, blocks_inout):
 
 @subkernel
 def turns_any(count, blocks):
-    """Return whether any of the first `count` blocks has a round contact whose moment arms follow its bodies."""
+    """Return whether the first `count` blocks contain a round contact whose moment arms change within the step."""
     for block in range(count):
         if blocks.turns[block]:
             return True
@@ -309,10 +319,10 @@ def turns_any(count, blocks):
 
 @subkernel
 def foresee_turns(members, kinematic, time, count, motions_inout, blocks_inout):
-    """Write the normals and moment arms of round contacts at the predicted poses after `time` [s]. O(members + lanes).
+    """Write normals and moment arms of round contacts at the poses predicted for `time` [s] later. O(members + lanes).
 
-    members, kinematic: MOTION rows; count: number of blocks. The bodies are moved for this, and then back to their
-    poses at the start of the step.
+    members, kinematic: MOTION rows; count: number of blocks. For this the bodies are moved to the predicted poses, and
+    then back to the poses at the start of the step.
     """
     for k in range(len(members)):
         m = motions_inout[members[k]]
@@ -331,7 +341,10 @@ PUSH_OUT = {r: make_push_pass(rotation=r) for r in BOTH}
 
 
 def make_passes(drag: bool, rotation: bool, friction: bool, joints: bool) -> Callable:
-    """Return the kernel that runs all passes of a step, for a world with or without these effects."""
+    """Return the kernel that runs all passes of a step.
+
+    drag, rotation, friction, joints: whether the world has these effects.
+    """
     velocities, positions = SUBSTEP_VELOCITIES[drag, rotation], SUBSTEP_POSITIONS[rotation]
     warm_start, solve_all, push_out = WARM_LANES[rotation], SOLVE[rotation, friction], PUSH_OUT[rotation]
 
@@ -350,8 +363,8 @@ def make_passes(drag: bool, rotation: bool, friction: bool, joints: bool) -> Cal
     ):
         """Advance island bodies and kinematic bodies by one step. O(members + passes · constraints).
 
-        members, kinematic: MOTION rows; blocks_inout: the contacts, in `count` blocks; context: see StepContext;
-        passes: see Passes; joints_inout: a JointSet, 0 for a world without joints.
+        members, kinematic: MOTION rows; count: number of blocks; context: see StepContext; passes: see Passes;
+        joints_inout: a JointSet, or 0 in a world without joints; blocks_inout: the contacts.
         """
         if not passes.warm:
             clear_impulses(members, count, motions_inout, blocks_inout)
@@ -396,8 +409,9 @@ PASSES = {
 def solve(state: StepState, contacts: ContactLanes, passes: int | None = None, warm: bool = True) -> float:
     """Solve the constraints of a step and move the bodies. Return the step length [s].
 
-    The last two arguments are for measurements (studied_solvers.py). passes: number of passes, None: as many as the
-    loads need, see ITERATIONS_PER_SUBSTEP; warm: whether the passes start from the cached impulses.
+    contacts: ContactLanes of the world. The last two arguments are for measurements (studied_solvers.py). passes:
+    number of passes, None: as many as the loads need, see ITERATIONS_PER_SUBSTEP. warm: whether the passes start from
+    the cached impulses.
     """
     effects, motions, tolerances, dt = state.effects, state.workspace.motions, state.tolerances, state.dt
     run = PASSES[effects.drag, effects.rotation, effects.friction, effects.joints]

@@ -1,4 +1,4 @@
-"""Small substeps with soft contacts: the passes over lanes, and the solver made of them."""
+"""Soft step: a solver with small substeps and soft contacts, and its passes over lanes of contacts."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -95,17 +95,17 @@ def push_out_unloaded(c, lane, context, rotation, a_inout, b_inout):
 
 @inlined
 def rigid_change(speed, gap, mass, inverse_h):
-    """Return the change of the normal impulse of a rigid contact that stops the approach of a point.
+    """Return the change of normal impulse that stops the approach of a contact point, as a rigid contact does.
 
-    speed [px/s]: negative for an approach; mass: effective mass; inverse_h [1/s]: inverse of a substep. If there is a
-    gap [px], the point keeps the approach speed that closes the gap at the end of this substep.
+    If there is a gap [px], the point keeps the approach speed that closes the gap by the end of this substep. speed
+    [px/s]: negative for an approach; mass: effective mass; inverse_h [1/s]: inverse of a substep.
     """
     return -mass * (speed + gap * inverse_h if gap > 0.0 else speed)
 
 
 @inlined
 def soft_change(speed, gap, mass, old, bias_rate, impulse_scale, most):
-    """Return the change of the normal impulse of a soft contact at a point.
+    """Return the change of normal impulse at a contact point that acts as a damped spring.
 
     speed [px/s]: negative for an approach; gap [px]: negative for an overlap; mass: effective mass; old: accumulated
     impulse; bias_rate [1/s]: see Softness; impulse_scale: 1 / (1 + grip), see Softness; most [px/s]: greatest
@@ -119,10 +119,11 @@ def soft_change(speed, gap, mass, old, bias_rate, impulse_scale, most):
 
 @inlined
 def greatest_separation_speed(c, lane, gap_1, gap_2, context):
-    """Return the greatest speed [px/s] at which a contact with gaps gap_1, gap_2 [px] at its points may separate.
+    """Return the greatest speed [px/s] at which a contact may separate.
 
-    A deep overlap separates no faster with many substeps than with the fewest substeps. A shallow overlap may separate
-    faster, so that the contact carries its load. c, lane: the contact's lane in a block; context: see StepContext.
+    A deep overlap separates no faster with many substeps than with the fewest. A shallow overlap may separate faster,
+    so that the contact carries its load. c, lane: the contact's lane in a block; gap_1, gap_2 [px]: separations at its
+    points; context: see StepContext.
     """
     most = context.push_speed * abs(c[at.PUSH_OUT_SHARE + lane])
     deep = -gap_2 if gap_2 < gap_1 else -gap_1
@@ -133,10 +134,10 @@ def greatest_separation_speed(c, lane, gap_1, gap_2, context):
 
 @inlined
 def angular_impulses(lane, c):
-    """Return the angular impulse of a contact about the centres of A and of B, without rolling resistance.
+    """Return the angular impulses (on_a, on_b) of a contact about the centres of A and B, without rolling resistance.
 
-    Both are for the impulse in the direction of B; the impulse on A is the opposite one. c, lane: the contact's lane in
-    a block.
+    Subtract on_a from A and add on_b to B: both are moments of the impulse that acts on B. c, lane: the contact's lane
+    in a block.
     """
     n_1 = c[at.NORMAL_1 + lane]
     n_2 = c[at.NORMAL_2 + lane]
@@ -150,7 +151,7 @@ def angular_impulses(lane, c):
 
 
 def make_warm_lanes(rotation: bool) -> Callable:
-    """Return the function that applies cached impulses (warm start), for a world with or without rotation."""
+    """Return the function that applies the cached impulses (warm start). rotation: whether bodies rotate."""
 
     @noalias
     def warm_lanes(
@@ -202,7 +203,7 @@ def make_warm_lanes(rotation: bool) -> Callable:
 
 @subkernel
 def clear_impulses(members, count, motions_inout, blocks_inout):
-    """Clear the impulses with which a substep would start, to measure the effect of warm starting. O(members + count).
+    """Clear the impulses from which a substep would start, to measure the effect of warm starting. O(members + count).
 
     members: MOTION rows; count: number of blocks.
     """
@@ -223,11 +224,11 @@ def clear_impulses(members, count, motions_inout, blocks_inout):
 
 
 def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = False) -> Callable:
-    """Return the function of one pass over all contacts, with bias or without.
+    """Return the function that solves all contacts once, either with bias or as a relaxing pass.
 
-    The pass with bias separates overlaps. The pass without bias (relaxing pass) measures gaps, applies friction and
-    sums impulses. alone: True if there is no relaxing pass, so that the pass with bias does all of this. rotation,
-    friction: whether the world has these effects.
+    biased: True for the pass with bias, which separates overlaps. Without bias, the pass is a relaxing pass: it
+    measures gaps, applies friction and sums impulses. alone: True if no relaxing pass follows, so that the pass with
+    bias does all of this. rotation, friction: whether the world has these effects.
     """
     last = alone or not biased
     rubs = friction and last
@@ -373,9 +374,9 @@ WARM_LANES = {r: make_warm_lanes(rotation=r) for r in BOTH}
 
 @inlined
 def turn_normal(lane, s, c_inout):
-    """Write the normal of a round contact at the present poses, and adapt BASE_1 and BASE_2 to the new normal.
+    """Write the normal of a round contact at the present poses, and adapt BASE_1 and BASE_2 to it.
 
-    The field lanes.TURNS determines how the normal follows the bodies. lane: lane of the contact in the block c_inout;
+    The lane field TURNS determines how the normal follows the bodies. lane: lane of the contact in the block c_inout;
     s: gathered poses, see lanes.GATHERED.
     """
     c = c_inout
@@ -412,11 +413,10 @@ def turn_normal(lane, s, c_inout):
 
 @inlined
 def follow_core(lane, s, c_inout):
-    """Write the moment arms of the body with the face (A or B), in a contact of a face with a round shape.
+    """Update the moment arms on the body with the face, in a contact of a face with a round shape.
 
-    The arms follow the core of the round shape (the shape without its radius), which may have moved along the face.
-    Contacts whose lanes.TURNS is neither NORMAL_OF_A nor NORMAL_OF_B keep their arms. lane, s, c_inout: see
-    turn_normal.
+    The core of the round shape is the shape without its radius. It may have moved along the face, and the arms follow
+    it. Only contacts whose lane field TURNS is NORMAL_OF_A or NORMAL_OF_B change. lane, s, c_inout: see turn_normal.
     """
     c = c_inout
     turns = c[at.TURNS + lane]
@@ -438,8 +438,8 @@ def follow_core(lane, s, c_inout):
 def turn_arms(count, motions_inout, blocks_inout):
     """Write the normals, moment arms and effective masses of round contacts at the present poses. O(count).
 
-    count: number of blocks. The next substep starts with impulses at the new arms, and along the new normals (see
-    turn_impulses). With the former arms and normals, torques and forces would lag behind the motion and add energy.
+    The next substep then starts with impulses at the new arms, and along the new normals (see turn_impulses). With the
+    former ones, torques and forces would lag behind the motion and add energy. count: number of blocks.
     """
     s = blocks_inout.gathered
     for block in range(count):
@@ -476,11 +476,11 @@ def turn_arms(count, motions_inout, blocks_inout):
 
 @noalias
 def turn_impulses(count, motions_inout, blocks_inout):
-    """Turn the impulses that remain after the relaxing pass to the present normals of round contacts. O(count).
+    """Rotate the impulses of round contacts to their present normals, after the relaxing pass. O(count).
 
-    count: number of blocks. The next substep starts with these impulses. The impulses that the relaxing pass removed
-    had been applied along the former normals, but were removed along the present normals. The velocities are corrected
-    by the difference.
+    The next substep starts with these impulses. The relaxing pass removed part of the impulses along the present
+    normals, although they had been applied along the former normals. The velocities are corrected by the difference.
+    count: number of blocks.
     """
     for block in range(count):
         if not blocks_inout.turns[block]:
@@ -525,9 +525,9 @@ def make_substeps(
     warm: bool = True,
     relaxed: bool = True,
 ) -> Callable:
-    """Return the kernel that runs all substeps of a step, for a world with or without these effects.
+    """Return the kernel that runs all substeps of a step.
 
-    drag, rotation, friction, joints: whether the world has them. The last three arguments are for measurements
+    drag, rotation, friction, joints: whether the world has these effects. The last three arguments are for measurements
     (studied_solvers.py). iterations: number of passes with bias in a substep; warm: whether each substep starts from
     the impulses of the last substep; relaxed: whether a relaxing pass follows, otherwise the pass with bias applies
     friction.
@@ -551,8 +551,8 @@ def make_substeps(
     ):
         """Advance island bodies and kinematic bodies by all substeps of a step. O(substeps · (members + constraints)).
 
-        members, kinematic: MOTION rows; count: number of blocks; context: see StepContext; joints_inout: a JointSet, 0
-        for a world without joints. All substeps are in one kernel: with ten boxes, calls from Python took five sixths
+        members, kinematic: MOTION rows; count: number of blocks; context: see StepContext; joints_inout: a JointSet, or
+        0 in a world without joints. All substeps are in one kernel: with ten boxes, calls from Python took five sixths
         of the time of a substep.
         """
         h = context.h
@@ -596,9 +596,10 @@ SUBSTEPS = {
 
 
 def solve(state: StepState, contacts: ContactLanes, kernels: Mapping = SUBSTEPS) -> float:
-    """Solve the constraints of a step, group by group, and move the bodies. Return the shortest substep [s].
+    """Solve the constraints of a step, group by group, and move the bodies. Return the length [s] of a substep.
 
-    kernels: substeps by effects (drag, rotation, friction, joints).
+    The result is that of the last group, which has the shortest substeps. contacts: ContactLanes of the world; kernels:
+    functions of make_substeps by (drag, rotation, friction, joints).
     """
     effects, motions, dt = state.effects, state.workspace.motions, state.dt
     run, h = kernels[effects.drag, effects.rotation, effects.friction, effects.joints], dt

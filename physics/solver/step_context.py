@@ -82,9 +82,9 @@ def context_of(
 ) -> StepContext:
     """Return the constants of a step of dt [s] that is divided into `substeps` substeps.
 
-    by_load: whether the number of substeps was chosen from the loads; span [s]: length of the step for which springs
-    are tuned, at least dt, so that a step shorter than `span` does not separate overlaps faster; drag [1/s];
-    tolerances: see settings.Tolerances.
+    by_load: whether the number of substeps was chosen from the loads. span [s], at least dt: step length for which
+    springs are tuned; a step shorter than `span` separates overlaps no faster. drag [1/s]; tolerances: see
+    settings.Tolerances.
     """
     h = dt / substeps
     # With substeps by load, springs are as stiff as the substeps allow.
@@ -126,11 +126,12 @@ def context_of(
 
 @inlined
 def separation_speed(separation, inverse_h, slop, rate, push_speed):
-    """Return the separation speed [px/s] of an unloaded point; negative: the speed at which a gap may close.
+    """Return the speed [px/s] at which a point of an unloaded contact should separate.
 
-    separation [px]: negative for an overlap; inverse_h [1/s]: inverse of a substep; rate [1/s]: speed per px of overlap
-    beyond half a slop; push_speed [px/s]: greatest result. Overlaps of up to a slop are not removed (Jolt's penetration
-    slop), otherwise unloaded contacts would creep.
+    A negative result is the speed at which a gap may close within a substep. separation [px]: negative for an overlap;
+    inverse_h [1/s]: inverse of a substep; rate [1/s]: speed per px of overlap beyond half a slop; push_speed [px/s]:
+    greatest result. An overlap of up to a slop [px] is left in place (as Jolt's penetration slop), otherwise unloaded
+    contacts would creep.
     """
     beyond = rate * (-separation - 0.5 * slop)
     beyond = beyond if beyond < push_speed else push_speed
@@ -143,10 +144,10 @@ def separation_speed(separation, inverse_h, slop, rate, push_speed):
 
 @subkernel
 def speed_of_impact(speed, separation, acceleration):
-    """Return the approach speed [px/s] at the moment of impact, predicted from the state before the step.
+    """Return the approach speed [px/s] that two shapes will have when they touch, predicted from before the step.
 
-    speed [px/s]: approach speed; separation [px]: gap; acceleration [px/s2]: growth of the approach speed. The result
-    is `speed` if the shapes already overlap, or if they move apart.
+    speed [px/s]: present approach speed; separation [px]: gap; acceleration [px/s2]: growth of the approach speed. The
+    result is `speed` if the shapes already overlap, or if they move apart.
     """
     if speed <= 0.0 or separation <= 0.0:
         return speed
@@ -157,11 +158,12 @@ def speed_of_impact(speed, separation, acceleration):
 def restitution_threshold(contact, a, b, degrees, context):
     """Return the approach speed [px/s] up to which a contact does not bounce.
 
-    The result is context.restitution_speed, with two exceptions. A new contact bounces at any speed if no acceleration
-    presses its bodies together: otherwise a slow ball would stick to a wall in space. A contact that touched in the
-    last step bounces only above the speed that acceleration adds in two steps, if that speed is greater. contact:
-    CONTACT row; a, b: MOTION rows; degrees: numbers of contacts of A and of B. Two bodies without other contacts fall
-    together, so only the difference of their accelerations presses them.
+    The result is context.restitution_speed, with two exceptions. First, a new contact bounces at any speed if no
+    acceleration presses its bodies together: otherwise a slow ball would stick to a wall in space. Second, a contact
+    that touched in the last step must exceed the speed that acceleration adds in two steps, if that speed is greater.
+
+    Two bodies without other contacts fall together, so only the difference of their accelerations presses them.
+    contact: CONTACT row; a, b: MOTION rows; degrees: numbers of contacts of A and of B; context: see StepContext.
     """
     m = contact
     on_a = a.acceleration_x * m.normal_x + a.acceleration_y * m.normal_y
