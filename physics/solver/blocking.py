@@ -30,10 +30,11 @@ IGNORED = ("rotation", "friction", "restitution", "stacking", "sleeping", "conve
 
 @kernel
 def stay_behind(bodies_inout, manifolds_inout, work_inout):
-    """Move overlapping dynamic bodies back to their old poses if they moved in this step. O(manifolds).
+    """Move overlapping dynamic bodies back to their poses before the step. O(manifolds).
 
-    Return the number of bodies that were moved back. Manifolds that stopped a body are marked as `swept`. A manifold
-    with a separation of 0 stops no body.
+    Return how many bodies were moved back. Manifolds that stopped a body are marked as `swept`. A body that did not
+    move is left alone, and a manifold with a separation of 0 stops no body. manifolds_inout: CONTACT rows; work_inout:
+    work counters.
     """
     put_back = 0
     for i in range(len(manifolds_inout)):
@@ -62,9 +63,9 @@ def stay_behind(bodies_inout, manifolds_inout, work_inout):
 
 @subkernel
 def stop_at_point(x, y, nx, ny, a_inout, b_inout):
-    """Remove the approach speed of two BODY rows at a point (x, y) [px], along the normal (nx, ny). Return the impulse.
+    """Remove the approach speed of two bodies at a point (x, y) [px] along the normal (nx, ny). Return the impulse.
 
-    The impulse changes no angular velocity.
+    The impulse changes no angular velocity. a_inout, b_inout: BODY rows.
     """
     inverse_masses = a_inout.inverse_mass + b_inout.inverse_mass
     if inverse_masses == 0.0:
@@ -79,7 +80,7 @@ def stop_at_point(x, y, nx, ny, a_inout, b_inout):
 
 @kernel
 def stop_approach(bodies_inout, manifolds_inout):
-    """Remove the approach speed at all points of manifolds marked as `swept`, except sensors. O(manifolds)."""
+    """Remove the approach speed at all points of CONTACT rows marked as `swept`, except sensors. O(manifolds)."""
     for i in range(len(manifolds_inout)):
         m = manifolds_inout[i]
         if not m.swept or m.sensor:
@@ -91,9 +92,10 @@ def stop_approach(bodies_inout, manifolds_inout):
 
 
 def _make_way(state, stayed):
-    """Let kinematic bodies push the dynamic bodies that overlap them, or that would overlap them at their old poses.
+    """Let kinematic bodies push away dynamic bodies that overlap them.
 
-    stayed: CONTACT rows that stopped a body; its dynamic body was moved back to its old pose.
+    A dynamic body that was moved back is also pushed if a kinematic body would overlap it at its old pose. stayed:
+    CONTACT rows whose dynamic body was moved back.
     """
     bodies, contacts, sweeper = state.bodies, state.contact_rows, state.workspace.sweep
     overlaps = (contacts["separation_1"] < 0.0) | ((contacts["count"] == 2) & (contacts["separation_2"] < 0.0))
@@ -113,9 +115,9 @@ def _make_way(state, stayed):
 
 
 def solve(state: StepState, contacts: PushSet) -> float:
-    """Move overlapping bodies back to their old poses until no body that moved overlaps. Return the step length [s].
+    """Move overlapping bodies back to their old poses, until none that moved still overlaps.
 
-    contacts: unused, because the solver works on state.contact_rows.
+    contacts: unused, because this solver works on state.contact_rows. Return the step length [s].
     """
     bodies, stopped = state.bodies, []
     while True:

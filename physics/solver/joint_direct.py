@@ -1,10 +1,11 @@
-"""The direct tier of joints: the rigid and the soft parts of joints as rows of trees, which joint_trees.py solves.
+"""The direct tier of joints: the parts of joints that trees can solve, as rows for the solver in joint_trees.py.
 
-For a joint in a tree, the holds and either a held coordinate or the spring on the coordinate are solved exactly,
-together with all other joints of the tree. Motors, limits, bounded holds, joints that close a loop, and further joints
-between the same two bodies are solved by the passes of joint_rows.py, before the trees. Rigid parts have no spring: an
-error of position is removed within the next substep by a velocity. The solve at the end of that substep removes this
-velocity again. A user's spring enters as compliance (Catto, Soft Constraints, GDC 2011).
+For a joint in a tree, the parts that hold its anchors and its angle are solved exactly, together with all other joints
+of the tree. So is its coordinate, if that is held or has a spring. All else is solved by the passes of joint_rows.py,
+before the trees: motors, limits, parts with a bounded force, joints that close a loop, and further joints between the
+same two bodies. Rigid parts have no spring: a velocity removes an error of position within the next substep, and the
+solve at the end of that substep removes this velocity again. A spring that the user has set enters as compliance
+(Catto, Soft Constraints, GDC 2011).
 """
 
 from typing import NamedTuple
@@ -49,7 +50,7 @@ SLOW = 0.01  # [rad²] square of a turn in a substep, from which on bend() is no
 
 @kernel
 def list_tree_joints(rows, joints, order_out, counts_out, motion_a_out, motion_b_out):
-    """List the joints of a group of which a tree can solve at least one part. Return their number. O(rows).
+    """List the joints of a group that a tree can solve at least in part. Return their number. O(rows).
 
     rows: JOINT rows of the group, in the order of ids; joints: all JOINT rows; order_out: indices into `rows` of the
     listed joints. counts_out receives the number of tree rows, 0 to 3, of every joint of `rows`; motion_a_out and
@@ -78,11 +79,13 @@ def list_tree_joints(rows, joints, order_out, counts_out, motion_a_out, motion_b
 def drop_meshes(order, motion_a, motion_b, taken, parents_inout, sums_out, order_inout):
     """Remove the joints of meshes from the list of joints for trees. Return the number of remaining joints.
 
-    A mesh is a connected component with more than a quarter as many joints outside its tree as in its tree. In a mesh
-    the passes converge better without trees, because a tree would undo the work of the passes on the loops. O(joints +
-    motions). order, motion_a, motion_b, taken: arguments of joint_trees.build_forest, after its call; order_inout: the
-    same array as `order`; parents_inout: Forest.parents; sums_out (motions, 2) int32: for the root of each component,
-    the numbers of joints in its tree and outside.
+    A connected component is a mesh if the joints outside its tree are more than a quarter of those in it. In a mesh the
+    iterative passes converge better without trees, because a tree would undo their work on the loops. O(joints +
+    motions).
+
+    order, motion_a, motion_b, taken: arguments of joint_trees.build_forest, after its call; parents_inout:
+    Forest.parents; sums_out (motions, 2) int32: for the root of each component, the numbers of joints in its tree and
+    outside; order_inout: the same array as `order`, which is shortened in place.
     """
     for i in range(len(sums_out)):
         sums_out[i, 0] = 0
@@ -105,7 +108,7 @@ def drop_meshes(order, motion_a, motion_b, taken, parents_inout, sums_out, order
 
 @kernel
 def mark_direct(rows, taken, joints_inout):
-    """Write JOINT.direct of the joints of a group: whether each of them is in a tree. O(rows).
+    """Record in JOINT.direct whether each joint of a group is in a tree. O(rows).
 
     rows: indices of JOINT rows; taken: the values, in the order of `rows`.
     """
@@ -118,7 +121,7 @@ def mark_direct(rows, taken, joints_inout):
 
 @subkernel
 def write_line(joint, nx, ny, row_out):
-    """Write the Jacobian of the speed of B's anchor relative to A's anchor along a unit vector (nx, ny).
+    """Write the Jacobian of the speed at which B's anchor moves relative to A's anchor along a unit vector (nx, ny).
 
     joint: JOINT row; row_out: JOINT_ROW.
     """
@@ -137,7 +140,7 @@ def write_turn(row_out):
 
 @subkernel
 def soften(hertz, damping, h, inverse_mass, row_out):
-    """Write the compliance of a JOINT_ROW that a spring holds; 0 (a rigid row) for hertz 0.
+    """Write the compliance of a JOINT_ROW from the spring that holds it. Without a spring (hertz 0) the row is rigid.
 
     hertz [1/s], damping: frequency and damping ratio of the spring; h [s]: length of a substep; inverse_mass: inverse
     effective mass of the row without other joints.
@@ -152,8 +155,8 @@ def soften(hertz, damping, h, inverse_mass, row_out):
 def write_rows(joint, h, a, b, first, rows_out):
     """Write the Jacobians and compliances of the rows of a joint at its present moment arms.
 
-    joint: JOINT row; h [s]: length of a substep; a, b: MOTION rows; first: index of the first row of the joint in
-    rows_out (JOINT_ROW).
+    joint: JOINT row; h [s]: length of a substep; a, b: MOTION rows; first: index of the joint's first row in rows_out
+    (JOINT_ROW).
     """
     j = joint
     at = first
@@ -185,10 +188,10 @@ def write_rows(joint, h, a, b, first, rows_out):
 
 @subkernel
 def draw(error, hertz, damping, impulse, rate, most, h, row_inout):
-    """Write the wanted velocity of a JOINT_ROW (rhs) that removes an error of position.
+    """Write the target velocity (rhs) of a JOINT_ROW that removes an error of position [px or rad].
 
-    error [px or rad]. A rigid row (hertz 0) removes the error at `rate` [1/s], with a speed of at most `most` [px/s or
-    rad/s]. A spring (hertz [1/s], damping ratio) takes its rate from softness_of instead, and also uses `impulse`, the
+    A rigid row (hertz 0) removes the error at `rate` [1/s], with a speed of at most `most` [px/s or rad/s]. A row with
+    a spring (hertz [1/s], damping ratio) takes its rate from softness_of instead. It also uses `impulse`, the
     accumulated impulse of the row in this substep of h [s].
     """
     row_inout.rhs = -bounded(rate * error, most)
@@ -199,7 +202,7 @@ def draw(error, hertz, damping, impulse, rate, most, h, row_inout):
 
 @inlined
 def bend(joint, a, b, h):
-    """Return a correction (x, y) [px/s] of the wanted velocity of B's anchor relative to A's, for arms that rotate.
+    """Return a correction (x, y) [px/s] of the target velocity of B's anchor relative to A's, for rotating arms.
 
     Velocities move anchors along straight lines, but an arm r [px] that rotates at w [rad/s] bends the path of its
     anchor. In a substep of h [s] the anchor ends w² h² r / 2 nearer to the body's centre, so the anchors would
@@ -215,11 +218,11 @@ def bend(joint, a, b, h):
 
 @subkernel
 def write_targets(joint, rate, context, a, b, first, rows_inout):
-    """Write the wanted velocities of the rows of a joint.
+    """Write the target velocities of the rows of a joint.
 
-    joint: JOINT row; a, b: MOTION rows; rate [1/s]: fraction of the errors of position that is removed per second, 0 in
-    the solve at the end of a substep; context: see StepContext; first: index of the first row of the joint in
-    rows_inout (JOINT_ROW).
+    joint: JOINT row; rate [1/s]: fraction of the position errors to remove per second, 0 in the solve at the end of a
+    substep; context: see StepContext; a, b: MOTION rows; first: index of the joint's first row in rows_inout
+    (JOINT_ROW).
     """
     j = joint
     at = first
@@ -254,8 +257,8 @@ def add_inertia(rows, order, h, joints_inout, motions_inout):
 
     O(order). A light link between heavy bodies oscillates like a string. A tension F at an arm r turns the link back by
     a torque F r per radian. With an inertia of at least h² Σ F r, the oscillation advances by at most one radian in a
-    substep of h [s] (geometric stiffness: Andrews, Teichmann and Kövecses, 2017). F is the greatest force of the last
-    quarter of a second, because a chain that jerks is slack in between. rows, order: see JointSet.
+    substep of h [s] (geometric stiffness: Andrews, Teichmann and Kövecses, 2017). F is the greatest recent force, and
+    fades within a quarter of a second: a chain that jerks is slack in between. rows, order: see JointSet.
     """
     fade = max(1.0 - h / FADING, 0.0)
     for k in range(len(order)):
@@ -279,9 +282,10 @@ def add_inertia(rows, order, h, joints_inout, motions_inout):
 
 @subkernel
 def place_trees(rows, order, h, motions, joints_inout, tree_rows_out):
-    """Place the joints of trees at the present poses, and write their Jacobians and compliances. O(order).
+    """Compute the moment arms of all joints in trees at the present poses, and write their Jacobians and compliances.
 
-    rows, order: see JointSet; h [s]: length of a substep; tree_rows_out: JOINT_ROW rows.
+    rows, order: see JointSet; h [s]: length of a substep; motions: MOTION rows; joints_inout: all JOINT rows;
+    tree_rows_out: JOINT_ROW rows. O(order).
     """
     for k in range(len(order)):
         j = joints_inout[rows[order[k]]]
@@ -293,10 +297,10 @@ def place_trees(rows, order, h, motions, joints_inout, tree_rows_out):
 
 @subkernel
 def aim_trees(rows, order, rate, context, joints, motions, tree_rows_out):
-    """Write the wanted velocities of the rows of all trees. O(order).
+    """Write the target velocities of the rows of all trees. O(order).
 
-    rows, order: see JointSet; rate: see write_targets; context: see StepContext; joints: all JOINT rows; tree_rows_out:
-    JOINT_ROW.
+    rows, order: see JointSet; rate: see write_targets; context: see StepContext; joints, motions: all JOINT and MOTION
+    rows; tree_rows_out: JOINT_ROW rows.
     """
     for k in range(len(order)):
         j = joints[rows[order[k]]]
@@ -307,9 +311,9 @@ def aim_trees(rows, order, rate, context, joints, motions, tree_rows_out):
 
 @subkernel
 def collect_trees(rows, order, tree_rows, joints_inout):
-    """Add the impulses of the rows of trees (JOINT_ROW) to the impulses of the joints. O(order).
+    """Add the impulses that the trees found to the impulses of their joints. O(order).
 
-    rows, order: see JointSet.
+    rows, order: see JointSet; tree_rows: JOINT_ROW rows with the impulses; joints_inout: all JOINT rows.
     """
     for k in range(len(order)):
         j = joints_inout[rows[order[k]]]
@@ -338,7 +342,7 @@ def collect_trees(rows, order, tree_rows, joints_inout):
 
 
 class JointSet(NamedTuple):
-    """The joints of a group, as an argument of the substeps of a solver."""
+    """The joints of a group of islands, with the trees among them."""
 
     table: np.ndarray  # all JOINT rows
     rows: np.ndarray  # int32 JOINT rows of the group, in the order of ids
@@ -350,9 +354,10 @@ class JointSet(NamedTuple):
 
 @subkernel
 def begin_trees(context, joints_inout, motions_inout):
-    """Place the joints of trees at the present poses, and factor the trees. Return the number of redundant rows.
+    """Compute the geometry of joints in trees at the present poses, and factor the trees.
 
-    context: see StepContext; joints_inout: JointSet; motions_inout: MOTION rows.
+    Redundant rows: see factor_trees. context: see StepContext; joints_inout: JointSet; motions_inout: MOTION rows.
+    Return the number of redundant rows.
     """
     s = joints_inout
     if len(s.order) == 0:
@@ -364,9 +369,10 @@ def begin_trees(context, joints_inout, motions_inout):
 
 @subkernel
 def solve_all_trees(biased, context, joints_inout, motions_inout):
-    """Solve the trees exactly. biased: True to also remove errors of position, up to the greatest push-out speed.
+    """Solve all joints in trees exactly.
 
-    context: see StepContext; joints_inout: JointSet; motions_inout: MOTION rows.
+    biased: True to also remove errors of position, up to the greatest push-out speed; context: see StepContext;
+    joints_inout: JointSet; motions_inout: MOTION rows.
     """
     s = joints_inout
     if len(s.order) > 0:
@@ -379,7 +385,7 @@ def solve_all_trees(biased, context, joints_inout, motions_inout):
 def solve_once(biased, context, joints_inout, motions_inout):
     """Solve all joints of a JointSet once. The trees come last, so that their joints are exact at the end.
 
-    biased: see solve_all_trees; context: see StepContext; motions_inout: MOTION rows.
+    biased: True to also remove errors of position; context: see StepContext; motions_inout: MOTION rows.
     """
     s = joints_inout
     solve_joints(s.rows, biased, context, s.table, motions_inout)
@@ -388,9 +394,9 @@ def solve_once(biased, context, joints_inout, motions_inout):
 
 @subkernel
 def start_joints(context, joints_inout, motions_inout):
-    """Warm start the joints of a JointSet with the impulses of the last substep, and solve them.
+    """Apply the joint impulses of the last substep (warm start), then solve all joints once.
 
-    context: see StepContext; motions_inout: MOTION rows.
+    context: see StepContext; joints_inout: JointSet; motions_inout: MOTION rows.
     """
     s = joints_inout
     warm_joints(s.rows, s.table, motions_inout)
@@ -399,7 +405,7 @@ def start_joints(context, joints_inout, motions_inout):
 
 @subkernel
 def finish_joints(context, joints_inout, motions_inout):
-    """Solve the velocities of the joints at the end poses of a substep, and add the impulses to the totals of the step.
+    """Solve the velocities of the joints at the poses after a substep, and add the impulses to the totals of the step.
 
     context: see StepContext; joints_inout: JointSet; motions_inout: MOTION rows.
     """
@@ -410,7 +416,7 @@ def finish_joints(context, joints_inout, motions_inout):
 
 
 class Trees:
-    """Arrays for the joint trees of a group of islands. They are filled anew for each group, and grow as needed."""
+    """Arrays for the joint trees of a group of islands. They are refilled for each group, and grow as needed."""
 
     def __init__(self) -> None:
         self.forest: Forest = new_forest(0, 0)
@@ -426,8 +432,8 @@ class Trees:
     def build(self, rows: np.ndarray, joints: np.ndarray, motions: np.ndarray, tier: str) -> JointSet:
         """Find the trees among the joints of a group, and return the JointSet.
 
-        rows: JOINT rows of the group, in the order of ids; joints: all JOINT rows; motions: MOTION rows; tier:
-        "iterative": no trees; "direct": all trees; "auto": trees except in meshes, see drop_meshes.
+        rows: JOINT rows of the group, in the order of ids; joints: all JOINT rows; motions: MOTION rows. tier:
+        "iterative" builds no trees, "direct" builds all, and "auto" builds trees except in meshes, see drop_meshes.
         """
         n = len(rows)
         if len(self.taken) < n:

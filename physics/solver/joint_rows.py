@@ -1,8 +1,9 @@
-"""Joints in the passes of the stacking solvers: soft, warm started, one joint after the other (the iterative tier).
+"""Joints as soft constraints that the stacking solvers solve one after the other, with warm starting (iterative tier).
 
-A joint of any kind consists of parts: a hold of its anchors, a hold of its angle, and on its coordinate a spring, a
-motor and two limits. Moment arms, axes and effective masses are recomputed in each substep. Sources: Catto,
-Soft Constraints, GDC 2011, and Solver2D, 2024 (soft joints with a relaxing pass); Catto, Box2D v3, joint.c (the parts).
+A joint of any kind consists of parts. One part holds its anchors together, one holds its angle. On its coordinate (an
+angle, a translation or a length) there may be a spring, a motor and two limits. Moment arms, axes and effective masses
+are recomputed in each substep. Sources: Catto, Soft Constraints, GDC 2011, and Solver2D, 2024 (soft joints with a
+relaxing pass); Catto, Box2D v3, joint.c (the parts).
 """
 
 import math
@@ -20,7 +21,7 @@ LIMIT_SHARE = 0.25  # fraction of the error of a limit that a substep removes, f
 
 @subkernel
 def is_idle(joint):
-    """Return whether a joint has no part to solve: it is disabled, or only forbids contacts."""
+    """Return whether the solver can skip a JOINT row: it is disabled, or only prevents contacts of its bodies."""
     j = joint
     if not j.enabled:
         return True
@@ -31,9 +32,9 @@ def is_idle(joint):
 def list_joints(motion_of, motions_inout, joints_inout, links_out, work_inout):
     """List the joints to solve in this step, in the order of ids. Return their number. O(joints).
 
-    motion_of (bodies): MOTION row of each body, 0 for a body that does not move; MOTION.jointed of listed bodies is
-    set. links_out (joints, 3) int32: JOINT row, MOTION row of A, MOTION row of B of each listed joint. work_inout:
-    counters.
+    motion_of (bodies): MOTION row of each body, 0 for a body that does not move. motions_inout: jointed, driven and
+    halves are set. joints_inout: awake, motion_a and motion_b are set. links_out (joints, 3) int32: JOINT row, MOTION
+    row of A and MOTION row of B of each listed joint. work_inout: work counters.
     """
     found = 0
     for i in range(len(joints_inout)):
@@ -70,7 +71,10 @@ def list_joints(motion_of, motions_inout, joints_inout, links_out, work_inout):
 
 @inlined
 def arm_of(body, x, y):
-    """Return the arm (x, y) [px] from the centre of mass of a BODY row to a point (x, y) [px] in its space."""
+    """Return the vector (x, y) [px] in the world from a body's centre of mass to a point (x, y) [px] in its space.
+
+    body: BODY row.
+    """
     c, s = rotation_of(body.angle)
     u, v = x - body.local_center_x, y - body.local_center_y
     return c * u - s * v, s * u + c * v
@@ -80,7 +84,7 @@ def arm_of(body, x, y):
 def begin_joint(bodies, h, joint_inout):
     """Write the anchors, axis and angle of a joint at the start of a step, and its warm-start impulses for a substep.
 
-    bodies: BODY rows; h [s]: length of the substep, by which the cached forces are multiplied.
+    bodies: BODY rows; h [s]: length of the substep, by which the cached forces are multiplied; joint_inout: JOINT row.
     """
     j = joint_inout
     angle_a, angle_b = 0.0, 0.0
@@ -109,9 +113,9 @@ def begin_joint(bodies, h, joint_inout):
 
 @kernel
 def begin_joints(rows, bodies, h, joints_inout):
-    """Write the anchors, axes and angles of joints at the start of a step. O(rows).
+    """Write the anchors, axes and angles of joints at the start of a step, and their warm-start impulses. O(rows).
 
-    rows: JOINT rows; h [s]: length of a substep.
+    rows: indices of JOINT rows; h [s]: length of a substep.
     """
     for k in range(len(rows)):
         begin_joint(bodies, h, joints_inout[rows[k]])
@@ -119,7 +123,7 @@ def begin_joints(rows, bodies, h, joints_inout):
 
 @subkernel
 def place_joint(a, b, joint_inout):
-    """Write moment arms, axis, offset of the anchors and angle of a joint at the present poses.
+    """Compute the moment arms, axis, angle and anchor offset of a joint at the present poses.
 
     a, b: MOTION rows; joint_inout: JOINT row.
     """
@@ -150,9 +154,9 @@ def place_joint(a, b, joint_inout):
 def push(joint, x, y, torque, a_inout, b_inout):
     """Apply an impulse (x, y) at B's anchor and an angular impulse `torque` to B, and the opposite impulses to A.
 
-    free_vx, free_vy and free_w, the velocities without contact impulses, change by the same amounts. So the warm start
-    of contacts does not repeat these impulses; joints have a warm start of their own. joint: JOINT row; a_inout,
-    b_inout: MOTION rows.
+    The velocities without contact impulses (free_vx, free_vy, free_w) change by the same amounts. So the warm start of
+    contacts does not repeat these impulses; joints have a warm start of their own. joint: JOINT row; a_inout, b_inout:
+    MOTION rows.
     """
     j = joint
     a, b = a_inout, b_inout
@@ -164,7 +168,11 @@ def push(joint, x, y, torque, a_inout, b_inout):
 
 @subkernel
 def push_coordinate(joint, impulse, a_inout, b_inout):
-    """Apply an impulse on the coordinate of a joint, along the axis or as an angular impulse; > 0 increases it."""
+    """Apply an impulse along the coordinate of a joint; positive values increase the coordinate.
+
+    The impulse acts along the axis of the joint, or is an angular impulse if the coordinate is an angle. joint: JOINT
+    row; a_inout, b_inout: MOTION rows.
+    """
     j = joint
     if j.coordinate == ANGLE:
         push(j, 0.0, 0.0, impulse, a_inout, b_inout)
@@ -174,7 +182,10 @@ def push_coordinate(joint, impulse, a_inout, b_inout):
 
 @subkernel
 def speed_across(joint, nx, ny, a, b):
-    """Return the speed [px/s] of B's anchor relative to A's anchor along a unit vector (nx, ny). a, b: MOTION rows."""
+    """Return the speed [px/s] of B's anchor relative to A's anchor along a unit vector (nx, ny).
+
+    joint: JOINT row; a, b: MOTION rows.
+    """
     j = joint
     speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
     speed += b.angular_velocity * (j.bx * ny - j.by * nx)
@@ -183,7 +194,10 @@ def speed_across(joint, nx, ny, a, b):
 
 @subkernel
 def inverse_mass_along(joint, nx, ny, a, b):
-    """Return the inverse effective mass of a joint at its anchors along a unit vector (nx, ny). a, b: MOTION rows."""
+    """Return the inverse effective mass of a joint at its anchors along a unit vector (nx, ny).
+
+    joint: JOINT row; a, b: MOTION rows.
+    """
     j = joint
     on_a, on_b = j.ax * ny - j.ay * nx, j.bx * ny - j.by * nx
     return a.inverse_mass + b.inverse_mass + a.inverse_inertia * on_a * on_a + b.inverse_inertia * on_b * on_b
@@ -191,7 +205,7 @@ def inverse_mass_along(joint, nx, ny, a, b):
 
 @subkernel
 def coordinate_of(joint):
-    """Return the coordinate of a joint (angle, translation or length) at the present poses [px or rad]."""
+    """Return the coordinate of a JOINT row at the present poses: its angle [rad], translation [px] or length [px]."""
     j = joint
     return j.turn if j.coordinate == ANGLE else j.apart_x * j.nx + j.apart_y * j.ny
 
@@ -205,9 +219,9 @@ def coordinate_speed(joint, a, b):
 
 @subkernel
 def coordinate_inverse_mass(joint, a, b):
-    """Return the inverse effective mass of the coordinate of a joint, or its inverse inertia for an angle.
+    """Return the inverse effective mass of the coordinate of a joint; for an angle, the inverse moment of inertia.
 
-    a, b: MOTION rows.
+    joint: JOINT row; a, b: MOTION rows.
     """
     j = joint
     return a.inverse_inertia + b.inverse_inertia if j.coordinate == ANGLE else inverse_mass_along(j, j.nx, j.ny, a, b)
@@ -217,7 +231,8 @@ def coordinate_inverse_mass(joint, a, b):
 def softness_of(hertz, damping, h):
     """Return (bias rate [1/s], factor on the effective mass, fraction of the impulse given up) of an implicit spring.
 
-    hertz [1/s]: frequency; damping: damping ratio; h [s]: length of a substep. The last two results add up to 1.
+    The constants are for one substep of h [s]. hertz [1/s]: frequency; damping: damping ratio. The last two results add
+    up to 1.
     """
     omega = math.tau * hertz
     rate = 2.0 * damping + h * omega
@@ -228,10 +243,10 @@ def softness_of(hertz, damping, h):
 
 @inlined
 def rigid_softness(biased, context):
-    """Return the softness of a rigid part of a joint, in the format of softness_of.
+    """Return the softness of a part of a joint that has no spring of its own, in the format of softness_of.
 
-    biased: False in the relaxing pass, in which the part has neither bias nor softness; context: see StepContext, whose
-    `joint` is the softness in the pass with bias.
+    biased: False in the relaxing pass, in which the part is fully rigid and errors of position are ignored; context:
+    see StepContext, whose `joint` gives the softness in the pass with bias.
     """
     if not biased:
         return 0.0, 1.0, 0.0
@@ -247,13 +262,13 @@ def bounded(value, most):
 
 @inlined
 def holds_point(joint):
-    """Return whether a tree can solve the hold of the anchors of a joint: it holds positions, with unbounded force."""
+    """Return whether a tree can solve the anchors of a joint: they are held together, with unbounded force."""
     return joint.hold != FREE and joint.follows_point and joint.point_max == math.inf
 
 
 @inlined
 def holds_angle(joint):
-    """Return whether a tree can solve the hold of the angle of a joint: it holds the angle, with unbounded torque."""
+    """Return whether a tree can solve the angle of a joint: it is held, with unbounded torque."""
     return joint.locks_angle and joint.follows_angle and joint.angle_max == math.inf
 
 
@@ -268,9 +283,9 @@ def holds_coordinate(joint):
 
 @subkernel
 def solve_motor(context, joint_inout, a_inout, b_inout):
-    """Solve the motor of a joint, which drives the coordinate or the angle at motor_speed, with a bounded force.
+    """Solve the motor of a joint: it drives the coordinate or the angle at motor_speed, with a bounded force or torque.
 
-    For an angle the force is a torque. context: see StepContext; a_inout, b_inout: MOTION rows.
+    context: see StepContext; joint_inout: JOINT row; a_inout, b_inout: MOTION rows.
     """
     j, a, b = joint_inout, a_inout, b_inout
     if j.turns_motor:
@@ -291,11 +306,11 @@ def solve_motor(context, joint_inout, a_inout, b_inout):
 
 @subkernel
 def limit_change(gap, speed, old, mass, soft, most, inverse_h):
-    """Return the change of the impulse of a limit that keeps gap >= 0. The accumulated impulse stays at least 0.
+    """Return the change of impulse of a joint limit that keeps gap >= 0. The accumulated impulse stays at least 0.
 
-    gap [px or rad]: distance of the coordinate from the limit; speed: rate of change of the gap; old: accumulated
-    impulse; mass: effective mass; soft: result of softness_of; most: greatest speed of a correction; inverse_h [1/s]:
-    inverse of a substep. A positive gap may close completely in a substep.
+    gap [px or rad]: distance of the coordinate from the limit, which may close completely in this substep; speed: rate
+    of change of the gap; old: accumulated impulse; mass: effective mass; soft: result of softness_of; most: greatest
+    speed at which a violation is corrected; inverse_h [1/s]: inverse of a substep.
     """
     bias_rate, mass_share, give = soft
     if gap > 0.0:
@@ -309,7 +324,8 @@ def limit_change(gap, speed, old, mass, soft, most, inverse_h):
 def solve_coordinate(biased, context, joint_inout, a_inout, b_inout):
     """Solve the spring, the motor and the limits on the coordinate of a joint.
 
-    biased: see solve_joints; context: see StepContext; a_inout, b_inout: MOTION rows.
+    biased: True to also remove errors of position; context: see StepContext; joint_inout: JOINT row; a_inout, b_inout:
+    MOTION rows.
     """
     j, a, b = joint_inout, a_inout, b_inout
     inverse = coordinate_inverse_mass(j, a, b)
@@ -349,9 +365,10 @@ def solve_coordinate(biased, context, joint_inout, a_inout, b_inout):
 
 @subkernel
 def solve_hold_of_angle(biased, context, joint_inout, a_inout, b_inout):
-    """Solve the hold of the angle of a joint, with a bounded torque: rigid, soft, or of the angular velocity alone.
+    """Solve the part of a joint that holds its angle, with a bounded torque.
 
-    biased: see solve_joints; context: see StepContext; a_inout, b_inout: MOTION rows.
+    The angle is held rigidly or by a spring, or only the angular velocity is controlled. biased: True to also remove
+    errors of position; context: see StepContext; joint_inout: JOINT row; a_inout, b_inout: MOTION rows.
     """
     j, a, b = joint_inout, a_inout, b_inout
     inverse = a.inverse_inertia + b.inverse_inertia
@@ -370,9 +387,10 @@ def solve_hold_of_angle(biased, context, joint_inout, a_inout, b_inout):
 
 @subkernel
 def solve_hold_across(biased, context, joint_inout, a_inout, b_inout):
-    """Solve the hold of B's anchor on the axis of A: prevent motion of the anchor perpendicular to the axis.
+    """Solve the part of a joint that keeps B's anchor on the axis of A.
 
-    biased: see solve_joints; context: see StepContext; a_inout, b_inout: MOTION rows.
+    biased: True to also remove errors of position; context: see StepContext; joint_inout: JOINT row; a_inout, b_inout:
+    MOTION rows.
     """
     j, a, b = joint_inout, a_inout, b_inout
     inverse = inverse_mass_along(j, -j.ny, j.nx, a, b)
@@ -388,10 +406,11 @@ def solve_hold_across(biased, context, joint_inout, a_inout, b_inout):
 
 @subkernel
 def solve_hold_of_point(biased, context, joint_inout, a_inout, b_inout):
-    """Solve the hold of two anchors, with a bounded force: rigid, soft, or of their relative velocity alone.
+    """Solve the part of a joint that holds its two anchors together, with a bounded force.
 
-    Both directions are solved together. biased: see solve_joints; context: see StepContext; a_inout, b_inout: MOTION
-    rows.
+    The anchors are held rigidly or by a spring, or only their relative velocity is controlled. Both directions are
+    solved together. biased: True to also remove errors of position; context: see StepContext; joint_inout: JOINT row;
+    a_inout, b_inout: MOTION rows.
     """
     j, a, b = joint_inout, a_inout, b_inout
     k_11 = a.inverse_mass + b.inverse_mass + a.inverse_inertia * j.ay * j.ay + b.inverse_inertia * j.by * j.by
@@ -429,7 +448,7 @@ def solve_hold_of_point(biased, context, joint_inout, a_inout, b_inout):
 
 @subkernel
 def impulse_of(joint):
-    """Return (x, y, angular impulse) of a joint on B in the present substep."""
+    """Return (x, y, angular impulse) that a JOINT row has applied to body B in the present substep."""
     j = joint
     x, y, torque = 0.0, 0.0, j.hold_impulse
     if j.hold == PINNED:
@@ -451,9 +470,9 @@ def impulse_of(joint):
 
 @subkernel
 def warm_joints(rows, joints_inout, motions_inout):
-    """Place joints at the present poses, and apply the impulses of the last substep (warm start). O(rows).
+    """Compute the geometry of joints at the present poses, and apply the impulses of the last substep (warm start).
 
-    rows: JOINT rows.
+    O(rows). rows: indices of JOINT rows.
     """
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
@@ -467,10 +486,10 @@ def warm_joints(rows, joints_inout, motions_inout):
 
 @subkernel
 def solve_joints(rows, biased, context, joints_inout, motions_inout):
-    """Solve every joint once. O(rows).
+    """Solve every joint once, except for the parts that trees solve. O(rows).
 
-    rows: JOINT rows; biased: True to also remove errors of position, False to solve only the velocities at the present
-    poses; context: see StepContext. Parts that trees solve are left out.
+    rows: indices of JOINT rows; biased: True to also remove errors of position, False to solve only the velocities at
+    the present poses; context: see StepContext.
     """
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
@@ -509,7 +528,7 @@ def sum_joints(rows, joints_inout):
 def store_joints(rows, context, joints_inout):
     """Write the forces of the step, and the cached forces for the next step, to the joints. O(rows).
 
-    rows: JOINT rows; context: see StepContext.
+    rows: indices of JOINT rows; context: see StepContext.
     """
     rest = 1.0 - context.share
     rate = context.share * context.inverse_h
@@ -530,10 +549,10 @@ def store_joints(rows, context, joints_inout):
 def estimate_joints(rows, joints, rate, dt, accuracy, motions_inout):
     """Raise MOTION.estimate to the square of the number of substeps that the joints of a body need. O(rows).
 
-    rows: indices of JOINT rows; rate: see substeps.estimate_rate; dt [s]: step length; accuracy [px]: greatest
-    accepted error. In the iterative tier the spring of a joint has twice the frequency of the spring of a contact, so
-    the joint sags by a quarter as much. In both tiers, an anchor on an arm r that rotates by an angle φ in a substep
-    leaves the joint by r φ² / 2.
+    In the iterative tier, the spring of a joint has twice the frequency of the spring of a contact, so the joint sags
+    by a quarter as much. In both tiers, an anchor on an arm r that rotates by an angle φ in a substep leaves the joint
+    by r φ² / 2. rows: indices of JOINT rows; rate: see substeps.estimate_rate; dt [s]: step length; accuracy [px]:
+    greatest accepted error.
     """
     for k in range(len(rows)):
         j = joints[rows[k]]
@@ -570,16 +589,16 @@ def place_anchor(body, x, y):
 
 @subkernel
 def velocity_at(body, x, y):
-    """Return the velocity (x, y) [px/s] of a BODY row at a point (x, y) [px] of the world."""
+    """Return the velocity (x, y) [px/s] that a BODY row has at a point (x, y) [px] of the world."""
     w = body.angular_velocity
     return body.vx - w * (y - body.center_y), body.vy + w * (x - body.center_x)
 
 
 @kernel
 def report_joints(bodies, joints_inout):
-    """Write angle, translation, speed, separation and `broken` of all joints at the present poses. O(joints).
+    """Write the fields of the JOINT rows that users read: angle, translation, speed, separation and `broken`.
 
-    bodies: BODY rows; joints_inout: JOINT rows.
+    O(joints). They are computed at the present poses of the BODY rows `bodies`.
     """
     for k in range(len(joints_inout)):
         j = joints_inout[k]
@@ -623,5 +642,5 @@ def report_joints(bodies, joints_inout):
 
 @stage("joints", reads=("bodies", "joints"), writes=("joints",))
 def measure_joints(state: StepState) -> None:
-    """Measure all joints at the final poses of the step, and mark the joints that broke."""
+    """Compute the angle, translation and speed of all joints at the final poses, and mark the joints that broke."""
     report_joints(state.bodies, state.joints)

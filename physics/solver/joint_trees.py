@@ -2,18 +2,19 @@
 
 Bodies of finite mass and the joints between them form a graph. Joints that close a loop are left to an iterative
 solver; the other joints form a forest. Bodies of infinite mass cut the graph, so a bridge between two walls is a tree.
-A tree is eliminated from its leaves to its root, and solved back from the root to its leaves (Baraff,
-Linear-Time Dynamics using Lagrange Multipliers, SIGGRAPH 1996; Featherstone, Rigid Body Dynamics Algorithms, 2008,
-chapter 7).
+A tree is eliminated from its leaves to its root, and solved back from the root to its leaves (Baraff, Linear-Time
+Dynamics using Lagrange Multipliers, SIGGRAPH 1996; Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter 7).
 
 The elimination computes articulated inverse inertias: the 3×3 matrix W of a body is the response of its velocity to an
 impulse, with its subtree attached. A joint to a child with the inverse inertia Wc acts on the parent like a measurement
-of the parent's velocity in a Kalman filter, with the covariance S = Γ + Jc Wc Jcᵀ. The case S = 0, a rigid joint to a
-body of infinite mass, needs no special treatment, because S is never inverted. W is stored as U D Uᵀ, with U unit upper
-triangular and D diagonal, and S is diagonalised row by row without being formed. So no digits are lost if a light body
-carries a heavy body (Bierman, Factorization Methods for Discrete Sequential Estimation, 1977, chapters 5 and 6).
-Impulses follow from the innovations of the filter (the smoother of Bryson and Frazier, 1963), the velocity of a child
-from the velocity of its parent.
+of the parent's velocity in a Kalman filter, with the covariance S = Γ + Jc Wc Jcᵀ. Γ holds the compliances of the
+joint's rows, and Jc is their Jacobian for the child. The case S = 0, a rigid joint to a body of infinite mass, needs no
+special treatment, because S is never inverted.
+
+W is stored as U D Uᵀ, with U unit upper triangular and D diagonal. S is diagonalised row by row without being formed.
+So no digits are lost if a light body carries a heavy body (Bierman, Factorization Methods for Discrete Sequential
+Estimation, 1977, chapters 5 and 6). Impulses follow from the innovations of the filter (the smoother of Bryson and
+Frazier, 1963). The velocity of a child follows from the velocity of its parent.
 """
 
 from typing import NamedTuple
@@ -104,10 +105,10 @@ TREE_ROW = in_lines(
 
 
 class Forest(NamedTuple):
-    """Trees of joints: their bodies and factors, and scratch arrays for building them. The arrays are reused.
+    """The trees of joints with their bodies and factors, and scratch arrays to build them. The arrays are reused.
 
-    (joints), (motions): capacities for joints and MOTION rows. A half-edge is one side of a joint: 2 · joint for body
-    A, 2 · joint + 1 for body B.
+    (joints) and (motions) in the fields below are capacities for joints and MOTION rows. A half-edge is one side of a
+    joint: 2 · joint for body A, 2 · joint + 1 for body B.
     """
 
     bodies: np.ndarray  # (2 joints) TREE_BODY in slots: roots first, parents before their children
@@ -120,7 +121,7 @@ class Forest(NamedTuple):
 
 
 def new_forest(joints: int, motions: int) -> Forest:
-    """Return an empty forest with capacities for joints and MOTION rows."""
+    """Return an empty Forest with capacities for a number of joints and of MOTION rows."""
     return Forest(
         bodies=zeros_in_lines(2 * joints, TREE_BODY),
         rows=zeros_in_lines(2 * MOST_ROWS * joints, TREE_ROW),
@@ -135,8 +136,7 @@ def new_forest(joints: int, motions: int) -> Forest:
 def with_room(forest: Forest, joints: int, motions: int) -> Forest:
     """Return the forest if its capacities suffice, otherwise an empty forest with greater capacities.
 
-    joints, motions: required capacities. If one of them is greater than the present capacity, that capacity becomes the
-    greater of the required one and twice the present one.
+    joints, motions: required capacities. A capacity that is too small grows to the required one, but at least doubles.
     """
     has_joints, has_motions = len(forest.nexts) // 2, len(forest.parents)
     if joints <= has_joints and motions <= has_motions:
@@ -152,15 +152,15 @@ def with_room(forest: Forest, joints: int, motions: int) -> Forest:
 
 @inlined
 def has_infinite_mass(motion):
-    """Return whether both inverse mass and inverse inertia of a MOTION row are 0."""
+    """Return whether a MOTION row has neither finite mass nor finite inertia."""
     return not (motion.inverse_mass > 0.0 or motion.inverse_inertia > 0.0)
 
 
 @subkernel
 def take_joints(order, motion_a, motion_b, motions, forest_inout, taken_out):
-    """Choose the joints of the forest and link their half-edges by body. Return the number of chosen joints.
+    """Choose the joints that form the forest, and list them for each body as half-edges.
 
-    Arguments as in build_forest; a half-edge is one side of a joint, see Forest.
+    A half-edge is one side of a joint, see Forest. Arguments: see build_forest. Return the number of chosen joints.
     """
     f = forest_inout
     for i in range(len(motions)):
@@ -191,8 +191,9 @@ def take_joints(order, motion_a, motion_b, motions, forest_inout, taken_out):
 
 @inlined
 def write_body(motion, parent, joint, parent_is_a, is_fixed, body_out):
-    """Write the links of a TREE_BODY row: motion (MOTION row), parent (slot), joint to the parent, and flags.
+    """Write a TREE_BODY row that links a body to its parent in the tree.
 
+    motion: MOTION row of the body; parent: slot of the parent (index of a TREE_BODY row); joint: joint to the parent;
     parent_is_a: whether the parent is body A of the joint; is_fixed: whether the body has infinite mass.
     """
     body_out.motion = motion
@@ -205,10 +206,10 @@ def write_body(motion, parent, joint, parent_is_a, is_fixed, body_out):
 
 @subkernel
 def order_bodies(motion_a, motion_b, motions, forest_inout):
-    """Write the bodies of all trees, breadth-first from the roots. O(MOTION rows + joints).
+    """Write the bodies of all trees as TREE_BODY rows, breadth-first from the roots. O(MOTION rows + joints).
 
-    Arguments as in build_forest. The written rows are also the queue of the search. All roots are first, so that
-    adjacent rows belong to different trees, and the processor can work on several joints at the same time.
+    The written rows also serve as the queue of the search. All roots come first, so that adjacent rows belong to
+    different trees, and the processor can work on several joints at the same time. Arguments: see build_forest.
     """
     f = forest_inout
     count = 0
@@ -243,13 +244,15 @@ def build_forest(
     forest_inout,
     taken_out,
 ):
-    """Choose the joints of the forest and order their elimination. Return the number of chosen joints.
+    """Choose the joints of the forest, and order their elimination. Return the number of chosen joints.
 
-    A joint is not chosen if earlier joints connect its bodies, or if both bodies have infinite mass. The root of a tree
-    is its lowest MOTION row. The result depends only on the order of the joints and on the MOTION rows. O(MOTION rows +
-    joints). order: int64 joints that may be chosen, in the order of ids; motion_a, motion_b (joints,): int32 MOTION
-    rows of the bodies of each joint; forest_inout: a Forest with sufficient capacities; taken_out (joints,): bool,
-    whether each joint of `order` was chosen.
+    A joint is left out if earlier joints already connect its bodies, or if both bodies have infinite mass. The root of
+    a tree is its lowest MOTION row. The result depends only on the order of the joints and on the MOTION rows. O(MOTION
+    rows + joints).
+
+    order: int64 joints that may be chosen, in the order of ids; motion_a, motion_b (joints,): int32 MOTION rows of the
+    bodies of each joint; motions: all MOTION rows; forest_inout: a Forest with sufficient capacities; taken_out
+    (joints,): bool, whether each joint of `order` was chosen.
     """
     count = take_joints(order, motion_a, motion_b, motions, forest_inout, taken_out)
     order_bodies(motion_a, motion_b, motions, forest_inout)
@@ -265,10 +268,10 @@ def build_forest(
 
 @inlined
 def load_row(joint_row, parent_is_a, parent_mass, child_mass, inertia, number):
-    """Return a JOINT_ROW as the tuple in which a row is factored; see the comment under "factor" for its fields.
+    """Return a JOINT_ROW as a tuple, the form in which rows are factored. Its fields: see the comment under "factor".
 
-    parent_is_a: whether the parent is body A of the joint; parent_mass, child_mass: (inverse mass, inverse inertia);
-    inertia: factors (D, U) of the child's inverse inertia; number: index of the row in the joint, 0..2.
+    parent_is_a: whether the parent is body A of the joint; parent_mass, child_mass: (inverse mass, inverse inertia) of
+    each body; inertia: factors (D, U) of the child's inverse inertia; number: index of the row in the joint, 0..2.
     """
     j = joint_row
     px, py, pw = (j.ax, j.ay, j.aw) if parent_is_a else (j.bx, j.by, j.bw)
@@ -284,9 +287,9 @@ def load_row(joint_row, parent_is_a, parent_mass, child_mass, inertia, number):
 
 @inlined
 def moves_more(row, other):
-    """Return whether the child's share of the pivot is greater for `row` than for `other`, two tuples of load_row.
+    """Return whether the child has a greater part in the pivot of `row` than in that of `other` (tuples of load_row).
 
-    The share is relative to the pivot that the row has without other joints.
+    The part is relative to the pivot that the row has without other joints.
     """
     return row[9] * other[10] > other[9] * row[10]
 
@@ -298,8 +301,8 @@ def independent(row, lead, inertia, common, is_second):
     Two rows are correlated if an impulse along one of them changes the velocity of the child along the other. Nothing
     is subtracted if the child does not respond to `lead`. row, lead: tuples of load_row; inertia: factors (D, U) of the
     child's inverse inertia; common: compliance of the first row in the order of elimination. is_second: whether `lead`
-    is the second row in this order; then `row` and `lead` may each contain a multiple of the first row, so they also
-    share its compliance.
+    is the second row in this order. Then `row` and `lead` may each contain a multiple of the first row, and so share
+    its compliance.
     """
     d_x, d_y, d_w, _, _, _ = inertia
     px, py, pw, cx, cy, cw, gx, gy, gw, child, scale, compliance, of_first, number = row
@@ -323,7 +326,7 @@ def independent(row, lead, inertia, common, is_second):
 
 @inlined
 def apply_row(row, inertia):
-    """Apply a row to the articulated inverse inertia of the parent (Bierman's update).
+    """Update the articulated inverse inertia of the parent by one row of a joint (Bierman's update).
 
     Return (new factors D and U of the parent, gain of the parent, inverse pivot, inverse of the child's part of the
     pivot, 1 if the row is redundant, else 0). A redundant row gets its scale (the pivot without other joints) as
@@ -363,9 +366,9 @@ def apply_row(row, inertia):
 
 @inlined
 def finish_row(row, of_second, inertia, child_inertia, row_out):
-    """Apply a row to its parent and write it as a TREE_ROW. Return (new D and U of the parent, 1 if redundant, else 0).
+    """Apply a row to the parent and write it as a TREE_ROW. Return (new D and U of the parent, 1 if redundant, else 0).
 
-    row: tuple of load_row; of_second: multiple of the second row that was subtracted from the row; inertia,
+    row: tuple of load_row; of_second: multiple of the joint's second row that was subtracted from this row; inertia,
     child_inertia: factors (D, U) of the inverse inertias of parent and child.
     """
     inertia, gain, inverse_pivot, inverse_child, singular = apply_row(row, inertia)
@@ -386,11 +389,10 @@ def finish_row(row, of_second, inertia, child_inertia, row_out):
 def factor_joint(joint_rows, motions, body, at, rows_out, parent_inout):
     """Factor the joint of a body to its parent, and update the articulated inverse inertia of the parent.
 
-    Return the number of redundant rows. The rows are made uncorrelated in the response of the child, S = L D Lᵀ, by
-    modified Gram-Schmidt. The row in whose pivot the child has the greatest relative part comes first. So the
-    subtracted multiples stay small, even if the child can hardly move. joint_rows: see factor_trees; body,
-    parent_inout: TREE_BODY rows of the child and of the parent; at: index of the first row of the joint in rows_out
-    (TREE_ROW).
+    Return the number of redundant rows. Modified Gram-Schmidt makes the rows uncorrelated in the response of the child
+    (S = L D Lᵀ). The first row is the one in whose pivot the child has the greatest relative part. So the subtracted
+    multiples stay small, even if the child can hardly move. joint_rows, motions: see factor_trees; body, parent_inout:
+    TREE_BODY rows of the child and of the parent; at: index of the joint's first row in rows_out (TREE_ROW).
     """
     p = parent_inout
     count, is_a, j = body.count, body.parent_is_a, MOST_ROWS * body.joint
@@ -438,10 +440,10 @@ def factor_trees(
 ):
     """Factor the equations of all trees, from the leaves to the roots. Return the number of redundant rows. O(joints).
 
-    A row is redundant if its pivot is 0 after the elimination of other rows, or if no body responds to it. Such a row
-    gets its pivot without other joints as compliance, so that its impulse is finite. joint_rows (MOST_ROWS joints,):
+    A row is redundant if its pivot is 0 after the elimination of other rows, or if no body responds to it. It then gets
+    its pivot without other joints as compliance, so that its impulse is finite. joint_rows (MOST_ROWS joints,):
     JOINT_ROW with Jacobians and compliances; row_counts (joints,): int32, 0..3; motions: MOTION rows with inverse
-    masses and inertias; forest_inout: from build_forest, receives the factors.
+    masses and inertias; forest_inout: result of build_forest, receives the factors.
     """
     f = forest_inout
     singular = 0
@@ -467,11 +469,12 @@ def factor_trees(
 
 @subkernel
 def gather_violations(child, first, rows, joint_rows_inout, parent_inout, violations_out):
-    """Update the velocity of a parent by the joint to a child whose subtree has been processed.
+    """Update the velocity of a parent by the joint to a child whose subtree has been processed (from leaves to root).
 
-    child, parent_inout: TREE_BODY rows; first: index of the first row of the joint in `rows` (TREE_ROW). violations_out
-    receives the violation of each row for a parent at rest. JOINT_ROW.impulse receives the impulses of the factored
-    rows from the violations known so far; spread_impulses adds the effect of the impulses that act on the parent later.
+    violations_out receives the violation of each row [px/s or rad/s] for a parent at rest: the wanted minus the present
+    relative velocity. JOINT_ROW.impulse receives the impulses that follow from the subtree alone; spread_impulses then
+    adds the effect of all other impulses on the parent. child, parent_inout: TREE_BODY rows; first: index of the
+    joint's first row in `rows` (TREE_ROW) and violations_out.
     """
     c, p = child, parent_inout
     rhs_1, rhs_2 = 0.0, 0.0
@@ -494,11 +497,12 @@ def gather_violations(child, first, rows, joint_rows_inout, parent_inout, violat
 
 @inlined
 def follow_parent(parent, first, rows, violations, body_inout):
-    """Write the final velocity of a child, given the final velocity of its parent.
+    """Write the final velocity of a child, given the final velocity of its parent (pass from root to leaves).
 
-    The velocity follows from the violations of the rows that the parent leaves, not from the impulses. So joints hold
-    to the last digit, even if impulses with long arms nearly cancel. parent, body_inout: TREE_BODY rows of parent and
-    child; first: index of the first row of the joint in `rows` (TREE_ROW) and `violations` (see gather_violations).
+    The velocity follows from the violations that remain at the parent's final velocity, not from the impulses. So
+    joints hold to the last digit, even if impulses with long arms nearly cancel. parent, body_inout: TREE_BODY rows of
+    parent and child; first: index of the joint's first row in `rows` (TREE_ROW) and `violations` (see
+    gather_violations).
     """
     p, c = parent, body_inout
     for r in range(c.count):
@@ -511,11 +515,11 @@ def follow_parent(parent, first, rows, violations, body_inout):
 
 @subkernel
 def spread_impulses(first, rows, joint_rows_inout, parent_inout, body_inout):
-    """Write the final impulses of the rows of a joint, given the impulse fx, fy, fw on the parent in parent_inout.
+    """Write the final impulses of the rows of a joint, given the impulse fx, fy, fw that acts on its parent.
 
     The final impulses are added to the impulse on the parent, for the next joint of the parent, and to the impulse on
-    the child. parent_inout, body_inout: TREE_BODY rows of parent and child; first: index of the first row of the joint
-    in `rows` (TREE_ROW); joint_rows_inout: JOINT_ROW, see gather_violations.
+    the child. parent_inout, body_inout: TREE_BODY rows of parent and child; first: index of the joint's first row in
+    `rows` (TREE_ROW); joint_rows_inout: JOINT_ROW, see gather_violations.
     """
     p, c = parent_inout, body_inout
     impulse_1, impulse_2 = 0.0, 0.0
@@ -540,7 +544,7 @@ def spread_impulses(first, rows, joint_rows_inout, parent_inout, body_inout):
 
 @inlined
 def move_body(body, motion_inout):
-    """Copy the velocity of a TREE_BODY row to its MOTION row. The free velocity changes by the same amount."""
+    """Copy the velocity of a TREE_BODY row to its MOTION row, and change MOTION.free_… by the same amount."""
     m = motion_inout
     m.free_vx += body.vx - m.vx
     m.free_vy += body.vy - m.vy
@@ -560,7 +564,7 @@ def place_body(motion, body_out):
 
 @subkernel
 def sweep_trees(count, forest_inout, joint_rows_inout):
-    """Solve all trees for the velocities in the first `count` slots, from the leaves to the roots and back.
+    """Solve all trees for the velocities of the first `count` TREE_BODY rows: from leaves to roots, and back.
 
     O(joints).
     """
@@ -585,11 +589,11 @@ def solve_trees(
     joint_rows_inout,
     motions_inout,
 ):
-    """Solve the joints of all trees for the velocities of their bodies, and apply the impulses.
+    """Solve the joints of all trees for the velocities of their bodies, and apply the impulses. O(joints).
 
-    O(joints). forest_inout: factored by factor_trees; joint_rows_inout (MOST_ROWS joints,): JOINT_ROW, `rhs` is read
-    and `impulse` is written for the joints of the forest; motions_inout: MOTION rows, whose velocities and free
-    velocities change by the same amounts.
+    forest_inout: factored by factor_trees. joint_rows_inout (MOST_ROWS joints,): JOINT_ROW; `rhs` is read and `impulse`
+    is written for the joints of the forest. motions_inout: MOTION rows; velocities and free velocities (without contact
+    impulses) change by the same amounts.
     """
     f = forest_inout
     for slot in range(f.sizes[0]):

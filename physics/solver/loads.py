@@ -1,8 +1,8 @@
-"""Removal of the cached forces under a heavy load that is removed or moved; they would throw the bodies below.
+"""Removal of the cached contact forces under a heavy body that is removed or moved.
 
-The solver starts a contact from its force at the end of the last step. After a load of a thousand times the mass of a
-body is removed, the cached force is a thousand times the force needed. A solver pass removes only a part of the excess,
-which depends on the order of the contacts; the rest becomes velocity.
+The solver starts a contact from its force at the end of the last step. After a body a thousand times as heavy as the
+body below it is removed, this cached force is a thousand times too large. A solver pass removes only a part of the
+excess, depending on the order of the contacts. The rest would become velocity and throw the bodies below.
 """
 
 import math
@@ -22,8 +22,9 @@ NO_SIDE = -1
 def link_contacts(contacts, heads_out, nexts_out):
     """Link the contacts of each body into a list of sides. O(bodies + contacts).
 
-    Side 2 i is body A of contact i, side 2 i + 1 its body B. heads_out (bodies) int64: first side of each BODY row;
-    nexts_out (2 · contacts) int64: next side of the same body. NO_SIDE ends a list.
+    A side is one end of a contact: 2 i is body A of contact i, and 2 i + 1 is its body B. contacts: CONTACT rows;
+    heads_out (bodies) int64: first side of each BODY row; nexts_out (2 · contacts) int64: next side of the same body.
+    NO_SIDE ends a list.
     """
     for k in range(len(heads_out)):
         heads_out[k] = NO_SIDE
@@ -37,13 +38,13 @@ def link_contacts(contacts, heads_out, nexts_out):
 
 @kernel
 def forget_below(rows, size, bodies, blow, stamp, lists_inout, contacts_inout):
-    """Clear the cached forces of the bodies that rest under groups of bodies about to be removed or moved.
+    """Clear the cached forces of bodies under groups of bodies that are about to be removed or moved.
 
-    rows: BODY rows of the groups, `size` rows per group. If bodies of the group press on an outer body with a force per
-    mass of more than `blow` [px/s2], all contacts of the outer body lose their forces. So do all contacts of the
-    dynamic bodies that are connected to the outer body by contacts. bodies: all BODY rows; stamp: a number not less
-    than any mark in lists_inout (see Lists). Return the greatest stamp used. O(contacts of the groups and of the
-    connected bodies).
+    An outer body is affected if bodies of a group press on it with a force per mass of more than `blow` [px/s2]. Then
+    all its contacts lose their cached forces, and so do all contacts of the dynamic bodies connected to it by contacts.
+
+    rows: BODY rows of the groups, `size` rows per group; bodies: all BODY rows; stamp: a number not less than any mark
+    in lists_inout (see Lists). Return the greatest stamp used. O(contacts of the groups and of the connected bodies).
     """
     heads, nexts = lists_inout.heads, lists_inout.nexts
     marks, reached = lists_inout.marks, lists_inout.reached
@@ -83,7 +84,7 @@ def forget_below(rows, size, bodies, blow, stamp, lists_inout, contacts_inout):
 
 
 class Lists(NamedTuple):
-    """Arrays of ContactLists, all int64. (rows): one entry for each BODY row."""
+    """Arrays of ContactLists, all int64. (rows): as many entries as BODY rows."""
 
     heads: np.ndarray  # (rows) first side of each body, NO_SIDE: no contact
     nexts: np.ndarray  # (2 · contacts) next side of the same body, NO_SIDE after the last
@@ -106,7 +107,7 @@ class ContactLists:
         self.__init__()
 
     def _refresh(self, contacts, bodies, step):
-        """Rebuild the lists, unless they were built for these contacts in this step. step: number of the step."""
+        """Rebuild the lists, unless they were built for these contacts in the same step. step: number of the step."""
         lists = self.lists
         if contacts is self.contacts and step == self.step and len(lists.heads) >= len(bodies):
             return
@@ -122,8 +123,9 @@ class ContactLists:
         """Clear the cached forces under bodies that are about to be removed or have been moved, see forget_below.
 
         world: a World, annotated Any because its module imports this one. rows: int64 BODY rows. together: True makes
-        all rows one group, False each row its own group. The tables are read without dropping removed rows first, see
-        World._row_at. O(contacts of these bodies); the first call after a step also costs O(bodies + contacts).
+        all rows one group, False makes each row a group of its own. Rows that were removed since the last step stay in
+        the tables, see World._row_at. O(contacts of these bodies); the first call after a step also costs O(bodies +
+        contacts).
         """
         contacts, bodies = world._contact_rows, world._bodies.rows
         if not len(contacts) or not world.stacks or not len(rows):
@@ -136,17 +138,17 @@ class ContactLists:
 
 
 def blow_of(tables: WorldTables) -> float:
-    """Return the force per mass [px/s2] above which a cached force would throw a body after its load is removed.
+    """Return the force per mass [px/s2] above which a cached contact force would throw a body once its load is removed.
 
-    The result is BLOW times gravity, and 0 in a world without gravity.
+    The result is BLOW times gravity, and 0 in a world without gravity. tables: a World or StepState.
     """
     return BLOW * math.hypot(*tables.gravity) if tables.effects.gravity else 0.0
 
 
 def is_any_blow(bodies: np.ndarray, contacts: np.ndarray, ids: np.ndarray, blow: float) -> bool:
-    """Return whether a contact of these bodies presses on its other body with more than `blow` [px/s2], force per mass.
+    """Return whether one of the given bodies presses on another body with a force per mass above `blow` [px/s2].
 
-    The forces are the cached contact forces. ids: ids of the bodies.
+    The cached contact forces are compared. bodies, contacts: BODY and CONTACT rows; ids: ids of the given bodies.
     """
     force = contacts["normal_force_1"] + np.where(contacts["count"] == 2, contacts["normal_force_2"], 0.0)
     for side, other in (("body_a", "body_b"), ("body_b", "body_a")):

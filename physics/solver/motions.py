@@ -1,7 +1,7 @@
-"""Motions: the state of bodies in the substeps of the stacking solvers, copied from the awake bodies and back.
+"""The motions of bodies within a step: copied from the awake bodies, advanced by substeps, and written back.
 
-Row 0 of MOTION represents all bodies that do not move in this step: static bodies, sleeping bodies, and kinematic
-bodies at rest.
+The stacking solvers use them. Row 0 of MOTION represents all bodies that do not move in this step: static bodies,
+sleeping bodies, and kinematic bodies at rest.
 """
 
 import math
@@ -25,7 +25,7 @@ BOTH = (False, True)
 
 @subkernel
 def kinetic_energy(motion):
-    """Return the kinetic energy of a body of finite mass, given as a MOTION row."""
+    """Return the kinetic energy [density px4/s2] of a MOTION row with finite mass."""
     m = motion
     energy = 0.5 * (m.vx * m.vx + m.vy * m.vy) / m.inverse_mass
     if m.inverse_inertia > 0.0:
@@ -35,7 +35,7 @@ def kinetic_energy(motion):
 
 @subkernel
 def reset_motion(motion_out):
-    """Write the values that every MOTION row has at the start of a step: no displacement, infinite mass, no contact."""
+    """Set a MOTION row to its state at the start of a step: no displacement, infinite mass, no contacts."""
     m = motion_out
     m.pseudo_vx, m.pseudo_vy, m.pseudo_w = 0.0, 0.0, 0.0
     m.dx, m.dy = 0.0, 0.0
@@ -72,7 +72,7 @@ def write_fixed(motions_out, lists_out):
 
 
 class MotionLists(NamedTuple):
-    """The kind of each MOTION row in arrays, the MOTION row of each body, and lists of MOTION rows by kind."""
+    """Lists that accompany the MOTION rows of a world: the row of each body, and the kind of each row."""
 
     motion_of: np.ndarray  # (bodies) int32 MOTION row of each body; 0: the body does not move
     has_finite_mass: np.ndarray  # (motions) bool an impulse changes the velocity of the body
@@ -83,7 +83,7 @@ class MotionLists(NamedTuple):
 
 
 class Air(NamedTuple):
-    """Gravity, drag and wind, which act on every body."""
+    """Gravity, drag and wind of a world."""
 
     gravity_x: float  # [px/s2]
     gravity_y: float
@@ -93,14 +93,14 @@ class Air(NamedTuple):
 
 
 def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
-    """Return the function that copies bodies to MOTION rows, for a world with or without gravity, wind and rotation."""
+    """Return the kernel that copies bodies to MOTION rows. gravity, wind, rotation: whether the world has them."""
 
     @kernel
     def gather_motions(rows, bodies, air, motions_out, lists_out, work_inout):
-        """Write a MOTION row for each BODY row listed in `rows`, from MOTION row 1 on. O(rows).
+        """Write one MOTION row for each BODY row listed in `rows`, starting at MOTION row 1. O(rows).
 
         Return (number of dynamic bodies, number of moving kinematic bodies). air: see Air; lists_out: see MotionLists;
-        work_inout: counters.
+        work_inout: work counters.
         """
         write_fixed(motions_out, lists_out)
         dynamic = 0
@@ -154,16 +154,19 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
 
 
 def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
-    """Return the function that integrates velocities at the start of a substep, with or without drag and rotation."""
+    """Return the function that integrates velocities at the start of a substep.
+
+    drag, rotation: whether the world has these effects.
+    """
 
     @subkernel
     def integrate_substep_velocities(members, h, drag_rate, motions_inout):
         """Integrate the velocities of island bodies over a substep of h [s], and warm start their contacts. O(members).
 
-        members: MOTION rows. Accelerations are added first: half of them for bodies with MOTION.halves, see
-        accelerate_again. Then drag_rate [1/s] is applied implicitly, which is stable at any rate. The warm start
-        repeats the change of velocity by the contact impulses of the last substep, v - free_v. Impulses and moment arms
-        are unchanged, so no contact is read.
+        members: MOTION rows. Accelerations come first, with only half of the acceleration for bodies with MOTION.halves
+        (see accelerate_again). Then drag_rate [1/s] is applied implicitly, which is stable at any rate. The warm start
+        repeats the velocity change by contact impulses in the last substep, v - free_v. As impulses and moment arms are
+        unchanged, no contact has to be read.
         """
         keep = 1.0 / (1.0 + drag_rate * h)
         for i in range(len(members)):
@@ -191,9 +194,10 @@ def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
 
 @subkernel
 def change_velocity(vx, vy, w, motion_inout):
-    """Add (vx, vy) [px/s] and w [1/s] to the velocity of a MOTION row and to its velocity before contacts (free_…).
+    """Add (vx, vy) [px/s] and w [rad/s] to the velocity of a body and to its velocity without contact impulses.
 
-    So the warm start of contacts in the next substep does not add the change again.
+    The latter is MOTION.free_…. Their difference, which the next warm start of contacts repeats, is thus unchanged.
+    motion_inout: MOTION row.
     """
     m = motion_inout
     m.vx += vx
@@ -206,11 +210,11 @@ def change_velocity(vx, vy, w, motion_inout):
 
 @subkernel
 def accelerate_again(members, h, motions_inout):
-    """Add the second half of the acceleration of a substep of h [s] to bodies with MOTION.halves. O(members).
+    """Add the second half of a substep's acceleration to bodies with MOTION.halves. O(members).
 
-    members: MOTION rows. Bodies with MOTION.halves have rigid joints and no contacts. Half of the acceleration acts
-    before the positions are integrated, half afterwards, so errors of energy are of second order in h: Verlet
-    integration with constraints (RATTLE, Andersen 1983).
+    members: MOTION rows; h [s]: length of the substep. Bodies with MOTION.halves have rigid joints and no contacts.
+    Half of their acceleration acts before the positions are integrated, half afterwards. So errors of energy are of
+    second order in h: Verlet integration with constraints (RATTLE, Andersen 1983).
     """
     for i in range(len(members)):
         m = motions_inout[members[i]]
@@ -220,15 +224,15 @@ def accelerate_again(members, h, motions_inout):
 
 
 def make_substep_positions(rotation: bool) -> Callable:
-    """Return the function that integrates positions at the end of a substep, with or without rotation."""
+    """Return the function that integrates positions at the end of a substep. rotation: whether bodies rotate."""
 
     @subkernel
     def integrate_substep_positions(members, h, push_speed, motions_inout):
         """Move island bodies by their velocity and pseudo-velocity over a substep of h [s]. O(members).
 
         members: MOTION rows. The pseudo-velocity is limited to push_speed [px/s], and then reset. Bodies in contact
-        move by the velocity at the end of the substep, which keeps stacks stable. Bodies without contact move on the
-        exact parabola, otherwise each flight of a bouncing ball would lose h times its speed in height.
+        move by the velocity at the end of the substep, which keeps stacks stable. Bodies without contact follow the
+        exact parabola: otherwise a bouncing ball would lose h times its speed in height with each flight.
         """
         for i in range(len(members)):
             m = motions_inout[members[i]]
@@ -255,7 +259,7 @@ def make_substep_positions(rotation: bool) -> Callable:
 
 @subkernel
 def move_kinematic(kinematic, time, motions_inout):
-    """Move kinematic bodies, MOTION rows, to their poses at a time [s] since the start of the step.
+    """Move kinematic bodies (MOTION rows) to their poses at a time [s] after the start of the step.
 
     The poses depend on the time alone, so they are the same for every group of islands.
     """
@@ -270,17 +274,17 @@ def move_kinematic(kinematic, time, motions_inout):
 def is_usable(body, speed_limit):
     """Return whether the numbers of a BODY row are finite and within limits, so that the next step can use them.
 
-    Bodies in quarantine are not tested and count as usable. speed_limit [px/s]: greatest permitted speed.
+    Quarantined bodies are not tested and count as usable. speed_limit [px/s]: greatest permitted speed.
     """
     return body.quarantined or (is_within_limits(body) and is_finite_in_step(body, 0.0, 0.0, speed_limit, 0.0))
 
 
 @kernel
 def scatter_motions(rows, motions, speed_limit, lists_inout, bodies_inout):
-    """Write velocities, poses and centres of mass back to the bodies, and store the poses before the step. O(rows).
+    """Write velocities, poses and centres of mass from the MOTION rows back to the bodies. O(rows).
 
-    rows: indices of BODY rows, in the order of the MOTION rows from 1 on; speed_limit [px/s]: see is_usable. Return the
-    number of bodies that are not usable.
+    Return how many bodies are not usable, see is_usable. The poses before the step are stored in BODY.previous_…. rows:
+    indices of BODY rows, in the order of the MOTION rows from 1 on; speed_limit [px/s]: greatest permitted speed.
     """
     non_finite_count = 0
     for k in range(len(rows)):
@@ -321,7 +325,7 @@ SUBSTEP_POSITIONS = {r: make_substep_positions(rotation=r) for r in BOTH}
 
 
 class Motions:
-    """The MOTION rows of one world and their MotionLists. The arrays grow and are reused."""
+    """The MOTION rows of one world and their MotionLists. The arrays grow when needed and are reused."""
 
     def __init__(self) -> None:
         self._grow(16, np.zeros(16, np.int32))
@@ -378,9 +382,10 @@ WRITES = (
 
 
 def run_solver(state: StepState, solve: Callable[[StepState, Any], float]) -> None:
-    """Run a stacking solver: gather the motions, call solve(state, contacts), and write the motions back.
+    """Run a stacking solver: copy the bodies to MOTION rows, call solve(state, contacts), and write the rows back.
 
-    `solve` is not called in a step of length 0, and its result is not used. Without awake bodies nothing is done.
+    The result of `solve` is ignored. In a step of length 0 `solve` is not called, and without awake bodies nothing is
+    done.
     """
     if not len(state.awake.bodies):
         return
