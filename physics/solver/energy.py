@@ -1,11 +1,13 @@
 """Energy bound: contacts add no energy to an island, except the work of kinematic bodies and moving surfaces.
 
-Contacts that separate overlaps, springs that ring, normals that are a step old on curved ground, and moment arms that
-are fixed for a substep may add energy. After a step, the kinetic energy of bodies that exchanged impulses is compared
-with their energy before the step plus the work of gravity, forces and moving surfaces during the step. A further gain
-may come from the reserve of the bodies, which is energy lost in earlier steps. The rest of the gain is removed by
-scaling the velocities. Bodies in flight that hit only each other keep their momentum and angular momentum: only their
-velocities relative to their common motion as one rigid body are scaled.
+Several things may add energy: contacts that separate overlaps, springs that ring, normals that are a step old on curved
+ground, and moment arms that are fixed for a substep. Bodies that exchanged impulses in a step form a set of touching
+bodies. After the step, the kinetic energy of a set is compared with its energy before the step plus the work of
+gravity, forces and moving surfaces. A further gain may come from the reserve of the bodies, which is energy lost in
+earlier steps. The rest of the gain is removed by scaling the velocities.
+
+Bodies in flight that hit only each other keep their momentum and angular momentum: only their velocities relative to
+their common motion as one rigid body are scaled.
 """
 
 import math
@@ -29,7 +31,7 @@ SHARE_BACK = 1e-3  # fraction of its energy that a set of bodies may take back f
 
 @inlined
 def work_of_surfaces(c, lane, a, b):
-    """Return the work that conveyors and moving kinematic bodies did through the impulses of a contact.
+    """Return the work that conveyors and moving kinematic bodies did in this step through the impulses of a contact.
 
     c: the fields of a block; lane: lane of the contact in the block; a, b: MOTION rows of its bodies.
     """
@@ -56,7 +58,7 @@ def work_of_surfaces(c, lane, a, b):
 
 @inlined
 def work_of_lift(c, lane, a, b, context):
-    """Return the work of the impulses of a contact on the way by which its points separated, at most a slop per point.
+    """Return the work that a contact did in this step by moving its points apart, over at most one slop per point.
 
     A contact spring that sagged under a load gives this energy back. c: the fields of a block; lane: lane of the
     contact in the block; a, b: MOTION rows; context: see StepContext.
@@ -75,11 +77,11 @@ def work_of_lift(c, lane, a, b, context):
 
 @inlined
 def note_direction(nx, ny, rubs, motion, balance_inout):
-    """Add the normal of a contact to the recorded directions in which contacts act on a body.
+    """Record for a body that a contact acts on it along the normal (nx, ny).
 
-    The record is one normal, or all directions (`in_all`). Friction sets `in_all`, and so does a normal that is not
-    parallel to the first one. nx, ny: normal; rubs: whether friction acted; motion, balance_inout: MOTION and BALANCE
-    row of the body.
+    The record is a single normal, or `in_all` for all directions. Friction sets `in_all`, and so does a normal that is
+    not parallel to the recorded one. rubs: whether friction acted; motion, balance_inout: MOTION and BALANCE row of the
+    body.
     """
     e = balance_inout
     if motion.inverse_mass == 0.0:
@@ -91,7 +93,7 @@ def note_direction(nx, ny, rubs, motion, balance_inout):
 
 @inlined
 def energy_along(motion, balance):
-    """Return the kinetic energy of a body along the only normal of its contacts; 0 if `in_all` is set.
+    """Return the kinetic energy of a body along the single normal of its contacts, or 0 if they act in all directions.
 
     motion, balance: MOTION and BALANCE row of the body; see note_direction.
     """
@@ -103,7 +105,7 @@ def energy_along(motion, balance):
 
 @subkernel
 def scale_without(energy, whole):
-    """Return the factor on velocities that reduces their kinetic energy from `whole` to whole - energy.
+    """Return the factor by which to scale velocities so that their kinetic energy `whole` decreases by `energy`.
 
     The result is 1 for energy <= 0, and 0 if `energy` is at least `whole`.
     """
@@ -116,10 +118,12 @@ def scale_without(energy, whole):
 def scale_motion(root, balance, motion_inout):
     """Scale the velocities of a body, to remove energy that contacts added.
 
-    root: BALANCE row with the factors for the set of touching bodies that contains this body; balance, motion_inout:
-    BALANCE and MOTION row of the body. If no body of the set touches a body of infinite mass (not `anchored`), only the
-    velocity relative to the common motion of the set is scaled. Otherwise root.along_scale is applied to the velocity
-    along the only normal of the body's contacts. Then root.scale is applied to the whole velocity.
+    root: BALANCE row with the scale factors for the set of touching bodies that contains this body; balance,
+    motion_inout: BALANCE and MOTION row of the body.
+
+    If no body of the set touches a body of infinite mass (not `anchored`), only the velocity relative to the common
+    motion of the set is scaled. Otherwise root.along_scale is applied to the velocity along the single normal of the
+    body's contacts, and then root.scale to the whole velocity.
     """
     m = motion_inout
     if not root.anchored:
@@ -146,11 +150,11 @@ def scale_motion(root, balance, motion_inout):
 
 @inlined
 def note_face(c, lane, a, b, root_inout):
-    """Record the normal of a contact, and the speed of its kinematic body, for the set of touching bodies.
+    """Record the normal of a contact, and the speed of its kinematic body, in its set of touching bodies.
 
-    root_inout: BALANCE row of the set's root. `oblique` is set in three cases: the normal is neither parallel nor
-    perpendicular to the first recorded normal, the contact has restitution, or the kinematic body rotates. c: the
-    fields of a block; lane: lane of the contact in the block; a, b: MOTION rows.
+    `oblique` is set in three cases: the normal is neither parallel nor perpendicular to the first recorded normal, the
+    contact has restitution, or the kinematic body rotates. c: the fields of a block; lane: lane of the contact in the
+    block; a, b: MOTION rows; root_inout: BALANCE row of the root of the set.
     """
     e = root_inout
     nx, ny = c[at.NX + lane], c[at.NY + lane]
@@ -168,11 +172,11 @@ def note_face(c, lane, a, b, root_inout):
 
 @inlined
 def limit_speed(root, push_speed, motion_inout):
-    """Limit the speed of a body in a set of touching bodies without oblique faces, if one of the faces moves.
+    """Limit the speed of a body that a moving kinematic face pushes, directly or through other bodies.
 
-    The limit is the greatest speed of the faces and of the bodies before the step, plus push_speed [px/s], which the
-    separation of overlaps may add. root: BALANCE row of the set's root, see note_face; motion_inout: MOTION row of the
-    body.
+    The limit is the greatest speed of the faces, and of the bodies before the step, plus push_speed [px/s], which the
+    separation of overlaps may add. There is no limit among oblique faces, see note_face. root: BALANCE row of the root
+    of the body's set; motion_inout: MOTION row of the body.
     """
     m = motion_inout
     speed = norm(m.vx, m.vy)
@@ -189,11 +193,13 @@ def limit_speed(root, push_speed, motion_inout):
 def balance_bodies(group, degrees, floor, lift, keep, motions, balance_inout):
     """Write the energy that each body of a group gained. Return whether a body in contact gained more than allowed.
 
-    The allowed gain per mass [px2/s2] is the greater of `floor` and the gain that the body may take from its reserve.
-    This is the whole reserve at most, and at most the greater of two amounts: SHARE_BACK of the body's energy, and the
-    energy of a lift by `lift` [px] against its acceleration. A body with a joint always counts as having gained more.
-    degrees: number of contacts of each body; keep: fraction of the reserve that remains after this step; group: see
-    contact_lanes.Group.
+    The allowed gain per mass is `floor` [px2/s2], or the gain that the body may take from its reserve if that is
+    greater. The gain from the reserve is limited, too: by the greater of SHARE_BACK of the body's energy, and the
+    energy of a lift by `lift` [px] against its acceleration. A body with a joint always counts as having gained more
+    than allowed.
+
+    group: see contact_lanes.Group; degrees: number of contacts of each body; keep: fraction of the reserve that remains
+    after this step; motions, balance_inout: MOTION and BALANCE rows.
     """
     suspect = False
     for k in range(len(group.members)):
@@ -239,13 +245,14 @@ def reset_balance(balance_out):
 
 @subkernel
 def join_touching(blocks, count, group, joints, links_islands, motions, parents_out, balance_inout):
-    """Write the sets of touching bodies of a group: bodies that exchanged impulses in this step (union-find).
+    """Find the sets of touching bodies of a group: bodies that exchanged impulses in this step (union-find).
 
-    Only such bodies can have exchanged energy. Contacts and joints join two bodies, unless one of them has infinite
-    mass. Also record the directions in which contacts and joints act on each body (balance_inout, BALANCE rows).
-    parents_out (motions) int32: the root of each body, a body that represents its set. blocks: the contacts, in `count`
-    blocks; joints: the joints of all groups, see joint_rows.list_joints; links_islands: see MotionLists; motions:
-    MOTION rows.
+    Only such bodies can have exchanged energy. A contact or joint joins its two bodies, unless one of them has infinite
+    mass. Also record in balance_inout, the BALANCE rows, in which directions contacts and joints act on each body.
+
+    blocks, count: the contacts, in the first `count` blocks; joints: the joints of all groups, see
+    joint_rows.list_joints; links_islands: see MotionLists; motions: MOTION rows; parents_out (motions) int32: the root
+    of each body, which is a body that represents its set.
     """
     for k in range(len(joints)):  # also of the other groups, whose bodies are reset before their turn
         parents_out[joints[k, 1]] = joints[k, 1]
@@ -332,8 +339,9 @@ def energy_in_common(balance_inout):
 def sum_balances(blocks, count, group, links_islands, parents, context, motions, balance_inout):
     """Sum the energy balances of each set of touching bodies, and the work of moving surfaces on the set.
 
-    The BALANCE row of each root receives the sums. blocks: the contacts, in `count` blocks; links_islands: see
-    MotionLists; parents (motions) int32: the root of each body, see join_touching; context: see StepContext.
+    The BALANCE row of each root receives the sums. blocks, count: the contacts, in the first `count` blocks; group: see
+    contact_lanes.Group; links_islands: see MotionLists; parents (motions) int32: the root of each body, see
+    join_touching; context: see StepContext.
     """
     for block in range(count):
         c = blocks.lines[block * SIZE : (block + 1) * SIZE]
@@ -370,14 +378,16 @@ def sum_balances(blocks, count, group, links_islands, parents, context, motions,
 
 @subkernel
 def draw_on_reserve(slop, balance_inout):
-    """Write the factors on velocities that remove a gain of energy, as far as the reserve does not cover this gain.
+    """Write the factors on velocities that remove the gain of energy of a set of touching bodies.
 
-    Return 1 if there was such a gain, otherwise 0. balance_inout: BALANCE row of the root of a set of touching bodies,
-    with the sums of sum_balances. Errors of the integrator alternate in sign, so bodies may take back energy that they
-    lost before. Per step this is at most SHARE_BACK of their energy, or the energy of a lift by a slop [px]. Sets with
-    joints may take back all of their reserve in one step, because light links under tension exchange much of their
-    energy with the error of the integrator. Work of surfaces that did not speed up a body is not added to the reserve.
-    Bodies with motors, springs or joints to kinematic bodies keep all that they gained.
+    A gain that the reserve covers is taken from the reserve, not removed. Return 1 if a gain has to be removed, else 0.
+    balance_inout: BALANCE row of the root of the set, with the sums of sum_balances.
+
+    Errors of the integrator alternate in sign, so bodies may take back energy that they lost before: per step
+    SHARE_BACK of their energy, or the energy of a lift by a slop [px]. Sets with joints may take back all of their
+    reserve in one step: light links under tension exchange much of their energy with the error of the integrator. Work
+    of surfaces that did not speed up a body is not added to the reserve. Bodies with motors, springs or joints to
+    kinematic bodies keep all gains.
     """
     e = balance_inout
     allowed = e.reserve
@@ -399,8 +409,8 @@ def draw_on_reserve(slop, balance_inout):
 def limit_squeezed(most, before, motion_inout):
     """Limit the speed of a body squeezed between faces to `most` [px/s], or to its speed before the step if greater.
 
-    most: 0 for no limit; before: kinetic energy of the body before the step, plus the work done on the body in the
-    step. The limit applies to the kinetic energy, so that rotation is included. motion_inout: MOTION row.
+    The limit applies to the kinetic energy, so that rotation is included. most: 0 for no limit; before: kinetic energy
+    of the body before the step, plus the work done on it in the step; motion_inout: MOTION row.
     """
     m = motion_inout
     if most == 0.0 or m.inverse_mass == 0.0:
@@ -416,7 +426,10 @@ def limit_squeezed(most, before, motion_inout):
 
 @subkernel
 def join_pushed(blocks, count, group, links_islands, parents_out):
-    """Join the bodies of a group that exchanged contact impulses in this step into sets, as join_touching does."""
+    """Join the bodies of a group that exchanged contact impulses in this step into sets of touching bodies.
+
+    Unlike join_touching, ignore joints and record no directions. Arguments: see join_touching.
+    """
     for k in range(len(group.members)):
         parents_out[group.members[k]] = group.members[k]
     for block in range(count):
@@ -432,12 +445,12 @@ def join_pushed(blocks, count, group, links_islands, parents_out):
 
 @subkernel
 def keep_losses(group, parents, motions, balance_inout):
-    """Add the energy that each set of touching bodies lost to its reserve, if no set gained energy.
+    """Add the energy that each set of touching bodies lost to its reserve, if no set of the group gained energy.
 
-    Return whether no set gained. Otherwise no reserve is changed. parents (motions) int32: the root of each body. The
-    result is that of sum_balances and draw_on_reserve for worlds without joints and kinematic bodies that move: there
-    surfaces can only add to the energy of a set, so a set without a gain is not slowed down. In a pile that settles
-    this takes a third of the time.
+    Return whether no set gained; otherwise no reserve is changed. parents (motions) int32: the root of each body. This
+    is a shortcut for worlds without joints and moving kinematic bodies, with the result of sum_balances and
+    draw_on_reserve: there surfaces can only add energy to a set, so a set without a gain is not slowed down. In a pile
+    that settles it takes a third of the time.
     """
     for k in range(len(group.members)):
         e = balance_inout[group.members[k]]
@@ -471,11 +484,11 @@ def keep_losses(group, parents, motions, balance_inout):
 
 @subkernel
 def remove_gains(blocks, count, group, links_islands, moving, context, plan_inout, balance_inout, motions_inout):
-    """Remove the energy that contacts have added. Return the number of sets of touching bodies that had gained energy.
+    """Remove the energy that contacts have added. Return how many sets of touching bodies had gained energy.
 
-    blocks: the contacts, in `count` blocks; group, plan_inout: see contact_lanes.Group and Plan; links_islands: see
-    MotionLists; moving: number of kinematic bodies that move; context: see StepContext; balance_inout: BALANCE rows,
-    one for each MOTION row.
+    blocks, count: the contacts, in the first `count` blocks; group, plan_inout: see contact_lanes.Group and Plan;
+    links_islands: see MotionLists; moving: number of kinematic bodies that move; context: see StepContext;
+    balance_inout: BALANCE rows, one for each MOTION row.
     """
     plan, motions, parents_out = plan_inout, motions_inout, plan_inout.touching
     joints = plan.joints[: plan.joint_count[0]]
@@ -515,9 +528,11 @@ def remove_gains(blocks, count, group, links_islands, moving, context, plan_inou
 def limit_energy(blocks, count, group, links_islands, moving, context, plan_inout, balance_inout, motions_inout):
     """Remove the energy that the contacts of a group have added. O(members + lanes).
 
-    Return the number of sets of touching bodies that had gained energy. In islands squeezed between faces, the speed of
-    a body is limited to the speed of the faces plus the push-out speed, or to its own speed before the step if that was
-    greater. blocks: the contacts, in `count` blocks; group, plan_inout: see contact_lanes.Group and Plan;
+    Return how many sets of touching bodies had gained energy. In islands squeezed between faces, the speed of a body is
+    also limited: to the speed of the faces plus the push-out speed, or to its own speed before the step if that was
+    greater.
+
+    blocks, count: the contacts, in the first `count` blocks; group, plan_inout: see contact_lanes.Group and Plan;
     links_islands: see MotionLists; moving: number of kinematic bodies that move; context: see StepContext;
     balance_inout: BALANCE rows, one for each MOTION row.
     """
@@ -546,11 +561,11 @@ OPPOSITE = -0.5  # cosine between normals of two faces below which the faces opp
 
 @subkernel
 def note_faces(edges, count, lists, slop, parents, squeeze_out):
-    """Write the greatest overlaps of each island, and whether faces of bodies of infinite mass oppose each other there.
+    """Write the greatest overlaps of each island, and whether it is caught between opposing faces.
 
-    A face is the side of a body of infinite mass at a contact. edges: constraints as graph edges, `count` of them;
-    lists: MotionLists; slop [px]: smaller overlaps with a face do not count; parents (motions) int32: the root of the
-    island of each body; squeeze_out: SQUEEZE rows, of which the rows of roots are written.
+    A face is the side of a body of infinite mass at a contact. edges, count: the constraints, in the first `count`
+    graph edges; lists: MotionLists; slop [px]: smaller overlaps with a face do not count; parents (motions) int32: the
+    root of the island of each body; squeeze_out: SQUEEZE rows, of which the rows of roots are written.
     """
     for turn in range(2):
         for i in range(count):
@@ -581,10 +596,10 @@ def note_faces(edges, count, lists, slop, parents, squeeze_out):
 def find_squeezed(edges, count, lists, motions, limits, parents_out, squeeze_out):
     """Find the islands without room, and write the bounds of their impulses as SQUEEZE rows. O(count + motions).
 
-    Return whether there are any. An island has no room if it is deeply overlapped and, in addition, overlapping faces
-    point in different directions or a moving face is opposite to another face. edges: constraints as graph edges,
-    `count` of them; lists: MotionLists; motions: MOTION rows; limits: see settings.Limits; parents_out (motions) int32:
-    the root of the island of each body.
+    Return whether there are any. An island has no room if it overlaps deeply and one of two conditions holds:
+    overlapping faces point in different directions, or a moving face is opposite to another face. A face is the side of
+    a body of infinite mass. edges, count: the constraints, in the first `count` graph edges; lists: MotionLists;
+    motions: MOTION rows; limits: see settings.Limits; parents_out (motions) int32: the root of the island of each body.
     """
     for i in range(len(motions)):
         s = squeeze_out[i]

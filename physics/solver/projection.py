@@ -1,4 +1,4 @@
-"""Projection: contacts move overlapping bodies apart in proportion to their inverse masses, without warm start.
+"""Projection solver: overlapping bodies are moved apart in proportion to their inverse masses, without warm start.
 
 A PUSH row holds one contact point, in the order in which the solver works on the points.
 """
@@ -29,7 +29,7 @@ ROUNDING = 1e-9  # share of an acceleration below which its component along a no
 
 
 class Press(NamedTuple):
-    """The accelerations that press bodies together, and the approach speed up to which pressed bodies do not bounce."""
+    """Constants of a world from which projection finds the accelerations that press two bodies together."""
 
     dt: float  # [s]
     gravity_x: float  # [px/s2] before the gravity scale of a body
@@ -41,10 +41,10 @@ class Press(NamedTuple):
 
 @subkernel
 def press_of(press, body, nx, ny):
-    """Return the acceleration [px/s2] that gravity and wind give a BODY row along a normal (nx, ny).
+    """Return the acceleration [px/s2] that gravity and wind give a body along a normal (nx, ny).
 
     The result is 0 for a body that is not dynamic, and infinite if a force acted on the body in this step. press: see
-    Press.
+    Press; body: BODY row.
     """
     if body.kind != DYNAMIC:
         return 0.0
@@ -57,10 +57,10 @@ def press_of(press, body, nx, ny):
 
 @subkernel
 def restitution_threshold(press, a, b, nx, ny):
-    """Return the approach speed [px/s] up to which two BODY rows do not bounce along a normal (nx, ny).
+    """Return the approach speed [px/s] up to which two bodies do not bounce off each other along a normal (nx, ny).
 
     The speed is 0 if no acceleration presses the bodies together; see step_context.restitution_threshold. press: see
-    Press.
+    Press; a, b: BODY rows.
     """
     into = max(press_of(press, a, nx, ny), 0.0) + max(press_of(press, b, -nx, -ny), 0.0)
     if into == 0.0:
@@ -70,9 +70,10 @@ def restitution_threshold(press, a, b, nx, ny):
 
 @kernel
 def prepare_pushes(geometry, bodies, shapes, manifolds, conveyor, press, pushes_out):
-    """Write a PUSH row for every contact point, except for contacts of sensors. O(manifolds).
+    """Write a PUSH row for every contact point, except for contacts of sensors. Return the number of rows.
 
-    Return the number of rows. conveyor: 1 to use surface speeds, 0 to ignore them; press: see Press.
+    O(manifolds). geometry: tables of the shape library; manifolds: CONTACT rows; conveyor: 1 to use surface speeds, 0
+    to ignore them; press: see Press.
     """
     found = 0
     for i in range(len(manifolds)):
@@ -107,9 +108,9 @@ def prepare_pushes(geometry, bodies, shapes, manifolds, conveyor, press, pushes_
 def limit_pushes(pushes, bodies, push_speed, dt, reach_out):
     """Write the greatest displacement [px] by which contacts may push each body in this step. O(pushes).
 
-    The displacement is dt · (push_speed + v), where v is the greatest of the speed of the body and the approach speeds
-    of its contacts. push_speed [px/s]: speed at which overlaps are removed; dt [s]: step length; reach_out (bodies)
-    [px]: result, written only for the bodies of PUSH rows.
+    The displacement is dt · (push_speed + v), where v is the speed of the body or the approach speed of one of its
+    contacts, whichever is greatest. push_speed [px/s]: speed at which overlaps are removed; dt [s]: step length;
+    reach_out (bodies) [px]: result, written only for the bodies of PUSH rows.
     """
     for i in range(len(pushes)):
         r = pushes[i]
@@ -125,9 +126,9 @@ def limit_pushes(pushes, bodies, push_speed, dt, reach_out):
 
 @kernel
 def store_pushes(pushes, manifolds_inout):
-    """Write the impulses of PUSH rows back to the manifolds. O(pushes).
+    """Write the impulses of PUSH rows back to the CONTACT rows. O(pushes).
 
-    Manifolds that overlapped at detection are marked as `swept`: they count as touching even if they end apart.
+    Contacts that overlapped at detection are marked as `swept`, so that they count as touching even if they end apart.
     """
     for i in range(len(pushes)):
         r = pushes[i]
@@ -143,7 +144,7 @@ def store_pushes(pushes, manifolds_inout):
 
 
 class PushSet:
-    """The contacts of one world as PUSH rows, without warm start. The arrays grow and are reused."""
+    """The contact points of one world as PUSH rows. The arrays grow when needed and are reused."""
 
     def __init__(self) -> None:
         self.data = np.zeros(16, PUSH)
@@ -151,7 +152,7 @@ class PushSet:
         self.reach = np.zeros(16)  # (body rows) see limit_pushes
 
     def prepare(self, state: StepState) -> None:
-        """Fill the PUSH rows from the contacts, and write the contact caches at the present poses."""
+        """Write the PUSH rows of all contact points, and the contact caches at the present poses."""
         points = 2 * len(state.contact_rows)
         if len(self.data) < points:
             self.data = np.zeros(2 * points, PUSH)
@@ -169,11 +170,11 @@ class PushSet:
         write_caches(tables, state.bodies, state.shapes, state.contact_rows)
 
     def solve(self, state: StepState, run: Callable, *settings: Any) -> None:
-        """Run one solver pass over the PUSH rows, kernel `run`. settings: the first arguments of this kernel."""
+        """Run one solver pass over the PUSH rows. run: kernel of the pass; settings: its first arguments."""
         run(*settings, state.bodies, self.rows, state.work)
 
     def store(self, state: StepState) -> None:
-        """Write the impulses back to the manifolds, and update the manifolds to the present poses."""
+        """Write the impulses back to the contacts, and update the contacts to the present poses."""
         store_pushes(self.rows, state.contact_rows)
         update_contacts(state.bodies, state.contact_rows)
 
@@ -189,7 +190,7 @@ IGNORED = ("stacking", "sleeping", "joints")  # effects that this solver ignores
 
 @subkernel
 def push(x, y, anchor_x, anchor_y, rotation, body_inout):
-    """Apply an impulse (x, y) to a BODY row at a point.
+    """Apply an impulse (x, y) to a body at a point. body_inout: BODY row.
 
     anchor_x, anchor_y [px]: the point relative to the centre of mass; rotation: whether bodies rotate in this world.
     """
@@ -201,7 +202,7 @@ def push(x, y, anchor_x, anchor_y, rotation, body_inout):
 
 @subkernel
 def resist_rolling(push_inout, a_inout, b_inout):
-    """Reduce the relative angular velocity of two BODY rows by the rolling resistance of a PUSH row."""
+    """Slow down the relative rotation of two bodies (BODY rows) by the rolling resistance of a PUSH row."""
     turning = a_inout.inverse_inertia + b_inout.inverse_inertia
     if turning <= 0.0:
         return
@@ -215,7 +216,7 @@ def resist_rolling(push_inout, a_inout, b_inout):
 
 
 def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> Callable:
-    """Return the kernel of one pass over the contacts, for a world with or without these effects."""
+    """Return the kernel of one pass over the contacts. rotation, friction, restitution: whether the world has them."""
 
     @kernel
     def project(
@@ -304,7 +305,10 @@ PASSES = {
 
 
 def solve(state: StepState, contacts: PushSet) -> float:
-    """Separate overlapping bodies in PROJECTION_PASSES passes. Return the step length [s]."""
+    """Separate overlapping bodies in PROJECTION_PASSES passes.
+
+    Return the step length [s]. contacts: PushSet of the world.
+    """
     effects = state.effects
     run = PASSES[effects.rotation, effects.friction, effects.restitution]
     bodies, rows = state.bodies, state.awake.bodies
@@ -320,19 +324,19 @@ def solve(state: StepState, contacts: PushSet) -> float:
 
 
 def _moves(bodies, rows, before):
-    """Return (displacements (n, 2) [px] of bodies since the positions `before`, their lengths (n,) [px]).
+    """Return how bodies have moved: (displacements (n, 2) [px], their lengths (n,) [px]).
 
-    rows: indices of the BODY rows; before (n, 2) [px].
+    rows: indices of the BODY rows; before (n, 2) [px]: former positions.
     """
     moves = np.column_stack([bodies["x"][rows], bodies["y"][rows]]) - before
     return moves, np.hypot(moves[:, 0], moves[:, 1])
 
 
 def _slow_down(bodies, rows, before, reach):
-    """Limit the displacement of each body by contacts to `reach` (n,) [px], however many contacts push the body.
+    """Limit how far contacts have displaced each body in this step, however many contacts push it.
 
     Only the sum over all passes is limited, because pushes in opposite directions cancel. rows: indices of the BODY
-    rows; before (n, 2) [px]: their positions before the passes.
+    rows; before (n, 2) [px]: their positions before the passes; reach (n,) [px]: greatest displacements.
     """
     moves, ways = _moves(bodies, rows, before)
     far = ways > reach
@@ -344,8 +348,8 @@ def _slow_down(bodies, rows, before, reach):
 def _hold_back(state, rows, before):
     """Stop bodies that contacts pushed through a wall: move them back, then forward until a resting body blocks them.
 
-    rows: indices of the BODY rows; before (n, 2) [px]: their positions before the passes. Only bodies that were pushed
-    by more than CORE times their least half extent are tested.
+    Only bodies that were pushed by more than CORE times their least half extent are tested. rows: indices of the BODY
+    rows; before (n, 2) [px]: their positions before the passes.
     """
     bodies = state.bodies
     moves, ways = _moves(bodies, rows, before)
@@ -370,7 +374,7 @@ def _hold_back(state, rows, before):
     ),
 )  # fmt: skip
 def projection(state: StepState) -> None:
-    """Move bodies apart that overlap after their motion. A step of length 0 changes nothing."""
+    """Move apart the bodies that overlap after their motion. A step of length 0 changes nothing."""
     if state.dt > 0.0:
         solve(state, state.workspace.contacts)
         place_shapes(state)

@@ -56,13 +56,13 @@ IMPACT = np.dtype(
 
 
 def make_impacts(room: int) -> np.ndarray:
-    """Return an array for `room` IMPACT rows."""
+    """Return an array of `room` cleared IMPACT rows."""
     return np.zeros(room, IMPACT)
 
 
 @inlined
 def line_of(blocks, impact, line):
-    """Return a lane field of the contact of an IMPACT row. line: offset of the field in a block, such as lanes.NX."""
+    """Return a lane field of the contact of an IMPACT row. line: offset of the field, such as lanes.NX."""
     return blocks.lines[impact.block * SIZE + line + impact.lane]
 
 
@@ -74,7 +74,10 @@ def points_of(blocks, impact):
 
 @subkernel
 def list_impacts(blocks, count, impacts_out):
-    """List contacts with restitution and an impulse as IMPACT rows. Return their number. count: number of blocks."""
+    """Write contacts that had an impulse and have restitution as IMPACT rows.
+
+    Return their number. count: blocks in use.
+    """
     found = 0
     for block in range(count):
         c = blocks.lines[block * SIZE : (block + 1) * SIZE]
@@ -90,7 +93,7 @@ def list_impacts(blocks, count, impacts_out):
 
 @subkernel
 def predict_impact(blocks, contacts, motions, impact_inout):
-    """Write the predicted impact speeds [px/s] and the gaps [px] of an impact, from the state before the step."""
+    """Write the impact speeds [px/s] and gaps [px] of an IMPACT row, predicted from the state before the step."""
     r = impact_inout
     c = contacts[blocks.contact[r.block, r.lane]]
     a = motions[blocks.motion_a[r.block, r.lane]]
@@ -125,13 +128,13 @@ SETTLED = 1e-6  # the rounds end at this change of speed in a round, relative to
 
 @subkernel
 def is_against_static(blocks, impact):
-    """Return whether one side of an impact has infinite mass."""
+    """Return whether one body of an IMPACT row has infinite mass."""
     return line_of(blocks, impact, at.IM_A) == 0.0 or line_of(blocks, impact, at.IM_B) == 0.0
 
 
 @subkernel
 def mover_of(blocks, impact, motions):
-    """Return (MOTION row of the body of finite mass in an impact on a static body, sign: 1.0 for B, -1.0 for A)."""
+    """Return (MOTION row of the body of finite mass, 1.0 if it is B, else -1.0) for an impact on a static body."""
     row = blocks.motion_b[impact.block, impact.lane]
     if motions[row].inverse_mass > 0.0:
         return row, 1.0
@@ -142,9 +145,9 @@ def mover_of(blocks, impact, motions):
 def link_impacts(blocks, count, impacts_inout, motions_inout):
     """Link the impacts of each body on static bodies into a list. O(count).
 
-    MOTION.last_impact, in other functions `last`, is the index of the last impact of the body, plus one. IMPACT.before
-    is the index of the previous impact of the same body, plus one. last_impact is LEFT_OUT for a body with an impact on
-    a body of finite mass, or with a resting contact among its impacts. count: number of IMPACT rows.
+    MOTION.last_impact is the index of the body's last impact, plus one; other functions take it as `last`.
+    IMPACT.before is the index of the previous impact of the same body, plus one. last_impact is LEFT_OUT for a body
+    that also hits a body of finite mass, or that has a resting contact among its impacts. count: number of IMPACT rows.
     """
     for i in range(count):
         r = impacts_inout[i]
@@ -164,7 +167,7 @@ def link_impacts(blocks, count, impacts_inout, motions_inout):
 
 @subkernel
 def unlink_impacts(blocks, impacts, count, motions_inout):
-    """Reset MOTION.last_impact of the bodies of all impacts. count: number of impacts."""
+    """Reset MOTION.last_impact of the bodies of all impacts. count: number of IMPACT rows."""
     for i in range(count):
         r = impacts[i]
         motions_inout[blocks.motion_a[r.block, r.lane]].last_impact = NO_IMPACT
@@ -173,7 +176,7 @@ def unlink_impacts(blocks, impacts, count, motions_inout):
 
 @subkernel
 def arm_of(blocks, impact, second, sign):
-    """Return the moment arm [px] of a normal impulse on the body of finite mass at a point. sign: see mover_of."""
+    """Return the moment arm [px] of a normal impulse at a point, on the body of finite mass. sign: see mover_of."""
     if sign > 0.0:
         return line_of(blocks, impact, at.B_2 if second else at.B_1)
     return line_of(blocks, impact, at.A_2 if second else at.A_1)
@@ -181,10 +184,10 @@ def arm_of(blocks, impact, second, sign):
 
 @subkernel
 def is_simulated(blocks, impacts, last, contacts):
-    """Return whether the impacts of a body have to be simulated in the order of their times.
+    """Return whether the impacts of a body within a step have to be simulated one after the other.
 
     They have to if impulses acted at two or more points of the body, and at least one of these points approached fast
-    enough to bounce. Exception: a single manifold, both points of which are fast. last: see link_impacts.
+    enough to bounce. An exception is a single manifold with two fast points. last: list of impacts, see link_impacts.
     """
     points = 0
     rows = 0
@@ -205,10 +208,10 @@ def is_simulated(blocks, impacts, last, contacts):
 
 @inlined
 def speed_now(blocks, impact, second, sign, change):
-    """Return the present approach speed [px/s] of a point, after the simulated impulses on the body.
+    """Return the present approach speed [px/s] of a point, including the impulses simulated so far.
 
-    second: True for the second point of the impact; sign: see mover_of; change: the last IMPACT row of the body, with
-    the sum of the changes of its velocity.
+    second: True for the second point of the impact; sign: see mover_of; change: the last IMPACT row of the body, which
+    holds the sum of the changes of its velocity.
     """
     r = impact
     along = change.vx * line_of(blocks, r, at.NX) + change.vy * line_of(blocks, r, at.NY)
@@ -218,7 +221,7 @@ def speed_now(blocks, impact, second, sign, change):
 
 @inlined
 def strike(blocks, impact, second, sign, impulse, mover, change_inout):
-    """Add the change of velocity by an impulse at a point to the sum in the last IMPACT row of the body, change_inout.
+    """Add the velocity change by a normal impulse at a point to change_inout, the last IMPACT row of the body.
 
     mover: MOTION row of the body; second, sign: see speed_now.
     """
@@ -230,7 +233,7 @@ def strike(blocks, impact, second, sign, impulse, mover, change_inout):
 
 @subkernel
 def soonest_impact(blocks, impacts, last, motions):
-    """Return (time [s] to the next hit of a body, approach speed [px/s] then; 0: no hit). last: see link_impacts."""
+    """Return (time [s] to the next hit of a body, its approach speed [px/s], 0 for no hit). last: see link_impacts."""
     soonest = math.inf
     hit_speed = 0.0
     k = last
@@ -262,7 +265,7 @@ def close_gaps(blocks, last, time, motions, impacts_inout):
 
 @subkernel
 def list_hits(blocks, last, span, motions, impacts_inout):
-    """Write which points of a body hit within `span` [s], and their separation speeds. last: see link_impacts."""
+    """Write which points of a body hit within `span` [s], and the speeds to separate at. last: see link_impacts."""
     k = last
     while k != NO_IMPACT:
         r = impacts_inout[k - 1]
@@ -281,7 +284,7 @@ def list_hits(blocks, last, span, motions, impacts_inout):
 
 @inlined
 def hits_at(impact, second):
-    """Return for a point (whether it hits now, its impulse in the present moment, separation speed [px/s] to reach)."""
+    """Return (whether a point hits now, its impulse in the present hit, the separation speed [px/s] to reach)."""
     r = impact
     if second:
         return r.bounces_2, r.blow_2, r.wanted_2
@@ -290,7 +293,7 @@ def hits_at(impact, second):
 
 @inlined
 def add_blow(second, change, impact_inout):
-    """Add `change` to the impulse of a point in the present moment, and to its impulse in the step."""
+    """Add `change` to the impulse of a point in the present hit, and to its impulse in the whole step."""
     if second:
         impact_inout.blow_2 += change
         impact_inout.impulse_2 += change
@@ -303,8 +306,8 @@ def add_blow(second, change, impact_inout):
 def solve_pair(blocks, i, first_point, j, second_point, last, motions, impacts_inout):
     """Solve two points of one body that hit at the same time. Return the greater change of a normal speed [px/s].
 
-    i, j: IMPACT rows of the first and of the other point; first_point, second_point: True if it is the second point of
-    its row. If both points are the same, this point is solved alone. last: see link_impacts.
+    i, j: indices of the IMPACT rows of both points, which may be equal; first_point, second_point: whether each is the
+    second point of its row. One point given twice is solved alone. last: see link_impacts.
     """
     r = impacts_inout[i]
     o = impacts_inout[j]
@@ -343,11 +346,11 @@ def solve_pair(blocks, i, first_point, j, second_point, last, motions, impacts_i
 
 @subkernel
 def solve_together(blocks, last, hit_speed, motions, impacts_inout):
-    """Apply the impulses of all points of a body that hit now. Return whether the impulses converged.
+    """Apply the impulses of all points of a body that hit at the present time. Return whether the impulses converged.
 
     last: see link_impacts; hit_speed [px/s]: approach speed of the soonest hit. Each point separates at least at
-    restitution times its approach speed. The points are solved in pairs, in rounds. On level ground the first pair with
-    the centre of mass between its points is the solution, and the other pairs do not change it.
+    restitution times its approach speed. The points are solved in pairs, in rounds. On level ground, the first pair
+    with the centre of mass between its points is already the solution, and the other pairs leave it unchanged.
     """
     for _ in range(MOST_ROUNDS):
         changed = 0.0
@@ -380,7 +383,7 @@ def solve_together(blocks, last, hit_speed, motions, impacts_inout):
 
 @subkernel
 def solve_alone(blocks, last, motions, impacts_inout):
-    """Solve the only point of a body that hits now. last: see link_impacts."""
+    """Apply the impulse of a body's only point that hits now. last: list of impacts, see link_impacts."""
     i = last
     while i != NO_IMPACT:
         for point in range(points_of(blocks, impacts_inout[i - 1])):
@@ -394,8 +397,8 @@ def solve_alone(blocks, last, motions, impacts_inout):
 def simulate_impacts(blocks, last, dt, contacts, motions, impacts_inout):
     """Simulate the impacts of a body over dt [s] in the order of their times, and write their impulses.
 
-    Return (time [s] left of the step after the last hit, whether MOST_IMPACTS and MOST_ROUNDS were enough). last: see
-    link_impacts; the IMPACT row last - 1 receives the displacement of the body up to the last hit.
+    Return (time [s] of the step that is left after the last hit, whether MOST_IMPACTS and MOST_ROUNDS were enough).
+    last: see link_impacts; the IMPACT row last - 1 receives the displacement of the body up to the last hit.
     """
     k = last
     while k != NO_IMPACT:
@@ -426,8 +429,9 @@ def simulate_impacts(blocks, last, dt, contacts, motions, impacts_inout):
 def rub(impact, second, to_rest, motions_inout, blocks_inout):
     """Remove the friction impulse at a point of an impact, or apply friction for the simulated normal impulse.
 
-    Return the change of the tangential speed [px/s]. to_rest: True to apply friction, False to remove it. As in the
-    substeps, only the part of the normal impulse that stops the approach counts for the limit of friction.
+    Return the change of the tangential speed [px/s]. second: True for the second point; to_rest: True to apply
+    friction, False to remove it. The friction limit uses only the part of the normal impulse that stops the approach,
+    as in substeps.
     """
     r = impact
     lane = r.lane
@@ -448,7 +452,7 @@ def rub(impact, second, to_rest, motions_inout, blocks_inout):
 
 @subkernel
 def greatest_speed(impacts, last):
-    """Return the greatest predicted impact speed [px/s] of a body. last: see link_impacts."""
+    """Return the greatest predicted impact speed [px/s] of a body. last: list of its impacts, see link_impacts."""
     fastest = 0.0
     k = last
     while k != NO_IMPACT:
@@ -459,7 +463,7 @@ def greatest_speed(impacts, last):
 
 @subkernel
 def apply_simulated(last, hit_speed, impacts_inout, motions_inout, blocks_inout):
-    """Replace the impulses of the substeps on a body by the impulses of its simulated impacts, with friction.
+    """Replace a body's impulses of the substeps by the impulses of its simulated impacts, with friction.
 
     last: see link_impacts; hit_speed [px/s]: greatest impact speed of the body. The impulses are not cached for the
     next step.
@@ -501,8 +505,7 @@ def apply_simulated(last, hit_speed, impacts_inout, motions_inout, blocks_inout)
 def solve_simultaneous(contacts, count, dt, impacts_inout, motions_inout, blocks_inout, work_inout):
     """Simulate the impacts of flying bodies that hit static bodies several times within a step of dt [s].
 
-    count: number of IMPACT rows. The impacts of such bodies are marked as `simulated`. O(count + impacts · points² of
-    each body).
+    count: number of IMPACT rows; the simulated ones are marked. O(count + impacts · points² of each body).
     """
     link_impacts(blocks_inout, count, impacts_inout, motions_inout)
     for i in range(count):
@@ -544,7 +547,7 @@ MOST_BLOWS = 256  # greatest number of successive impacts between bodies without
 
 @subkernel
 def bounces(speed, threshold, total):
-    """Return whether a point bounces: speed > threshold [px/s], and its impulse in the step, `total`, is above 0."""
+    """Return whether a contact point bounces: it approached faster than the threshold [px/s] and had an impulse."""
     return speed > threshold and total > 0.0
 
 
@@ -566,7 +569,7 @@ def bounce_once(wanted, c, lane, second, total, a_inout, b_inout):
 def bounce_together(wanted_1, wanted_2, old_1, old_2, c, lane, a_inout, b_inout):
     """Apply impulses at both points of a contact, so that they separate at wanted_1, wanted_2 [px/s] (block solver).
 
-    Return the changes of both impulses. old_1, old_2: impulses of the points before; c: the fields of a block.
+    Return the changes of both impulses. old_1, old_2: impulses before; c, lane: the contact's lane in a block.
     """
     missing_1 = wanted_1 - relative_speed(c, lane, False, a_inout, b_inout)
     missing_2 = wanted_2 - relative_speed(c, lane, True, a_inout, b_inout)
@@ -586,7 +589,7 @@ def bounce_together(wanted_1, wanted_2, old_1, old_2, c, lane, a_inout, b_inout)
 
 @subkernel
 def list_bounces(contacts, count, motions_inout, impacts_inout, blocks_inout, work_inout):
-    """Keep the IMPACT rows with a point that bounces, and write their separation speeds [px/s] after the impact.
+    """Keep the IMPACT rows with a point that bounces, and write the speeds [px/s] at which these points must separate.
 
     Return (number of rows kept, whether two of these share a body of finite mass). Simulated impacts are dropped. The
     bodies of the kept rows are marked in MOTION.last_impact. count: number of rows before.
@@ -622,7 +625,7 @@ def list_bounces(contacts, count, motions_inout, impacts_inout, blocks_inout, wo
 
 @subkernel
 def mark_bodies(blocks, block, lane, motions_inout):
-    """Mark the bodies of finite mass of the contact in a lane (last_impact). Return whether one was already marked."""
+    """Set last_impact of the finite-mass bodies of a contact to LEFT_OUT. Return whether it was already set on one."""
     shared = False
     for side in range(2):
         m = motions_inout[(blocks.motion_a if side == 0 else blocks.motion_b)[block, lane]]
@@ -634,11 +637,11 @@ def mark_bodies(blocks, block, lane, motions_inout):
 
 @subkernel
 def list_handed_on(blocks_count, count, motions_inout, impacts_inout, blocks_inout):
-    """Append the contacts that can pass an impact on: contacts of marked bodies with an impulse in this step.
+    """Append the contacts that can pass an impact on to other bodies. Return the new number of IMPACT rows.
 
-    The bodies of an appended contact are marked too, and the search is repeated until it finds no further contact. An
-    appended contact does not bounce: its approach speed may remain, but not increase. blocks_count: number of blocks;
-    count: number of IMPACT rows before. Return the number of IMPACT rows.
+    They are contacts of marked bodies (see mark_bodies) with an impulse in this step. Their bodies are marked too, and
+    the search is repeated until it finds no more. An appended contact does not bounce: its approach speed may remain,
+    but not increase. blocks_count: number of blocks; count: number of IMPACT rows before.
     """
     blocks = blocks_inout
     grown = True
@@ -702,9 +705,9 @@ def bounce_row(impact_inout, motions_inout, blocks_inout):
 
 @subkernel
 def are_unloaded(blocks, impacts, count, contacts, speed, dt):
-    """Return whether the cached contact forces are negligible compared with an impact at a speed [px/s].
+    """Return whether cached contact forces are negligible compared with an impact at `speed` [px/s].
 
-    count: number of IMPACT rows; dt [s]: step length.
+    The contacts of the first `count` IMPACT rows are tested. dt [s]: step length.
     """
     for i in range(count):
         r = impacts[i]
@@ -719,7 +722,7 @@ def are_unloaded(blocks, impacts, count, contacts, speed, dt):
 def bounce_in_rounds(count, hits_alone, least, impacts_inout, motions_inout, blocks_inout):
     """Solve IMPACT rows in rounds, until a round changes no normal speed by more than `least` [px/s].
 
-    There are at most ROUNDS rounds. count: number of rows; hits_alone: True to solve only rows with a bouncing point.
+    At most ROUNDS rounds are made. count: number of rows; hits_alone: whether to solve only rows with a bouncing point.
     """
     for _ in range(ROUNDS):
         changed = 0.0
@@ -735,7 +738,7 @@ def hand_on(count, fastest, impacts_inout, motions_inout, blocks_inout):
     """Replace the impulses of contacts without loads by a sequence of impacts, as in Newton's cradle.
 
     In each impact all contacts that approach are solved together; contacts that approach after it form the next impact.
-    So an impact passes through contacts that only touch. Return whether the sequence ended within MOST_BLOWS impacts.
+    So an impact passes through bodies that only touch. Return whether the sequence ended within MOST_BLOWS impacts.
     count: number of IMPACT rows; fastest [px/s]: greatest separation speed of the first impact.
     """
     for i in range(count):
@@ -775,7 +778,7 @@ def hand_on(count, fastest, impacts_inout, motions_inout, blocks_inout):
 def restore_bounces(contacts, count, context, impacts_inout, motions_inout, blocks_inout, work_inout):
     """Make points that hit in this step separate at restitution times their impact speed. O(lanes).
 
-    count: number of blocks; context: see StepContext; impacts_inout: scratch IMPACT rows, one for each contact.
+    count: number of blocks; context: see StepContext; impacts_inout: IMPACT rows for scratch use, one for each contact.
     """
     found = list_impacts(blocks_inout, count, impacts_inout)
     solve_simultaneous(contacts, found, context.dt, impacts_inout, motions_inout, blocks_inout, work_inout)
