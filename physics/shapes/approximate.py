@@ -1,4 +1,4 @@
-"""Simpler shapes that replace a pixel mask, from a circle to its exact pixels, and how accurate each of them is."""
+"""Simpler shapes that replace a pixel mask, from a circle to its exact pixels, and the accuracy of each."""
 
 import math
 from collections.abc import Sequence
@@ -25,11 +25,11 @@ from physics.tables.shape import BOUNDS, MASK, SHAPE
 
 
 def hull(points: Points) -> Polygon:
-    """Return the convex hull of points (n, 2) [px], with 16 corners at most.
+    """Return the convex hull of points (n, 2) [px] as a Polygon of at most 16 corners.
 
-    If the hull has more corners, hull edges are removed where this adds the least area, and their neighbours are
-    extended until they meet. The polygon contains all points, up to rounding errors. Raises ValueError for fewer than
-    three points and for points on one line; TypeError if points is not an array of numbers.
+    If the exact hull has more corners, the edges whose removal adds the least area are removed, and their neighbours
+    are extended until they meet. The polygon contains all points, up to rounding errors. Raises ValueError for fewer
+    than three points and for points on one line; TypeError if points is not an array of numbers.
     """
     points = checks.columns("points", points)
     corners = distinct(convex_hull(points)) if len(points) > 2 else points[:0]
@@ -42,14 +42,16 @@ def hull(points: Points) -> Polygon:
 
 
 def decompose(points: Points, holes: Sequence[Points] = (), tolerance: float = 0.0) -> tuple[Polygon, ...]:
-    """Return the convex decomposition of a simple polygon, points (n, 2) [px] in either winding.
+    """Divide a simple polygon, points (n, 2) [px] in either winding, into convex polygons.
 
     The parts have 3 to 16 corners. holes: polygons inside the outer polygon that are cut out; they may touch at
-    corners. tolerance [px]: bumps and notches up to this depth are ignored, which saves parts; 0: the parts are exactly
-    the polygon, cut along lines between its corners. For a polygon of at most 40 corners without holes, such cuts
-    cannot give fewer parts, unless a part would need more than 16 corners. Raises ValueError for edges that cross or
-    touch (the message names both), for zero area, and for a hole that is not inside; TypeError if points or holes are
-    not numbers.
+    corners. tolerance [px]: bumps and notches up to this depth are ignored, which saves parts. With tolerance 0 the
+    parts cover exactly the polygon, and are cut along lines between its corners. For a polygon of at most 40 corners
+    without holes, there is then no decomposition into fewer parts along such lines, unless a part would need more than
+    16 corners.
+
+    Raises ValueError for edges that cross or touch (the message names both), for zero area, and for a hole that is not
+    inside; TypeError if points or holes are not numbers.
     """
     outer = checks.columns("points", points)
     if isinstance(holes, (str, bytes)) or not isinstance(holes, (Sequence, np.ndarray)):
@@ -61,7 +63,7 @@ def decompose(points: Points, holes: Sequence[Points] = (), tolerance: float = 0
 
 
 def distinct(corners: np.ndarray) -> np.ndarray:
-    """Return the corners (n, 2) of a convex polygon without equal and collinear corners, which Polygon rejects."""
+    """Return the corners (n, 2) of a convex polygon without equal and collinear ones, which Polygon would reject."""
     size = float(np.ptp(corners, axis=0).max()) if len(corners) else 0.0
     k = 0
     while len(corners) > 2 and k < len(corners):
@@ -85,13 +87,19 @@ TIERS = ("circle", "aabb", "obb", "capsule", "hull", "parts", "outline", "pixels
 def fit(mask: PixelMask, tier: str, tolerance: float = 1.0) -> tuple:
     """Return the shapes that replace a mask at one tier (level of accuracy); () for a mask without pixels.
 
-    tier "circle": the smallest circle around all pixels; "aabb": the AABB of the pixels at each pose; "obb": the
-    smallest oriented box; "capsule": the smallest capsule around all pixels; "hull": the convex hull, with 16 corners
-    at most; "parts": convex polygons that ignore bumps and notches of up to tolerance [px], in addition to the
-    smoothing of the outline; "outline": mask.outline, in convex parts, rounded where the sprite is round; "pixels": the
-    mask tested as it is drawn (snap=True); "mask": the mask tested at its exact pose (snap=False). The shapes keep the
-    mask's material, filter and sensor. Raises TypeError for a mask that is not a PixelMask, ValueError for an unknown
-    tier or a tolerance <= 0.
+    tier:
+        "circle": the smallest circle around all pixels
+        "aabb": the AABB of the pixels at each pose
+        "obb": the smallest oriented box
+        "capsule": the smallest capsule around all pixels
+        "hull": the convex hull, with 16 corners at most
+        "parts": convex polygons that ignore bumps and notches of up to tolerance [px] in the smoothed outline
+        "outline": mask.outline, in convex parts, rounded where the sprite is round
+        "pixels": the mask tested as it is drawn (snap=True)
+        "mask": the mask tested at its exact pose (snap=False)
+
+    The shapes keep the mask's material, filter and sensor. Raises TypeError for a mask that is not a PixelMask,
+    ValueError for an unknown tier or a tolerance <= 0.
     """
     if not isinstance(mask, PixelMask):
         raise TypeError(f"mask must be a PixelMask (got {checks.shown(mask)})")
@@ -131,7 +139,7 @@ def _fit(mask, tier, tolerance):
 
 
 def _snapped(mask, snap):
-    """Return a mask with its `snap` set to this value, or the mask itself if it already has the value."""
+    """Return the mask with this value of `snap`."""
     if mask.snap == snap:
         return mask
     if snap not in mask.fitted:
@@ -144,7 +152,7 @@ def _snapped(mask, snap):
 
 
 class Fit(NamedTuple):
-    """Accuracy and cost of shapes that replace a mask: the result of `measure`, which describes the fields."""
+    """Accuracy and cost of shapes that replace a mask. The function `measure` returns it and describes the fields."""
 
     over: float
     missed: float
@@ -158,15 +166,18 @@ class Fit(NamedTuple):
 
 
 def measure(mask: PixelMask, shapes: Shape | Sequence[Shape]) -> Fit:
-    """Return the accuracy with which shapes in the mask's body space represent a mask.
+    """Measure how accurately shapes represent a mask. Return a Fit. The shapes are in the mask's body space.
 
-    Overlapping shapes count as their union. over: area of the shapes outside the mask's pixels [px²]; missed: area of
-    the pixels outside the shapes [px²]; iou: intersection over union of the areas; hausdorff: Hausdorff distance of the
-    two boundaries [px], at most 1e-6 too small; area_error: difference of the areas, divided by the pixels' area;
-    center_error: distance of the centres of area [px]; inertia_error: difference of the moments of inertia, each about
-    its own centre, divided by the pixels' moment; corners: number of corners, summed over the shapes: 1 per Circle, 2
-    per Capsule, 4 per Bounds, and for a PixelMask the corners of its pixels' edges; bytes: memory of the shapes in a
-    world: their table rows, corners and pixels (at one angle).
+    Overlapping shapes count as their union. The fields of the result:
+        over: area of the shapes outside the mask's pixels [px²]
+        missed: area of the pixels outside the shapes [px²]
+        iou: intersection over union of the areas
+        hausdorff: Hausdorff distance of the two boundaries [px], at most 1e-6 too small
+        area_error: difference of the areas, divided by the pixels' area
+        center_error: distance of the centres of area [px]
+        inertia_error: difference of the moments of inertia, each about its own centre, divided by the pixels' moment
+        corners: number of corners: 1 per Circle, 2 per Capsule, 4 per Bounds; for a PixelMask, of its pixels' edges
+        bytes: memory of the shapes in a world: their table rows, corners and pixels (at one angle)
 
     Areas, centres and moments are exact up to rounding. A PixelMask counts as the union of its pixel squares, a Bounds
     as its box at the angle 0. Errors are never negative. If only the shapes or only the pixels are missing, iou is 0,

@@ -1,4 +1,4 @@
-"""The list of all types of shapes, checks of values against it, and Bounds, a shape that is another shape's AABB."""
+"""The list of all types of shapes, checks of arguments against it, and Bounds, the AABB of another shape as a shape."""
 
 import copy
 import math
@@ -21,7 +21,7 @@ from physics.tables.shape import BOUNDS
 
 @dataclass(frozen=True)
 class Bounds(EqualByValue):
-    """A shape that is the world AABB of another shape at its pose, with the other shape's material, filter and sensor.
+    """A shape that is the world AABB of another shape at its pose. It has the other's material, filter and sensor.
 
     Raises TypeError for a shape other than Circle, Capsule, Polygon or PixelMask.
     """
@@ -53,7 +53,7 @@ class Bounds(EqualByValue):
         return self.shape.mass_of(density)
 
     def reach(self, x: float, y: float) -> float:
-        """Return an upper bound of the distance [px] from (x, y) to the farthest point of the AABB at any angle."""
+        """Return an upper bound of the distance [px] from (x, y) to the farthest point of the AABB, for any angle."""
         return math.sqrt(2.0) * self.shape.reach(0.0, 0.0) + math.hypot(x, y)
 
     def _hulls(self) -> list[tuple[np.ndarray, float]]:
@@ -107,7 +107,7 @@ def checked_shapes(name: str, values: Iterable[Any]) -> tuple[Shape, ...]:
 
 
 def checked_pose(shape_name: str, shape: Any, pose_name: str, pose: Pose) -> tuple[float, float, float]:
-    """Return a pose as (x, y, angle) [px, px, rad].
+    """Check that a shape can have a pose, and return the pose as (x, y, angle) [px, px, rad].
 
     shape_name, pose_name: names of the arguments, for messages. Raises TypeError or ValueError if `pose` is not a pose,
     or not one that the shape can have; TypeError if `shape` is not a shape.
@@ -121,9 +121,10 @@ def checked_pose(shape_name: str, shape: Any, pose_name: str, pose: Pose) -> tup
 
 
 def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike) -> None:
-    """Raise TypeError for a value that is not a shape, ValueError for shapes that bodies of this kind cannot have.
+    """Check that bodies of a kind can have these shapes. angles [rad]: the angles of these bodies.
 
-    angles [rad]: the angles of these bodies.
+    kind: STATIC, KINEMATIC or DYNAMIC. Raises TypeError for a value that is not a shape, ValueError for a shape that
+    such bodies cannot have.
     """
     for shape in checked_shapes("shapes", shapes):
         shape._check_body(kind, angles)
@@ -135,7 +136,7 @@ def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike) -> None:
 
 
 def rank_of(shape: Shape) -> int:
-    """Return the index of a shape's type in SHAPES. It determines which of two tested shapes comes first."""
+    """Return the index of a shape's type in SHAPES. In a test of two shapes, the one of lower rank comes first."""
     return next(k for k, each in enumerate(SHAPES) if isinstance(shape, each))
 
 

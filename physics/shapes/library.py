@@ -1,4 +1,7 @@
-"""Library: the geometry of all shapes of a world in flat arrays, which kernels read; and the SHAPE rows of shapes."""
+"""Library: the geometry of all shapes of a world in flat arrays, which kernels read.
+
+Other functions write the SHAPE rows of shapes, and the masses and sizes of BODY rows.
+"""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -52,7 +55,7 @@ FEW = 64  # … number of removed shapes, up to which unused geometry is always 
 
 
 class Geometries(NamedTuple):
-    """All shapes of a library, one list per kind, in the order of their geometry rows."""
+    """All shapes of a library, one list for each kind of geometry, in the order of their geometry rows."""
 
     outlines: list  # convex shapes
     chains: list
@@ -61,9 +64,9 @@ class Geometries(NamedTuple):
 
 
 class Library:
-    """Flat arrays with the geometry of shapes. Each distinct geometry is stored once.
+    """The geometry of all shapes of a world as flat arrays. Each distinct geometry is stored once.
 
-    Convex shapes and chains are the same geometry if their values are equal; tile grids and masks only if they are the
+    Convex shapes and chains share their geometry if their values are equal, tile grids and masks only if they are the
     same object.
     """
 
@@ -82,7 +85,7 @@ class Library:
 
     @property
     def grown(self) -> tuple[Table, ...]:
-        """The tables that adding a shape may extend by rows."""
+        """The tables that may get new rows when a shape is added."""
         return (
             self.polygons,
             self.corners,
@@ -103,15 +106,15 @@ class Library:
     def may_be_half_unused(self, shapes: int) -> bool:
         """Return whether half of the geometry may be unused, so that copying the used half is worth its time.
 
-        The result is True if more SHAPE rows were removed than `shapes`, the number of rows left, or if the size has
-        more than doubled since the last copy.
+        This is so if more SHAPE rows were removed than are left (`shapes`), or if the size has more than doubled since
+        the last copy.
         """
         return self.gone > shapes + (FEW if shapes else 0) or self.size > 2 * self.least + SLACK
 
     def without_unused(self, shapes: np.ndarray) -> "Library":
-        """Return a library with only the geometry that these SHAPE rows use.
+        """Return a new library with only the geometry that the SHAPE rows `shapes` use.
 
-        Renumber the rows' `geometry` and `raster`.
+        The columns `geometry` and `raster` of these rows are updated to the new library.
         """
         fresh = Library()
         kinds = np.where(shapes["kind"] == BOUNDS, shapes["wrapped"], shapes["kind"])
@@ -147,15 +150,15 @@ class Library:
     def add(self, shape: Shape) -> tuple[int, int, int]:
         """Add the geometry of a shape unless it is present. Return (kind, geometry row, wrapped kind).
 
-        The geometry row is -1 for a circle, which needs none. The wrapped kind is the kind of the shape that a Bounds
-        wraps; -1 for any other shape.
+        The geometry row is -1 for a circle, which has no row. The wrapped kind is the kind of the shape inside a
+        Bounds, and -1 for any other shape.
         """
         inner = shape._inner.bare
         row = -1 if isinstance(inner, Circle) else self._row_of(inner)
         return shape._kind, row, inner._kind if shape._inner is not shape else -1
 
     def _row_of(self, shape):
-        """Return the geometry row of a shape. Its geometry is added if the shape is new."""
+        """Return the geometry row of a shape, after adding its geometry if it is new."""
         if shape not in self.shapes:
             add = {TILES: self._add_grid, MASK: self._add_mask, CHAIN: self._add_chain}.get(shape._kind)
             self.shapes[shape] = add(shape) if add else self._add_hulls([shape])[0]
@@ -173,9 +176,10 @@ class Library:
         return rows
 
     def _add_known_hulls(self, library, rows):
-        """Add the convex shapes with the geometry rows `rows` of another library, in one pass. Return their new rows.
+        """Copy convex shapes from another library in one pass. Return their new geometry rows.
 
-        Equal shapes that `library` finds again are also found again by `add` of this library.
+        rows: their geometry rows in `library`. A shape that `library.add` would find again is also found again by this
+        library.
         """
         new = self._add_hulls([library.outlines[row] for row in rows.tolist()])
         place = dict(zip(rows.tolist(), new.tolist(), strict=True))
@@ -248,9 +252,10 @@ class Library:
         return row
 
     def add_parts(self, shapes: Sequence[Shape]) -> np.ndarray:
-        """Add shapes, such as the parts of a mask's outline. Return the results of `add` as an array (n, 3).
+        """Add shapes, such as the parts of a mask's outline, without a search for equal ones. Return an array (n, 3).
 
-        This is faster than `add`, because a convex shape is stored even if an equal one is present.
+        Each row of the result is a result of `add`. It is faster than `add`, but stores convex shapes again that are
+        already present.
         """
         kinds = [shape._kind for shape in shapes]
         if CHAIN in kinds:
@@ -265,7 +270,7 @@ class Library:
 
     @classmethod
     def of(cls, shapes: Geometries) -> "Library":
-        """Return a library in which the geometry row of each shape is its index in its list of `shapes`."""
+        """Return a library of the given lists, in which each shape's geometry row is its index in its list."""
         library = cls()
         library.add_parts(shapes.outlines)
         for row, shape in reversed([*enumerate(shapes.outlines)]):
@@ -275,12 +280,12 @@ class Library:
         return library
 
     def replace(self, old: Shape, new: PixelMask, changed: Sequence[int] | None, shapes: np.ndarray) -> int:
-        """Store the mask `new`, which replaces the mask `old` in one of the SHAPE rows. Return its geometry row.
+        """Store the mask `new` in place of the mask `old` of one SHAPE row. Return its geometry row.
 
-        changed: numbers of the tiles in which the two masks differ; None: unknown. If the new mask is large and has
-        snap=True, and no other SHAPE row uses the old mask, only these tiles are written, in place: O(changed words).
-        Then the old hull is kept, so the AABB at other angles may be larger than the pixels. Otherwise the new mask is
-        added as by `add`.
+        changed: numbers of the tiles in which the two masks differ; None: unknown. shapes: all SHAPE rows. Only these
+        tiles are written, in place, if the new mask is large, has snap=True, and no other SHAPE row uses the old mask:
+        O(changed words). Then the old hull is kept, so the AABB at other angles may be larger than the pixels.
+        Otherwise the new mask is added as by `add`.
         """
         row = self.shapes[old]
         users = (shapes["kind"] == MASK) & (shapes["geometry"] == row)
@@ -304,9 +309,9 @@ class Library:
         return row
 
     def _add_exact(self, shape):
-        """Add the hull of a mask, for its tight AABB. For a mask with snap=False also add its halo words.
+        """Add the data of a mask for exact poses: its hull, for a tight AABB, and with snap=False also its halo words.
 
-        The halo is for tests at the exact pose. Return the values that the raster at the angle 0 holds: (first word of
+        The halo is described in raster/exact.py. Return the values that the raster at the angle 0 holds: (first word of
         the halo or -1, words per row, first corner of the hull, number of corners).
         """
         hull = _hull_of(shape)
@@ -318,7 +323,7 @@ class Library:
         return first
 
     def add_raster(self, mask: int, bucket: int) -> None:
-        """Add the raster of a mask rotated to an angle bucket, one of 128 angles. mask: geometry row of the mask."""
+        """Add the raster of a mask rotated to an angle bucket (128 to a turn). mask: geometry row of the mask."""
         shape = self.masks[mask]
         words, (width, height), origin, box = _drawn(shape, bucket)
         self.raster_of[mask, bucket] = self.rasters.count
@@ -339,7 +344,7 @@ class Library:
         self.tables = self._tables()
 
     def shapes_by_row(self) -> Geometries:
-        """Return the shapes of the library for a snapshot. From them `of` makes a library with equal geometry rows."""
+        """Return the shapes of the library for a snapshot. From them, `Library.of` makes an equal library."""
         return Geometries([*self.outlines], [*self.chain_shapes], [*self.tile_grids], [*self.masks])
 
     def shape_of(self, row: np.void) -> Shape:
@@ -355,7 +360,7 @@ class Library:
 
     @contextmanager
     def visited(self) -> Iterator[None]:
-        """Remove, at the end of the with block, all geometry added inside it: for shapes that only a query uses."""
+        """Return a context manager that removes at its end all geometry added inside it, such as that of a query."""
         kept = [(table, table.count) for table in self.grown]
         lists = [(each, len(each)) for each in (self.masks, self.tile_grids, self.outlines, self.chain_shapes)]
         known = len(self.shapes)
@@ -372,7 +377,7 @@ class Library:
             self.tables = self._tables()
 
     def raster(self, mask: int, angle: float) -> np.void:
-        """Return the RASTER row of a mask at an angle [rad], drawn if it is missing. mask: the mask's geometry row."""
+        """Return the RASTER row of a mask at an angle [rad]; a missing one is added. mask: geometry row of the mask."""
         bucket = bucket_of(angle, MASK_ANGLE_BUCKETS)
         if self.raster_of[mask, bucket] < 0:
             self.add_raster(mask, bucket)
@@ -380,7 +385,7 @@ class Library:
 
 
 def _drawn(shape, bucket):
-    """Return (packed words, size, origin, box of the solid pixels or None) of a mask rotated to an angle bucket."""
+    """Return the pixels of a mask at an angle bucket: (packed words, size, origin, box of the solid pixels or None)."""
     if bucket == 0:
         return shape.words, shape.size, shape.origin, shape.solid_box
     turned = shape.turned_to(bucket)
@@ -406,18 +411,19 @@ def _hull_of(shape):
 
 
 def draw_masks(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray) -> None:
-    """Rasterise masks at the present poses of their bodies, and write the columns raster, left and top of their rows.
+    """Find the rasters of masks at the present poses of their bodies, and write the columns raster, left and top.
 
-    rows: indices of SHAPE rows, of which those with the role PIXELS and snap=True are drawn. A mask is skipped if its
-    body is beyond POSITION_LIMIT.
+    rows: indices of SHAPE rows; only those with the role PIXELS and snap=True are written. Missing rasters are added. A
+    mask is skipped if its body is beyond POSITION_LIMIT.
     """
     _draw(library, rows[(shapes["role"][rows] == PIXELS) & shapes["snap"][rows]], bodies, shapes)
 
 
 def draw_pictures(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray) -> None:
-    """Rasterise masks for a picture at the present poses of their bodies, and write the columns raster, left and top.
+    """Find the rasters with which a picture shows masks at the present poses. Write the columns raster, left and top.
 
-    rows: indices of SHAPE rows, of which all masks with the role PIXELS or with snap=False are drawn.
+    rows: indices of SHAPE rows; only masks with the role PIXELS or with snap=False are written. Missing rasters are
+    added.
     """
     pictured = (shapes["role"][rows] == PIXELS) | ~shapes["snap"][rows]
     _draw(library, rows[(shapes["kind"][rows] == MASK) & pictured], bodies, shapes)
@@ -444,16 +450,19 @@ def _draw(library, rows, bodies, shapes):
 
 
 def rounding_of(shape: Shape) -> tuple[float, float, float]:
-    """Return (rounding radius, x, y of a circle's centre in body space) [px] of a shape; for a Bounds, of its shape."""
+    """Return (rounding radius, x, y of a circle's centre in body space) [px] of a shape.
+
+    For a Bounds, the values are those of the shape inside it. x and y are 0 for shapes other than circles.
+    """
     inner = shape._inner
     x, y = inner.points[0] if inner._kind == CIRCLE else (0.0, 0.0)
     return inner.radius if inner._is_convex else 0.0, x, y
 
 
 def weigh(shapes: Sequence[Shape], density: float, mass: float) -> Mass:
-    """Return the mass of a body with these shapes, sensors included.
+    """Return the Mass of a body with these shapes, sensors included.
 
-    density [mass per px2]: density of shapes without a material; mass: the body's total mass; 0: computed from
+    density [mass per px2]: density of shapes without a material; mass: total mass of the body, 0: computed from the
     densities.
     """
     found = mass_of(tuple(shapes), density)
@@ -463,7 +472,7 @@ def weigh(shapes: Sequence[Shape], density: float, mass: float) -> Mass:
 
 
 def set_mass(rows: np.ndarray, mass: Mass, shapes: Sequence[Shape], in_parts: bool) -> None:
-    """Write mass, inertia and size to BODY rows whose bodies all have the shapes `shapes`.
+    """Write mass, inertia and size to BODY rows. All these bodies have the shapes `shapes`.
 
     in_parts: whether masks collide by the convex parts of their outlines; then `inradius` is the inradius of the
     thinnest part.
@@ -484,9 +493,10 @@ def set_mass(rows: np.ndarray, mass: Mass, shapes: Sequence[Shape], in_parts: bo
 def place(
     library: Library, shape: Shape, bodies: np.ndarray, shapes: np.ndarray, row: int, pose: Sequence[float]
 ) -> None:
-    """Fill the BODY row and the SHAPE row at index `row` for the shape of a query, which has no body in the world.
+    """Fill one BODY row and one SHAPE row for the shape of a query, which belongs to no body of the world.
 
-    The SHAPE row gets the geometry of `shape` in the library. pose: (x, y, angle) [px, px, rad].
+    The SHAPE row refers to the geometry of `shape` in the library. row: index in both tables; pose: (x, y, angle) [px,
+    px, rad].
     """
     b = bodies[row : row + 1]
     describe(library, shape, shapes[row : row + 1], row, row, pose[2:3])
@@ -497,10 +507,10 @@ def place(
 def describe(
     library: Library, shape: Shape, rows: np.ndarray, ids: ArrayLike, body_rows: ArrayLike, angles: Sequence[float]
 ) -> None:
-    """Fill SHAPE rows with one shape of a query at several poses.
+    """Fill SHAPE rows that all have the shape of a query, one row for each of several poses.
 
     rows: a view of the SHAPE rows; ids, body_rows: one number for all rows or one each; angles [rad]: angles of the
-    poses. A mask with snap=True is rasterised at each of the angles.
+    poses. For a mask with snap=True, the rasters at all angles are added.
     """
     kind, geometry, wrapped = library.add(shape)
     rows["id"], rows["body"], rows["body_row"] = ids, body_rows, body_rows
@@ -517,7 +527,7 @@ def describe(
 
 
 def rows_in_tiles(shapes: np.ndarray, owner: int, wanted: np.ndarray) -> np.ndarray:
-    """Return the indices (n,) int64 of the SHAPE rows of a mask's parts that lie in the wanted tiles. O(shapes).
+    """Return the indices (n,) int64 of the SHAPE rows that are parts of a mask in the wanted tiles. O(shapes).
 
     owner: id of the mask's SHAPE row; wanted (tiles,) bool, by tile number.
     """
@@ -528,10 +538,10 @@ def rows_in_tiles(shapes: np.ndarray, owner: int, wanted: np.ndarray) -> np.ndar
 def find_equal(
     geometry: Geometry, shapes: np.ndarray, rows: np.ndarray, corners: np.ndarray, counts: np.ndarray
 ) -> np.ndarray:
-    """Return for each of k polygons the index in rows (n,) of the SHAPE row with an equal polygon; -1: there is none.
+    """Return, for each of k polygons, which SHAPE row has an equal polygon: an index into `rows` (n,), or -1 for none.
 
-    Equal polygons have the same corners in the same order. corners (m, 2) [px]: corners of all polygons, one polygon
-    after another; counts (k,): number of corners of each polygon. O(k n).
+    Equal polygons have the same corners in the same order. geometry: tables of the library; corners (m, 2) [px]:
+    corners of all polygons, one polygon after another; counts (k,): number of corners of each polygon. O(k n).
     """
     found = np.empty(len(counts), np.int64)
     find_polygons(geometry, shapes, rows, corners, counts, found)
@@ -540,9 +550,9 @@ def find_equal(
 
 @kernel
 def list_parts(shapes, owner, wanted, rows_out):
-    """Write the indices of the SHAPE rows of a mask's parts that lie in the wanted tiles. Return their number.
+    """Write the indices of the SHAPE rows that are parts of a mask in the wanted tiles. Return their number. O(shapes).
 
-    owner: id of the mask's SHAPE row; wanted (tiles,) bool, by tile number; rows_out (shapes,) int64. O(shapes).
+    owner: id of the mask's SHAPE row; wanted (tiles,) bool, by tile number; rows_out (shapes,) int64.
     """
     count = 0
     for k in range(len(shapes)):
@@ -555,9 +565,9 @@ def list_parts(shapes, owner, wanted, rows_out):
 
 @kernel
 def find_polygons(geometry, shapes, rows, corners, counts, found_out):
-    """Write for each polygon the index in rows of the SHAPE row with an equal polygon; -1: there is none. O(k n).
+    """Write, for each polygon, which SHAPE row has an equal polygon: an index into `rows`, or -1 for none. O(k n).
 
-    Arguments as in find_equal; found_out (k,) int64.
+    found_out (k,) int64: the result; other arguments: see find_equal.
     """
     first = 0
     for k in range(len(counts)):

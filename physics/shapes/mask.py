@@ -1,4 +1,4 @@
-"""PixelMask, the solid pixels of a sprite as a shape."""
+"""PixelMask: the solid pixels of a sprite as a shape."""
 
 import copy
 import math
@@ -32,14 +32,14 @@ class PixelMask(Shape):
     """The solid pixels of a sprite as a shape: pixel (i, j) is the square [i, i+1) x [j, j+1), minus the origin.
 
     snap=True: the mask is tested as it is drawn, at a whole pixel and at the nearest of 128 angles, by AND of packed
-    64-bit words. snap=False: the mask is the union of its squares at the exact pose. Two masks are tested as drawn if
-    both are snapped, else at their exact poses. Response, sweeps and characters use the outline of the mask, smoothed
-    by up to `smooth` [px].
+    64-bit words. snap=False: the mask is tested as the union of its squares at the exact pose. Two masks are tested as
+    drawn if both have snap=True, else at their exact poses. Response, sweeps and characters use the outline of the
+    mask, smoothed by up to `smooth` [px].
 
     one_way=True: bodies pass through the mask from below. The mask pushes only with the upper side of its outline, and
-    only bodies that were above that side; bodies that come from below or from a side, or overlap the mask, pass. As
-    with one-way tiles, there is no response without the effect `one_way`. Tests by pixels are unaffected. For static
-    and kinematic bodies.
+    only bodies that were above that side. Bodies that come from below or from a side, or overlap the mask, pass. As
+    with one-way tiles, there is no response without the effect `one_way`. Tests by pixels are unaffected. Only static
+    and kinematic bodies can have a one-way mask.
 
     Raises TypeError or ValueError if solid is not a grid of bools, if smooth is not a number >= 0, and if snap or
     one_way is not a bool.
@@ -68,14 +68,14 @@ class PixelMask(Shape):
         self._forget()
 
     def _forget(self):
-        """Clear all values derived from the pixels."""
+        """Clear all cached values that were derived from the pixels."""
         self._turned, self._blocks = {}, {}
         self.fitted = {}  # (tier, tolerance) -> the shapes that replace the mask, cached by approximate.fit
 
     def with_tiles(self, tiles: PixelTiles) -> "PixelMask":
-        """Return a mask with other pixels in a raster of the same size. All other values are those of this mask.
+        """Return a mask of the same size with other pixels, after carving. All other values are those of this mask.
 
-        Carving uses it. tiles: the pixels.
+        tiles: the new pixels, see PixelMask.tiles.
         """
         found = object.__new__(PixelMask)
         kept = {name: vars(self)[name] for name in ("snap", "smooth", "one_way", "size", "origin")}
@@ -90,7 +90,7 @@ class PixelMask(Shape):
         sensor: bool | None = None,
         one_way: bool | None = None,
     ) -> "PixelMask":
-        """Return the mask with these values as its own; None: the body's value applies.
+        """Return a copy of the mask with its own material, filter and sensor; None: the body's value applies.
 
         one_way: whether bodies pass through the mask from below; None: as in this mask. Raises TypeError for a value of
         another type.
@@ -103,7 +103,7 @@ class PixelMask(Shape):
     def _opened(self, wanted):
         """Return the mask with one_way = wanted, and without a material, filter and sensor of its own.
 
-        Repeated calls return the same object, so that a library stores it once.
+        Repeated calls return the same object, so that a library stores its geometry once.
         """
         # The two masks share `fitted`, the values derived from their pixels.
         self.fitted.setdefault("one way", {})[self.one_way] = self.bare
@@ -114,7 +114,7 @@ class PixelMask(Shape):
         return pair[wanted]
 
     def with_values_of(self, other: Shape) -> "PixelMask":
-        """Return this mask with the material, filter and sensor that another shape has as its own.
+        """Return a copy of this mask with the own material, filter and sensor of another shape.
 
         If the other shape is a mask, its one_way is also copied.
         """
@@ -122,7 +122,10 @@ class PixelMask(Shape):
         return self.with_(other.material, other.filter, other.sensor, one_way)
 
     def like(self, solid: np.ndarray, origin: Pair) -> "PixelMask":
-        """Return a mask of other pixels (solid[row, col], origin [px]) with all other values of this mask."""
+        """Return a mask with other pixels, solid[row, col], and another origin [px].
+
+        All other values are those of this mask.
+        """
         return PixelMask(solid, origin, self.snap, self.smooth).with_values_of(self)
 
     @property
@@ -135,11 +138,14 @@ class PixelMask(Shape):
 
     @cached_property
     def tiles(self) -> PixelTiles:
-        """The pixels in square tiles, which carving replaces one by one."""
+        """The pixels in square tiles, so that carving can replace single tiles."""
         return PixelTiles.of(self.solid)
 
     def window(self, left: int, top: int, size: int) -> np.ndarray:
-        """Return the (size, size) bool pixels from column `left` and row `top` on; clear pixels outside the mask."""
+        """Return a square of the mask's pixels, (size, size) bool, whose first pixel is at column `left`, row `top`.
+
+        Pixels outside the mask are clear.
+        """
         if self._solid is None:
             return self.tiles.window(left, top, size)
         found = np.zeros((size, size), bool)
@@ -157,7 +163,7 @@ class PixelMask(Shape):
         smooth: float = SMOOTH,
         one_way: bool = False,
     ) -> "PixelMask":
-        """Return a mask of solid[row, col]. origin [px] in the image; None: its centre.
+        """Return a mask of the array solid[row, col]. origin [px]: origin of body space in the image; None: its centre.
 
         Raises TypeError or ValueError for arguments that PixelMask rejects.
         """
@@ -173,10 +179,10 @@ class PixelMask(Shape):
         smooth: float = SMOOTH,
         one_way: bool = False,
     ) -> "PixelMask":
-        """Return a mask of a pygame surface: solid where alpha > threshold; the colour key is clear.
+        """Return a mask of a pygame surface: solid where alpha > threshold, clear where it has its colour key.
 
-        origin [px] in the image; None: its centre. Raises TypeError if surface is not a pygame.Surface, ValueError for
-        a threshold outside 0..255, and both for arguments that PixelMask rejects.
+        origin [px]: origin of body space in the image; None: its centre. Raises TypeError if surface is not a
+        pygame.Surface, ValueError for a threshold outside 0..255, and both for arguments that PixelMask rejects.
         """
         import pygame  # pygame is needed only for this import of sprites
 
@@ -197,7 +203,7 @@ class PixelMask(Shape):
     def from_mask(
         cls, mask: Any, origin: Pair | None = None, snap: bool = True, smooth: float = SMOOTH, one_way: bool = False
     ) -> "PixelMask":
-        """Return a mask of a pygame Mask. origin [px] in the image; None: its centre.
+        """Return a mask of a pygame Mask. origin [px]: origin of body space in the image; None: its centre.
 
         Raises TypeError if mask is not a pygame.Mask, TypeError or ValueError for arguments that PixelMask rejects.
         """
@@ -211,7 +217,7 @@ class PixelMask(Shape):
         return cls(np.ascontiguousarray(pygame.surfarray.array_alpha(drawn).T > 0), origin, snap, smooth, one_way)
 
     def flipped(self, x: bool = False, y: bool = False) -> "PixelMask":
-        """Return the mask mirrored left to right (x) and top to bottom (y); the origin is mirrored with the pixels.
+        """Return the mask mirrored left to right (x) and top to bottom (y), together with its origin.
 
         snap, smooth, one_way, material, filter and sensor are kept. Raises TypeError for an x or y that is not a bool.
         """
@@ -236,15 +242,15 @@ class PixelMask(Shape):
         return PixelMask(self.solid[np.ix_(rows, columns)], origin, self.snap, self.smooth).with_values_of(self)
 
     def turned(self, angle: float = 0.0) -> Turned:
-        """Return the pixels rotated to the angle bucket (one of 128 angles) nearest to `angle` [rad].
+        """Return the pixels rotated to `angle` [rad], rounded to the nearest of 128 angles.
 
-        The unrotated pixels are always the source, so errors do not add up. Results are cached; of a large mask only
-        the latest ones. Raises TypeError or ValueError for an angle that is not a finite number.
+        The unrotated pixels are always the source, so errors do not add up. Results are cached, for large masks only
+        the latest. Raises TypeError or ValueError for an angle that is not a finite number.
         """
         return self.turned_to(self.bucket_at(angle))
 
     def bucket_at(self, angle: float) -> int:
-        """Return the number of the angle bucket (128 in a full turn) nearest to `angle` [rad].
+        """Return the number of the angle bucket nearest to `angle` [rad]. A full turn has 128 angle buckets.
 
         Raises TypeError or ValueError for an angle that is not a finite number.
         """
@@ -260,7 +266,7 @@ class PixelMask(Shape):
         return known[bucket]
 
     def blocks(self, bucket: int) -> list[tuple[int, int, int, int]]:
-        """Return rectangles (left, top, right, bottom) that cover the solid pixels, rotated to an angle bucket."""
+        """Return rectangles (left, top, right, bottom) [px] that together cover the solid pixels at an angle bucket."""
         if bucket not in self._blocks:
             self._blocks[bucket] = solid_blocks(self.turned_to(bucket).solid)
         return self._blocks[bucket]
@@ -272,7 +278,7 @@ class PixelMask(Shape):
 
     @cached_property
     def _sums(self):
-        """Integer sums over the solid pixels: (number, sum of columns, sum of rows, sum of column² + row²)."""
+        """Sums over the solid pixels as integers: (number, sum of columns, sum of rows, sum of column² + row²)."""
         if "tiles" in vars(self):
             return self.tiles.sums
         rows, columns = np.nonzero(self.solid)
@@ -316,12 +322,13 @@ class PixelMask(Shape):
         """Convex shapes in body space whose union has the mask's outline; () for a mask without pixels.
 
         Response, sweeps and characters use these shapes, at the exact pose. Each point of the outline is within
-        `smooth` px of the pixels' edges, and each point of these edges within smooth + 0.21 px of the outline; smooth =
-        0: the outline is the pixels' edges. Separate pieces and holes are kept. Centres of solid pixels are inside,
-        centres of clear pixels outside. A corner between two straight rows of pixel edges of 3 px or more stays sharp.
-        A round piece becomes one Circle, Capsule or Polygon with a radius; a Circle may be 0.13 px farther from the
-        pixels' edges, and centres of clear pixels may be up to 0.2 px inside it. A full rectangle becomes a box. The
-        shapes share only sides, no area.
+        `smooth` px of the pixels' edges, and each point of these edges is within smooth + 0.21 px of the outline. With
+        smooth = 0 the outline is the pixels' edges. Separate pieces and holes are kept. Centres of solid pixels are
+        inside, centres of clear pixels outside. A corner between two straight rows of pixel edges of 3 px or more stays
+        sharp. A full rectangle becomes a box. The shapes share only sides, no area.
+
+        A round piece becomes one Circle, Capsule or Polygon with a radius. A Circle may be 0.13 px farther from the
+        pixels' edges, and may contain centres of clear pixels up to 0.2 px inside it.
         """
         return tuple(part.shape for part in outline_of(self))
 
@@ -332,7 +339,7 @@ class PixelMask(Shape):
         return min(self.bounds[2] - self.bounds[0], self.bounds[3] - self.bounds[1]) / 2.0
 
     def mass_of(self, density: float) -> Mass:
-        """Return the mass of the union of pixel squares; a unit square has the moment of area 1/6 about its centre."""
+        """Return the mass of the solid pixels, as the union of their squares. density [mass per px2]."""
         if self.centroid is None:
             return NOTHING
         count, x, y, squares = self._sums
@@ -342,7 +349,7 @@ class PixelMask(Shape):
 
     @property
     def _thinnest_half(self) -> float:
-        """Smallest inradius [px] of the outline's convex parts: a body that moves farther in a step has to be swept.
+        """Smallest inradius [px] of the outline's convex parts. A body that moves farther in a step has to be swept.
 
         A thin arm passes a wall before the middle of the sprite does: sprites of 3 px blocks passed 1 px walls at half
         their size per step (measured). A part thinner than 1 px counts as 1 px thick, because it adjoins a thicker
@@ -392,7 +399,10 @@ class PixelMask(Shape):
         return parts_of([rectangle(dx + left, dy + top, dx + right, dy + down) for left, top, right, down in blocks])
 
     def _response_parts(self) -> Sequence[tuple[int, Sequence[OutlinePart | Stretch]]]:
-        """Return [(tile number, outline parts)] that collide in place of the mask; if one-way, its upper side only."""
+        """Return [(tile number, outline parts)] that collide in place of the mask.
+
+        For a one-way mask they are chains along its upper side.
+        """
         return [(WHOLE_MASK, surfaces_of(self))] if self.one_way else outline_by_tile(self)
 
     def _check_body(self, kind: int, angles: ArrayLike) -> None:
@@ -407,9 +417,9 @@ class PixelMask(Shape):
 
 
 def _nearest(size: int, factor: float) -> np.ndarray:
-    """Return for each column (or row) of a scaled mask the source column that contains its centre: (n,) int64.
+    """Return, for each column of a scaled mask, the column of the source that contains its centre: (n,) int64.
 
-    size: number of columns of the source; factor: scale.
+    It does the same for rows. size: number of columns of the source; factor: scale.
     """
     wanted = max(1, math.floor(size * factor + 0.5)) if size else 0
     return np.minimum(((np.arange(wanted) + 0.5) / factor).astype(np.int64), size - 1)

@@ -1,4 +1,4 @@
-"""Mass, centre of mass and inertia of plane figures and of bodies; in a body, area that shapes share counts once."""
+"""Mass, centre of mass and inertia of plane figures and of bodies. Area that shapes of a body share counts once."""
 
 import math
 from collections.abc import Callable, Iterable, Sequence
@@ -60,7 +60,7 @@ def together(parts: Iterable[Mass]) -> Mass:
 
 
 def polygon_mass(points: Points, density: float) -> Mass:
-    """Return the mass of a polygon, points (n, 2) clockwise on the screen, by shoelace integrals.
+    """Return the mass of a polygon, points (n, 2) [px] clockwise on the screen, by shoelace integrals.
 
     density [mass per px2].
     """
@@ -77,9 +77,10 @@ def polygon_mass(points: Points, density: float) -> Mass:
 
 
 def rounded_mass(points: Points, radius: float, density: float) -> Mass:
-    """Return the mass of a rounded polygon: the polygon, a rectangle along each side, a sector at each corner.
+    """Return the mass of a convex polygon rounded by a radius [px].
 
-    points (n, 2) [px]: corners, clockwise on the screen; radius [px]; density [mass per px2].
+    It is the sum of the polygon, a rectangle along each side, and a sector at each corner. points (n, 2) [px]: corners,
+    clockwise on the screen; density [mass per px2].
     """
     parts = [polygon_mass(points, density)]
     count = len(points)
@@ -122,9 +123,9 @@ def disc_mass(center: Pair, radius: float, density: float) -> Mass:
 
 
 def capsule_mass(a: Pair, b: Pair, r: float, density: float) -> Mass:
-    """Return the mass of a capsule of radius r [px] about the line from a to b: a rectangle and two half discs.
+    """Return the mass of a capsule of radius r [px] about the line from a to b [px]: a rectangle and two half discs.
 
-    The centre of mass of a half disc lies 4r/3π beyond the end of the line.
+    The centre of mass of a half disc lies 4r/3π beyond the end of the line. density [mass per px2].
     """
     length = math.hypot(b[0] - a[0], b[1] - a[1])
     middle, ends = density * 2.0 * r * length, density * math.pi * r * r
@@ -136,7 +137,10 @@ def capsule_mass(a: Pair, b: Pair, r: float, density: float) -> Mass:
 
 
 def convex_mass(points: Points, radius: float, density: float) -> Mass:
-    """Return the mass of a convex hull rounded by a radius [px]. points: 1 or more corners, clockwise on the screen."""
+    """Return the mass of a convex hull rounded by a radius [px].
+
+    points: 1 or more corners [px], clockwise on the screen; density [mass per px2].
+    """
     if len(points) < 3:
         if len(points) == 2:
             return capsule_mass(points[0], points[1], radius, density)
@@ -153,7 +157,7 @@ def convex_mass(points: Points, radius: float, density: float) -> Mass:
 
 
 class Hull(NamedTuple):
-    """A convex shape to be weighed: corners in body space [px], rounding radius, and density [mass per px2]."""
+    """A convex shape as input of weighed_once: corners in body space [px], rounding radius and density."""
 
     corners: tuple
     radius: float  # [px]
@@ -161,7 +165,7 @@ class Hull(NamedTuple):
 
 
 class Pixels(NamedTuple):
-    """A pixel mask to be weighed, with its density [mass per px2]."""
+    """A pixel mask as input of weighed_once, with its density [mass per px2]."""
 
     mask: Any  # a PixelMask; its module imports this one
     density: float
@@ -171,7 +175,7 @@ Weighed = Hull | Pixels
 
 
 def weighed_once(parts: Sequence[tuple]) -> Mass:
-    """Return the mass of shapes, given as [(shape, density)]. Shared area counts once, at the highest density."""
+    """Return the total mass of shapes, parts = [(shape, density)]. Shared area counts once, at the highest density."""
     if len(parts) < 2:
         return together(shape.mass_of(density) for shape, density in parts)
     figures = [_figure_of(shape, density) for shape, density in parts]
@@ -200,7 +204,10 @@ def _box_of(figure: Weighed) -> Box:
 
 
 def _groups(figures):
-    """Return the sets of figures connected by overlaps. Of equal figures only one is listed, because they overlap."""
+    """Return the sets of figures that overlap, directly or through others. Figures that overlap no other are left out.
+
+    Equal figures overlap and are listed once.
+    """
     groups: list[set] = [{each} for each in dict.fromkeys(figures) if figures.count(each) > 1]
     different = list(dict.fromkeys(figures))
     for i, k in _near(different):
@@ -242,7 +249,7 @@ def overlap(a: Hull, b: Hull) -> bool:
 
 
 def _shares_pixels(a: Weighed, b: Weighed) -> bool:
-    """Return whether two figures, of which at least one is a mask, share area."""
+    """Return whether two figures share area. At least one of them is a mask."""
     window = _common(_box_of(a), _box_of(b))
     cells = cells_of([_placed(each) for each in (a, b) if isinstance(each, Pixels)], window)
     base = (window[0], window[1])
@@ -252,7 +259,7 @@ def _shares_pixels(a: Weighed, b: Weighed) -> bool:
 
 
 def _placed(figure: Pixels):
-    """Return (solid pixels, left, top) of a mask: its array [row, col] and its top left corner in body space [px]."""
+    """Return (solid pixels [row, col], left, top) of a mask. left, top [px]: its top left corner in body space."""
     return figure.mask.solid, -figure.mask.origin[0], -figure.mask.origin[1]
 
 
@@ -261,7 +268,10 @@ def _outline(hulls: Sequence[Hull]) -> list[Stretch]:
 
 
 def _common(a: Box, b: Box) -> Box:
-    """Return the intersection of two boxes. If they do not overlap, right < left or bottom < top in the result."""
+    """Return the intersection of two boxes (left, top, right, bottom).
+
+    If they do not overlap, right < left or bottom < top in the result.
+    """
     return max(a[0], b[0]), max(a[1], b[1]), min(a[2], b[2]), min(a[3], b[3])
 
 
@@ -282,11 +292,11 @@ def _mass_of_group(group: set) -> Mass:
 
 
 def _layered(group: Sequence[Weighed], found_of: Callable[[list], Moments]) -> Mass:
-    """Return the mass of overlapping shapes, in which shared area has the density of the densest shape.
+    """Return the mass of overlapping shapes. Shared area has the density of the densest shape.
 
-    The mass is a sum of layers. For each density in ascending order, the union of all shapes with at least this density
-    is weighed with the increase over the previous density. group: the shapes; found_of(shapes): function that returns
-    the Moments of their union.
+    The mass is a sum of layers, one for each density in ascending order. A layer is the union of all shapes with at
+    least this density, weighed with the increase over the previous density. group: the shapes; found_of(shapes):
+    function that returns the Moments of their union.
     """
     densities = sorted({each.density for each in group})
     layers = []
@@ -298,12 +308,12 @@ def _layered(group: Sequence[Weighed], found_of: Callable[[list], Moments]) -> M
 
 @lru_cache(maxsize=256)
 def _union_mass(group: tuple[Hull, ...]) -> Mass:
-    """Return the mass of overlapping hulls, in which shared area counts once. Results are cached."""
+    """Return the mass of overlapping hulls. Shared area counts once, and results are cached."""
     return _layered(group, lambda hulls: moments(_outline(hulls)))
 
 
 def _mass_with_masks(masks: Sequence[Pixels], hulls: Sequence[Hull]) -> Mass:
-    """Return the mass of overlapping masks and hulls: the sum of both, minus the mass of shared area."""
+    """Return the mass of overlapping masks and hulls: the sum of both masses, minus that of shared area."""
     base = _box_of(masks[0])[:2]
 
     def union(dense):
@@ -320,7 +330,10 @@ def _mass_with_masks(masks: Sequence[Pixels], hulls: Sequence[Hull]) -> Mass:
 
 
 def _mask_sums(masks: Sequence[Pixels], base) -> Sums:
-    """Return the area Sums about `base` of the union of masks: the sum over all masks minus area counted repeatedly."""
+    """Return the Sums of the area in the union of masks, about the point `base` [px].
+
+    They are the sums over all masks, minus area that is counted repeatedly.
+    """
     sums = NO_SUMS
     for each in masks:
         weight: Mass = each.mask.mass_of(1.0)

@@ -1,4 +1,4 @@
-"""The outline of a pixel mask as convex shapes, whole or tile by tile; the upper side of a one-way mask as chains."""
+"""The outline of a pixel mask as convex shapes, for the whole mask or tile by tile; chains for a one-way mask."""
 
 import math
 from collections import defaultdict
@@ -39,7 +39,7 @@ Box = tuple[int, int, int, int]  # left, top, right, bottom [px]
 
 
 class Sprite(Protocol):
-    """Interface that outlines need of a mask. PixelMask implements it."""
+    """The part of PixelMask's interface that this file uses."""
 
     @property
     def solid(self) -> np.ndarray: ...  # bool [row, col]
@@ -58,16 +58,16 @@ class Sprite(Protocol):
 
 
 class OutlinePart(NamedTuple):
-    """A convex part of an outline in body space, with flags of the edges and corners inside the whole outline."""
+    """A convex part of an outline in body space, with flags for its sides and corners that are not on the outline."""
 
     shape: Circle | Capsule | Polygon
     inner: int  # flags in the format of the column `inner` of SHAPE
 
 
 class Tile:
-    """The outline inside one tile of a mask.
+    """The part of a mask's outline that lies in one square tile of the mask.
 
-    It depends on the pixels of the tile and on those up to HALO px around the tile.
+    It depends on the pixels of the tile, and on those up to HALO px around it.
     """
 
     def __init__(self, mask: Sprite, number: int) -> None:
@@ -78,7 +78,7 @@ class Tile:
         self.parts = tile_parts(window, mask.smooth, self.at)  # in raster pixels
 
     def has_parts_of(self, other: "Tile") -> bool:
-        """Return whether the two tiles have equal parts, to the bit."""
+        """Return whether both tiles have the same parts, bit for bit."""
         return all(mine.tobytes() == its.tobytes() for mine, its in zip(self.parts, other.parts, strict=True))
 
     @cached_property
@@ -91,9 +91,10 @@ class Tile:
 
 
 def polygons(corners: np.ndarray, counts: np.ndarray, which: np.ndarray | None = None) -> list[Polygon]:
-    """Return Polygons with these corners (n, 2) [px], listed polygon after polygon.
+    """Return a Polygon for each list of corners.
 
-    counts (k,): number of corners of each polygon; which: indices of the wanted polygons; None: all.
+    corners (n, 2) [px]: corners of all polygons, one polygon after another; counts (k,): number of corners of each
+    polygon; which: indices of the wanted polygons, None: all.
     """
     points, ends = corners.tolist(), [0, *np.cumsum(counts).tolist()]
     some = range(len(counts)) if which is None else which.tolist()
@@ -101,7 +102,7 @@ def polygons(corners: np.ndarray, counts: np.ndarray, which: np.ndarray | None =
 
 
 class TiledParts(NamedTuple):
-    """The convex parts of one or more tiles of an outline, one after another, in body space."""
+    """The convex parts of one or more tiles of an outline in body space, one tile after another."""
 
     corners: np.ndarray  # (n, 2) float64 [px]: corners part after part, clockwise on the screen
     counts: np.ndarray  # (k,) int64: number of corners of each part
@@ -110,25 +111,28 @@ class TiledParts(NamedTuple):
 
 
 def is_tiled(mask: Sprite) -> bool:
-    """Return whether a mask's outline is stored in tiles: a side exceeds LARGE_MASK px and not all pixels are solid."""
+    """Return whether the outline of a mask is stored in tiles.
+
+    It is if a side of the mask exceeds LARGE_MASK px and not all of its pixels are solid.
+    """
     width, height = mask.size
     return max(width, height) > LARGE_MASK and mask.area < width * height
 
 
 def tiles_of(mask: Sprite) -> tuple[int, int]:
-    """Return the number of rows and columns of tiles of a mask."""
+    """Return (number of rows, number of columns) of a mask's tiles."""
     width, height = mask.size
     return -(-height // MASK_TILE), -(-width // MASK_TILE)
 
 
 def tile_outlines(mask: Sprite, numbers: Sequence[int]) -> list[tuple[OutlinePart, ...]]:
-    """Return the outline parts of each tile in `numbers` (tiles are numbered row by row); () for an empty tile."""
+    """Return the outline parts of each tile in `numbers`; () for an empty tile. Tiles are numbered row by row."""
     found = zip(_tiles(mask, numbers), _inner(mask, numbers), strict=True)
     return [tuple(map(OutlinePart, tile.shapes, inner.tolist())) for tile, inner in found]
 
 
 def tiled_parts(mask: Sprite, numbers: Sequence[int]) -> TiledParts:
-    """Return the outline parts of the tiles in `numbers`, in this order, as arrays."""
+    """Return the outline parts of the tiles in `numbers` as arrays, in this order."""
     tiles, inner = _tiles(mask, numbers), _inner(mask, numbers)
     return TiledParts(
         np.concatenate([each.known.corners for each in tiles]),
@@ -139,12 +143,12 @@ def tiled_parts(mask: Sprite, numbers: Sequence[int]) -> TiledParts:
 
 
 def keep_tiles(mask: Sprite, old: Sprite, boxes: Iterable[Box]) -> list[int]:
-    """Copy the cached outline tiles of the mask `old`, and recompute the tiles near the boxes in which `mask` differs.
+    """Copy the cached outline tiles of the mask `old` to `mask`, and recompute those near differing pixels.
 
-    Both masks have the same size, origin and smooth; `old` may be the mask itself with changed pixels. boxes: left,
-    top, right, bottom [px] in the raster, right and bottom exclusive. Only tiles within HALO px of a box are
-    recomputed. Return the sorted numbers of the tiles whose outline may differ: tiles with other parts, and the
-    neighbours of such a tile if corners on their common border changed.
+    Return the sorted numbers of the tiles whose outline may have changed: tiles with other parts, and their neighbours
+    if corners on the common border changed. Both masks have the same size, origin and smooth; `old` may be the mask
+    itself with changed pixels. boxes: rectangles (left, top, right, bottom) [px] in the raster that contain all
+    changes, right and bottom exclusive. Only tiles within HALO px of a box are recomputed.
     """
     tiles, inner = (_known(old, name).copy() for name in KEPT)
     mask.fitted.update(tiles=tiles, inner=inner)
@@ -180,7 +184,7 @@ def _known(mask, name) -> list:
 
 
 def _tiles(mask, numbers) -> list[Tile]:
-    """Return the tiles with these numbers; a tile is computed at its first use."""
+    """Return the Tile for each tile number. A tile is computed at its first use."""
     known = _known(mask, "tiles")
     for number in numbers:
         if known[number] is None:
@@ -189,7 +193,10 @@ def _tiles(mask, numbers) -> list[Tile]:
 
 
 def _inner(mask, numbers) -> list[np.ndarray]:
-    """Return for each tile the flags of its parts' inner sides and corners (SHAPE.inner), computed at the first use."""
+    """Return, for each tile, the SHAPE.inner flags of its parts: which sides and corners are not on the outline.
+
+    The flags are computed at the first use.
+    """
     known, (rows, columns) = _known(mask, "inner"), tiles_of(mask)
     missing = [number for number in numbers if known[number] is None]
     if missing:
@@ -201,7 +208,7 @@ def _inner(mask, numbers) -> list[np.ndarray]:
 
 
 def _near(number, rows, columns):
-    """Return the numbers of a tile and of its up to 8 neighbours, ascending."""
+    """Return the numbers of a tile and of its up to 8 neighbours, ascending. rows, columns: numbers of tiles."""
     row, column = divmod(number, columns)
     across = range(max(column - 1, 0), min(column + 2, columns))
     return [y * columns + x for y in range(max(row - 1, 0), min(row + 2, rows)) for x in across]
@@ -212,7 +219,10 @@ def _near(number, rows, columns):
 
 
 def outline_of(mask: Sprite) -> tuple[OutlinePart, ...]:
-    """Return the convex parts of a mask's outline, computed at the first call; () for a mask without pixels."""
+    """Return the convex parts of a mask's outline; () for a mask without pixels.
+
+    They are computed at the first call.
+    """
     if "outline" not in mask.fitted:
         if is_tiled(mask):
             mask.fitted["outline"] = tuple(part for _, tile in outline_by_tile(mask) for part in tile)
@@ -226,7 +236,7 @@ def outline_of(mask: Sprite) -> tuple[OutlinePart, ...]:
 
 
 def outline_by_tile(mask: Sprite) -> list[tuple[int, tuple[OutlinePart, ...]]]:
-    """Return (tile number, its outline parts) for each tile of a mask; [(WHOLE_MASK, all parts)] if it has no tiles."""
+    """Return [(tile number, outline parts)] for all tiles of a mask; [(WHOLE_MASK, all parts)] if it has no tiles."""
     if not is_tiled(mask):
         return [(WHOLE_MASK, outline_of(mask))]
     rows, columns = tiles_of(mask)
@@ -236,8 +246,8 @@ def outline_by_tile(mask: Sprite) -> list[tuple[int, tuple[OutlinePart, ...]]]:
 def _placed(part, outline_turns, origin):
     """Return a part as an OutlinePart in body space, with collinear sides merged.
 
-    A merged side is inner if all sides that it consists of are inner. outline_turns [rad]: see corner_turns; origin
-    [px]: origin of body space in the raster.
+    A merged side counts as inner (not on the outline) if all sides that it consists of are inner. outline_turns [rad]:
+    turns of the outline at the corners, see corner_turns; origin [px]: origin of body space in the raster.
     """
     turns = np.flatnonzero(np.array(_angles(part.corners)) < HALF_TURN)
     corners, inner = part.corners - np.array(origin), np.asarray(part.inner, bool)
@@ -258,10 +268,10 @@ def _bits(sides, turns):
 def corner_turns(parts: Sequence[Part]) -> list[np.ndarray]:
     """Return for each part the angle [rad] by which the whole outline turns at each corner of the part.
 
-    The angle is pi between two sides of the outline, and COVERED between two inner sides. At a corner between an inner
-    side and a side of the outline the interior angles of all parts that share the corner (equal coordinates) are
-    summed: the angle is pi minus the sum, or COVERED if this leaves no convex corner. It is also COVERED if an earlier
-    part already has the angle of this corner.
+    A side that two parts share is inner; all other sides are on the outline. Between two sides on the outline the
+    result is pi, and between two inner sides COVERED. At a corner between an inner side and a side on the outline, the
+    interior angles of all parts with this corner (equal coordinates) are summed. The result is pi minus the sum, or
+    COVERED if this leaves no convex corner. Later parts with the same corner get COVERED.
     """
     angles: defaultdict[tuple, float] = defaultdict(float)
     for part in parts:
@@ -301,10 +311,10 @@ class Stretch(NamedTuple):
 def surfaces_of(mask: Sprite) -> tuple[Stretch, ...]:
     """Return chains in body space along the upper side of a mask's outline; () for a mask without pixels.
 
-    A chain leads from left to right along consecutive sides of the outline whose outward normals point upwards in body
-    space; these include floors of holes. A chain ends at a vertical side or an underside. A vertical step of at most
-    `smooth` [px] between two such sides is replaced by one point in the middle of the step, so that characters do not
-    catch on it. The outline is the result of outline.contour.outline. O(pixels) at the first call, then cached.
+    A chain leads from left to right along consecutive sides of the outline whose outward normals point upwards. These
+    include the floors of holes. A chain ends at a vertical side or an underside. A vertical step of at most `smooth`
+    [px] between two upper sides is replaced by its middle, so that characters do not catch on it. The outline is the
+    result of outline.contour.outline. O(pixels) at the first call, then cached.
     """
     if "surfaces" not in mask.fitted:
         rings = [ring for piece in outline(mask.solid, mask.smooth) for ring in (piece.outer, *piece.holes)]
@@ -316,7 +326,7 @@ def surfaces_of(mask: Sprite) -> tuple[Stretch, ...]:
 def _joined(ring, most):
     """Return a closed outline in which each short vertical step between two upper sides is replaced by its middle.
 
-    ring (n, 2) [px]; most [px]: greatest height of such a step. An upper side leads right.
+    ring (n, 2) [px]: corners of the outline; most [px]: greatest height of such a step. Upper sides lead to the right.
     """
     way = np.roll(ring, -1, axis=0) - ring
     right = way[:, 0] > 0.0
@@ -326,9 +336,9 @@ def _joined(ring, most):
 
 
 def _runs(ring):
-    """Return the points (k, 2) [px] of each run of consecutive sides that lead right.
+    """Return the upper sides of a closed outline as lists of connected points, (k, 2) [px] each.
 
-    ring (n, 2) [px]: closed outline with the solid on its right, so these are its upper sides.
+    ring (n, 2) [px]: corners of the outline, with the solid on its right. So its upper sides lead to the right.
     """
     right = np.roll(ring[:, 0], -1) > ring[:, 0]
     first = int(np.flatnonzero(~right)[0])  # start at a side that does not lead right, so that no run crosses the start

@@ -1,4 +1,4 @@
-"""Shapes at a pose: their corners, rasters and AABBs, and the pose of a mask that is not drawn on whole pixels."""
+"""Shapes at the poses of their bodies: corners, AABBs, and the rasters of masks on and off the pixel grid."""
 
 import math
 from typing import Any
@@ -20,10 +20,10 @@ from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PIXELS, P
 
 @subkernel
 def exact_aabb(rasters, corners, raster, x, y, angle):
-    """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a mask's solid pixels with its body at a pose.
+    """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a mask's solid pixels at an exact pose of its body.
 
-    The AABB of an empty mask is the point (x, y). rasters, corners: tables of the geometry; raster: row of the mask's
-    raster at the angle 0; x, y, angle [px, px, rad]: pose. O(corners of the mask's hull).
+    The AABB of an empty mask is the point (x, y). rasters, corners: tables of the geometry; raster: RASTER row of the
+    mask at the angle 0; x, y, angle [px, px, rad]: the pose. O(corners of the mask's hull).
     """
     r = rasters[raster]
     if r.hull_count == 0:
@@ -42,9 +42,9 @@ def exact_aabb(rasters, corners, raster, x, y, angle):
 
 @subkernel
 def into_raster(raster, body, cosine, sine, x, y):
-    """Return the world point (x, y) [px] in the coordinates of a mask's raster.
+    """Return the world point (x, y) [px] in the coordinates of a mask's raster, from its top left corner.
 
-    cosine, sine: rotation of the mask's body.
+    raster: RASTER row; body: BODY row of the mask; cosine, sine: rotation of the body.
     """
     u, v = rotate(x - body.x, y - body.y, cosine, -sine)
     return u + raster.origin_x, v + raster.origin_y
@@ -52,22 +52,25 @@ def into_raster(raster, body, cosine, sine, x, y):
 
 @subkernel
 def out_of_raster(raster, body, cosine, sine, x, y):
-    """Return point (x, y) of a mask's raster in world coordinates [px]. cosine, sine: rotation of the mask's body."""
+    """Return the world position [px] of a point (x, y) [px] of a mask's raster.
+
+    raster: RASTER row; body: BODY row of the mask; cosine, sine: rotation of the body.
+    """
     u, v = rotate(x - raster.origin_x, y - raster.origin_y, cosine, sine)
     return body.x + u, body.y + v
 
 
 @subkernel
 def raster_of_shape(geometry, shape):
-    """Return the row of the raster by which a MASK is tested: as drawn if snap=True, else at the angle 0."""
+    """Return the row of the raster with which a mask is tested: as drawn for snap=True, else at the angle 0."""
     return shape.raster if shape.snap else geometry.raster_of[shape.geometry, 0]
 
 
 @subkernel
 def box_as_tested(geometry, shape):
-    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a MASK row's solid pixels where its tests place them.
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a mask's solid pixels at the pose of its tests.
 
-    A snapped mask is tested as drawn, at whole pixels; any other mask at its exact pose.
+    A mask with snap=True is tested as drawn, at whole pixels; any other mask at its exact pose. shape: SHAPE row.
     """
     r = geometry.rasters[shape.raster]
     if not shape.snap or r.area == 0:
@@ -78,7 +81,7 @@ def box_as_tested(geometry, shape):
 
 @subkernel
 def raster_in_raster(geometry, frame_body, frame_shape, body, shape):
-    """Return the pose of one mask's raster in the raster space of another mask, the frame.
+    """Return the pose of one mask's raster in the coordinates of another mask's raster, the frame.
 
     The result is (x, y of the top left corner [px], cosine, sine of the angle). frame_body, frame_shape: BODY and SHAPE
     row of the frame, which has snap=False; body, shape: rows of the first mask, with any `snap`.
@@ -98,7 +101,7 @@ def raster_in_raster(geometry, frame_body, frame_shape, body, shape):
 
 @kernel
 def turn_of_mask(angle):
-    """Return (cosine, sine) of an angle [rad], computed as in the exact tests of masks."""
+    """Return (cosine, sine) of an angle [rad], rounded as in tests of masks at exact poses: quarter turns are exact."""
     return cosine_and_sine(angle, angle)
 
 
@@ -115,7 +118,10 @@ BUCKET_TURN = math.pi / MASK_ANGLE_BUCKETS  # [rad] largest difference between a
 
 @subkernel
 def bucket_at(angle, buckets):
-    """Return the angle bucket nearest to an angle [rad]: k of `buckets` equal steps of a full turn; 0 if not finite."""
+    """Return the angle bucket nearest to an angle [rad], or 0 for an angle that is not finite.
+
+    Bucket k is k of `buckets` equal parts of a full turn.
+    """
     turn = angle * buckets / TAU + 0.5
     if not abs(turn) < WHOLE:
         return 0
@@ -125,7 +131,7 @@ def bucket_at(angle, buckets):
 
 @subkernel
 def raster_at(geometry, mask, angle):
-    """Return the row of a mask's raster at an angle [rad]. The raster must have been added.
+    """Return the row of a mask's raster at an angle [rad]. The raster must have been added to the library.
 
     mask: geometry row of the mask.
     """
@@ -134,7 +140,7 @@ def raster_at(geometry, mask, angle):
 
 @subkernel
 def snapped(coordinate, origin):
-    """Return the pixel column at which the left side of a raster is drawn, or the pixel row of its top side.
+    """Return the pixel column of a drawn raster's left side, or the pixel row of its top side.
 
     The result is coordinate - origin, rounded half up; NOWHERE if it is not finite or too large. coordinate [px]: x of
     the body for the column, y for the row; origin [px]: position of the body's origin in the raster.
@@ -145,7 +151,7 @@ def snapped(coordinate, origin):
 
 @subkernel
 def is_drawn_when_asked(shape):
-    """Return whether a SHAPE row is a mask with snap=True that is drawn only when a test needs it.
+    """Return whether a SHAPE row is a mask with snap=True whose raster is added only when a test needs it.
 
     The AABB in such a row is the AABB at the exact pose.
     """
@@ -154,15 +160,15 @@ def is_drawn_when_asked(shape):
 
 @subkernel
 def drawn_beyond(body, shape):
-    """Return the distance [px] by which a mask's pixels as drawn may exceed the AABB in its SHAPE row, or 0."""
+    """Return by how much [px] the drawn pixels of a mask may exceed the AABB in its SHAPE row; 0 for other shapes."""
     return DRAWN + BUCKET_TURN * body.extent if is_drawn_when_asked(shape) else 0.0
 
 
 @subkernel
 def raster_aabb(geometry, raster, x, y):
-    """Return the AABB [px] of a raster's solid pixels as drawn with the body at (x, y).
+    """Return the AABB [px] of a raster's solid pixels as they are drawn for a body at (x, y), on whole pixels.
 
-    The AABB of an empty raster is the point (x, y).
+    The AABB of an empty raster is the point (x, y). raster: RASTER row number.
     """
     r = geometry.rasters[raster]
     if r.area == 0:
@@ -173,7 +179,7 @@ def raster_aabb(geometry, raster, x, y):
 
 @subkernel
 def upright_aabb(raster, x, y):
-    """Return the AABB [px] of an unrotated mask's solid pixels with its body exactly at (x, y), not at whole pixels.
+    """Return the AABB [px] of an unrotated mask's solid pixels with its body exactly at (x, y), not on whole pixels.
 
     raster: RASTER row at the angle 0. The AABB of an empty mask is the point (x, y).
     """
@@ -185,10 +191,7 @@ def upright_aabb(raster, x, y):
 
 @subkernel
 def box_corners(min_x, min_y, max_x, max_y, corners_out):
-    """Write the corners [px] of the box from min_x, min_y to max_x, max_y. Return their number.
-
-    They are clockwise on the screen from the top left.
-    """
+    """Write the four corners [px] of a box, clockwise on the screen from the top left. Return 4, their number."""
     corners_out[0, 0] = min_x
     corners_out[0, 1] = min_y
     corners_out[1, 0] = max_x
@@ -204,8 +207,8 @@ def box_corners(min_x, min_y, max_x, max_y, corners_out):
 def polygon_at(polygons, table, polygon, x, y, cosine, sine, corners_out):
     """Write the world corners [px] of a polygon at a pose to corners_out (16, 2). Return their number.
 
-    polygon: row of geometry.polygons. polygons, table: geometry.polygons and geometry.corners, passed separately
-    because passing the whole Geometry takes longer than this function.
+    polygon: row of geometry.polygons; x, y [px], cosine, sine: pose of its body. polygons, table: geometry.polygons and
+    geometry.corners, passed separately because passing the whole Geometry takes longer than this function.
     """
     span = polygons[polygon]
     for k in range(span.count):
@@ -220,7 +223,8 @@ def polygon_at(polygons, table, polygon, x, y, cosine, sine, corners_out):
 def polygon_aabb(polygons, table, polygon, radius, x, y, cosine, sine):
     """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a polygon at a pose, enlarged by a radius [px].
 
-    polygon: row of polygons; polygons, table: geometry.polygons and geometry.corners.
+    polygon: row of geometry.polygons; polygons, table: geometry.polygons and geometry.corners; x, y [px], cosine, sine:
+    pose of its body.
     """
     span = polygons[polygon]
     first = table[span.offset]
@@ -236,7 +240,7 @@ def polygon_aabb(polygons, table, polygon, radius, x, y, cosine, sine):
 
 @subkernel
 def is_hull(kind):
-    """Return whether shapes of a kind are one convex hull with a rounding radius: all but TILES, MASK and CHAIN."""
+    """Return whether shapes of this kind are one convex hull with a rounding radius: all but TILES, MASK and CHAIN."""
     return kind != TILES and kind != MASK and kind != CHAIN
 
 
@@ -248,7 +252,7 @@ def rounding(shapes, row):
 
 @subkernel
 def chain_aabb(geometry, chain, cosine, sine):
-    """Return the AABB [px] of a chain in a body at (0, 0) rotated by (cosine, sine).
+    """Return the AABB [px] of a chain whose body is at (0, 0), rotated by (cosine, sine).
 
     chain: row of geometry.chains. O(links); without rotation O(blocks of links).
     """
@@ -274,8 +278,8 @@ def chain_aabb(geometry, chain, cosine, sine):
 def aabb_at(geometry, shapes, row, x, y, angle):
     """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a shape with its body at a pose. O(corners).
 
-    The AABB of a mask is that of its solid pixels, at whole pixels if the row is drawn (snap=True, not the role
-    PIXELS). The AABB of an empty mask is the point (x, y).
+    The AABB of a mask is that of its solid pixels: on whole pixels if it is tested as drawn (snap=True) and its role is
+    not PIXELS, otherwise at the exact pose. The AABB of an empty mask is the point (x, y). row: SHAPE row.
     """
     s = shapes[row]
     kind = s.kind
@@ -302,9 +306,10 @@ def aabb_at(geometry, shapes, row, x, y, angle):
 
 @subkernel
 def hull_at(geometry, shapes, row, x, y, angle, corners_out):
-    """Write the world corners [px] of a hull at a pose, clockwise on the screen, to corners_out (16, 2).
+    """Write the world corners [px] of a hull at a pose to corners_out (16, 2). Return their number.
 
-    A circle has one corner, its centre. `rounding` returns the radius. Return the number of corners.
+    The corners are clockwise on the screen. A circle has one corner, its centre; its radius is the result of
+    `rounding`. row: SHAPE row; x, y, angle [px, px, rad]: pose of its body.
     """
     s = shapes[row]
     if s.kind == CIRCLE:
@@ -317,9 +322,10 @@ def hull_at(geometry, shapes, row, x, y, angle, corners_out):
 
 @subkernel
 def corners_at(geometry, shapes, row, x, y, angle, corners_out):
-    """Write the world corners [px] of a POLYGON, CAPSULE, SEGMENT or BOUNDS at a pose to corners_out (16, 2).
+    """Write the world corners [px] of a POLYGON, CAPSULE, SEGMENT or BOUNDS at a pose. Return their number.
 
-    Corners are clockwise on the screen; for a BOUNDS they are the corners of its AABB. Return the number of corners.
+    Corners are clockwise on the screen; those of a BOUNDS are the corners of its AABB. row: SHAPE row; x, y, angle [px,
+    px, rad]: pose of its body; corners_out (16, 2).
     """
     if shapes[row].kind != BOUNDS:
         cosine, sine = rotation_of(angle)
@@ -330,16 +336,20 @@ def corners_at(geometry, shapes, row, x, y, angle, corners_out):
 
 @kernel
 def write_hull(geometry, shapes, row, x, y, angle, corners_out):
-    """Write the world corners [px] of a hull to corners_out (16, 2). Return (their number, rounding radius [px])."""
+    """Write the world corners [px] of a hull to corners_out (16, 2). Return (their number, rounding radius [px]).
+
+    Arguments: see hull_at.
+    """
     return hull_at(geometry, shapes, row, x, y, angle, corners_out), rounding(shapes, row)
 
 
 @kernel
 def missing_rasters(rows, bodies, shapes, rasters, raster_of, dt, missing_out):
-    """List the rasters of masks (snap=True) that are needed now or at the end of the step and have not been drawn yet.
+    """List the rasters of masks that are needed now or at the end of the step and have not been added yet.
 
-    rows: indices of SHAPE rows; dt [s]: length of the step; missing_out (capacity, 2) int64: (geometry row of the mask,
-    angle bucket), possibly with duplicates. O(rows). Return the number found, which may exceed the capacity.
+    Return the number found, which may exceed the capacity of missing_out. Only masks with snap=True need them. rows:
+    indices of SHAPE rows; dt [s]: length of the step; missing_out (capacity, 2) int64: (geometry row of the mask, angle
+    bucket), possibly with duplicates. O(rows).
     """
     found = 0
     buckets = raster_of.shape[1]
@@ -366,7 +376,7 @@ def missing_rasters(rows, bodies, shapes, rasters, raster_of, dt, missing_out):
 
 @subkernel
 def place_mask(rasters, raster_of, body, shape_inout):
-    """Place a MASK (snap=True) at its body's pose: write its raster, pixel column and row, and the AABB of its pixels.
+    """Place a mask with snap=True at its body's pose: write its raster, left and top, and the AABB of its pixels.
 
     rasters, raster_of: tables of the geometry, passed separately because passing the whole Geometry takes longer.
     """
@@ -384,7 +394,10 @@ def place_mask(rasters, raster_of, body, shape_inout):
 
 @kernel
 def place_masks(rows, geometry, bodies, shapes_inout):
-    """Write raster, pixel column (left) and row (top) of masks at their bodies' poses. rows: rows of SHAPE. O(rows)."""
+    """Write the columns raster, left and top of masks for the poses of their bodies. O(rows).
+
+    left and top are the pixel column and row where the raster is drawn. rows: indices of SHAPE rows.
+    """
     for k in range(len(rows)):
         s = shapes_inout[rows[k]]
         b = bodies[s.body_row]
@@ -396,7 +409,7 @@ def place_masks(rows, geometry, bodies, shapes_inout):
 
 @subkernel
 def refresh_boxes(rows, geometry, bodies, shapes_inout):
-    """Write the tight AABBs of shapes at their bodies' poses; of drawn masks (snap=True) also raster, left and top.
+    """Write the tight AABBs of shapes at their bodies' poses; for drawn masks (snap=True) also raster, left and top.
 
     rows: indices of SHAPE rows. O(rows).
     """
@@ -434,15 +447,15 @@ def refresh_boxes(rows, geometry, bodies, shapes_inout):
 
 @kernel
 def refresh_aabbs(rows, geometry, bodies, shapes_inout):
-    """Write the tight AABBs of the shapes in these SHAPE rows: refresh_boxes for callers outside of kernels.
+    """Write the tight AABBs of shapes at their bodies' poses. O(rows).
 
-    O(rows).
+    This is refresh_boxes for callers outside of kernels. rows: indices of SHAPE rows.
     """
     refresh_boxes(rows, geometry, bodies, shapes_inout)
 
 
 def add_missing_rasters(library: Any, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray, dt: float) -> None:
-    """Draw missing rasters of the masks (snap=True) in these SHAPE rows, at their angles now and after dt [s]."""
+    """Add the rasters that masks with snap=True need at their angles now and after dt [s]. rows: SHAPE rows."""
     if not library.masks:
         return
     missing = np.zeros((2 * len(rows), 2), np.int64)

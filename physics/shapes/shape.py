@@ -1,4 +1,4 @@
-"""Base class of all shapes; Filter and Material, which a shape may have as its own; and convex parts of shapes."""
+"""Base class of all shapes; Filter and Material, of which a shape may have its own; convex parts of shapes."""
 
 import copy
 import math
@@ -20,9 +20,10 @@ from physics.tables.geometry import Geometry
 
 @dataclass(frozen=True)
 class Filter:
-    """Collision filter of 32-bit sets: shapes collide if a.membership & b.mask and b.membership & a.mask are not 0.
+    """Collision filter: a set of categories that a shape belongs to, and a set that it collides with, 32 bits each.
 
-    Raises TypeError for a value that is not a whole number, ValueError for a value outside 0..0xFFFFFFFF.
+    Shapes a and b collide if a.membership & b.mask and b.membership & a.mask are not 0. Raises TypeError for a value
+    that is not a whole number, ValueError for a value outside 0..0xFFFFFFFF.
     """
 
     ALL: ClassVar["Filter"]  # collides with every shape
@@ -36,7 +37,7 @@ class Filter:
 
     @classmethod
     def from_packed(cls, bits: int) -> "Filter":
-        """Return the filter packed in 32 bits: membership is the low 16 bits, mask the high 16 bits."""
+        """Return the filter that is packed in 32 bits: membership in the low 16 bits, mask in the high 16 bits."""
         bits = checks.whole("bits", bits, 0, 0xFFFFFFFF)
         return cls(bits & 0xFFFF, bits >> 16)
 
@@ -50,7 +51,7 @@ Filter.ALL = Filter(0xFFFFFFFF, 0xFFFFFFFF)
 
 @dataclass(frozen=True)
 class Material:
-    """Material of a shape: density [mass per px2] > 0; friction, restitution and rolling_resistance >= 0.
+    """Density and surface of a shape: density [mass per px2] > 0; friction, restitution, rolling_resistance >= 0.
 
     surface_speed [px/s]: speed of the surface along its tangent, as on a conveyor belt. rolling_resistance: the torque
     against rolling is at most rolling_resistance · radius · load. Raises TypeError for a value that is not a number,
@@ -87,9 +88,9 @@ class Parts(NamedTuple):
 
 
 def parts_of(outlines: Sequence, radii: ArrayLike = 0.0) -> Parts:
-    """Return Parts of convex outlines, each of 1 to 16 corners clockwise on the screen.
+    """Return the Parts with these convex outlines, each of 1 to 16 corners [px] clockwise on the screen.
 
-    radii [px]: one number for all outlines, or one each.
+    radii [px]: rounding radius, one number for all outlines or one each.
     """
     corners, counts = np.zeros((len(outlines), 16, 2)), np.zeros(len(outlines), np.int64)
     for k, outline in enumerate(outlines):
@@ -99,22 +100,22 @@ def parts_of(outlines: Sequence, radii: ArrayLike = 0.0) -> Parts:
 
 
 def with_boxes(corners: np.ndarray, counts: np.ndarray, radii: np.ndarray) -> Parts:
-    """Return Parts of these arrays, and compute their AABBs. Shapes and units as in Parts."""
+    """Return Parts with these columns, and with the AABBs that follow from them. Shapes and units: see Parts."""
     used = (np.arange(16)[None, :] < counts[:, None])[:, :, None]
     low, high = np.where(used, corners, np.inf).min(axis=1), np.where(used, corners, -np.inf).max(axis=1)
     return Parts(corners, counts, np.concatenate([low - radii[:, None], high + radii[:, None]], axis=1), radii)
 
 
 def turned_parts(parts: Parts, x: float, y: float, cosine: float, sine: float) -> Parts:
-    """Return parts in body space moved to a pose of the body: position (x, y) [px], cosine and sine of its angle."""
+    """Return parts in body space placed in the world: body at (x, y) [px], rotated by (cosine, sine)."""
     corners = parts.corners @ np.array([[cosine, sine], [-sine, cosine]]) + (x, y)
     return with_boxes(corners, parts.counts, parts.radii)
 
 
 def parts_near(parts: Parts, left: float, top: float, right: float, bottom: float) -> Parts:
-    """Return the parts whose AABBs overlap or touch a box [px], enlarged by a margin for rounding errors.
+    """Return the parts whose AABBs overlap or touch a box (left, top, right, bottom) [px].
 
-    left, top, right, bottom: the box.
+    The box is enlarged by a margin for rounding errors.
     """
     reach = NEAR * max(map(abs, (left, top, right, bottom)))
     low, high = parts.boxes[:, :2], parts.boxes[:, 2:]
@@ -128,10 +129,7 @@ def rectangle(left: float, top: float, right: float, bottom: float) -> list[tupl
 
 
 class Placed(NamedTuple):
-    """A shape of a world at its pose, with a point (x, y) near it.
-
-    Coordinates are relative to this point, for precision.
-    """
+    """A shape of a world at its pose, with coordinates relative to a point (x, y) near it, for precision."""
 
     geometry: Geometry
     bodies: np.ndarray  # BODY
@@ -163,7 +161,7 @@ class Placed(NamedTuple):
 
 
 class Shape:
-    """Base of all shapes: immutable values in body space [px], x right, y down, without a pose.
+    """Base of all shapes. A shape is an immutable value in body space [px], x right, y down, without a pose.
 
     Callers use these methods and never test the type. The defaults here suit ground: no mass, and hulls that rotate
     with the body. Convex (values.py) computes all results from corners and a radius. SHAPES (kinds.py) lists the types.
@@ -188,7 +186,7 @@ class Shape:
 
     @property
     def bounds(self) -> tuple[float, float, float, float] | None:
-        """Bounds (min_x, min_y, max_x, max_y) [px] in body space of a shape with mass; None for an empty shape."""
+        """Bounds (min_x, min_y, max_x, max_y) [px] in body space; None for empty shapes, tile grids and chains."""
         return None
 
     @property
@@ -198,7 +196,7 @@ class Shape:
 
     @property
     def _thinnest_half(self) -> float:
-        """Smallest inradius [px] of the parts by which the shape collides; min_half_extent if it has no parts."""
+        """Smallest inradius [px] of the parts with which the shape collides; min_half_extent if it has no parts."""
         return self.min_half_extent
 
     def reach(self, x: float, y: float) -> float:
@@ -212,16 +210,19 @@ class Shape:
 
     @property
     def _key(self) -> tuple:
-        """Sort key of the shape among shapes of its type, made of numbers and bytes."""
+        """Sort key among shapes of the same type: a tuple of numbers and bytes."""
         return (self.radius, len(self.points), *(each for point in self.points for each in point))
 
     def _hulls(self) -> list[tuple[np.ndarray, float]]:
-        """Return [(corners (n, 2), radius)]: the convex hulls in body space of the shape, or of a mask's pixels."""
+        """Return the convex hulls of the shape in body space: [(corners (n, 2) [px], rounding radius [px])].
+
+        For a mask they are rectangles of pixels.
+        """
         return []
 
     @property
     def _pixel_parts(self) -> Parts:
-        """The result of `_hulls` as Parts in body space; for a mask, rectangles of pixels."""
+        """The hulls of the shape as Parts in body space; for a mask, rectangles of pixels."""
         hulls = self._hulls()
         return parts_of([corners for corners, _ in hulls], [radius for _, radius in hulls])
 
@@ -231,29 +232,32 @@ class Shape:
         return self._pixel_parts
 
     def _box_at(self, angle: float) -> Parts:
-        """Return the shape's AABB as one part, for a body at (0, 0) with an angle [rad]; no part for an empty shape."""
+        """Return the shape's AABB as one part, for a body at (0, 0) and `angle` [rad]; no part for an empty shape."""
         boxes = turned_parts(self._pixel_parts, 0.0, 0.0, math.cos(angle), math.sin(angle)).boxes
         return parts_of([rectangle(*boxes[:, :2].min(axis=0), *boxes[:, 2:].max(axis=0))] if len(boxes) else [])
 
     def _rotation(self, angle: float) -> tuple[float, float]:
-        """Return (cosine, sine) of an angle [rad], computed as the kernels do for this type of shape."""
+        """Return (cosine, sine) of an angle [rad], rounded as in the kernels for this type of shape."""
         return math.cos(angle), math.sin(angle)
 
     def _parts_at(self, placed: Placed) -> Parts:
-        """Return the convex parts of the shape at the pose of its body, relative to the point of `placed`."""
+        """Return the convex parts of the shape at the pose of its body, in the coordinates of `placed`."""
         cosine, sine = self._rotation(placed.angle)
         turn = np.array([[cosine, sine], [-sine, cosine]])
         return parts_of([corners @ turn + placed.offset for corners, _ in self._hulls()])
 
     def _response_parts(self) -> Sequence[tuple[int, Sequence]]:
-        """Return [(tile, parts)] that collide in place of the shape, one SHAPE row per part; () if it has no parts."""
+        """Return [(tile number, parts)] that collide in place of the shape; () if it has no parts.
+
+        Each part has a SHAPE row.
+        """
         return ()
 
     def _check_body(self, kind: int, angles: ArrayLike) -> None:
         """Raise ValueError if bodies of this kind at these angles [rad] cannot have the shape."""
 
     def with_(self, material: Material | None = None, filter: Filter | None = None, sensor: bool | None = None) -> Self:
-        """Return the shape with these values as its own; None: the body's value applies.
+        """Return a copy of the shape with its own material, filter and sensor; None: the body's value applies.
 
         Own values do not change when the body's values change. An own density counts in the body's mass. Raises
         TypeError for a value of another type.
@@ -271,14 +275,14 @@ class Shape:
 
     @property
     def bare(self) -> Self:
-        """The shape without material, filter and sensor of its own.
+        """The shape without a material, filter and sensor of its own.
 
         A library stores it once for all shapes that differ only in these values.
         """
         return vars(self).get("_bare", self)
 
     def with_values_of(self, other: "Shape") -> Self:
-        """Return this shape with the material, filter and sensor that another shape has as its own."""
+        """Return a copy of this shape with the own material, filter and sensor of another shape."""
         return self.with_(other.material, other.filter, other.sensor)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Self:

@@ -1,4 +1,4 @@
-"""Shapes as immutable values: convex shapes, lines, tile grids."""
+"""Shapes as immutable values: convex shapes, tile grids and lines."""
 
 import math
 import sys
@@ -34,8 +34,8 @@ SHORTEST = 1e-9  # share of the hull's size: a shorter edge loses its direction 
 class Convex(EqualByValue):
     """Base of the convex shapes: the hull of `points`, 1 to 16 corners clockwise on the screen, rounded by `radius`.
 
-    A subclass is a frozen dataclass that has `points`. A hull of one corner collides as a circle, a hull of two as a
-    capsule or a segment, a hull of more as a polygon.
+    A subclass is a frozen dataclass that provides `points`. A hull of one corner collides as a circle, a hull of two as
+    a capsule or a segment, a hull of more as a polygon.
     """
 
     radius = 0.0  # a subclass declares a field `radius` without a default with field(), else 0.0 would be its default
@@ -74,12 +74,12 @@ class Convex(EqualByValue):
         return parts_of([corners[:count]], radius)
 
     def _facts(self) -> dict[str, Any]:
-        """Return the constructor's arguments except `points`, by name, for a snapshot: values that JSON can hold."""
+        """Return the constructor's arguments except `points`, by name, as values that JSON can hold, for a snapshot."""
         return {each.name: getattr(self, each.name) for each in fields(self) if each.init and each.name != "points"}
 
     @classmethod
     def _load(cls, points: Points, facts: dict[str, Any]) -> Self:
-        """Return the shape stored in a snapshot. points: its corners; facts: the result of `_facts`.
+        """Return the shape that a snapshot stores. points: its corners; facts: the result of `_facts`.
 
         Raises TypeError or ValueError for arguments that the constructor rejects.
         """
@@ -167,9 +167,9 @@ class Polygon(Convex):
 
     @classmethod
     def known(cls, points: list[list[float]]) -> "Polygon":
-        """Return a polygon without checking its corners [px], which must be convex and clockwise on the screen.
+        """Return a polygon whose corners [px] are not checked. They must be convex and clockwise on the screen.
 
-        Used for the outlines of masks, which have thousands of polygons.
+        This saves time for the outlines of masks, which have thousands of polygons.
         """
         found = object.__new__(cls)
         vars(found).update(points=tuple(map(CORNER_OF, points)), radius=0.0)
@@ -177,7 +177,7 @@ class Polygon(Convex):
 
     @classmethod
     def box(cls, width: float, height: float, center: Pair = (0.0, 0.0), angle: float = 0.0) -> "Polygon":
-        """Return a box of full width and height [px], rotated by `angle` [rad] about its centre."""
+        """Return a box of full width and height [px] around `center` [px], rotated by `angle` [rad] about it."""
         half_width = checks.number("width", width, above=0.0) / 2.0
         half_height = checks.number("height", height, above=0.0) / 2.0
         x, y = checks.vector("center", center)
@@ -199,8 +199,8 @@ class Polygon(Convex):
 def solid_blocks(solid: np.ndarray) -> list[tuple[int, int, int, int]]:
     """Return disjoint rectangles (left, top, right, bottom) that cover the solid cells of solid[row, col].
 
-    Right and bottom are exclusive. Each rectangle is a run of cells in a row, extended down over rows with the same
-    run.
+    Right and bottom are exclusive. Each rectangle is a sequence of solid cells in a row, extended down over the
+    following rows that have a sequence of the same columns.
     """
     found, open_runs = [], {}
     edges = np.diff(np.pad(solid, ((0, 1), (1, 1))).astype(np.int8), axis=1)
@@ -219,9 +219,9 @@ def solid_blocks(solid: np.ndarray) -> list[tuple[int, int, int, int]]:
 class TileGrid(Shape):
     """A grid of square tiles of one size; the origin is the top left corner of tile (0, 0).
 
-    solid[row, col] bool. one_way[row, col] bool: platforms; bodies pass through them from below. slopes[row, col] =
+    solid[row, col] bool. one_way[row, col] bool: platforms, through which bodies pass from below. slopes[row, col] =
     (left, right): height of the surface above the tile's bottom at its left and right side, as a fraction 0..1 of the
-    tile; (0, 1) rises to the right, (0, 0) means no slope. Raises ValueError if the arrays differ in shape, a slope is
+    tile. (0, 1) rises to the right, (0, 0) means no slope. Raises ValueError if the arrays differ in shape, a slope is
     out of range, or a cell is more than one of solid, one-way and slope; TypeError for arrays of other types.
     """
 
@@ -257,9 +257,9 @@ class TileGrid(Shape):
 
     @cached_property
     def blocks(self) -> tuple[list[tuple[int, int, int, int]], list[list[int]], list[tuple[int, int, int, int]]]:
-        """The tiles as (rectangles of solid cells, [row, column] of slopes, rectangles of one-way cells), in cells.
+        """The tiles as (rectangles of solid cells, [row, column] of each slope, rectangles of one-way cells).
 
-        A rectangle is (left, top, right, bottom), right and bottom exclusive.
+        A rectangle is (left, top, right, bottom) in cells, right and bottom exclusive.
         """
         return (
             solid_blocks(self.solid),
@@ -290,8 +290,8 @@ class TileGrid(Shape):
     def _outlines(self, x: float, y: float, feet: float) -> list:
         """Return the convex outlines of the tiles, with the grid's origin at (x, y) [px].
 
-        feet [px]: y of the lowest point of the other shape, relative to the grid's origin. A one-way tile is listed, as
-        the line along its top, only if this point is not below the line.
+        The outline of a one-way tile is the line along its top. It is included only if the other shape is not below
+        this line. feet [px]: y of the lowest point of the other shape, relative to the grid's origin.
         """
         size = self.tile_size
         solid, slopes, one_way = self.blocks
@@ -330,9 +330,10 @@ class TileGrid(Shape):
 
 
 def bools(name: str, value: ArrayLike) -> np.ndarray:
-    """Return an array [row, col] of bools or integers as C-ordered bools.
+    """Return an array [row, col] of bools or integers as a C-contiguous array of bools.
 
-    Raises TypeError for other values and for rows of different lengths, ValueError for an array that is not 2D.
+    name: name of the argument, for messages. Raises TypeError for other values and for rows of different lengths,
+    ValueError for an array that is not 2D.
     """
     _refuse_pixels_of_pygame(name, value)
     try:
@@ -347,7 +348,7 @@ def bools(name: str, value: ArrayLike) -> np.ndarray:
 
 
 def _refuse_pixels_of_pygame(name: str, value: Any) -> None:
-    """Raise TypeError for a pygame Mask or Surface: NumPy would misread the packed words of a Mask as pixels."""
+    """Raise TypeError for a pygame Mask or Surface, which NumPy would misread (packed words of a Mask as pixels)."""
     pygame = sys.modules.get("pygame")  # a caller with a Mask has imported it; physics does not
     for kind, way_in in (("Mask", "from_mask(mask)"), ("Surface", "from_surface(surface)")):
         known = getattr(pygame, kind, None)
@@ -391,11 +392,13 @@ class Segment(Convex):
 class Chain(EqualByValue):
     """Connected one-sided lines (links) from point to point, without mass; for static and kinematic bodies.
 
-    A link of direction (dx, dy) is solid on the side to which (dy, -dx) points: the points of a floor are listed left
-    to right, of a solid island clockwise on the screen, of a room counter-clockwise. loop: whether the last point is
-    linked to the first. ghosts: (before, after), neighbours of the first and last point, which only smooth collisions
-    at the ends; each may be None. materials: one Material per link; None: the body's. Raises ValueError for too few
-    points, a link without length, a number of materials other than the number of links, and ghosts of a loop.
+    A link of direction (dx, dy) is solid from the side to which (dy, -dx) points. So list the points of a floor from
+    left to right, those of a solid island clockwise on the screen, and those of a room counter-clockwise.
+
+    loop: whether the last point is linked to the first. ghosts: (before, after), points that continue the chain at both
+    ends; they only smooth collisions there, and each may be None. materials: one Material per link; None: the body's.
+    Raises ValueError for too few points, a link without length, a number of materials other than the number of links,
+    and ghosts of a loop.
     """
 
     points: Points
@@ -462,7 +465,7 @@ class Chain(EqualByValue):
         return len(self.points) if self.loop else len(self.points) - 1
 
     def _hulls(self) -> list[tuple[np.ndarray, float]]:
-        """Return the links as hulls of two corners with radius 0."""
+        """Return each link as a hull of two corners with radius 0."""
         points = list(self.points) + ([self.points[0]] if self.loop else [])
         return [(np.array(each, np.float64), 0.0) for each in pairwise(points)]
 

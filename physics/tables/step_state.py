@@ -1,4 +1,4 @@
-"""Tables of a world, the StepState that the stages of a step share, and the work counters."""
+"""The tables of a world between steps, the StepState that the stages of a step share, and the work counters."""
 
 from collections.abc import Callable
 from typing import Any, Protocol, cast
@@ -27,10 +27,10 @@ COUNTERS = (
 
 
 class WorldTables(Protocol):
-    """The common fields of a World and of the StepState of its step.
+    """The fields that a World and the StepState of its step have in common.
 
-    Functions that run both between steps and within a step take a WorldTables: sleeping, waking, new swept AABBs. A
-    field annotated Any has a type from a package that imports this one.
+    Functions that run both between steps and within a step take a WorldTables, for example those for sleeping and
+    waking. A field annotated Any has a type from a package that imports this one.
     """
 
     awake: Any  # islands.awake.Awake
@@ -67,12 +67,12 @@ class WorldTables(Protocol):
 
     @property
     def effects(self) -> Any:
-        """The declared Effects."""
+        """The Effects of the world: which parts of the simulation are switched on."""
         ...
 
     @property
     def stacks(self) -> bool:
-        """Whether the solver has a contact cache."""
+        """Whether the world's solver keeps contacts from step to step (contact cache)."""
         ...
 
     @property
@@ -200,7 +200,7 @@ class Stage(Protocol):
 def stage(
     name: str, reads: tuple[str, ...] = (), writes: tuple[str, ...] = ()
 ) -> Callable[[Callable[[StepState], None]], Stage]:
-    """Return a decorator that marks a function of a StepState as a stage.
+    """Return a decorator that declares a function of a StepState as a stage of the step.
 
     name: name of the stage in `world.stages`; reads, writes: fields that the stage reads and writes. Raises ValueError
     for an unknown field.
