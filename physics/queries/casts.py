@@ -62,9 +62,10 @@ from physics.tables.table import joined
 
 
 def query_aabb(world: AskedWorld, lower: Pair, upper: Pair) -> list:
-    """Return the bodies with a shape whose AABB meets a closed box [px]. Empty masks and grids have no AABB.
+    """Return the bodies that have a shape whose AABB meets a closed box [px]. Empty masks and grids have no AABB.
 
-    Raises TypeError for values that are not points, ValueError for lower > upper.
+    lower, upper: corners (min_x, min_y), (max_x, max_y) of the box. Raises TypeError for values that are not points,
+    ValueError for lower > upper.
     """
     lower, upper = checks.vector("lower", lower), checks.vector("upper", upper)
     if lower[0] > upper[0] or lower[1] > upper[1]:
@@ -79,7 +80,7 @@ def query_aabb(world: AskedWorld, lower: Pair, upper: Pair) -> list:
 
 
 def query_rect(world: AskedWorld, rect: Any) -> list:
-    """Return the bodies with a shape whose AABB meets a rectangle [px].
+    """Return the bodies that have a shape whose AABB meets a rectangle [px].
 
     rect: (x, y, width, height) or ((x, y), (width, height)). Raises TypeError for another value, ValueError for a width
     or height < 0 and for a number that is not finite.
@@ -95,7 +96,10 @@ def query_rect(world: AskedWorld, rect: Any) -> list:
 
 
 def bounds_of(world: IndexedWorld, identity: int) -> tuple[float, float, float, float] | None:
-    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a body's shapes at its pose; None if all are empty."""
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] of all shapes of a body; None if all are empty.
+
+    identity: id of the body.
+    """
     world.queries.refresh(world)
     rows = with_content(world, np.flatnonzero(world.shapes["body"] == identity))
     if not len(rows):
@@ -105,7 +109,7 @@ def bounds_of(world: IndexedWorld, identity: int) -> tuple[float, float, float, 
 
 
 def with_content(world: IndexedWorld, rows: np.ndarray) -> np.ndarray:
-    """Return those of the shape rows `rows` that are not empty masks or empty grids."""
+    """Return `rows` (indices of SHAPE rows) without those of empty masks and empty grids."""
     shapes, library = world.shapes[rows], world.library
     kinds = np.where(shapes["kind"] == BOUNDS, shapes["wrapped"], shapes["kind"])
     keep = np.ones(len(rows), bool)
@@ -124,9 +128,9 @@ def with_content(world: IndexedWorld, rows: np.ndarray) -> np.ndarray:
 
 @subkernel
 def write_hit(row, fraction, nx, ny, found, hits_out):
-    """Write the hit (row, fraction, normal) to row `found` of hits_out. Return found + 1.
+    """Write a hit (row, fraction, normal) to hits_out[found]. Return found + 1.
 
-    row: SHAPE row that was hit; fraction: fraction of the translation.
+    row: SHAPE row that was hit; fraction: fraction of the cast's translation at the hit; nx, ny: unit normal.
     """
     hits_out[found, 0] = float(row)
     hits_out[found, 1] = fraction
@@ -137,9 +141,10 @@ def write_hit(row, fraction, nx, ny, found, hits_out):
 
 @kernel
 def cast_ray_at_rows(geometry, bodies, shapes, rows, ray, corners_inout, hits_out, work_inout):
-    """Write (row, fraction, normal) of every listed shape that a ray (x, y, dx, dy) [px] hits. Return their number.
+    """Write (row, fraction, normal) of every listed shape that a ray hits to hits_out (rows, 4). Return their number.
 
-    rows: indices of SHAPE rows. corners_inout (16, 2): scratch. hits_out (rows, 4).
+    rows: indices of SHAPE rows; ray: start and vector (x, y, dx, dy) [px]; corners_inout (16, 2): scratch. The fraction
+    is the part of the vector up to the hit.
     """
     found = 0
     for k in range(len(rows)):
@@ -152,10 +157,10 @@ def cast_ray_at_rows(geometry, bodies, shapes, rows, ray, corners_inout, hits_ou
 
 @kernel
 def cast_ray_at_parts(parts, dx, dy, corners_inout, hit_out, work_inout):
-    """Write (fraction, normal) of the nearest hit of a ray from the origin on convex parts to hit_out[1:].
+    """Write (fraction, normal) of the nearest hit of a ray on convex parts to hit_out[1:]. Return whether there is one.
 
-    dx, dy [px]: vector of the ray; parts: Parts; corners_inout (16, 2): scratch; hit_out (4,). O(parts). Return whether
-    the ray hits a part.
+    The ray starts at the origin. dx, dy [px]: its vector; parts: Parts; corners_inout (16, 2): scratch; hit_out (4,).
+    O(parts).
     """
     hit_out[1] = MISS
     for k in range(len(parts.counts)):
@@ -175,11 +180,11 @@ def cast_ray_at_parts(parts, dx, dy, corners_inout, hit_out, work_inout):
 
 @kernel
 def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out, work_inout):
-    """Write (row, fraction, normal) of every listed shape that a moving hull hits. Return their number.
+    """Write (row, fraction, normal) of every listed shape that a moving hull hits to hits_out. Return their number.
 
-    The normal points from the shape to the hull. rows: indices of SHAPE rows, without masks. hull: a Hull, its corners
-    relative to its centre of rotation. workspace: RotationalWorkspace that holds the hull's motion. hits_out (rows, 4).
-    A shape that touches the hull at the start counts as hit at fraction 0 if the hull approaches the shape.
+    The normal points from the shape to the hull. A shape that touches the hull at the start is hit at fraction 0 if the
+    hull approaches it. rows: indices of SHAPE rows, without masks; hull: a Hull with corners relative to its centre of
+    rotation; workspace: RotationalWorkspace that holds the hull's motion; hits_out (rows, 4).
     """
     r = workspace.advance
     corners, count, radius, _ = hull
@@ -219,10 +224,10 @@ def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out,
 
 @kernel
 def nearest_hull(geometry, bodies, shapes, rows, point, workspace, nearest_out, work_inout):
-    """Write (distance, x, y) [px] of the point nearest to `point` on the listed hulls.
+    """Find the point nearest to `point` on the listed hulls. Return its SHAPE row, or -1 if no hull is listed.
 
-    Return the SHAPE row of its hull. Return -1 if no hull is listed. rows: indices of SHAPE rows in ascending order;
-    tiles, masks and chains are left out. If `point` lies in a hull, the distance is 0 and the nearest point is `point`.
+    nearest_out (3,) receives (distance, x, y) [px]. If `point` lies in a hull, the distance is 0 and the nearest point
+    is `point` itself. rows: indices of SHAPE rows in ascending order, of which tiles, masks and chains are skipped;
     workspace: AdvanceWorkspace.
     """
     x, y = point
@@ -260,7 +265,11 @@ PIECE = 8.0  # [m] … each of about this width
 
 @dataclass(frozen=True)
 class RayHit:
-    """A hit of a ray or cast shape: body, id of the shape, point [px], unit normal, fraction of the translation."""
+    """A hit of a ray or of a cast shape: the body and shape that were hit, and where.
+
+    shape: id of the shape; point [px]; normal: unit normal of the hit surface; fraction: fraction of the translation
+    before the hit.
+    """
 
     body: Any  # a Body, whose module imports this one
     shape: int
@@ -272,12 +281,12 @@ class RayHit:
 def ray_cast_all(
     world: AskedWorld, origin: Pair, translation: Pair, filter: Filter, sensors: bool, first: bool = False
 ) -> list[RayHit]:
-    """Return all hits of a ray, nearest first, on ties in the order of shape ids; with `first` only the nearest hit.
+    """Return all hits of a ray, nearest first. Hits at equal fractions are in the order of shape ids.
 
-    translation [px]: vector from the origin to the end of the ray. A ray that starts inside a shape hits it at fraction
-    0, with the normal against the ray's direction. A ray of zero length is a point query with normals (0, -1). filter:
-    Filter of the ray; sensors: whether sensors are also hit. Raises TypeError for values of other types, ValueError for
-    numbers that are not finite or an origin too far away.
+    translation [px]: vector from the origin to the end of the ray; filter: Filter of the ray; sensors: whether sensors
+    are also hit; first: whether to return only the nearest hit. A ray that starts inside a shape hits it at fraction 0,
+    with the normal against the ray's direction. A ray of zero length is a point query with normals (0, -1). Raises
+    TypeError for values of other types, ValueError for numbers that are not finite or an origin too far away.
     """
     x, y = checks.position("origin", origin)
     dx, dy = checks.vector("translation", translation)
@@ -315,9 +324,9 @@ def ray_cast_all(
 
 
 def _beside(world, rows, x, y, dx, dy, beyond) -> np.ndarray:
-    """Return those of the shape rows whose AABBs, enlarged by `beyond` [px], cross the infinite line through a ray.
+    """Return the shape rows whose AABBs, enlarged by `beyond` [px], meet the infinite line through a ray.
 
-    x, y, dx, dy [px]: start and vector of the ray.
+    rows: indices of SHAPE rows; x, y, dx, dy [px]: start and vector of the ray.
     """
     if not len(rows):
         return rows
@@ -328,9 +337,9 @@ def _beside(world, rows, x, y, dx, dy, beyond) -> np.ndarray:
 
 
 def _rays_at_outlines(world, rows, x, y, dx, dy) -> list[np.ndarray]:
-    """Return (row, fraction, normal) of each mask whose outline the ray x, y, dx, dy hits, as arrays (1, 4).
+    """Return (row, fraction, normal) of each mask outline that a ray hits, as a list of arrays (1, 4).
 
-    rows: SHAPE rows of the parts of masks.
+    rows: SHAPE rows of the parts of masks; x, y, dx, dy [px]: start and vector of the ray.
     """
     hits, corners = [], np.zeros((16, 2))
     for row in rows.tolist():
@@ -346,12 +355,14 @@ def _rays_at_outlines(world, rows, x, y, dx, dy) -> list[np.ndarray]:
 def shape_cast(world: AskedWorld, shape: Shape, pose: Pose, translation: Pair, filter: Filter) -> RayHit | None:
     """Return the first hit of a shape that moves from a pose by a translation [px]; None without a hit.
 
-    On ties the shape with the smallest id is returned. Sensors are left out. The normal points from the hit shape to
-    the cast shape, and the point lies midway between them. Shapes that touch or overlap at the start give a hit at
-    fraction 0 if the cast shape approaches; otherwise the cast continues. A cast of zero length returns the first shape
-    that it overlaps. A PixelMask is cast as its outline at the exact pose, and a grazing contact is not a hit. A Chain
-    is hit from its front, a one-way tile or mask from above. Raises TypeError for values of other types, ValueError for
-    numbers that are not finite or a pose that the shape cannot have.
+    Of several hits at the same fraction, that of the smallest shape id is returned. Sensors are left out. The normal
+    points from the hit shape to the cast shape, and the point lies midway between them. Shapes that touch or overlap at
+    the start give a hit at fraction 0 if the cast shape approaches; otherwise the cast continues. A cast of zero length
+    returns the first shape that it overlaps.
+
+    A PixelMask is cast as its outline at the exact pose, and a grazing contact is not a hit. A Chain is hit from its
+    front, a one-way tile or mask from above. Raises TypeError for values of other types, ValueError for numbers that
+    are not finite or a pose that the shape cannot have.
     """
     pose, filter = checked_pose("shape", shape, "pose", pose), _checked(filter)
     dx, dy = checks.vector("translation", translation)
@@ -388,10 +399,10 @@ def shape_cast(world: AskedWorld, shape: Shape, pose: Pose, translation: Pair, f
 
 
 def _sweep(world, shape, probe, rows, motion, feet) -> np.ndarray:
-    """Return (row, fraction, normal towards the cast shape) of each shape that a cast shape hits.
+    """Return an array (n, 4) of the shapes that a cast shape hits: (row, fraction, normal towards the cast shape).
 
-    The row of a mask is its first row. probe: Parts of the cast shape; rows: SHAPE rows to test; motion: start x, y and
-    translation [px]; feet: y [px] of the lowest point of the cast shape at its start.
+    A mask with several rows is hit once, in its first row. probe: Parts of the cast shape; rows: SHAPE rows to test;
+    motion: (start x, y, translation x, y) [px]; feet: y [px] of the lowest point of the cast shape at its start.
     """
     x, y, dx, dy = motion
     workspace, hits, found, work = new_rotational_workspace(), np.zeros((len(rows), 4)), 0, world.queries.work
@@ -422,7 +433,7 @@ def _sweep(world, shape, probe, rows, motion, feet) -> np.ndarray:
 
 
 def _outline_at(world, rows, x, y, probe, way, feet) -> Parts:
-    """Return the convex parts of one shape, relative to (x, y) [px], that a cast shape may hit during its motion.
+    """Return the convex parts of one shape that a cast shape may hit during its motion, relative to (x, y) [px].
 
     rows: SHAPE rows of this one shape; probe: Parts of the cast shape; way: translation of the cast shape [px]; feet: y
     [px] of the lowest point of the cast shape.
@@ -439,18 +450,19 @@ def _outline_at(world, rows, x, y, probe, way, feet) -> Parts:
 def _swept_parts(world, row, x, y, feet) -> Parts:
     """Return the convex parts of a SHAPE row for casts, relative to (x, y) [px].
 
-    feet: y [px] of the lowest point of the cast shape; a one-way tile counts only if it lies below this point.
+    feet: y [px] of the lowest point of the cast shape. A one-way tile is included only if it lies below this point.
     """
     placed = Placed(world.library.tables, world.bodies, world.shapes, row, x, y, feet, True)
     return world.library.shape_of(world.shapes[row])._parts_at(placed)
 
 
 def closest(world: AskedWorld, point: Pair, filter: Filter) -> tuple[Any, Vec2, float] | None:
-    """Return (body, point, distance) [px] of the nearest point of any shape; None in an empty world.
+    """Return (body, point, distance) [px] of the point nearest to `point` on any shape; None in an empty world.
 
-    On ties the shape with the smallest id is returned. If `point` lies inside a shape, the nearest point is `point`
-    itself and the distance 0. Sensors are left out. A Chain is measured from both sides, a one-way tile by its top.
-    Raises TypeError for values of other types, ValueError for a point that is not finite or too far away.
+    Of several shapes at the same distance, the one with the smallest id is returned. If `point` lies inside a shape,
+    the nearest point is `point` itself and the distance 0. Sensors are left out. A Chain is measured from both sides, a
+    one-way tile by its top. Raises TypeError for values of other types, ValueError for a point that is not finite or
+    too far away.
     """
     x, y = checks.position("point", point)
     filter, index = _checked(filter), world.queries
@@ -474,7 +486,10 @@ def closest(world: AskedWorld, point: Pair, filter: Filter) -> tuple[Any, Vec2, 
 
 
 def _nearest(world, rows, x, y):
-    """Return (row, distance, point) of the point nearest to (x, y) on the shapes in these rows; None without shapes."""
+    """Return (row, distance, point) [px] of the point nearest to (x, y) on the listed shapes; None for no shapes.
+
+    rows: indices of SHAPE rows.
+    """
     nearest, workspace, work = np.zeros(3), new_advance_workspace(), world.queries.work
     best = nearest_hull(world.library.tables, world.bodies, world.shapes, rows, (x, y), workspace, nearest, work)
     found = [(float(nearest[0]), best, (float(nearest[1]), float(nearest[2])))] if best >= 0 else []
@@ -493,7 +508,7 @@ def _nearest(world, rows, x, y):
 
 
 def query_point(world: AskedWorld, point: Pair) -> list:
-    """Return the bodies with a shape that contains the point [px], sensors included.
+    """Return the bodies that have a shape, or a sensor, that contains the point [px].
 
     Raises TypeError for a value that is not a point, ValueError for a point that is not finite or too far away.
     """
@@ -503,7 +518,7 @@ def query_point(world: AskedWorld, point: Pair) -> list:
 
 
 def overlap(world: AskedWorld, shape: Shape, pose: Pose, filter: Filter) -> list:
-    """Return the bodies that a shape at a pose overlaps, sensors included.
+    """Return the bodies that a shape at a pose overlaps, sensors included. filter: Filter of the shape.
 
     Raises TypeError for values of other types, ValueError for a pose that the shape cannot have.
     """
@@ -519,9 +534,10 @@ def overlap(world: AskedWorld, shape: Shape, pose: Pose, filter: Filter) -> list
 
 
 def _contacts(world, bodies, shapes, rows):
-    """Return CONTACT rows of a query shape, as B, with the shapes in `rows`. `candidate` is an index into `rows`.
+    """Return the CONTACT rows of a query shape with listed shapes. The query shape is B in each.
 
-    bodies, shapes: the BODY and SHAPE row of the query shape.
+    CONTACT.candidate is an index into `rows`. bodies, shapes: the BODY and SHAPE row of the query shape; rows: indices
+    of the world's SHAPE rows.
     """
     others, owners = np.unique(world.shapes["body_row"][rows], return_inverse=True)
     all_bodies = joined([world.bodies[others], bodies])
@@ -548,9 +564,9 @@ def _first_contact(world, bodies, shapes, rows):
 
 
 def _probe(world, shape, pose):
-    """Return the BODY and SHAPE rows of a query shape at a pose, in tables of their own.
+    """Return tables with one BODY row and one SHAPE row, for a query shape at a pose.
 
-    The geometry of the shape is removed at the end of library.visited().
+    The shape's geometry is added to the world's library, until the end of the block library.visited().
     """
     bodies, shapes = np.zeros(1, BODY), np.zeros(1, SHAPE)
     place(world.library, shape, bodies, shapes, 0, pose)
@@ -565,9 +581,10 @@ def _checked(filter):
 
 
 def _allowed(world, rows, filter, sensors, leave=PIXELS):
-    """Return the SHAPE rows that the filter of a query admits, with sensors only if `sensors` is True.
+    """Return those of the SHAPE rows `rows` that the filter of a query admits.
 
-    leave: role of the mask rows to leave out: PIXELS for queries of outlines, PART for queries of pixels.
+    sensors: whether sensors are admitted; leave: role of the mask rows to leave out, PIXELS for queries of outlines,
+    PART for queries of pixels.
     """
     s = world.shapes
     rows = rows[s["role"][rows] != leave]
@@ -583,7 +600,10 @@ def _box_around(start, end, beyond):
 
 
 def _beyond_drawn(world):
-    """Return the distance [px] by which a mask's outline at the exact pose may exceed the box in which it is drawn."""
+    """Return the greatest distance [px] by which a mask's outline at the exact pose exceeds its drawn pixels.
+
+    The outlines of all masks of the world are within it.
+    """
     if not world.library.masks or not len(world.bodies):
         return 0.0
     extent = world.bodies["extent"]

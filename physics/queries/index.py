@@ -1,4 +1,4 @@
-"""Index of the shapes of a world for queries between steps, and the boxes that the last query visited."""
+"""The index with which queries between steps find the shapes of a world, and the boxes that the last query visited."""
 
 from math import floor
 from typing import Any, NamedTuple, Protocol
@@ -34,10 +34,10 @@ def is_found(body):
 
 @kernel
 def find_moved(rows, bodies, poses_inout, moved_out):
-    """List in moved_out the bodies of `rows` whose pose differs from the pose last read. Return their number.
+    """List the bodies whose pose has changed since this function last read it. Return their number. O(rows).
 
-    The new poses are stored in poses_inout. rows: indices of BODY rows; poses_inout (bodies, 3): poses last read.
-    O(rows).
+    rows: indices of the BODY rows to compare; poses_inout (bodies, 3): poses (x, y, angle) last read, which are
+    updated; moved_out: the BODY rows that have moved.
     """
     found = 0
     for n in range(len(rows)):
@@ -56,11 +56,12 @@ def find_moved(rows, bodies, poses_inout, moved_out):
 
 @kernel
 def find_loose(rows, bodies, shapes, proxies, known, row_of_slot_inout, loose_out):
-    """List in loose_out the shape rows that a search of the broad phase may miss. Return their number.
+    """List the loose shapes, which a search of the broad phase may miss. Return their number. O(rows).
 
-    The broad phase finds a shape if its AABB lies within the box of its proxy. For such a shape row_of_slot_inout
-    receives the shape's row at the slot of its proxy, otherwise -1. rows: shape rows to examine. known: 0 if the broad
-    phase has no data yet. Rows of bodies that queries cannot find are in neither list. O(rows).
+    The broad phase finds a shape if its AABB lies within the box of its proxy. Then the shape's row is written to
+    row_of_slot_inout, at the slot of its proxy. Otherwise -1 is written there, and the row is listed in loose_out.
+    Shapes of bodies that queries cannot find (see is_found) are in neither. rows: SHAPE rows to examine; known: 0 if
+    the broad phase has no data yet.
     """
     found = 0
     for n in range(len(rows)):
@@ -91,10 +92,10 @@ def find_loose(rows, bodies, shapes, proxies, known, row_of_slot_inout, loose_ou
 
 @kernel
 def rows_meeting(shapes, row_of_slot, slots, loose, box, rows_out, work_inout):
-    """List in rows_out the shape rows whose AABBs meet a closed box [px] (lower x, y, upper x, y). Return their number.
+    """List the shape rows whose AABBs meet a closed box (lower x, y, upper x, y) [px]. Return their number.
 
-    slots: slots that the broad phase found; row_of_slot: shape rows of the slots, or -1; loose: further shape rows to
-    test.
+    slots: slots of proxies that the broad phase found; row_of_slot: SHAPE row of each slot, or -1; loose: further SHAPE
+    rows to test; rows_out: the result.
     """
     lower_x, lower_y, upper_x, upper_y = box
     found = 0
@@ -121,32 +122,33 @@ def is_same(now: tuple, before: tuple) -> bool:
 
 
 class IndexedWorld(WorldTables, Protocol):
-    """A world, or the StepState of its step, with a QueryIndex."""
+    """A world, or the StepState of its step, with the QueryIndex of its shapes."""
 
     queries: "QueryIndex"
     steps: int
 
     @property
     def broadphase(self) -> Strategy:
-        """The broad phase whose data structure is searched."""
+        """The broad phase strategy whose data structure queries search."""
         ...
 
 
 class AskedWorld(IndexedWorld, Protocol):
-    """The fields of a world that queries read.
+    """The fields of a world that queries use.
 
     A field annotated Any has a type from a module that imports this one.
     """
 
     def body(self, identity: int) -> Any:
-        """Return the Body of an id."""
+        """Return the Body with an id."""
         ...
 
 
 class QueryIndex:
-    """The index of one world's shapes. Queries count their work in `work`, not in the counters of the last step.
+    """The index of one world's shapes for queries by boxes, and the work counters of the last query.
 
-    asked: the boxes (lower x, y, upper x, y) [px] that the last query searched, in order.
+    asked: the boxes (lower x, y, upper x, y) [px] that the last query searched, in order. The counters are separate
+    from those of the last step.
     """
 
     def __init__(self) -> None:
@@ -172,25 +174,26 @@ class QueryIndex:
 
     @property
     def counters(self) -> dict[str, int]:
-        """The work of the last query, {name: int}, with every name of COUNTERS."""
+        """The work of the last query: {name: number}, with every name of COUNTERS."""
         return dict(zip(COUNTERS, self.work.tolist(), strict=True))
 
     def begin(self, world: IndexedWorld) -> None:
-        """Start a query: reset the counters, and refresh the index to the present poses of the world."""
+        """Start a query: reset the counters, and update the index to the present poses of the world."""
         self.work[:] = 0
         self.asked.clear()
         self.refresh(world)
 
     def asks_broadphase(self, world: IndexedWorld) -> bool:
-        """Return whether a query searches the broad phase, because this has data and can find at least one shape."""
+        """Return whether a query searches the broad phase: it has data and can find at least one shape."""
         return not world.pairs.everything and self.loose_count < len(world.shapes)
 
     def refresh(self, world: IndexedWorld) -> None:
-        """Refresh the AABBs of shapes at the present poses, and the list of loose shapes.
+        """Update the AABBs of shapes to the present poses, and the list of loose shapes.
 
-        Loose shapes are shapes that the broad phase may miss. world: a World, or the StepState of its step. After a
-        step of a world with sleeping, only bodies are read that were awake before or after the step, have been moved,
-        or were edited; otherwise all bodies are read. If no body has moved since the last call, nothing else is done.
+        Loose shapes are those that the broad phase may miss. world: a World, or the StepState of its step. If no body
+        has moved since the last call, nothing is done. After a step of a world with sleeping, only bodies that may have
+        moved are read: those that were awake before or after the step, were moved by the user, or were edited.
+        Otherwise all bodies are read.
         """
         bodies, shapes, pairs, awake = world.bodies, world.shapes, world.pairs, world.awake
         newest = int(shapes["id"][-1]) if len(shapes) else -1
@@ -219,7 +222,7 @@ class QueryIndex:
         )
 
     def _watched(self, awake, bodies):
-        """Return the body rows that may have moved.
+        """Return the BODY rows that may have moved since the last refresh.
 
         The result is cached while the lists of awake bodies are unchanged.
         """
@@ -237,9 +240,9 @@ class QueryIndex:
             self.loose, self.rows = np.zeros(2 * len(shapes), np.int64), np.zeros(2 * len(shapes), np.int64)
 
     def rows_in(self, world: IndexedWorld, lower: Pair, upper: Pair) -> np.ndarray:
-        """Return the shape rows, in order, whose AABBs meet the closed box from `lower` to `upper` [px].
+        """Return the SHAPE rows, ascending, whose AABBs meet the closed box from `lower` to `upper` [px].
 
-        Quarantined bodies are left out.
+        Shapes of quarantined bodies are left out.
         """
         reach = ROUNDING * max(abs(lower[0]), abs(lower[1]), abs(upper[0]), abs(upper[1]))
         box = (float(lower[0]) - reach, float(lower[1]) - reach, float(upper[0]) + reach, float(upper[1]) + reach)
@@ -261,7 +264,7 @@ CORNERS = ("lower_x", "lower_y", "upper_x", "upper_y")
 
 
 class Visited(NamedTuple):
-    """The boxes [px] that a query searched, and the boxes that it compared with them; in order, with repetitions."""
+    """The boxes [px] that a query searched, and the boxes that it compared with them, in order and with repetitions."""
 
     kind: str  # brute, sweep, hash, tree
     asked: np.ndarray  # (k, 4) min_x min_y max_x max_y
@@ -270,7 +273,7 @@ class Visited(NamedTuple):
 
 
 def visited(world: IndexedWorld) -> Visited:
-    """Return the boxes that the last query of a world visited. Call it before the world is changed."""
+    """Return the boxes that the last query of a world visited. The world must not have changed since."""
     strategy, asked = world.broadphase, np.array(world.queries.asked).reshape(-1, 4)
     boxes = asked.tolist() if world.queries.asks_broadphase(world) else []
     found = [_rects(strategy, world.pairs.proxies, tuple(box)) for box in boxes]
@@ -299,7 +302,7 @@ def _boxes(rows):
 
 
 def _nodes(tree, box):
-    """Return the boxes of the tree nodes that a search visits: the roots, and the children of nodes that meet `box`."""
+    """Return the boxes of the tree nodes that a search for `box` visits: roots, and children of nodes that meet it."""
     boxes, children, height = _boxes(tree.nodes), tree.nodes[["child_a", "child_b"]], tree.nodes["height"]
     found, level = [], tree.state[ROOT_MOVING:]
     level = level[level >= 0]
@@ -311,7 +314,10 @@ def _nodes(tree, box):
 
 
 def _cells(grid, proxies, box):
-    """Return, for each level of a grid, the cells that `box` covers, or the AABBs of its proxies if these are fewer."""
+    """Return the boxes that a search for `box` compares in each level of a grid.
+
+    They are the cells that the box covers, or the AABBs of the level's proxies if these are fewer.
+    """
     found, (x0, y0, x1, y1) = [np.zeros((0, 4))], box
     for level in np.flatnonzero(grid.lists.level_counts).tolist():
         size = grid.base * 2.0**level
@@ -331,7 +337,10 @@ def _cells(grid, proxies, box):
 
 
 def _stretch(sweep, proxies, box):
-    """Return the AABBs of the proxies whose intervals on the sorted axis may overlap the interval of the box."""
+    """Return the AABBs of the proxies that sweep and prune compares with `box`.
+
+    Their intervals on the sorted axis may overlap that of the box.
+    """
     axis = sweep.sorted[0]
     lows, highest = axis.boxes[: len(axis.order), 0], np.maximum.accumulate(axis.boxes[: len(axis.order), 1])
     first = int(np.searchsorted(highest, box[axis.axis]))

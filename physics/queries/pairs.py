@@ -1,4 +1,4 @@
-"""Two shapes without a world: collide, distance and time_of_impact."""
+"""Queries of two shapes without a world: collide, distance and time_of_impact."""
 
 import math
 from collections.abc import Callable
@@ -38,7 +38,7 @@ Kept = TypeVar("Kept")
 
 
 class PairRows(NamedTuple):
-    """Tables of two shapes: the first is row 0, the second row 1."""
+    """BODY and SHAPE tables of two shapes, with their geometry. The first shape is row 0, the second row 1."""
 
     geometry: Geometry
     bodies: np.ndarray  # BODY
@@ -46,7 +46,7 @@ class PairRows(NamedTuple):
 
 
 class HullRow(NamedTuple):
-    """The table rows of a hull, cached as bytes: joining two HullRows takes a tenth of the time of joining arrays."""
+    """The table rows of a convex shape as bytes. Joining two HullRows takes a tenth of the time of joining arrays."""
 
     first: bytes  # its SHAPE row as the first shape of a pair
     second: bytes  # its SHAPE row as the second shape of a pair
@@ -55,9 +55,9 @@ class HullRow(NamedTuple):
 
 
 def kept_with_shape(make: Callable[[Shape], Kept]) -> Callable[[Shape], Kept]:
-    """Return `make`, a function of a shape, with a cache of its results in the shape. Used as a decorator.
+    """Decorate `make`, a function of a shape, so that its result is cached in the shape.
 
-    All shapes that differ only in material, filter or sensor flag share one result.
+    Shapes that differ only in material, filter or sensor flag share one result.
     """
 
     def find(shape: Shape) -> Kept:
@@ -71,7 +71,7 @@ def kept_with_shape(make: Callable[[Shape], Kept]) -> Callable[[Shape], Kept]:
 
 @kept_with_shape
 def hull_row(shape: Shape) -> HullRow | None:
-    """Return the HullRow of a convex shape; None for a mask, tiles, a chain, and a Bounds."""
+    """Return the HullRow of a convex shape; None for a mask, a tile grid, a chain and a Bounds."""
     if not shape._is_convex or shape._kind == BOUNDS:
         return None
     rows = np.zeros(2, SHAPE)
@@ -85,7 +85,7 @@ def hull_row(shape: Shape) -> HullRow | None:
 
 @kept_with_shape
 def order_of(shape: Shape) -> tuple:
-    """Return a sort key of a shape.
+    """Return a sort key of a shape's geometry.
 
     Two shapes are measured in sorted order, so that swapping them changes only signs.
     """
@@ -95,7 +95,7 @@ def order_of(shape: Shape) -> tuple:
 
 @kept_with_shape
 def name_of(shape: Shape) -> tuple:
-    """Return a sort key of a shape for collide(), made from the shape's constructor call."""
+    """Return a sort key of a shape that also includes the text of its constructor call, for collide()."""
     return rank_of(shape), repr(shape), order_of(shape)
 
 
@@ -108,7 +108,7 @@ FIRST_POSE = int(BODIES["x"].__array_interface__["data"][0] - BODIES.__array_int
 
 
 def hull_pair(a: HullRow, pose_a: At, b: HullRow, pose_b: At) -> PairRows:
-    """Return the rows of two hulls at two poses. Their AABBs are not written."""
+    """Return the PairRows of two convex shapes at two poses (x, y, angle). Their AABBs are not written."""
     spans = np.frombuffer(bytearray(SPANS.pack(0, a.count, a.count, b.count)), SPAN)
     corners = np.frombuffer(bytearray(a.corners + b.corners), CORNER) if a.count + b.count else NOTHING.corners
     shapes = np.frombuffer(bytearray(a.first + b.second), SHAPE)
@@ -119,7 +119,7 @@ def hull_pair(a: HullRow, pose_a: At, b: HullRow, pose_b: At) -> PairRows:
 
 
 def any_pair(shape_a: Shape, pose_a: At, shape_b: Shape, pose_b: At) -> tuple[Library, PairRows]:
-    """Return (library of the geometry, PairRows) of any two shapes at two poses."""
+    """Return (library that holds the geometry, PairRows) of any two shapes at two poses (x, y, angle)."""
     library, bodies, shapes = Library(), np.zeros(2, BODY), np.zeros(2, SHAPE)
     for row, (shape, pose) in enumerate(((shape_a, pose_a), (shape_b, pose_b))):
         place(library, shape, bodies, shapes, row, pose)
@@ -143,10 +143,11 @@ NAMES = CONTACT.names or ()
 
 @dataclass(frozen=True)
 class Manifold:
-    """A contact: unit normal from A to B, points (n, 2) midway between the surfaces [px], separations (n,) [px].
+    """A contact of two shapes: one unit normal, from A to B, and n points.
 
-    Separations are negative where the shapes overlap. features (n,) identify the points. area [px2] is the shared area
-    of two masks. len() is the number of points; without points the normal is (0, 0).
+    points (n, 2) [px] lie midway between the surfaces. separations (n,) [px] are negative where the shapes overlap.
+    features (n,) identify the points. area [px2] is the shared area of two masks. len() is the number of points;
+    without points the normal is (0, 0).
     """
 
     normal: Vec2
@@ -160,10 +161,10 @@ class Manifold:
 
 
 def collide(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose, margin: float = 0.0) -> Manifold:
-    """Return the contact of two shapes at poses (x, y) or (x, y, angle), with points if they are within margin [px].
+    """Return the contact of two shapes at poses (x, y) or (x, y, angle). Its points are within margin [px].
 
     If the two shapes are swapped, the points and separations are the same, and the normal is reversed. Against a
-    TileGrid or a Chain the points of all tiles or links are listed, with the normal of the deepest point. Two shapes
+    TileGrid or a Chain, the points of all tiles or links are returned, with the normal of the deepest point. Two shapes
     that are each a TileGrid or a Chain never collide. Raises TypeError for values that are not shapes, poses or
     numbers, ValueError for a pose that the shape cannot have or a margin < 0.
     """
@@ -178,9 +179,9 @@ def collide(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose, margin: 
 
 
 def _collide_hulls(rows, margin, swapped) -> Manifold:
-    """Return the Manifold of two convex shapes. rows: PairRows.
+    """Return the Manifold of two convex shapes with points within margin [px]. rows: PairRows.
 
-    swapped: whether the shapes are in the reverse order, so that the normal has to be reversed.
+    swapped: whether the collider takes the shapes in reverse order, so that the normal is reversed afterwards.
     """
     low, high = sorted(rows.shapes["kind"].tolist())
     kind = kind_of_pair(low, high)
@@ -224,7 +225,7 @@ def _collide_any(shape_a, pose_a, shape_b, pose_b, margin, swapped) -> Manifold:
 
 
 def nowhere() -> Manifold:
-    """Return the Manifold of shapes that do not touch."""
+    """Return an empty Manifold, for shapes that do not touch."""
     return Manifold(Vec2(0.0, 0.0), np.zeros((0, 2)), np.zeros(0), np.zeros(0, np.int64), 0.0)
 
 
@@ -239,7 +240,7 @@ NEXT_TO_NOTHING = math.ulp(
 
 @dataclass(frozen=True)
 class Distance:
-    """A distance [px], negative for an overlap, with the nearest points and the unit normal from A to B.
+    """The distance [px] of two shapes, negative for an overlap, with nearest points and unit normal from A to B.
 
     point_b = point_a + distance · normal. For overlapping shapes the distance is minus the shortest translation of B
     along the normal that ends the overlap, and the points lie on the two surfaces. iterations: rounds of GJK and EPA.
@@ -255,13 +256,14 @@ class Distance:
 def distance(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> Distance:
     """Return the distance of two shapes at poses (x, y) or (x, y, angle).
 
-    The distance is <= 0 if `collide` finds a contact, and < 0 if masks have a contact. Convex shapes: exact up to
-    rounding. Concave shapes: the distance of the nearest parts, or for an overlap minus the depth of `collide`. A shape
-    that touches a mask without shared area has distance 0 and no contact. Other shapes may touch or cross without a
-    contact (a Chain from behind, tiles on tiles): then their distance is the smallest positive number. A mask is
-    measured by its pixels, a snapped mask as it is drawn on the pixel grid. The distance to an empty shape is infinite,
-    with the normal (1, 0). Raises TypeError for values that are not shapes or poses, ValueError for a pose that the
-    shape cannot have.
+    Convex shapes: exact up to rounding. Concave shapes: the distance of the nearest parts, or for an overlap minus the
+    depth of `collide`. A mask is measured by its pixels, at the pose at which it is tested (as drawn if snap=True).
+
+    The distance is <= 0 if `collide` finds a contact, and < 0 if masks have a contact. A shape that touches a mask
+    without shared area has distance 0 and no contact. Other shapes may touch or cross without a contact (a Chain from
+    behind, tiles on tiles): then their distance is the smallest positive number. The distance to an empty shape is
+    infinite, with the normal (1, 0). Raises TypeError for values that are not shapes or poses, ValueError for a pose
+    that the shape cannot have.
     """
     pose_a = checked_pose("shape_a", shape_a, "pose_a", pose_a)
     pose_b = checked_pose("shape_b", shape_b, "pose_b", pose_b)
@@ -312,10 +314,10 @@ def _measure(shape_a, pose_a, shape_b, pose_b) -> Distance:
 
 @kernel
 def separate_hulls(geometry, bodies, shapes, x, y, corners_a_out, corners_b_out, workspace):
-    """Write separation, normal and points of the hulls in rows 0 and 1 to workspace.gap, relative to (x, y) [px].
+    """Write the separation of two hulls, its normal and nearest points to workspace.gap, relative to (x, y) [px].
 
-    corners_a_out, corners_b_out (16, 2): scratch. Return (separation [px], greater size of the two hulls [px], rounds
-    of GJK and EPA).
+    Return (separation [px], size of the larger hull [px], rounds of GJK and EPA). The hulls are in rows 0 and 1 of
+    bodies and shapes. corners_a_out, corners_b_out (16, 2): scratch.
     """
     a, b = bodies[0], bodies[1]
     count_a = hull_at(geometry, shapes, 0, a.x - x, a.y - y, a.angle, corners_a_out)
@@ -328,7 +330,7 @@ def separate_hulls(geometry, bodies, shapes, x, y, corners_a_out, corners_b_out,
 
 @subkernel
 def size_of(corners, count, radius):
-    """Return the longer side [px] of the AABB of a rounded hull."""
+    """Return the longer side [px] of the AABB of a hull rounded by a radius [px]."""
     longest = 0.0
     for axis in range(2):
         low = corners[0, axis]
@@ -341,7 +343,10 @@ def size_of(corners, count, radius):
 
 
 def _separate_any(shape_a, pose_a, shape_b, pose_b, workspace):
-    """Return (separation, size, rounds), as separate_hulls does, for any two shapes; infinite for an empty shape."""
+    """Return (separation [px], greater size [px], rounds of GJK and EPA) of any two shapes at two poses.
+
+    The separation is infinite if one shape is empty. workspace.gap receives the details, as in separate_hulls.
+    """
     parts_a, parts_b = parts_of_pair(shape_a, pose_a, shape_b, pose_b, pose_a[0], pose_a[1])
     totals = np.zeros(2)
     found = separate_parts(parts_a, parts_b, np.zeros((16, 2)), np.zeros((16, 2)), workspace, totals)
@@ -352,7 +357,7 @@ def _separate_any(shape_a, pose_a, shape_b, pose_b, workspace):
 
 
 def parts_of_pair(shape_a: Shape, pose_a: At, shape_b: Shape, pose_b: At, x: float, y: float) -> tuple[Parts, ...]:
-    """Return the convex parts of both shapes, relative to (x, y) [px]."""
+    """Return the convex parts of both shapes at poses (x, y, angle), relative to the point (x, y) [px]."""
     geometry, bodies, shapes = any_pair(shape_a, pose_a, shape_b, pose_b)[1]
     return tuple(
         shape._parts_at(Placed(geometry, bodies, shapes, row, x, y, float(shapes[1 - row]["max_y"])))
@@ -369,10 +374,10 @@ LOOKS = 1024  # number of parts of a motion at which touching shapes are tested 
 
 @dataclass(frozen=True)
 class TimeOfImpact:
-    """The first impact of two moving shapes: hit, fraction, point, normal.
+    """The first impact of two moving shapes.
 
-    fraction 0..1 of the motion at which they touch; point [px]; unit normal from A to B. Without an impact hit is
-    False, fraction is 1, and point and normal are None.
+    hit: whether there is an impact; fraction 0..1 of the motion at which the shapes touch; point [px]; unit normal from
+    A to B. Without an impact hit is False, fraction is 1, and point and normal are None.
     """
 
     hit: bool
@@ -387,15 +392,17 @@ NO_IMPACT = TimeOfImpact(False, 1.0, None, None)
 def time_of_impact(
     shape_a: Shape, start_a: Pose, end_a: Pose, shape_b: Shape, start_b: Pose, end_b: Pose
 ) -> TimeOfImpact:
-    """Return the first fraction at which two shapes touch while their poses move linearly from start to end.
+    """Return the first impact of two shapes whose poses move linearly from start to end.
 
     Poses are (x, y) or (x, y, angle); angles are not wrapped. Two discs are solved in closed form, other convex shapes
-    to 1e-13 of their size and motion. If the shapes touch or overlap at the start, the fraction is 0 if they approach;
-    otherwise the search continues until they approach. A Chain is hit from its front, a one-way tile from above. Seams
-    between tiles or links are not hit. Grazing contacts with tiles, links and PixelMasks are not impacts; a PixelMask
-    moves as its outline at the exact pose. A Bounds whose shape rotates changes its size during the motion; its impact
-    is found to 1e-12 of size and motion. Tiles and chains do not collide with each other. Raises TypeError for values
-    that are not shapes or poses, ValueError for a pose that the shape cannot have.
+    to 1e-13 of their size and motion. If the shapes touch or overlap at the start, the impact is at fraction 0 if they
+    approach; otherwise the search continues until they approach.
+
+    A Chain is hit from its front, a one-way tile from above. Seams between tiles or links are not hit. Tiles and chains
+    do not collide with each other. Grazing contacts with tiles, links and PixelMasks are not impacts. A PixelMask moves
+    as its outline at the exact pose. A Bounds whose shape rotates changes its size during the motion; its impact is
+    found to 1e-12 of size and motion. Raises TypeError for values that are not shapes or poses, ValueError for a pose
+    that the shape cannot have.
     """
     moves = [
         [checked_pose(f"shape_{side}", shape, f"{when}_{side}", at) for when, at in (("start", start), ("end", end))]
@@ -457,9 +464,9 @@ def _motion(move):
 
 
 def _local(shape, move) -> tuple[Parts, np.ndarray]:
-    """Return (parts in body space, motion) of a shape. move: start and end pose.
+    """Return (parts in body space, motion) of a shape that moves between two poses, move = (start, end).
 
-    A Bounds that does not rotate is the box at its angle.
+    motion (6,): start x, y, angle, then their changes. A Bounds, which does not rotate here, is the box at its angle.
     """
     motion = _motion(move)
     if shape._kind != BOUNDS:
@@ -469,7 +476,7 @@ def _local(shape, move) -> tuple[Parts, np.ndarray]:
 
 
 def _placed(parts, pose, x=0.0, y=0.0) -> Parts:
-    """Return parts at a pose, relative to (x, y) [px]."""
+    """Return Parts at a pose (x, y, angle), relative to the point (x, y) [px]."""
     return turned_parts(parts, pose[0] - x, pose[1] - y, math.cos(pose[2]), math.sin(pose[2]))
 
 
@@ -487,7 +494,7 @@ def _parts_at(shape, move, fraction, x, y) -> Parts:
 def _point(a, move_a, b, move_b, fraction):
     """Return the point [px] midway between the nearest points of two moving shapes at a fraction of their motion.
 
-    a, b: the shapes; move_a, move_b: start and end pose of each.
+    a, b: the shapes; move_a, move_b: (start pose, end pose) of each.
     """
     x, y = move_a[0][:2]
     gap = _gap_at(*(_parts_at(each, move, fraction, x, y) for each, move in ((a, move_a), (b, move_b))))
@@ -501,10 +508,10 @@ def _gap_at(parts_a, parts_b):
 
 
 def _advance_boxes(a, move_a, b, move_b):
-    """Return (fraction or MISS, normal) of the first impact of two shapes, if a Bounds among them changes size.
+    """Return (fraction or MISS, normal) of the first impact of two shapes, one of which is a Bounds that changes size.
 
-    A Bounds changes size when its shape rotates. Method: conservative advancement with a bound of the speed. move_a,
-    move_b: start and end pose of each shape.
+    A Bounds changes size when its shape rotates. The method is conservative advancement with a bound of the speed.
+    move_a, move_b: (start pose, end pose) of each shape.
     """
     x, y = move_a[0][:2]
     parts = [each._inner._pixel_parts if each._kind == BOUNDS else each._parts for each in (a, b)]

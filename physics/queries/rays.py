@@ -1,4 +1,7 @@
-"""Rays cast at every kind of shape: circles, hulls, lines, chains, tiles and pixels."""
+"""Casts of a ray at every kind of shape: circles, hulls, lines, chains, tiles and pixels.
+
+A cast returns the fraction of the ray's vector before the hit. MISS, a number greater than 1, means no hit.
+"""
 
 import math
 
@@ -18,11 +21,11 @@ from physics.tables.shape import CHAIN, CIRCLE, MASK, TILES
 
 @subkernel
 def cast_on_line(ax, ay, bx, by, x, y, dx, dy):
-    """Return the fraction at which a ray from (x, y) by (dx, dy) [px] hits the closed line from a to b, or MISS.
+    """Return the fraction at which a ray hits the line from a to b, ends included, or MISS.
 
-    ax, ay, bx, by: coordinates of a and b. The test compares on which side of the ray the two ends of the line lie, so
-    no ray passes between two lines that share an end. A ray along the line hits the nearer end. A ray that starts on
-    the line hits at 0.
+    The ray starts at (x, y) and has the vector (dx, dy) [px]. The test compares on which side of the ray the two ends
+    of the line lie, so no ray passes between two lines that share an end. A ray along the line hits the nearer end. A
+    ray that starts on the line hits at 0.
     """
     side_a, side_b = dx * (ay - y) - dy * (ax - x), dx * (by - y) - dy * (bx - x)
     if (side_a > 0.0 and side_b > 0.0) or (side_a < 0.0 and side_b < 0.0):
@@ -44,9 +47,9 @@ def cast_on_line(ax, ay, bx, by, x, y, dx, dy):
 
 @subkernel
 def cast_on_segment(corners, x, y, dx, dy):
-    """Return (fraction or MISS, normal against the ray) of a ray at a two-sided segment [px].
+    """Return (fraction or MISS, normal towards the start of the ray) of a ray that is cast at a two-sided segment.
 
-    corners: its first two rows are the ends; x, y, dx, dy: start and vector of the ray.
+    corners: its first two rows are the ends [px]; x, y, dx, dy [px]: start and vector of the ray.
     """
     back_x, back_y = unit(-dx, -dy, 0.0, -1.0)
     if distance_to_edge(corners[0, 0], corners[0, 1], corners[1, 0], corners[1, 1], x, y) == 0.0:
@@ -61,7 +64,7 @@ def cast_on_segment(corners, x, y, dx, dy):
 
 @subkernel
 def cast_on_disc(x, y, dx, dy, radius):
-    """Return (fraction or MISS, normal) of a ray from (x, y) by (dx, dy) [px] at a closed disc around (0, 0).
+    """Return (fraction or MISS, normal) of a ray from (x, y) by (dx, dy) [px] that is cast at a disc around (0, 0).
 
     A ray that starts inside hits at 0, with the normal against the ray.
     """
@@ -73,10 +76,10 @@ def cast_on_disc(x, y, dx, dy, radius):
 
 @subkernel
 def cast_on_hull(corners, count, radius, x, y, dx, dy):
-    """Return (fraction or MISS, normal) of a ray at a closed hull of two or more corners with a rounding radius [px].
+    """Return (fraction or MISS, normal) of a ray that is cast at a rounded hull of two or more corners.
 
-    x, y, dx, dy [px]: start and vector of the ray. A ray that starts inside hits at 0, with the normal against the ray.
-    A ray of zero length tests its point.
+    radius [px]: rounding radius; x, y, dx, dy [px]: start and vector of the ray. A ray that starts inside hits at 0,
+    with the normal against the ray. A ray of zero length tests whether its start is inside.
     """
     if radius == 0.0 and count == 2:
         return cast_on_segment(corners, x, y, dx, dy)
@@ -116,9 +119,9 @@ def cast_on_hull(corners, count, radius, x, y, dx, dy):
 
 @subkernel
 def crosses_box(x, y, dx, dy, min_x, min_y, max_x, max_y):
-    """Return whether the ray from (x, y) by (dx, dy) [px] may meet the closed box from min_x, min_y to max_x, max_y.
+    """Return whether a ray from (x, y) by (dx, dy) [px] may meet a closed box.
 
-    The box is enlarged by a margin for rounding.
+    The box is enlarged by a margin for rounding errors.
     """
     rim = 1e-9 * (max_x - min_x + max_y - min_y + abs(dx) + abs(dy)) + 1e-15 * (abs(x) + abs(y))
     enter = 0.0
@@ -139,9 +142,10 @@ def crosses_box(x, y, dx, dy, min_x, min_y, max_x, max_y):
 
 @subkernel
 def cast_on_chain(geometry, chain, body, ray):
-    """Return (fraction or MISS, normal) of a ray (x, y, dx, dy) [px] at the fronts of the links of a body's chain.
+    """Return (fraction or MISS, normal) of a ray (x, y, dx, dy) [px] that is cast at the fronts of a chain's links.
 
-    A ray of zero length tests whether its point is on a link. O(blocks + links near the ray).
+    A ray of zero length tests whether its start is on a link. chain: row of geometry.chains; body: BODY row. O(blocks +
+    links near the ray).
     """
     cosine, sine = math.cos(body.angle), math.sin(body.angle)
     x, y = rotate(ray[0] - body.x, ray[1] - body.y, cosine, -sine)
@@ -179,7 +183,7 @@ def cast_on_chain(geometry, chain, body, ray):
 
 @subkernel
 def enter_box(x, y, dx, dy, width, height):
-    """Return the fractions at which a ray enters and leaves the box from (0, 0) to (width, height).
+    """Return the fractions at which a ray enters and leaves the box from (0, 0) to (width, height) [px].
 
     x, y, dx, dy [px]: start and vector of the ray. If the ray misses the box, the first fraction is greater than the
     second.
@@ -205,7 +209,8 @@ def enter_box(x, y, dx, dy, width, height):
 def next_border(position, step, cell, size):
     """Return the fraction at which a ray leaves a cell along one axis; infinite if it does not move along this axis.
 
-    position, step: start of the ray and its change along the axis; cell: index of the cell; size [px]: size of a cell.
+    position [px], step [px]: coordinates of the ray's start and vector on this axis; cell: index of the cell; size
+    [px]: size of a cell.
     """
     if step > 0.0:
         return ((cell + 1) * size - position) / step
@@ -216,10 +221,10 @@ def next_border(position, step, cell, size):
 
 @subkernel
 def start_cell(position, step, size, count):
-    """Return the index, along one axis, of the cell in which a ray starts or which it enters first.
+    """Return the index, along one axis, of the first cell on a ray.
 
-    A ray that starts on a border belongs to the cell into which it moves. position, step: start of the ray and its
-    change along the axis; size [px]: size of a cell; count: number of cells.
+    A ray that starts on a border belongs to the cell into which it moves. position [px], step [px]: coordinates of the
+    ray's start and vector on this axis; size [px]: size of a cell; count: number of cells.
     """
     at = position / size
     cell = math.floor(at)
@@ -230,9 +235,10 @@ def start_cell(position, step, size, count):
 
 @subkernel
 def cast_on_cell(geometry, grid, row, column, ray, corners_inout):
-    """Return (fraction or MISS, normal) of a ray at one cell of a grid. A one-way cell is hit only from above.
+    """Return (fraction or MISS, normal) of a ray that is cast at one cell of a tile grid.
 
-    ray: (x, y, dx, dy) [px] relative to the grid's origin. corners_inout (16, 2): scratch.
+    A one-way cell is hit only from above. grid: row of geometry.grids; ray: (x, y, dx, dy) [px] relative to the grid's
+    origin; corners_inout (16, 2): scratch.
     """
     x, y, dx, dy = ray
     g = geometry.grids[grid]
@@ -247,10 +253,11 @@ def cast_on_cell(geometry, grid, row, column, ray, corners_inout):
 
 @subkernel
 def cast_on_tiles(geometry, grid, ray, corners_inout):
-    """Return (fraction or MISS, normal) of a ray at the closed tiles of a grid. O(cells on the ray).
+    """Return (fraction or MISS, normal) of a ray that is cast at the tiles of a grid. O(cells on the ray).
 
-    A ray along a border hits the tiles on both sides, and a ray through a corner all four tiles, so the neighbours of
-    each cell are also tested. ray: (x, y, dx, dy) [px] relative to the grid's origin. corners_inout (16, 2): scratch.
+    A ray along a border hits the tiles on both sides, and a ray through a corner hits all four tiles. So the neighbours
+    of each cell are also tested. grid: row of geometry.grids; ray: (x, y, dx, dy) [px] relative to the grid's origin;
+    corners_inout (16, 2): scratch.
     """
     x, y, dx, dy = ray
     g = geometry.grids[grid]
@@ -286,9 +293,9 @@ def cast_on_tiles(geometry, grid, ray, corners_inout):
 
 @subkernel
 def is_solid_at(rasters, words, mask, x, y):
-    """Return whether a point [px] relative to a raster's corner lies in a solid pixel [i, i + 1) x [j, j + 1).
+    """Return whether the point (x, y) [px] of a raster, measured from its top left corner, is in a solid pixel.
 
-    mask: row of the raster.
+    Pixel (i, j) is [i, i + 1) x [j, j + 1). rasters, words: tables of the geometry; mask: RASTER row number.
     """
     r = rasters[mask]
     if not (0.0 <= x < r.width and 0.0 <= y < r.height):
@@ -298,7 +305,10 @@ def is_solid_at(rasters, words, mask, x, y):
 
 @subkernel
 def is_in_mask(geometry, shape, body, x, y):
-    """Return whether a point [px] lies in a solid pixel of a mask: as drawn if snapped, else at its exact pose."""
+    """Return whether the world point (x, y) [px] is in a solid pixel of a mask.
+
+    A mask with snap=True is tested as drawn, any other at its exact pose. shape, body: SHAPE and BODY row of the mask.
+    """
     if not shape.snap:
         mask = raster_of_shape(geometry, shape)
         cosine, sine = cosine_and_sine(body.angle, body.angle)
@@ -313,7 +323,7 @@ def is_in_mask(geometry, shape, body, x, y):
 
 @subkernel
 def inside_polygon(corners, count, x, y):
-    """Return whether a point lies in a closed convex polygon, whose corners are clockwise on the screen."""
+    """Return whether a point is in a closed convex polygon. The `count` corners are clockwise on the screen."""
     for k in range(count):
         n = k + 1 if k + 1 < count else 0
         ex = corners[n, 0] - corners[k, 0]
@@ -325,7 +335,10 @@ def inside_polygon(corners, count, x, y):
 
 @subkernel
 def point_in_tiles(geometry, grid, x, y, corners_inout):
-    """Return whether a point [px] relative to the grid's origin lies in a closed solid tile or slope."""
+    """Return whether a point [px], relative to the grid's origin, is in a closed solid tile or slope.
+
+    grid: row of geometry.grids; corners_inout (16, 2): scratch.
+    """
     g = geometry.grids[grid]
     column, row = math.floor(x / g.tile_size), math.floor(y / g.tile_size)
     # A point on a border is also in the tile before the border.
@@ -345,10 +358,10 @@ def point_in_tiles(geometry, grid, x, y, corners_inout):
 
 @subkernel
 def cast_on_shape(geometry, bodies, shapes, row, ray, corners_inout):
-    """Return (fraction or MISS, normal) of a ray (x, y, dx, dy) [px] at the shape in SHAPE row `row`.
+    """Return (fraction or MISS, normal) of a ray (x, y, dx, dy) [px] that is cast at SHAPE row `row`.
 
-    A ray of zero length tests its point. Against a mask only the start of the ray is tested, against the pixels; longer
-    rays are cast at the mask's outline by other functions.
+    A ray of zero length tests whether its start is inside. For a mask only the start of the ray is tested, against its
+    pixels; longer rays are cast at mask outlines by other functions. corners_inout (16, 2): scratch.
     """
     x, y, dx, dy = ray
     s = shapes[row]
