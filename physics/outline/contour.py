@@ -1,4 +1,4 @@
-"""From pixels to outlines: the contours along pixel edges, and the smooth outline of a raster in straight lines."""
+"""From pixels to outlines: contours along pixel edges, and outlines in which straight lines replace staircases."""
 
 import math
 from typing import NamedTuple
@@ -25,14 +25,14 @@ from physics.outline.paths import SHARP
 
 
 class Loop(NamedTuple):
-    """A closed loop of pixel edges (cracks), given by the corners at which it turns: (x, y) in raster pixels."""
+    """A closed loop of pixel edges, given by the corners at which it turns: (x, y) in raster pixels."""
 
     corners: np.ndarray  # (n, 2) int64
     joined: np.ndarray  # (n,) bool: the corner is a pinch at which two diagonal pixels are joined
 
 
 class Contour(NamedTuple):
-    """One connected piece of solid pixels: the loop around it and the loops around its holes."""
+    """One connected piece of solid pixels: the loop around it, and the loops around its holes."""
 
     outer: Loop  # clockwise on the screen
     holes: list[Loop]  # counter-clockwise on the screen
@@ -41,11 +41,11 @@ class Contour(NamedTuple):
 def contours(solid: np.ndarray, joined: int = 0) -> list[Contour]:
     """Return the connected pieces of solid[row, col] bool, ordered by their topmost, then leftmost corner.
 
-    A loop lists only the corners at which it turns. joined [px] determines whether solid pixels that touch only
-    diagonally (at a pinch) are connected. With joined = 0 they never are, so pieces are 4-connected, no loop visits a
-    corner twice, and loops touch at most in pinches. With joined > 0 they are connected, and a loop may pass the pinch
-    twice, unless a horizontal and a vertical run of at least `joined` px meet at the pinch. Linear in pixels
-    (vectorised) and corners.
+    A loop lists only the corners at which it turns. A pinch is a corner at which solid pixels touch only diagonally.
+    joined [px] determines whether the pixels at a pinch are connected. With joined = 0 they never are: pieces are
+    4-connected, no loop visits a corner twice, and loops touch at most in pinches. With joined > 0 they are connected,
+    and a loop may pass the pinch twice, unless a horizontal and a vertical run of at least `joined` px meet there. The
+    time is linear in pixels (vectorised) and corners.
     """
     runs = _Runs(np.ascontiguousarray(solid, dtype=bool), joined)
     outers, holes = [], []
@@ -79,7 +79,7 @@ def _first(points):
 
 
 class _Runs:
-    """All runs (straight rows of pixel edges) of a raster, horizontal ones first; corner k is the start of run k."""
+    """All runs (straight rows of pixel edges) of a raster, horizontal ones first. Corner k is the start of run k."""
 
     def __init__(self, solid, joined):
         height, width = solid.shape
@@ -104,10 +104,10 @@ class _Runs:
         self._follow(stops, np.concatenate([signs, falls]), np.concatenate([ends - starts, bottoms - tops]), joined)
 
     def _follow(self, stops, signs, lengths, joined):
-        """Link each run to the run after it (self.next), and find the pinches where diagonal pixels stay apart.
+        """Link each run to the run after it (self.next), and find the pinches where diagonal pixels are not connected.
 
-        A corner has one horizontal and one vertical run, a pinch two of each kind. stops: corner at the end of each
-        run; signs: direction of each run; lengths [px]: length of each run; joined [px]: as in contours.
+        One horizontal and one vertical run meet at a corner, two of each kind at a pinch. stops: corner at the end of
+        each run; signs: direction of each run; lengths [px]: length of each run; joined [px]: see contours.
         """
         count = self.horizontal
         wide = max(int(self.corners[:, 0].max(initial=0)), 0) + 1
@@ -139,9 +139,9 @@ class _Runs:
             self.next[rows] = (order[at] if len(keys) else at) + (others.start or 0)
 
     def loops(self):
-        """Yield the indices of the runs of each loop.
+        """Yield the loops, each as the indices of its runs.
 
-        A loop that visits an unjoined pinch twice is split there into two.
+        A loop that visits a pinch twice is split there into two, if the pixels at the pinch are not connected.
         """
         following, apart, unseen = self.next.tolist(), self.apart.tolist(), bytearray(b"\1") * len(self.next)
         places = self.corners
@@ -163,7 +163,7 @@ class _Runs:
                 yield np.array(loop)
 
     def left_of(self, points):
-        """Return the vertical run to the left of a hole that bounds the solid pixels between it and the hole.
+        """Return the nearest vertical run to the left of a hole, which bounds the solid pixels beside the hole.
 
         points: the hole's corners.
         """
@@ -177,7 +177,10 @@ class _Runs:
 
 
 def _runs_of(cracks):
-    """Return the runs of equal pixel edges (-1 or 1) in cracks[line, position], as arrays (line, start, end, sign)."""
+    """Return the runs of equal values in cracks[line, position] as arrays (line, start, end, sign).
+
+    cracks: -1 or 1 where there is a pixel edge between solid and clear, otherwise 0.
+    """
     before = np.zeros((cracks.shape[0], cracks.shape[1] + 1), np.int8)
     before[:, 1:] = cracks
     after = np.zeros_like(before)
@@ -209,7 +212,10 @@ LARGEST_REACH = 0.5 - 2.0**-20  # [px] less than the distance from a crack to a 
 
 
 class Outline(NamedTuple):
-    """Outline of one connected piece: simple polygons in raster pixels, which touch each other at most in points."""
+    """Outline of one connected piece: simple polygons in raster pixels.
+
+    They touch each other at most in single points.
+    """
 
     outer: np.ndarray  # (n, 2) float64: corners, clockwise on the screen
     holes: list[np.ndarray]  # each (n, 2) float64: corners, counter-clockwise on the screen
@@ -221,33 +227,35 @@ def outline(solid: np.ndarray, smooth: float = 0.5) -> list[Outline]:
     smooth [px] >= 0: each point of an outline is within `smooth` of the pixels' edges, and each point of these edges is
     within smooth + 0.21 of the outline. With smooth = 0 the outline is the pixels' edges. Centres of solid pixels are
     inside, centres of clear pixels outside. Corners between straight rows of pixel edges of 3 px or more are kept, and
-    so are all corners of a rectangle. Two diagonal pixels belong to one piece if the outline can pass from one to the
-    other. The outline cannot pass at a kept corner, nor with smooth < 0.25. Corners lie at the ends and middles of
-    pixel edges; their number is near the least possible for such corners. Pieces are ordered by their topmost, then
-    leftmost corner. O(corners * corners per line).
+    so are all corners of a rectangle.
+
+    Two diagonal pixels belong to one piece if the outline can pass from one to the other. It cannot pass at a kept
+    corner, nor with smooth < 0.25. Corners of the outline lie at the ends and middles of pixel edges; their number is
+    near the least possible for such corners. Pieces are ordered by their topmost, then leftmost corner. O(corners *
+    corners per line).
     """
     return [smoothed_piece(piece, smooth) for piece in pieces_of(solid, smooth)]
 
 
 def pieces_of(solid: np.ndarray, smooth: float) -> list[Contour]:
-    """Return the pieces of solid[row, col] bool; diagonal pixels are joined if the outline leads from one to the other.
+    """Return the pieces of solid[row, col] bool, with those diagonal pixels connected that one outline surrounds.
 
-    smooth [px] as in outline.
+    smooth [px]: see outline.
     """
     return contours(solid, SHARP if smooth >= JOINING else 0)
 
 
 def smoothed_piece(piece: Contour, smooth: float) -> Outline:
-    """Return the smoothed outline of one connected piece of pixels. smooth [px] as in outline."""
+    """Return the smoothed outline of one connected piece of pixels. smooth [px]: see outline."""
     reach = min(smooth, LARGEST_REACH)
     return Outline(smoothed(piece.outer, reach), [smoothed(hole, reach) for hole in piece.holes])
 
 
 def smoothed(loop: Loop, reach: float, curves: bool = True) -> np.ndarray:
-    """Return the corners (n, 2) float64 [px] of straight lines that replace a loop of pixel edges (cracks).
+    """Return the corners (n, 2) float64 [px] of straight lines that replace a loop of pixel edges.
 
-    reach [px]: largest distance of the lines from the cracks; with 0 the corners of the loop are returned. curves: True
-    if the lines are to follow round curves of the drawing (see curves.py), False for as few lines as possible.
+    reach [px]: largest distance of the lines from the pixel edges; with 0 the corners of the loop are returned. curves:
+    True if the lines follow round curves of the drawing (see curves.py), False for as few lines as possible.
     """
     if reach <= 0.0:
         return loop.corners.astype(float)
@@ -270,9 +278,10 @@ def smoothed(loop: Loop, reach: float, curves: bool = True) -> np.ndarray:
 
 
 def sharp(loop: Loop) -> np.ndarray:
-    """Return (n,) bool: whether smoothing keeps each corner of a loop.
+    """Return, for each corner of a loop, whether smoothing keeps it: (n,) bool.
 
-    Kept are corners between runs of 3 px or more, and corners of rectangles; a joined pinch is not kept.
+    Corners between runs of 3 px or more are kept, and corners of rectangles. A pinch at which pixels are connected is
+    not.
     """
     runs = np.roll(loop.corners, -1, axis=0) - loop.corners
     lengths, signs = np.abs(runs).sum(axis=1), np.sign(runs)

@@ -1,4 +1,4 @@
-"""Outline lines along round curves of a drawing: each line has the curve's direction."""
+"""Outline lines along round curves of a drawing. Each of these lines has the direction of the curve."""
 
 import math
 from typing import NamedTuple
@@ -84,7 +84,7 @@ class Lines(NamedTuple):
 
 
 class Path(NamedTuple):
-    """Parameters of a path of cracks (pixel edges), whose runs are in Lines.runs."""
+    """Parameters of a path along pixel edges, whose runs (straight rows of edges) are in Lines.runs."""
 
     count: int  # runs
     cracks: int
@@ -98,7 +98,7 @@ class Path(NamedTuple):
 
 
 class Curve(NamedTuple):
-    """A round stretch of a path, and the range of cracks (pixel edges) to which the curve is fitted."""
+    """A round section of a path, and the range of pixel edges to which the curve is fitted."""
 
     start: float  # [cracks] along the path
     end: float
@@ -153,9 +153,9 @@ def read_vertices(found, path, workspace):
 
 @subkernel
 def turn_between(first, second):
-    """Return the angle [rad] from the line that starts at vertex `first` to the line that starts at vertex `second`.
+    """Return the angle [rad] from the line that starts at one vertex to the line that starts at another.
 
-    The result is > 0 for a turn that is clockwise on the screen.
+    It is > 0 for a turn that is clockwise on the screen. first, second: VERTEX rows.
     """
     return math.atan2(
         first.along_x * second.along_y - first.along_y * second.along_x,
@@ -167,10 +167,10 @@ def turn_between(first, second):
 def turn_beyond(k, step, count, closed, vertices):
     """Return (turn [rad] at an end of line k, whether another line follows there).
 
-    step: 1 for the line's end, -1 for its start; count: number of lines of the path; closed: whether the path is
-    closed. No line follows beyond an anchor (a fixed corner) or the end of an open path. Lines shorter than SPIKE px
-    are skipped. The result is the smallest of the turns from line k to the following lines, up to the first line that
-    is not far shorter than line k.
+    No line follows beyond an anchor (a fixed corner) or the end of an open path. Lines shorter than SPIKE px are
+    skipped. The turn is the smallest of those from line k to the following lines, up to the first line that is not far
+    shorter than line k. step: 1 for the line's end, -1 for its start; count: number of lines of the path; closed:
+    whether the path is closed; vertices: VERTEX rows.
     """
     j = k
     least = 0.0
@@ -195,9 +195,9 @@ def turn_beyond(k, step, count, closed, vertices):
 
 @subkernel
 def kind_of_line(k, count, closed, vertices):
-    """Return the kind of line k: CURVED_LINE on a round curve, SPIKE_LINE if the line is too short, else STRAIGHT_LINE.
+    """Return the kind of line k: CURVED_LINE on a round curve, SPIKE_LINE if it is too short, else STRAIGHT_LINE.
 
-    count: number of lines of the path; closed: whether the path is closed; vertices: VERTEX.
+    count: number of lines of the path; closed: whether the path is closed; vertices: VERTEX rows.
     """
     line = vertices[k]
     if line.broken:
@@ -220,9 +220,9 @@ def kind_of_line(k, count, closed, vertices):
 
 @subkernel
 def write_middles(path, workspace):
-    """Write the middle of pixel edge k of a path to row FIT + k of workspace.middles.
+    """Write the middles of a path's pixel edges to workspace.middles: that of edge k to row FIT + k.
 
-    For a loop the middles of FIT pixel edges before its start and after its end are also written.
+    For a loop, FIT edges before its start and after its end are also written. path: Path; workspace: Lines.
     """
     for k in range(path.count):
         run = workspace.runs[k]
@@ -241,10 +241,10 @@ def write_middles(path, workspace):
 
 @subkernel
 def fit_at(row, half, middles, fitted_out):
-    """Fit a parabola to the middles of pixel edges in rows row - half to row + half.
+    """Fit a parabola to the middles of the pixel edges in rows row - half to row + half.
 
-    Write the parabola's point and direction at `row` to fitted_out, a row of FITTED. half 0 counts as 1. middles:
-    POINT.
+    The parabola's point and direction at `row` are written to fitted_out, a FITTED row. half 0 counts as 1. middles:
+    POINT rows, see write_middles.
     """
     half = half if half > 0 else 1
     whole = 3.0 * half * (half + 1) - 1.0
@@ -266,7 +266,10 @@ def fit_at(row, half, middles, fitted_out):
 
 @subkernel
 def fit_curve(curve, path, workspace):
-    """Write the fitted point and direction (FITTED) at each pixel edge of a curve and at the edge before its start."""
+    """Write the fitted point and direction (FITTED) at each pixel edge of a curve, and at the edge before its start.
+
+    curve: Curve; path: Path; workspace: Lines.
+    """
     first = math.floor(curve.start - 0.5)
     for crack in range(first, math.floor(curve.end - 0.5) + 2):
         half = math.floor(min(float(curve.half), crack + 0.5 - curve.low, curve.high - crack - 0.5))
@@ -279,10 +282,10 @@ def fit_curve(curve, path, workspace):
 
 @subkernel
 def fit_of(at, curve, fitted):
-    """Return the point (x, y) [px] and the direction (x, y) of a fitted curve at a position along its path.
+    """Return the point (x, y) [px] and the unit direction (x, y) of a fitted curve at a position along its path.
 
-    at [cracks]: position from the start of the path; fitted: FITTED rows of the curve, see fit_curve. Point and
-    direction are interpolated between the two nearest rows.
+    Both are interpolated between the two nearest rows. at: position from the start of the path, in pixel edges; fitted:
+    FITTED rows of the curve, see fit_curve.
     """
     crack = math.floor(at - 0.5)
     share = at - 0.5 - crack
@@ -299,9 +302,9 @@ def fit_of(at, curve, fitted):
 
 @subkernel
 def off_corner(x, y, before, run, most):
-    """Shorten an offset (x, y) [px] from the corner between two runs, so that its end is within `most` px of the runs.
+    """Shorten an offset (x, y) [px] from the corner between two runs, so that it ends within `most` px of the runs.
 
-    before, run: the runs that end and start at the corner. Return the new offset.
+    Return the new offset. before, run: the RUN rows that end and start at the corner.
     """
     x, y = min(max(x, -most), most), min(max(y, -most), most)
     ahead = x * right_of(run.direction) + y * down_of(run.direction)
@@ -315,11 +318,11 @@ def off_corner(x, y, before, run, most):
 
 @subkernel
 def put_on_curve(n, k, along, curve, path, workspace):
-    """Append a candidate corner (place) of run k of a path, moved onto the curve. Return the number of places.
+    """Append a candidate corner (PLACE row) of run k of a path, moved onto the curve. Return the number of places.
 
-    n: number of places before; k: run number, which in a loop counts on beyond the last run; along [cracks]: position
-    from the start of the run; 0: the corner at which the run starts. A place within a run is moved only along the run's
-    normal.
+    A place within a run is moved only along the run's normal. n: number of places before; k: run number, which in a
+    loop counts on beyond the last run; along: position from the start of the run, in pixel edges, 0 for the corner at
+    which the run starts; path: Path; workspace: Lines.
     """
     runs = workspace.runs
     run = runs[k % path.count]
@@ -347,10 +350,10 @@ def put_on_curve(n, k, along, curve, path, workspace):
 
 @subkernel
 def put_vertex(n, vertex, at, k, curve, path, workspace):
-    """Append a vertex as a place on run k of a path. Return the number of places.
+    """Append a vertex as a candidate corner (PLACE row) on run k of a path. Return the number of places.
 
-    n: number of places before; at [cracks]: position of the vertex along the path; curve: Curve that gives its
-    direction.
+    n: number of places before; at: position of the vertex along the path, in pixel edges; curve: Curve that gives its
+    direction; path: Path; workspace: Lines.
     """
     put_place(n, vertex.x, vertex.y, at, workspace.runs[k % path.count], False, True, workspace.places)
     place = workspace.places[n]
@@ -360,9 +363,9 @@ def put_vertex(n, vertex, at, k, curve, path, workspace):
 
 @subkernel
 def run_at(at, runs, path):
-    """Return the number of the run that is `at` pixel edges along a path.
+    """Return the number of the run at a position along a path. at: the position, in pixel edges.
 
-    In a loop, run numbers and `at` count on beyond its end.
+    In a loop, run numbers and `at` count on beyond its end. runs: RUN rows; path: Path.
     """
     k = 0
     while runs[(k + 1) % path.count].at + (k + 1) // path.count * path.cracks <= at:
@@ -372,9 +375,9 @@ def run_at(at, runs, path):
 
 @subkernel
 def put_curve(first, last, curve, path, workspace):
-    """Write the candidate corners (PLACE) of a curve, from vertex number `first` to vertex number `last`.
+    """Write the candidate corners (PLACE rows) of a curve between two vertices. Return the number of places.
 
-    Return the number of places.
+    first, last: numbers of the vertices; curve: Curve; path: Path; workspace: Lines.
     """
     runs, count = workspace.runs, path.count
     after = max(curve.start + APART, path.begin)
@@ -402,10 +405,10 @@ def put_curve(first, last, curve, path, workspace):
 
 @subkernel
 def widest_fit(first, length, count, path, vertices):
-    """Return the number of pixel edges to use on either side of a point for the fit of a curve, at most FIT.
+    """Return how many pixel edges on either side of a point a fit of a curve may use, at most FIT.
 
     The number is reduced so that directions within a fit differ by at most 2 FIT_TURN. first: line at which the curve
-    starts; length: number of the curve's lines; count: number of lines of the path.
+    starts; length: number of the curve's lines; count: number of lines of the path; vertices: VERTEX rows.
     """
     widest = 0.0
     for k in range(first, first + length):
@@ -423,9 +426,10 @@ def widest_fit(first, length, count, path, vertices):
 
 @subkernel
 def span_of(first, length, count, path, workspace):
-    """Return the Curve of `length` lines from vertex `first` on. Its `half` is 0 if the curve is too narrow for a fit.
+    """Return the Curve that consists of `length` lines from vertex `first` on.
 
-    count: number of lines of the path.
+    Its field `half` is 0 if the curve is too narrow for a fit. count: number of lines of the path; path: Path;
+    workspace: Lines.
     """
     vertices = workspace.vertices
     start = vertices[first].at
@@ -460,10 +464,10 @@ def span_of(first, length, count, path, workspace):
 
 @subkernel
 def lay_curve(first, length, count, path, workspace, n, points_out):
-    """Compute the lines of a curve again and append their points, except the last. Return the number of points.
+    """Compute the lines of a curve again, and append their points except the last. Return the number of points.
 
-    If the curve is too narrow, no points are appended, and n is returned. n: number of points before; first: vertex at
-    which the curve starts; length: number of the curve's lines; count: number of lines of the path.
+    If the curve is too narrow, no points are appended. first: vertex at which the curve starts; length: number of the
+    curve's lines; count: number of lines of the path; n: number of points before; points_out: POINT rows.
     """
     curve = span_of(first, length, count, path, workspace)
     if curve.half == 0:
@@ -489,7 +493,7 @@ def lay_curve(first, length, count, path, workspace, n, points_out):
 def put_points_of(first, length, vertices, n, points_out):
     """Append the points of `length` vertices from vertex `first` on, unchanged. Return the number of points.
 
-    n: number of points before.
+    n: number of points before; points_out: POINT rows.
     """
     for k in range(first, first + length):
         points_out[n].x, points_out[n].y = vertices[k].x, vertices[k].y
@@ -500,10 +504,10 @@ def put_points_of(first, length, vertices, n, points_out):
 
 @subkernel
 def lay_lines(found, path, workspace, n, points_out):
-    """Append the points of the outline along a path: straight lines, and lines along curves computed again.
+    """Append the points of the outline along a path: its straight lines, and lines computed again along curves.
 
-    found: number of places in workspace.chain, the ends of the straight lines; n: number of points before. For a closed
-    path the last point, equal to the first, is left out. Return the number of points.
+    Return the number of points. For a closed path the last point, equal to the first, is left out. found: number of
+    places in workspace.chain, the ends of the straight lines; n: number of points before; points_out: POINT rows.
     """
     vertices = workspace.vertices
     count = read_vertices(found, path, workspace)
@@ -547,9 +551,9 @@ def lay_lines(found, path, workspace, n, points_out):
 
 @kernel
 def lines_of_loop(path, workspace, points_out):
-    """Write the points (POINT) of the outline along a closed path. Return their number; 0: no lines were found.
+    """Write the points (POINT rows) of the outline along a closed path.
 
-    path: Path, whose runs are in the workspace; workspace: Lines.
+    path: Path; workspace: Lines, which holds the path's runs. Return their number, or 0 if no lines were found.
     """
     around, anchor = put_loop(workspace.runs, path.count, path.cracks, workspace.places)
     found = cheapest_loop(around, anchor, path.reach, workspace.places, workspace.chain)

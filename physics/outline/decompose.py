@@ -20,12 +20,12 @@ from physics.settings import MAX_CORNERS
 
 
 def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Return the cross product of vectors (..., 2): positive if b is clockwise of a on the screen."""
+    """Return the cross products of vectors (..., 2): positive if b is clockwise from a on the screen."""
     return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
 
 
 class Walls:
-    """Sides that block lines of sight; side k leads from corners[k] to following[k], both (n, 2) [px].
+    """Sides that block lines of sight. Side k leads from corners[k] to following[k], both (n, 2) [px].
 
     flat [px2]: a triangle counts as degenerate if twice its area is at most this.
     """
@@ -35,21 +35,21 @@ class Walls:
         self.after = following - corners
 
     def near(self, low: np.ndarray, high: np.ndarray) -> "Walls":
-        """Return Walls with the sides whose bounding boxes overlap or touch the box from `low` to `high` (2,) [px]."""
+        """Return Walls with only those sides whose bounding boxes meet the box from `low` to `high`, (2,) [px] each."""
         meet = (np.minimum(self.corners, self.following) <= high) & (np.maximum(self.corners, self.following) >= low)
         meet = meet.all(axis=1)
         return Walls(self.corners[meet], self.following[meet], self.flat)
 
     def free(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        """Return (m,) bool: whether the line from each a (m, 2) to its b (m, 2) crosses no side, passes no corner."""
+        """Return (m,) bool: whether the line from a[i] to b[i], (m, 2) each, crosses no side and meets no corner."""
         crossed, passed = self.obstacles(a, b)
         return ~crossed & ~passed.any(axis=1)
 
     def obstacles(self, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return (crossed (m,), passed (m, n)) for the lines from each a (m, 2) to its b (m, 2).
+        """Return (crossed (m,), passed (m, n)), both bool, for lines from a (m, 2) to b (m, 2).
 
-        crossed: whether the line crosses any side; passed: whether the line passes through each corner, its ends
-        excluded.
+        crossed: whether the line crosses a side; passed: whether the line passes through each corner, not counting its
+        ends.
         """
         along = (b - a)[:, None]
         to = self.corners - a[:, None]
@@ -64,7 +64,7 @@ class Walls:
 
 
 class Ring(Walls):
-    """A closed ring of corners (n, 2) [px], clockwise on the screen, with a test of which directions lead inside."""
+    """A closed ring of corners (n, 2) [px], clockwise on the screen. It can tell which directions lead inside."""
 
     def __init__(self, corners: np.ndarray, flat: float) -> None:
         super().__init__(corners, np.roll(corners, -1, axis=0), flat)
@@ -74,9 +74,9 @@ class Ring(Walls):
         self.convex = turn > flat
 
     def faces(self, k: np.ndarray, toward: np.ndarray, closed: bool) -> np.ndarray:
-        """Return (m,) bool: whether the direction `toward` (m, 2) leads from corner k (m,) into the ring.
+        """Return (m,) bool: whether the direction toward[i] leads from corner k[i] into the ring.
 
-        closed: whether a direction along a side also counts as leading inside.
+        toward (m, 2); k (m,); closed: whether a direction along a side also counts as leading inside.
         """
         low = self.flat if not closed else -self.flat
         from_after, to_back = cross(self.after[k], toward), cross(toward, self.back[k])
@@ -84,7 +84,7 @@ class Ring(Walls):
         return np.where(~self.reflex[k] & ~self.convex[k], from_after > low, within)
 
     def pairs(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return (cuts, lines), two (n, n) bool matrices: whether a cut, and whether a line, can join two corners.
+        """Return (cuts, lines), two (n, n) bool matrices: which corners a cut, and which a line, can join.
 
         A cut lies strictly inside the ring. A line may also lie on sides and pass through corners. Only entries [i, j]
         with i < j are set. O(n^3), vectorised.
@@ -121,9 +121,10 @@ TRIED_LINES = 16  # number of lines tested in one array operation, shortest firs
 def bridged(points: np.ndarray, loops: Sequence[np.ndarray], flat: float) -> list[np.ndarray]:
     """Return a polygon with holes as rings without holes: arrays of indices of points, clockwise on the screen.
 
-    Each hole, or group of touching holes, is joined to the rest by the shortest line inside the polygon, which becomes
-    two sides of opposite directions. points (n, 2) [px], all distinct; loops: indices of points, first the outer loop,
-    clockwise on the screen, then holes, counter-clockwise; loops may touch in common points. flat [px2] as in Walls.
+    Each hole, or group of touching holes, is joined to the rest by the shortest line inside the polygon (a bridge). The
+    bridge becomes two sides of opposite directions. points (n, 2) [px], all distinct; loops: indices of points, first
+    the outer loop, clockwise on the screen, then holes, counter-clockwise; loops may touch in common points. flat
+    [px2]: see Walls.
     """
     if len(loops) == 1:
         return [loops[0]]
@@ -158,9 +159,9 @@ class _Bridges:
         return any(self.group)
 
     def bridge(self):
-        """Join one group of touching holes to the group of the outer loop, by the shortest free line.
+        """Join one group of touching holes to the group of the outer loop, by the shortest line that nothing blocks.
 
-        The leftmost hole determines the group, because no other hole blocks the view to its left.
+        The group of the leftmost hole is joined, because no other hole blocks the view to its left.
         """
         apart = [k for k, group in enumerate(self.group) if group]
         first = self.group[min(apart, key=lambda k: self.walls[k].corners[:, 0].min())]
@@ -209,7 +210,7 @@ class _Bridges:
         return found
 
     def _onward(self, a, b, ways):
-        """Return the end of the side that follows side a -> b around the inside.
+        """Return the end of the side that comes after side a -> b in its ring, with the inside on the right.
 
         ways: the points to which sides from b lead.
         """
@@ -232,11 +233,12 @@ ROWS = 256  # polygon edges compared with all others in one array operation: bou
 
 
 def simple_rings(outer: np.ndarray, holes: Sequence[np.ndarray]) -> list[np.ndarray]:
-    """Return [outer ring (n, 2), holes...]: the outer ring clockwise on the screen, the holes counter-clockwise.
+    """Check a polygon with holes. Return [outer ring, holes...], (n, 2) each, without repeated and collinear corners.
 
-    Repeated and collinear corners are removed. The given rings may have either winding. Holes may touch the outer ring
-    and each other in common corners. Raises ValueError for a ring of fewer than three corners or without area, for
-    edges that meet (the message names both), and for a hole that is not inside.
+    In the result the outer ring is clockwise on the screen, the holes are counter-clockwise. The given rings may have
+    either winding. Holes may touch the outer ring and each other in common corners. Raises ValueError for a ring of
+    fewer than three corners or without area, for edges that meet (the message names both), and for a hole that is not
+    inside.
     """
     rings = [np.asarray(each, float) for each in (outer, *holes)]
     for number, ring in enumerate(rings):
@@ -278,10 +280,7 @@ def without_straight(ring: np.ndarray, flat: float) -> np.ndarray:
 
 
 def crossings(points: np.ndarray, ring: np.ndarray) -> np.ndarray:
-    """Return for each point (m, 2) the number of crossings of a ray to the right with a ring (n, 2).
-
-    An odd number means that the point is inside.
-    """
+    """Return, for each point (m, 2), how often a ray to the right crosses a ring (n, 2). An odd number means inside."""
     following = np.roll(ring, -1, axis=0)
     x, y = points[:, :1], points[:, 1:]
     spans = (ring[:, 1] > y) != (following[:, 1] > y)
@@ -295,7 +294,7 @@ def _name(number):
 
 
 class _Edges:
-    """All edges of the rings of a polygon, except edges without length."""
+    """All edges of the rings of a polygon, except edges of length 0."""
 
     def __init__(self, rings):
         self.size = max(float(np.ptp(np.concatenate(rings), axis=0).max()), 1e-300)
@@ -336,7 +335,7 @@ class _Edges:
         return f"{tuple(self.start[edge].tolist())} to {tuple(self.end[edge].tolist())}"
 
     def _meet(self, a, b):
-        """Return (m,) bool: whether the edges with indices a[i] < b[i] meet, except in a permitted common corner."""
+        """Return (m,) bool: whether edges a[i] and b[i] meet, except in a permitted common corner. a[i] < b[i]."""
         flat = FLAT * self.size**2
         p, q, r, s = self.start[a], self.end[a], self.start[b], self.end[b]
         sides = [_cross(q - p, r - p), _cross(q - p, s - p), _cross(s - r, p - r), _cross(s - r, q - r)]
@@ -375,9 +374,9 @@ def _cross(a, b):
 
 
 class _End(NamedTuple):
-    """A best convex piece at line (i, k): its first corner after i, its last corner before k, the piece it extends.
+    """A best convex piece beside line (i, k). first: its first corner after i; last: its last corner before k.
 
-    `grown` is the extended piece; None: line (i, last) is a cut or a side.
+    grown: the smaller piece that it extends; None: line (i, last) is a cut or a side.
     """
 
     first: int
@@ -386,9 +385,10 @@ class _End(NamedTuple):
 
 
 def fewest_convex(corners: np.ndarray, flat: float) -> list[list[int]]:
-    """Return the fewest convex pieces of a ring (n, 2) [px]: the corner indices of each, clockwise on the screen.
+    """Divide a ring, corners (n, 2) [px], into the fewest convex pieces by cuts between its corners.
 
-    Cuts are between corners. Pieces may have collinear corners. flat [px2] as in Walls. O(n^3).
+    Return the corner indices of each piece, clockwise on the screen. Pieces may have collinear corners. flat [px2]: see
+    Walls. O(n^3).
     """
     return _Search(Ring(corners, flat)).pieces()
 
@@ -413,7 +413,7 @@ class _Search:
                     self._best(i, i + gap, [j for j in after[i] if j < i + gap])
 
     def _turn(self, a, b, c):
-        """Return whether the path of corners a -> b -> c turns clockwise on the screen or is straight."""
+        """Return whether the path from corner a over b to c is straight or turns clockwise on the screen."""
         x, y = self.x, self.y
         return (x[b] - x[a]) * (y[c] - y[b]) - (y[b] - y[a]) * (x[c] - x[b]) >= -self.flat
 
@@ -467,10 +467,10 @@ class _Search:
 
 
 def shaved(rings: Sequence[np.ndarray], tolerance: float) -> list[np.ndarray]:
-    """Return simple rings (n, 2) [px] without shallow bumps and notches (Visvalingam and Whyatt 1993, by distance).
+    """Return rings (n, 2) [px] without shallow bumps and notches (Visvalingam and Whyatt 1993, by distance).
 
     Each removed corner is within tolerance [px] of the side that replaces it. A ring keeps at least three corners, and
-    no removal makes sides cross or touch. rings: the outer ring, then holes.
+    no removal makes sides cross or touch. rings: simple rings, the outer one first, then holes.
     """
     work = _Work(rings, tolerance)
     return work.shave()
@@ -513,7 +513,10 @@ class _Work:
         return found
 
     def _depth(self, k):
-        """Return the error [px] of removing corner k: the largest distance of a removed corner from the new side."""
+        """Return the error [px] of removing corner k: the largest distance of the removed corners from the new side.
+
+        Corners that were removed before are included.
+        """
         a, b = int(self.before[k]), int(self.after[k])
         (ax, ay), (bx, by) = self.points[a].tolist(), self.points[b].tolist()
         dx, dy = bx - ax, by - ay
@@ -526,9 +529,9 @@ class _Work:
         return worst
 
     def _free(self, k):
-        """Return whether the triangle that the removal of corner k would cut off or fill contains no other corner.
+        """Return whether corner k can be removed: the triangle that this cuts off or fills contains no other corner.
 
-        Corners on the triangle's sides also count.
+        Corners on the triangle's sides count as contained.
         """
         a, b = self.points[self.before[k]], self.points[self.after[k]]
         c = self.points[k]
@@ -558,24 +561,24 @@ ConvexPart = tuple[np.ndarray, np.ndarray]  # corners (k, 2) clockwise on the sc
 
 
 def convex_parts(outer: np.ndarray, holes: Sequence[np.ndarray] = (), tolerance: float = 0.0) -> list[ConvexPart]:
-    """Return the convex parts, of at most 16 corners each, of a simple polygon with holes.
+    """Divide a simple polygon with holes into convex parts of at most 16 corners. Return [(corners, inner)].
 
-    outer (n, 2), holes [(m, 2)] [px]: in either winding. Each part is (corners, inner): corners (k, 2) clockwise on the
-    screen, topmost, then leftmost corner first; inner (k,) bool: whether the side k -> k + 1 is shared with another
-    part. All corners are corners of the polygon. A collinear corner is kept only between an inner side and a side of
-    the boundary.
+    corners (k, 2): clockwise on the screen, topmost, then leftmost corner first; inner (k,) bool: whether the side k ->
+    k + 1 is shared with another part. All corners are corners of the polygon. A collinear corner is kept only between
+    an inner side and a side of the boundary.
 
-    tolerance [px] >= 0: bumps and notches are removed before, as long as each removed corner is within tolerance of the
-    side that replaces it and no sides cross; 0: the parts are exactly the polygon. Holes may touch the outer ring and
-    each other only in common corners. Raises ValueError for edges that meet or cross (the message names both), for
-    rings without area or of fewer than three corners, and for holes that are not inside.
+    outer (n, 2), holes [(m, 2)] [px]: in either winding. Holes may touch the outer ring and each other only in common
+    corners. tolerance [px] >= 0: bumps and notches are removed first, as long as each removed corner is within
+    tolerance of the side that replaces it and no sides cross; with 0 the parts cover exactly the polygon. Raises
+    ValueError for edges that meet or cross (the message names both), for rings without area or of fewer than three
+    corners, and for holes that are not inside.
     """
     rings = simple_rings(outer, holes)
     return partition(shaved(rings, tolerance) if tolerance > 0.0 else rings)
 
 
 def partition(rings: Sequence[np.ndarray]) -> list[ConvexPart]:
-    """Return the convex parts, as in convex_parts, of rings that are known to be simple. The rings are not checked.
+    """Return the convex parts of rings that are known to be simple, in the format of convex_parts. Nothing is checked.
 
     The outer ring is clockwise on the screen, holes are counter-clockwise.
     """
@@ -606,7 +609,7 @@ def _sides(piece):
 
 
 def _tidy(corners, inner, flat):
-    """Return a part's corners and `inner` flags without collinear corners, from its topmost, then leftmost corner on.
+    """Return a part's corners and `inner` flags without collinear corners, its topmost, then leftmost corner first.
 
     A collinear corner at which `inner` changes is kept.
     """
@@ -620,7 +623,7 @@ def _tidy(corners, inner, flat):
 
 
 def _halved(points, rings, flat):
-    """Return the rings, split by cuts until each is convex or has at most LARGEST corners.
+    """Split rings by cuts until each is convex or has at most LARGEST corners. Return the rings.
 
     points (n, 2) [px]; rings: arrays of indices of points.
     """
@@ -638,7 +641,7 @@ def _halved(points, rings, flat):
 
 
 def _halving(sides):
-    """Return two corners (indices) whose connection is a short cut that splits a ring into parts of similar size.
+    """Return two corners (indices) between which a short cut splits a ring into parts of similar size.
 
     The cut starts at a reflex corner. sides: Ring.
     """
@@ -665,9 +668,9 @@ def _halving(sides):
 
 
 def _joined(points, pieces, flat):
-    """Return convex pieces merged across their common sides, where the union is convex with at most 16 corners.
+    """Merge convex pieces across their common sides, where the union is convex with at most 16 corners.
 
-    The longest common side is tried first.
+    The longest common side is tried first. points (n, 2) [px]; pieces: lists of indices of points. Return the pieces.
     """
     owner = {side: number for number, piece in enumerate(pieces) for side in _sides(piece)}
     common = [side for side in owner if side[0] < side[1] and side[::-1] in owner]
@@ -693,7 +696,10 @@ def _joined(points, pieces, flat):
 
 
 def _at_most(piece, most):
-    """Return a list of convex pieces: `piece` (indices of corners), halved until each has at most `most` corners."""
+    """Halve a convex piece until each part has at most `most` corners. Return the parts.
+
+    piece: indices of its corners.
+    """
     if len(piece) <= most:
         return [piece]
     half = len(piece) // 2

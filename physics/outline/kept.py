@@ -1,6 +1,6 @@
-"""Files of precomputed mask outlines: convex parts, keyed by a hash of the pixels, the settings and the code.
+"""Files of precomputed mask outlines. The key of an outline is a hash of the pixels, the settings and the code.
 
-A game ships such a file with its art and names it with `use`, so that a start without compiled kernels does not compute
+A game ships such a file with its art and opens it with `use`. Then a start without compiled kernels does not compute
 the outlines. Outlines that are not in a file are computed. If the code or the pixels change, the key changes.
 """
 
@@ -19,7 +19,7 @@ FOLDERS = ("outline", "raster")  # subpackages whose code, with math2d.py and se
 
 
 class Parts(NamedTuple):
-    """Convex parts of an outline: rounded polygons, their corners listed part after part."""
+    """The convex parts of an outline: rounded polygons, their corners listed part after part."""
 
     corners: np.ndarray  # (n, 2) float64 [px]
     inner: np.ndarray  # (n,) bool
@@ -33,7 +33,7 @@ recorded: dict[bytes, Parts] | None = None  # all parts that fitted() returned, 
 
 
 def use(path: Path) -> None:
-    """Look up outlines in a file made by `write`, from the next lookup on.
+    """Add a file made by `write` to those in which `fitted` looks up outlines. The file is read at the next lookup.
 
     A missing or damaged file counts as empty.
     """
@@ -41,15 +41,16 @@ def use(path: Path) -> None:
 
 
 def forget() -> None:
-    """Stop looking up outlines in files until `use` is called again."""
+    """Remove all files and their outlines: outlines are then computed, until `use` is called again."""
     _files.clear()
     _kept.clear()
 
 
 def fitted(name: str, pixels: np.ndarray, smooth: float, fit: Callable[[], Parts]) -> Parts:
-    """Return the stored parts for these pixels, or the result of fit() if no parts are stored.
+    """Return the stored parts for these pixels, or the result of fit() if none are stored.
 
-    name: method that fit() uses, part of the key; pixels[row, col] bool; smooth [px]: as in contour.outline.
+    name: method by which fit() computes the parts, which is part of the key; pixels[row, col] bool; smooth [px]: see
+    contour.outline.
     """
     key = _key(name, pixels, smooth)
     while _files:
@@ -79,7 +80,7 @@ def code_stamp() -> bytes:
 
 
 def write(path: Path, found: Mapping[bytes, Parts]) -> None:
-    """Write convex parts with their keys to a file that `use` reads. Equal parts give a file of equal bytes."""
+    """Write convex parts with their keys to a file that `use` can read. Equal parts give equal files."""
     order = sorted(found)
     np.savez_compressed(
         path,

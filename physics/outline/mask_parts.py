@@ -1,4 +1,4 @@
-"""Convex decomposition of a mask's outline. A flag marks inner sides, which two parts share."""
+"""Convex decomposition of a mask's outline. Flags mark the inner sides, which two parts share."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -20,7 +20,7 @@ from physics.settings import MAX_CORNERS
 
 
 def few_parts(rings: Sequence[np.ndarray]) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Return the convex parts [(corners (k, 2), inner (k,) bool)] of a polygon with holes, in few parts and fast.
+    """Decompose a polygon with holes into few convex parts, fast. Return [(corners (k, 2), inner (k,) bool)].
 
     Corners are clockwise on the screen; inner: whether the side k -> k + 1 is shared with another part. rings: the
     outer ring (n, 2) [px], clockwise on the screen, then holes, counter-clockwise. The rings must be simple, and their
@@ -45,8 +45,8 @@ def few_parts(rings: Sequence[np.ndarray]) -> list[tuple[np.ndarray, np.ndarray]
 def join_touching(n, sides_inout):
     """Join rings that touch in a common corner into one ring that passes this corner twice. O(n²).
 
-    n: number of sides. The joined ring gets the lower of both numbers SIDE.apart, so it counts as no hole if one of the
-    rings does.
+    n: number of sides (SIDE rows). The joined ring gets the lower of both numbers SIDE.apart, so it counts as a hole
+    only if both rings do.
     """
     for a in range(n):
         p = sides_inout[a]
@@ -67,12 +67,12 @@ def join_touching(n, sides_inout):
 
 @kernel
 def cut_rings(points, counts, most, sides_inout, corners_out, inner_out, counts_out):
-    """Write the convex parts of a polygon given by rings, the outer ring first.
+    """Decompose a polygon, given by rings, into convex parts.
 
-    points (n, 2) [px]: corners ring after ring; counts (rings,): number of corners of each ring; most: largest number
-    of corners of a part; sides_inout: SIDE, scratch; corners_out (n, 2) [px]: corners part after part; inner_out (n,):
-    whether the side after each corner is shared by two parts; counts_out (parts,): number of corners of each part.
-    Return the number of parts, or -1 if the rings are not a polygon.
+    points (n, 2) [px]: corners ring after ring, the outer ring first; counts (rings,): number of corners of each ring;
+    most: largest number of corners of a part; sides_inout: SIDE rows, scratch; corners_out (n, 2) [px]: corners part
+    after part; inner_out (n,): whether the side after each corner is shared by two parts; counts_out (parts,): number
+    of corners of each part. Return their number, or -1 if the rings are not a polygon.
     """
     n = 0
     start = 0
@@ -105,7 +105,7 @@ def mask_parts(solid: np.ndarray, smooth: float = 0.5) -> list[Part]:
     """Return the convex parts of the outline of solid[row, col] bool; [] without solid pixels.
 
     A round piece becomes one part with a radius (rounding.py). Any other piece is decomposed into parts of radius 0
-    (few_parts), each listed from its topmost, then leftmost corner on. A full rectangle is one part. smooth [px] as in
+    (few_parts), each with its topmost, then leftmost corner first. A full rectangle is one part. smooth [px]: see
     contour.outline; the union of the parts is as near to the pixels' edges as the result of contour.outline.
     """
     parts = fitted("mask_parts", solid, smooth, lambda: _joined(_fit(solid, smooth)))

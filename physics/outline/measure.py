@@ -21,7 +21,7 @@ Hull = tuple[np.ndarray, float]  # corners (k, 2) clockwise on the screen, 1: a 
 
 
 class Stretch(NamedTuple):
-    """A stretch of a boundary: a line, or an arc that is clockwise on the screen. The inside is on its right."""
+    """A section of a boundary: a line, or an arc that is clockwise on the screen. The inside is on its right."""
 
     start: np.ndarray  # (2,) [px]
     end: np.ndarray  # (2,)
@@ -31,7 +31,7 @@ class Stretch(NamedTuple):
     turn: float  # [rad] > 0: angle of the arc
 
     def at(self, shares: np.ndarray) -> np.ndarray:
-        """Return the points (m, 2) [px] at fractions (m,) of the length: 0 is the start, 1 the end."""
+        """Return the points (m, 2) [px] at fractions `shares` (m,) of the length: 0 is the start, 1 the end."""
         if self.radius == 0.0:
             return self.start + shares[:, None] * (self.end - self.start)
         angles = self.first + shares * self.turn
@@ -48,7 +48,7 @@ class Stretch(NamedTuple):
 
 
 def boundary(hulls: Sequence[Hull]) -> list[Stretch]:
-    """Return the stretches of the boundary of a union of hulls, with the inside to the right of each; [] without hulls.
+    """Return the boundary of a union of hulls as stretches with the inside on their right; [] without hulls.
 
     A side that two hulls share is not part of the boundary. Only hulls with overlapping bounds are compared. O(sides²)
     at worst.
@@ -79,7 +79,7 @@ def line(start: np.ndarray, end: np.ndarray) -> Stretch:
 
 
 def _around(corners, radius):
-    """Return the boundary of one rounded hull: sides moved outward, and arcs of at most a quarter turn."""
+    """Return the boundary of one rounded hull: sides moved outward by the radius, and arcs of up to a quarter turn."""
     if len(corners) == 1:
         bounds = [(k * math.pi / 2.0, math.pi / 2.0) for k in range(4)]
         return [_arc(corners[0], radius, first, turn) for first, turn in bounds]
@@ -106,7 +106,7 @@ def _arc(center, radius, first, turn):
 
 
 def _cuts(side, others, near):
-    """Return the fractions of a stretch's length, from 0 to 1, at which other stretches begin, end or cross it.
+    """Return the fractions of a stretch's length at which other stretches begin, end or cross it, with 0 and 1.
 
     side: the stretch; others: the other stretches; near [px]: a smaller distance counts as 0.
     """
@@ -123,7 +123,7 @@ def _cuts(side, others, near):
 
 
 def _share(side, point, near):
-    """Return the fraction of a stretch's length at which a point lies; -1: the point is not on its line or circle.
+    """Return the fraction of a stretch's length at which a point lies; -1 if it is not on the stretch's line or circle.
 
     side: the stretch; near [px]: a smaller distance of the point from the line or circle counts as 0.
     """
@@ -139,7 +139,7 @@ def _share(side, point, near):
 
 
 def _line_meets(side, other):
-    """Return the points where the line of a straight side meets another stretch's line or circle."""
+    """Return the points where the infinite line of a straight stretch meets the line or circle of another stretch."""
     along = side.end - side.start
     if other.radius > 0.0:
         return _on_circle(side.start, along, other.center, other.radius)
@@ -152,7 +152,7 @@ def _line_meets(side, other):
 
 
 def _arc_meets(side, other):
-    """Return the points where the circle of an arc meets another stretch's line or circle."""
+    """Return the points where the full circle of an arc meets the line or circle of another stretch."""
     if other.radius == 0.0:
         return _on_circle(other.start, other.end - other.start, side.center, side.radius)
     apart = other.center - side.center
@@ -166,7 +166,7 @@ def _arc_meets(side, other):
 
 
 def _on_circle(start, along, center, radius):
-    """Return the two points where the infinite line through `start` with the direction `along` meets a circle.
+    """Return the two points where a line meets a circle. start, along: a point on the infinite line and its direction.
 
     If the line misses the circle, the line's point nearest to the centre is returned twice.
     """
@@ -181,9 +181,9 @@ def _on_circle(start, along, center, radius):
 def _covered(stretch, hull, earlier, near):
     """Return whether another hull removes a stretch from the boundary of the union of hulls.
 
-    A stretch is removed if it is inside the other hull, or if it is on that hull's boundary and the two hulls lie on
-    opposite sides of it. A stretch that coincides with the other hull's boundary, with both hulls on the same side, is
-    removed if that hull is earlier in the list (`earlier`). near [px]: a smaller distance counts as 0.
+    A stretch inside the other hull is removed. A stretch on that hull's boundary is removed if the two hulls lie on
+    opposite sides of it. If both lie on the same side, only the stretch of the first hull is kept. earlier: whether the
+    other hull comes first; near [px]: a smaller distance counts as 0.
     """
     point = stretch.at(np.array([0.5]))[0]
     gap, normal = gap_and_normal(hull, point)
@@ -237,7 +237,7 @@ class Moments(NamedTuple):
 
 
 def moments(around: Sequence[Stretch]) -> Moments:
-    """Return the moments of the figure inside a closed boundary; without area, all are 0 and the centre is nan.
+    """Return the Moments of the figure inside a closed boundary. Without area, all are 0 and the centre is nan.
 
     around: stretches of the boundary.
     """
@@ -256,9 +256,9 @@ def moments(around: Sequence[Stretch]) -> Moments:
 
 
 def nodes(around: Sequence[Stretch]) -> tuple[np.ndarray, np.ndarray]:
-    """Return (n, 16, 2) [px] quadrature points on the n stretches `around`, and their derivatives.
+    """Return quadrature points (n, 16, 2) [px] on n stretches, and the derivatives (n, 16, 2) of position by fraction.
 
-    The derivatives are by the fraction of a stretch's length.
+    around: the stretches; the fraction of a stretch's length is 0 at its start, 1 at its end.
     """
     place = np.array([each.at(NODES) for each in around])
     step = np.empty_like(place)
@@ -286,7 +286,7 @@ ROWS = 1 << 20  # distances computed in one array operation: bounds the memory
 def hausdorff(a: Sequence[Stretch], b: Sequence[Stretch]) -> float:
     """Return the Hausdorff distance [px] of two boundaries: the largest distance of a point on one from the other.
 
-    The result is at most 1e-6 px too small; 0 if both boundaries are empty, inf if only one is empty.
+    The result is at most 1e-6 px too small. It is 0 if both boundaries are empty, inf if only one is empty.
     """
     if not a or not b:
         return 0.0 if not a and not b else math.inf
@@ -294,7 +294,7 @@ def hausdorff(a: Sequence[Stretch], b: Sequence[Stretch]) -> float:
 
 
 class _Figure:
-    """The lines and the arcs of a boundary as arrays, to compute distances of many points from them."""
+    """The lines and the arcs of a boundary as arrays, from which distances of many points are computed at once."""
 
     def __init__(self, stretches):
         lines = [each for each in stretches if each.radius == 0.0]
@@ -346,8 +346,8 @@ def _farthest(a, b, best):
 def _looked_at(some, other, best):
     """Return (largest distance [px] so far, stretches that may contain a farther point).
 
-    The stretches are [(upper bound [px] of the distance, stretch)]. some: stretches, whose ends and middles are
-    measured; other: _Figure from which distances are measured; best [px]: largest distance found before.
+    The latter are [(upper bound [px] of the distance, stretch)]. some: stretches whose ends and middles are measured
+    now; other: _Figure from which distances are measured; best [px]: largest distance found before.
     """
     points = np.array([each.at(np.array([0.0, 0.5, 1.0])) for each in some])
     lines = other.from_lines(points.reshape(-1, 2)).reshape(len(some), 3, -1)
@@ -372,7 +372,7 @@ Box = tuple[float, float, float, float]  # left, top, right, bottom [px]
 
 
 class Cells(NamedTuple):
-    """A grid of unequal cells, whose lines are the pixel edges of several masks."""
+    """A grid of columns and rows of unequal size, whose lines are the pixel edges of several masks."""
 
     x: np.ndarray  # (w + 1,) lines between columns [px], ascending
     y: np.ndarray  # (h + 1,) lines between rows
@@ -380,7 +380,7 @@ class Cells(NamedTuple):
 
 
 class Sums(NamedTuple):
-    """Area and first and second moments of a figure about a base point."""
+    """Area, first moments and second moment of a figure about a base point."""
 
     area: float  # [px2]
     x: float  # integral of x [px3]
@@ -392,7 +392,7 @@ class Sums(NamedTuple):
         return Sums(*(a + share * b for a, b in zip(self, other, strict=True)))
 
     def moments(self, base: tuple[float, float]) -> Moments:
-        """Return the area, centre and inertia of the figure. base [px]: base point of these sums."""
+        """Return the Moments of the figure: area, centre and inertia. base [px]: base point of these sums."""
         if self.area <= 0.0:
             return Moments(0.0, math.nan, math.nan, 0.0)
         x, y = self.x / self.area, self.y / self.area
@@ -403,7 +403,7 @@ NO_SUMS = Sums(0.0, 0.0, 0.0, 0.0)
 
 
 def sums_of(found: Moments, base: tuple[float, float]) -> Sums:
-    """Return the Sums of a figure about a base point [px], from the figure's Moments."""
+    """Return the Sums of a figure about a base point [px], computed from its Moments."""
     if found.area == 0.0:
         return NO_SUMS
     x, y = found.x - base[0], found.y - base[1]
@@ -411,7 +411,7 @@ def sums_of(found: Moments, base: tuple[float, float]) -> Sums:
 
 
 def cells_of(masks: Sequence[Placed], window: Box) -> Cells:
-    """Return the pixels of several masks inside a window on a common grid of cells."""
+    """Return Cells with the pixels of several masks inside a window (left, top, right, bottom) [px]."""
     lines = []
     for axis in (0, 1):
         low, high = window[axis], window[axis + 2]
@@ -426,7 +426,7 @@ def cells_of(masks: Sequence[Placed], window: Box) -> Cells:
 
 
 def _places(lines, first, size):
-    """Return the mask's row (or column) between each two successive grid lines; -1: outside the mask.
+    """Return, for each gap between grid lines, which row (or column) of a mask lies there; -1 outside the mask.
 
     lines [px]: positions of the grid lines; first [px]: position of the mask's first row; size: number of its rows.
     """
@@ -435,7 +435,7 @@ def _places(lines, first, size):
 
 
 def cell_sums(cells: Cells, weights: np.ndarray, base: tuple[float, float]) -> Sums:
-    """Return the Sums of all cells about a base point. weights (h, w): weight per px2 of each cell."""
+    """Return the Sums of all cells about a base point [px]. weights (h, w): density of each cell."""
     width, height = np.diff(cells.x), np.diff(cells.y)
     x, y = (cells.x[:-1] + cells.x[1:]) / 2.0 - base[0], (cells.y[:-1] + cells.y[1:]) / 2.0 - base[1]
     in_rows = [(weights * each).sum(axis=1) for each in (width, width * x, width * (x * x + width * width / 12.0))]
@@ -449,9 +449,9 @@ def cell_sums(cells: Cells, weights: np.ndarray, base: tuple[float, float]) -> S
 
 
 def shared_sums(around: Sequence[Stretch], cells: Cells, base: tuple[float, float]) -> Sums:
-    """Return the Sums, about a base point, of the part of the solid cells that is inside a boundary.
+    """Return the Sums, about a base point [px], of the part of the solid cells that is inside a boundary.
 
-    around: stretches of the boundary. A cell is solid if a pixel of any mask in it is solid.
+    around: stretches of the boundary. A cell is solid if at least one mask has a solid pixel there.
     """
     parts = [part for each in around for part in _cut_by_lines(each, cells)]
     if not parts or not cells.count.any():
@@ -473,7 +473,7 @@ def shared_sums(around: Sequence[Stretch], cells: Cells, base: tuple[float, floa
 
 
 def _left_of(cells, power, base, row, column, x):
-    """Return the integrals (n, 16) of x ** power over the solid cells to the left of each point, in the point's row.
+    """Return, for each point, the integral of x ** power over the solid cells to its left in its row: (n, 16).
 
     base [px]: x of the base point; row, column (n,): cells of the points; x (n, 16): positions relative to `base`.
     """
@@ -487,7 +487,7 @@ def _left_of(cells, power, base, row, column, x):
 
 
 def _cut_by_lines(stretch, cells):
-    """Return the parts of a stretch between its crossings with grid lines, each in one column and one row of cells."""
+    """Return a stretch cut at all grid lines that it crosses. Each part lies in one column and one row of cells."""
     shares = [np.array([0.0, 1.0])]
     for axis, lines in enumerate((cells.x, cells.y)):
         if stretch.radius == 0.0:
@@ -523,7 +523,7 @@ class Measured(NamedTuple):
 
 
 def measured(solid: np.ndarray, hulls: Sequence[Hull]) -> Measured:
-    """Return the accuracy of hulls that replace the pixels solid[row, col] bool.
+    """Return how accurately hulls replace the pixels solid[row, col] bool.
 
     hulls: [(corners (k, 2) clockwise on the screen, radius)] in raster pixels.
     """
@@ -537,7 +537,7 @@ def measured(solid: np.ndarray, hulls: Sequence[Hull]) -> Measured:
 
 
 def edges(solid: np.ndarray) -> list[Stretch]:
-    """Return the pixel edges between solid and clear pixels as straight stretches, with the solid side on the right."""
+    """Return the edges between solid and clear pixels as straight stretches, with the solid side on the right."""
     loops = [loop.corners for piece in contours(solid) for loop in (piece.outer, *piece.holes)]
     return [line(a, b) for loop in loops for a, b in zip(loop, np.roll(loop, -1, axis=0), strict=True)]
 

@@ -1,4 +1,4 @@
-"""Paths along cracks (pixel edges between solid and clear pixels), and the best straight lines along a path."""
+"""Paths along pixel edges between solid and clear pixels, and the best straight lines along a path."""
 
 import math
 from typing import NamedTuple
@@ -37,7 +37,7 @@ RUN = np.dtype(
 
 
 class Window(NamedTuple):
-    """The pixels of a tile and of a margin around the tile, with the settings of the outline."""
+    """The pixels of a tile with a margin around it, and the settings of the outline."""
 
     pixels: np.ndarray  # [row, col] uint8; not 0: solid
     low: int  # first row and column of the tile, and …
@@ -48,26 +48,29 @@ class Window(NamedTuple):
 
 @subkernel
 def right_of(direction):
-    """Return the x component of a direction: -1, 0 or 1."""
+    """Return the x component of a direction (0 right, 1 down, 2 left, 3 up): -1, 0 or 1."""
     return (1 if direction == 0 else 0) - (1 if direction == 2 else 0)
 
 
 @subkernel
 def down_of(direction):
-    """Return the y component of a direction: -1, 0 or 1."""
+    """Return the y component of a direction (0 right, 1 down, 2 left, 3 up): -1, 0 or 1."""
     return (1 if direction == 1 else 0) - (1 if direction == 3 else 0)
 
 
 @subkernel
 def is_solid(pixels, x, y, quadrant):
-    """Return whether the pixel in a quadrant (0 to 3) of corner (x, y) is solid."""
+    """Return whether a pixel beside corner (x, y) of the pixel grid is solid.
+
+    quadrant: which of the four pixels at the corner, clockwise on the screen from the lower right one, modulo 4.
+    """
     q = quadrant & 3
     return pixels[y - (1 if q >= 2 else 0), x - (1 if q == 1 or q == 2 else 0)] != 0
 
 
 @subkernel
 def is_own(window, x, y, quadrant):
-    """Return whether the pixel in a quadrant (0 to 3) of corner (x, y) belongs to the tile."""
+    """Return whether a pixel beside corner (x, y) of the pixel grid belongs to the tile. quadrant: see is_solid."""
     q = quadrant & 3
     column = x - (1 if q == 1 or q == 2 else 0)
     row = y - (1 if q >= 2 else 0)
@@ -76,9 +79,9 @@ def is_own(window, x, y, quadrant):
 
 @subkernel
 def length_from(pixels, x, y, direction):
-    """Return the length [px] of the straight row of pixel edges from a corner in a direction, at most SHARP.
+    """Return the length [px] of the straight row of pixel edges that starts at a corner, at most SHARP.
 
-    At least one edge must leave the corner in this direction.
+    direction: the direction of the row, in which at least one edge must leave the corner.
     """
     right = is_solid(pixels, x, y, direction)
     count = 1
@@ -93,7 +96,7 @@ def length_from(pixels, x, y, direction):
 
 @subkernel
 def is_joined(window, x, y):
-    """Return whether paths pass from one to the other of the two diagonal solid pixels at corner (x, y), joining them.
+    """Return whether paths connect the two diagonal solid pixels at corner (x, y), by passing from one to the other.
 
     The result is False where two long runs meet, because such a corner is fixed. It is also False on the border of the
     tile, because the neighbouring tile would find another path.
@@ -107,7 +110,7 @@ def is_joined(window, x, y):
 
 @subkernel
 def onward(window, x, y, direction):
-    """Return the direction in which a path leaves corner (x, y). direction: the direction in which it arrives there."""
+    """Return the direction in which a path leaves corner (x, y). direction: that in which it arrives there."""
     if not is_solid(window.pixels, x, y, direction):
         if is_solid(window.pixels, x, y, direction + 3) and is_joined(window, x, y):
             return (direction + 3) & 3
@@ -117,10 +120,7 @@ def onward(window, x, y, direction):
 
 @subkernel
 def backward(window, x, y, direction):
-    """Return the direction in which a path arrives at corner (x, y).
-
-    direction: direction in which the path leaves the corner.
-    """
+    """Return the direction in which a path arrives at corner (x, y). direction: that in which it leaves the corner."""
     if not is_solid(window.pixels, x, y, direction + 1):
         if is_solid(window.pixels, x, y, direction + 2) and is_joined(window, x, y):
             return (direction + 1) & 3
@@ -130,9 +130,9 @@ def backward(window, x, y, direction):
 
 @subkernel
 def walked_back(window, x, y, direction, cracks):
-    """Return (x, y, direction) of a path `cracks` pixel edges before a corner.
+    """Return the (x, y, direction) that a path has `cracks` pixel edges before corner (x, y).
 
-    x, y: the corner; direction: the direction in which the path leaves the corner.
+    direction: the direction in which the path leaves the corner.
     """
     for _ in range(cracks):
         direction = backward(window, x, y, direction)
@@ -143,7 +143,7 @@ def walked_back(window, x, y, direction, cracks):
 
 @subkernel
 def follow(window, x, y, direction, marks_inout):
-    """Return the number of pixel edges along which a path stays in the tile from corner (x, y) on.
+    """Return for how many pixel edges a path stays in the tile, starting at corner (x, y).
 
     For a loop it is the loop's length. direction: the direction in which the path leaves the corner; marks_inout [row,
     col] uint8: set for each solid pixel below a horizontal pixel edge of the path.
@@ -165,7 +165,7 @@ def follow(window, x, y, direction, marks_inout):
 
 @subkernel
 def record(window, x, y, direction, cracks, runs_out):
-    """Write the runs (RUN) of a path of `cracks` pixel edges from corner (x, y) on. Return the number of runs.
+    """Write the runs (RUN rows) of a path of `cracks` pixel edges that starts at corner (x, y). Return their number.
 
     direction: the direction in which the path leaves the corner.
     """
@@ -217,7 +217,7 @@ PLACE = np.dtype(
 
 
 class Prices(NamedTuple):
-    """Costs of the errors of a line, in units of the cost of a corner."""
+    """Costs of the errors of a line. The unit is the cost of one corner."""
 
     area: float  # [1/px2] cost of the area that the line adds or removes
     angle: float  # [1/(rad2 px)] cost of the line's squared angles to the curve at both ends, times the line's length
@@ -230,7 +230,7 @@ LINE_PRICES = Prices(AREA_PRICE, 0.0)
 def stays(runs, count, k, closed):
     """Return whether smoothing keeps the corner at the start of run k: a corner between long runs, or of a rectangle.
 
-    runs: RUN; count: number of runs; closed: whether the path is closed.
+    runs: RUN rows, of which the first `count` are the path; closed: whether the path is closed.
     """
     if not closed and k == 0:
         return False
@@ -250,9 +250,10 @@ def stays(runs, count, k, closed):
 
 @subkernel
 def put_place(n, x, y, at, run, corner, allowed, places_inout):
-    """Write row n of places (PLACE): a candidate corner (x, y) of the outline on a run.
+    """Write row n of places: a candidate (x, y) for a corner of the outline.
 
-    at [cracks]: position along the path; corner: whether the path turns there; allowed: whether a line may end there.
+    run: the RUN row it lies on; at: position along the path, in pixel edges; corner: whether the path turns there;
+    allowed: whether a line may end there.
     """
     place = places_inout[n]
     place.x, place.y = x, y
@@ -270,10 +271,10 @@ def put_place(n, x, y, at, run, corner, allowed, places_inout):
 
 @subkernel
 def put_run(n, run, start, end, offset, places_inout):
-    """Append up to three candidate corners (places) inside a run. Return the number of places.
+    """Append up to three candidate corners (PLACE rows) inside a run. Return the number of places.
 
-    n: number of places before. Only places between `start` and `end` [cracks along the path] are added. offset
-    [cracks]: added to the positions of the places along the path, for the second turn around a loop.
+    n: number of places before. Only places between `start` and `end`, in pixel edges along the path, are added. offset:
+    is added to their positions along the path, for the second turn around a loop.
     """
     for step in range(3):
         if step != 1 and run.length == 1:
@@ -288,10 +289,10 @@ def put_run(n, run, start, end, offset, places_inout):
 
 @subkernel
 def put_loop(runs, count, cracks, places_out):
-    """Write the candidate corners (places) of two turns around a loop, then the first place once more at the end.
+    """Write the candidate corners (PLACE rows) of two turns around a loop, then the first one once more.
 
-    runs: RUN; count: number of runs; cracks: number of pixel edges of the loop. Return (number of places of one turn,
-    row of the first fixed corner, which no line may pass; -1: the loop has no fixed corner).
+    Return (number of places of one turn, row of the first fixed corner, -1 for none). No line may pass a fixed corner.
+    runs: RUN rows, of which the first `count` are the loop; cracks: number of pixel edges of the loop.
     """
     n = 0
     around = 0
@@ -318,8 +319,8 @@ def put_loop(runs, count, cracks, places_out):
 def faults_of_angles(begin, to):
     """Return the cost of a line's angles to a curve: (sin² at its start + sin² at its end) · the line's length [px].
 
-    begin, to: PLACE rows of the ends, with the direction of the curve. At an end where the line leads backwards along
-    the curve, sin² counts as 1.
+    begin, to: PLACE rows of the ends of the line, which hold the direction of the curve. At an end where the line leads
+    backwards along the curve, sin² counts as 1.
     """
     x, y = to.x - begin.x, to.y - begin.y
     squared = x * x + y * y
@@ -334,10 +335,10 @@ def faults_of_angles(begin, to):
 
 @subkernel
 def try_lines(start, last, reach, prices, places_inout):
-    """Lower the cost of each place that a line from place `start` reaches at less cost than known (O'Rourke 1981).
+    """Lower the cost of each place to which a line from place `start` is cheaper than the best known (O'Rourke 1981).
 
     Lines to the places up to place `last` are tried. reach [px]: largest distance of a line from the pixel edges;
-    prices: Prices.
+    prices: Prices; places_inout: PLACE rows.
     """
     begin = places_inout[start]
     x, y = begin.x, begin.y
@@ -378,10 +379,11 @@ def try_lines(start, last, reach, prices, places_inout):
 
 @subkernel
 def cheapest(first, last, reach, prices, places_inout, chain_out):
-    """Find the least-cost lines from place `first` to place `last`. Return the number of places where lines end.
+    """Find the lines of least total cost from place `first` to place `last`.
 
-    chain_out: these places as rows of PLACE, from last to first; 0 is returned if no lines reach the last place. reach
-    [px]: largest distance of a line from the pixel edges; prices: Prices. O(places * places of a line).
+    The result is 0 if no lines reach the last place. chain_out: indices of these places, from last to first; reach
+    [px]: largest distance of a line from the pixel edges; prices: Prices; places_inout: PLACE rows. O(places * places
+    of a line). Return the number of places where lines end.
     """
     for k in range(first, last + 1):
         places_inout[k].cost = math.inf
@@ -401,11 +403,11 @@ def cheapest(first, last, reach, prices, places_inout, chain_out):
 
 @subkernel
 def cheapest_loop(around, anchor, reach, places_inout, chain_out):
-    """Find the least-cost lines around a loop. Return the number of places where lines end.
+    """Find the lines of least total cost around a loop. Return the number of places where lines end.
 
-    chain_out: these places as rows of PLACE, from last to first. places_inout: as written by put_loop; around: number
-    of places of one turn; anchor: row of a fixed corner, which no line may pass; -1: there is none. reach [px]: as in
-    cheapest.
+    around: number of places of one turn; anchor: row of a fixed corner, which no line may pass, -1 for none; reach
+    [px]: largest distance of a line from the pixel edges; places_inout: result of put_loop; chain_out: indices of the
+    places where lines end, from last to first.
     """
     begin = anchor
     if anchor < 0:

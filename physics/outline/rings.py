@@ -1,4 +1,4 @@
-"""Polygons with holes as linked sides in one table, and their convex decomposition in kernels."""
+"""Polygons with holes as linked lists of sides in one table, and their convex decomposition by kernels."""
 
 import math
 
@@ -31,10 +31,10 @@ SIDE = np.dtype(
 
 @subkernel
 def put_side(n, first, x, y, inner, sides_inout):
-    """Append a side that starts at (x, y) [px] to the ring that starts at row `first`. Return the number of sides.
+    """Append a side that starts at (x, y) [px] to a ring. Return the number of sides.
 
-    n: number of sides before; inner: flag of the side. A side that starts where the side before it starts is not added;
-    `inner` replaces the flag of the side before.
+    A side that starts where the last side starts is not added; only the last side's flag is replaced by `inner`. n:
+    number of sides before; first: row of the ring's first side; inner: whether the polygon continues beyond the side.
     """
     if n > first and sides_inout[n - 1].x == x and sides_inout[n - 1].y == y:
         sides_inout[n - 1].inner = inner
@@ -55,8 +55,8 @@ def put_side(n, first, x, y, inner, sides_inout):
 def close_ring(n, first, sides_inout):
     """Close a ring: link its last side to its first, and remove collinear corners between sides of equal `inner`.
 
-    n: number of sides; first: row of the ring's first side. A ring of fewer than three sides is removed. Return the
-    number of sides.
+    Return the number of sides. A ring of fewer than three sides is removed. n: number of sides before; first: row of
+    the ring's first side.
     """
     if n - 1 > first and sides_inout[n - 1].x == sides_inout[first].x and sides_inout[n - 1].y == sides_inout[first].y:
         n -= 1
@@ -80,7 +80,7 @@ def close_ring(n, first, sides_inout):
 def turn_at(sides, a, b, c):
     """Return the cross product [px2] of the lines from corner a to b and from b to c.
 
-    > 0: a turn clockwise on the screen (convex).
+    It is > 0 for a turn that is clockwise on the screen (convex).
     """
     p, q = sides[a], sides[b]
     r = sides[c]
@@ -89,10 +89,10 @@ def turn_at(sides, a, b, c):
 
 @subkernel
 def is_reflex(sides, k):
-    """Return whether the interior angle at corner k is more than half a turn, so that a cut is needed there.
+    """Return whether the angle at corner k is more than half a turn, so that a cut is needed there.
 
-    The result is also True for exactly half a turn between an inner side and a side that is not inner, because each
-    side of a part is either inner or part of the outline.
+    An angle of exactly half a turn between an inner side and a side on the outline also counts. So each side of a part
+    is either inner or on the outline as a whole.
     """
     side = sides[k]
     turn = turn_at(sides, side.previous, k, side.next)
@@ -101,7 +101,7 @@ def is_reflex(sides, k):
 
 @subkernel
 def faces(sides, k, m):
-    """Return whether the line from corner k to corner m starts strictly into the inside of the ring that contains k."""
+    """Return whether the line from corner k to corner m starts strictly inside the ring of corner k."""
     side = sides[k]
     to = sides[m]
     after = sides[side.next]
@@ -117,7 +117,7 @@ def faces(sides, k, m):
 
 @subkernel
 def blocks(sides, k, a, b):
-    """Return whether side k crosses the line between corners a and b, or starts on this line between these corners."""
+    """Return whether side k blocks the line between corners a and b: it crosses the line, or starts on it."""
     p, q = sides[a], sides[b]
     r = sides[k]
     s = sides[r.next]
@@ -152,9 +152,9 @@ def sees(sides, a, b):
 
 @subkernel
 def sees_through(sides, count, a, b):
-    """Return whether the line between corner a of a ring and corner b of another lies inside and meets no side.
+    """Return whether the line between corner a of one ring and corner b of another lies inside and meets no side.
 
-    O(sides). count: number of sides of all rings.
+    count: number of sides of all rings. O(sides).
     """
     if not faces(sides, a, b) or not faces(sides, b, a):
         return False
@@ -166,7 +166,7 @@ def sees_through(sides, count, a, b):
 
 @subkernel
 def put_cut(n, a, b, sides_inout):
-    """Append a cut between corners a and b, as two sides linked into their rings. Return the number of sides.
+    """Append a cut between corners a and b, as two sides that are linked into their rings. Return the number of sides.
 
     n: number of sides before.
     """
@@ -196,7 +196,7 @@ def put_cut(n, a, b, sides_inout):
 
 @subkernel
 def take_out(k, sides_inout):
-    """Remove the cut that side k belongs to, which joins the two pieces on its sides."""
+    """Remove the cut that side k belongs to. The two pieces on its sides become one."""
     m = sides_inout[k].twin
     for a, b in ((k, m), (m, k)):
         before = sides_inout[a].previous
@@ -231,8 +231,8 @@ def corners_of(sides, first):
 def bridge(n, sides_inout):
     """Join each hole to the ring around it by a bridge: a cut along the shortest line that meets no side.
 
-    n: number of sides. Return the new number of sides, or -1 if a hole sees no other ring; then the rings are not a
-    polygon.
+    Return the new number of sides, or -1 if a hole sees no other ring; then the rings are not a polygon. n: number of
+    sides before.
     """
     while True:
         waiting = 0
@@ -258,8 +258,8 @@ def bridge(n, sides_inout):
 def shortest_bridge(n, start, sides):
     """Return (corner of a hole, corner elsewhere) of the shortest line between them that meets no side.
 
-    n: number of sides; start: a side of the hole. The other corner is of a ring that is no hole, or of a hole that has
-    already been joined to such a ring (SIDE.apart is 0). Return (-1, -1) if there is no such line.
+    The result is (-1, -1) if there is none. The other corner belongs to a ring that is no hole, or to a hole that has
+    already been joined to such a ring (SIDE.apart is 0). n: number of sides; start: a side of the hole.
     """
     best = math.inf
     best_a, best_b = -1, -1
@@ -280,17 +280,17 @@ def shortest_bridge(n, start, sides):
 
 @subkernel
 def is_resolved(sides, a, b):
-    """Return whether a cut from corner a to corner b leaves no angle above half a turn at corner a."""
+    """Return whether a cut from corner a to corner b leaves no angle of more than half a turn at corner a."""
     side = sides[a]
     return turn_at(sides, side.previous, a, b) >= 0.0 and turn_at(sides, b, a, side.next) >= 0.0
 
 
 @subkernel
 def best_partner(sides, a, both):
-    """Return the best corner for a cut from reflex corner a; -1: there is no such corner.
+    """Return the best corner for a cut from reflex corner a, or -1 if there is none.
 
-    The best is the visible corner whose cut resolves the most reflex corners: a, the other corner or both. On ties it
-    is the nearest. both: whether only a cut that resolves both corners is accepted.
+    Of the visible corners, the best is the one whose cut resolves the most reflex corners: a, the other corner or both.
+    If several resolve as many, it is the nearest. both: whether only a cut that resolves both corners is accepted.
     """
     best = -1
     best_score = 1 if both else -1
@@ -314,7 +314,7 @@ def best_partner(sides, a, both):
 
 @subkernel
 def cut_reflex(n, sides_inout):
-    """Cut at reflex corners until none is left. Return the number of sides, or -1 if a corner sees no other corner."""
+    """Add cuts until no reflex corner is left. Return the number of sides, or -1 if a corner sees no other corner."""
     for both in (True, False):
         k = 0
         while k < n:
@@ -331,7 +331,7 @@ def cut_reflex(n, sides_inout):
 
 @subkernel
 def cut_large(n, most, sides_inout):
-    """Cut convex pieces in halves until each has at most `most` corners. Return the number of sides."""
+    """Halve convex pieces until each has at most `most` corners. Return the number of sides."""
     k = 0
     while k < n:
         if sides_inout[k].alive:
@@ -350,7 +350,7 @@ def cut_large(n, most, sides_inout):
 
 @subkernel
 def is_needed(sides, k, m):
-    """Return whether side k of a cut must stay, because the corner at its start would be reflex without the cut.
+    """Return whether a cut must stay, because the corner at the start of its side k would otherwise be reflex.
 
     m: the twin of side k.
     """
@@ -363,9 +363,9 @@ def is_needed(sides, k, m):
 
 @subkernel
 def is_needless(sides, k, most):
-    """Return whether the cut of side k can be removed: the union of the pieces on its two sides is then a valid part.
+    """Return whether the cut of side k can be removed: the pieces on its two sides then form one valid part.
 
-    The union has to be convex, with at most `most` corners.
+    Together they have to be convex, with at most `most` corners.
     """
     m = sides[k].twin
     if is_needed(sides, k, m) or is_needed(sides, m, k):
@@ -382,7 +382,7 @@ def is_needless(sides, k, most):
 
 @subkernel
 def merge(n, most, sides_inout):
-    """Remove the cuts that are not needed for convex pieces of at most `most` corners, longest first.
+    """Remove the cuts that are not needed for convex pieces of at most `most` corners, the longest first.
 
     n: number of sides.
     """
@@ -408,8 +408,8 @@ def merge(n, most, sides_inout):
 def put_parts(count, low, sides_inout, corners_out, inner_out, counts_out):
     """Write the rings of convex pieces as parts. Return the number of parts.
 
-    count: number of sides; corners_out (n, 2) [px]: corners part after part, relative to (low, low); inner_out (n,):
-    whether the side after each corner is inner; counts_out (parts,): number of corners of each part.
+    count: number of sides; low [px]: subtracted from all coordinates; corners_out (n, 2) [px]: corners part after part;
+    inner_out (n,): whether the side after each corner is inner; counts_out (parts,): number of corners of each part.
     """
     sides = sides_inout
     n = 0
@@ -445,10 +445,9 @@ def put_parts(count, low, sides_inout, corners_out, inner_out, counts_out):
 
 @subkernel
 def write_parts(n, most, low, sides_inout, corners_out, inner_out, counts_out):
-    """Decompose a polygon with holes, which has `n` sides, and write its convex parts. Return the number of parts.
+    """Decompose a polygon with holes into convex parts. Return their number, or -1 if the rings are not a polygon.
 
-    most: largest number of corners of a part; low and the arrays: as in put_parts. Return -1 if the rings are not a
-    polygon.
+    n: number of sides; most: largest number of corners of a part; low and the arrays: see put_parts.
     """
     n = bridge(n, sides_inout)
     if n < 0:

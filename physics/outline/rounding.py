@@ -1,9 +1,9 @@
-"""Round pieces of masks as a core polygon of few corners and a radius: a disc has one corner, a rounded box four.
+"""Round pieces of masks as a core polygon with few corners and a radius: a disc has one corner, a rounded box four.
 
 A body that rolls as a polygon loses speed at every corner; a rounded body does not. Candidate cores are made from the
 symmetry of the piece (discs, capsules) and by moving the sides of its outline inward (other cores). Each candidate is
-compared with the cracks, the edges of the pixels. Of the cores within the tolerances of contour.outline, one with the
-fewest corners is used; on ties, the first.
+compared with the edges of the pixels. Of the cores within the tolerances of contour.outline, the first with the fewest
+corners is used.
 """
 
 import math
@@ -33,14 +33,15 @@ Core = tuple[np.ndarray, float]  # corners (k, 2) clockwise on the screen [px], 
 
 
 def rounded_core(cracks: Loop, smooth: float) -> Core | None:
-    """Return a core (convex corners and a radius) that replaces one piece without holes; None: no core is good enough.
+    """Return (convex corners, radius) of a rounded core that replaces one piece without holes, or None.
 
-    cracks: loop of pixel edges around the piece; smooth [px] as in contour.outline. The core has 1 to 16 corners: 1 is
-    a disc, 2 are a capsule. The core's boundary is within `smooth` of the pixel edges, and the pixel edges are within
-    smooth + 0.21 of the boundary; centres of solid pixels are inside, centres of clear pixels outside. For a disc both
-    distances may be 0.13 px larger, and clear centres 0.2 px inside. The result is also None for a piece with a sharp
-    corner, and if a polygon needs no more corners. The core with the fewest corners is returned; on ties, preferably
-    one that keeps the sides of the outline.
+    The core has 1 to 16 corners: 1 is a disc, 2 are a capsule. Its boundary is within `smooth` of the pixel edges, and
+    the pixel edges are within smooth + 0.21 of the boundary; centres of solid pixels are inside, centres of clear
+    pixels outside. For a disc both distances may be 0.13 px larger, and clear centres may be 0.2 px inside.
+
+    The result is None if no core is accurate enough, if the piece has a sharp corner, or if a polygon needs no more
+    corners. Otherwise it is the core with the fewest corners; of several, preferably one that keeps the sides of the
+    outline. cracks: loop of pixel edges around the piece; smooth [px]: see contour.outline.
     """
     if smooth <= 0.0 or sharp(cracks).any() or cracks.joined.any():
         return None
@@ -59,7 +60,7 @@ def rounded_core(cracks: Loop, smooth: float) -> Core | None:
 
 
 def _round_ones(outer, corners):
-    """Yield candidate cores: discs around the middle of the bounds and the centre of area, and up to two capsules.
+    """Yield candidate cores: two discs, around the middle of the bounds and the centre of area, and up to two capsules.
 
     outer: outline of the piece; corners: the corners of its pixel edges.
     """
@@ -78,11 +79,12 @@ def _round_ones(outer, corners):
 
 
 def _several(outer, judge):
-    """Return the core of fewest corners made by moving the sides of the outline inward by a radius; None: no core.
+    """Return the core with the fewest corners that is made by moving the outline's sides inward by a radius, or None.
 
-    First, cores with exactly this radius are tried, whose rounded sides lie on the outline's sides, the smallest radius
-    first: sides that protrude a little make stacks rise, and round corners tip early. Other radii and moved corners are
-    used only if they save corners; of these the largest radius is tried first. judge: _Judge.
+    First, cores with exactly this radius are tried, the smallest first; their rounded sides lie on the outline's sides.
+    Sides that protrude a little would make stacks rise, and round corners would tip early. Other radii and moved
+    corners are used only if they save corners; of these the largest radius is tried first. outer: the outline; judge:
+    _Judge.
     """
     hull = convex_hull(outer)
     radii = np.linspace(1.0, 0.0, RADII, endpoint=False) * _widest(hull)
@@ -101,7 +103,7 @@ def _several(outer, judge):
 
 
 def _moments(corners):
-    """Return (area, centre, unit vector of the longer principal axis) of a closed polygon (n, 2) [px]."""
+    """Return (area, centre, unit vector of the longer principal axis) of a closed polygon, corners (n, 2) [px]."""
     area = doubled_area(corners) / 2.0
     base = corners.mean(axis=0)
     p = corners - base
@@ -123,7 +125,7 @@ def _normals(corners):
 
 
 def _widest(hull):
-    """Return the radius [px] of the largest disc inside a convex polygon, approximately, by bisection."""
+    """Return the radius [px] of the largest disc inside a convex polygon, found approximately by bisection."""
     low, high = 0.0, float(np.ptp(hull, axis=0).min()) / 2.0
     for _ in range(12):
         middle = (low + high) / 2.0
@@ -132,7 +134,10 @@ def _widest(hull):
 
 
 def _inset(hull, radius):
-    """Return a convex polygon with its sides moved inward by a radius [px]; fewer than 3 corners: nothing is left."""
+    """Return a convex polygon with its sides moved inward by a radius [px].
+
+    The result has fewer than 3 corners if nothing is left of the polygon.
+    """
     left = hull
     for corner, normal in zip(hull, _normals(hull), strict=True):
         over = (left - corner) @ normal + radius
@@ -150,7 +155,7 @@ def _inset(hull, radius):
 
 
 class _Judge:
-    """Test of rounded cores against one piece: distances from its pixel edges, and separation from clear pixels."""
+    """Tests of rounded cores against one piece: distances from its pixel edges, and separation from clear pixels."""
 
     def __init__(self, corners, reach):
         self.corners, self.reach = corners, reach
@@ -173,7 +178,7 @@ class _Judge:
         self.down[tuple(ends[~level].T)] = True
 
     def fitted(self, core):
-        """Return (core, radius) within the tolerances, with the core's corners moved if necessary; None: not found."""
+        """Return (core, radius) within the tolerances, after moving the core's corners if necessary, or None."""
         room = self._room(core)
         found = self._measured(core) if room > 0.0 else None
         if found is not None or room < (-1.0 if len(core) < 3 else -0.1):
@@ -193,7 +198,7 @@ class _Judge:
         return self._measured(core) if room > 0.0 else None
 
     def grown(self, core, radius):
-        """Return (core, radius) if the core with exactly this radius is within the tolerances; else None."""
+        """Return (core, radius) if the core with this radius is within the tolerances, else None."""
         points = _beyond(core, self.points)
         low = max(_beyond(core, self.inside).max(), points.max() - self.reach - FARTHEST)
         high = min(_beyond(core, self.outside).min(), points.min() + self.reach + FARTHEST)
@@ -205,9 +210,9 @@ class _Judge:
         return core, float(radius)
 
     def disc(self, core):
-        """Return (core, radius) of the smallest disc around the core's corner that contains the solid pixels' centres.
+        """Return (core, radius) of the smallest disc around a given point that contains all centres of solid pixels.
 
-        Return None if the disc is not accurate enough. core: (1, 2) [px].
+        Return None if the disc is not accurate enough. core: the point, (1, 2) [px].
         """
         if self._room(core) > 0.0:
             return self._measured(core)
@@ -221,11 +226,14 @@ class _Judge:
         return (core, float(radius)) if off <= self.reach + DISC_SPARE - SLACK else None
 
     def _room(self, core):
-        """Return the width [px] of the range of radii that separate solid from clear centres; negative: none does."""
+        """Return over what range [px] the radius may vary with solid centres inside and clear centres outside.
+
+        A negative result means that no radius separates the centres.
+        """
         return _beyond(core, self.outside).min() - _beyond(core, self.inside).max()
 
     def _measured(self, core):
-        """Return (core, radius) with an area as near to the pixels' area as the tolerances allow; None: no radius."""
+        """Return (core, radius) with an area as near to that of the pixels as the tolerances allow, or None."""
         if not _convex(core):
             return None
         points = _beyond(core, self.points)
@@ -243,7 +251,7 @@ class _Judge:
         return core, float(radius)
 
     def _from_cracks(self, points):
-        """Return the distance (m,) [px] of each of the points (m, 2) from the nearest pixel edge.
+        """Return the distance (m,) [px] of points (m, 2) from the nearest pixel edge.
 
         Distances below 1 px are exact.
         """
@@ -262,7 +270,7 @@ class _Judge:
 
 
 def _beyond(core, points):
-    """Return the distance (m,) [px] of each of the points (m, 2) from a core without radius; negative: depth inside."""
+    """Return the distance (m,) [px] of points (m, 2) from a core without radius; negative: depth inside the core."""
     if len(core) == 1:
         return np.hypot(*(points - core[0]).T)
     sides = np.roll(core, -1, axis=0) - core
@@ -276,9 +284,10 @@ def _beyond(core, points):
 
 
 def _moves(core):
-    """Return the moves (m, k, 2) of a core of k corners to try: each corner to the right or down.
+    """Return the directions (m, k, 2) in which the k corners of a core are moved to improve it.
 
-    A core of two corners is also lengthened, rotated, and shifted along and across its line.
+    Each corner is moved to the right, and down. A core of two corners is also lengthened, rotated, and shifted along
+    and across its line.
     """
     moves = np.eye(core.size).reshape(-1, *core.shape)
     if len(core) != 2 or (core[0] == core[1]).all():
@@ -298,7 +307,7 @@ def _convex(core):
 
 
 def _boundary(core, radius, spacing):
-    """Return points (m, 2) on the boundary of a core rounded by a radius, at most about `spacing` px apart."""
+    """Return points (m, 2) [px] on the boundary of a core rounded by a radius, about `spacing` px apart or less."""
     if len(core) == 1:
         angles = np.arange(0.0, math.tau, spacing / radius)
         return core + radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)

@@ -1,4 +1,4 @@
-"""The convex hull and the smallest box, capsule and circle around pixels or points."""
+"""The convex hull, and the smallest box, capsule and circle around pixels or points."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -11,7 +11,7 @@ import numpy as np
 
 
 class Sprite(Protocol):
-    """Interface that mask_hull needs of a mask. PixelMask implements it."""
+    """The part of PixelMask's interface that mask_hull uses."""
 
     solid: np.ndarray  # bool [row, col]
     origin: tuple[float, float]
@@ -39,11 +39,11 @@ def convex_hull(points: np.ndarray, flat: float = 0.0) -> np.ndarray:
 
 
 def fewer_sides(corners: np.ndarray, most: int) -> np.ndarray:
-    """Return a polygon of at most `most` sides that contains a convex polygon.
+    """Return a polygon of at most `most` sides that contains a given convex polygon.
 
     corners (n, 2) [px]: the given polygon, clockwise on the screen. A side is removed by extending its two neighbours
-    until they meet. The side whose removal adds the least area is removed first. A side whose neighbours do not meet
-    beyond it is kept, so a triangle never changes, and the result may have more than `most` sides.
+    until they meet, first the side whose removal adds the least area. A side whose neighbours do not meet beyond it is
+    kept. So a triangle never changes, and the result may have more than `most` sides.
     """
     corners = np.array(corners, float)
     while len(corners) > max(most, 3):
@@ -87,9 +87,9 @@ def _half(points, flat):
 
 
 def least_box(hull: np.ndarray) -> tuple[float, float, tuple[float, float], float]:
-    """Return (width, height, center, angle) [px, rad] of the box of least area around hull corners (n, 2) [px].
+    """Return (width, height, center, angle) [px, rad] of the box of least area around a convex hull.
 
-    On ties, the box along the first hull edge is returned.
+    Of several such boxes, the first in the order of the hull's edges is returned. hull (n, 2) [px]: its corners.
     """
     best, found = math.inf, (0.0, 0.0, (0.0, 0.0), 0.0)
     for edge in np.roll(hull, -1, axis=0) - hull:
@@ -114,10 +114,10 @@ CLOSER = 40  # number of times that the step between directions is halved around
 
 
 def least_capsule(hull: np.ndarray) -> tuple[tuple[float, float], tuple[float, float], float]:
-    """Return (a, b, radius) [px] of a capsule around the corners (n, 2) of a convex hull; a equals b for a circle.
+    """Return (a, b, radius) [px] of a capsule of small area around a convex hull; a equals b for a circle.
 
-    The radius is half the hull's width across the capsule's axis. Of the tried axes, the one with the least area is
-    used.
+    Many directions of the capsule's axis are tried, and the one with the least area is used. The radius is half the
+    hull's width across the axis. hull (n, 2) [px]: its corners.
     """
     step = math.pi / DIRECTIONS
     best = min(range(DIRECTIONS), key=lambda k: _capsule(hull, k * step)[0])

@@ -1,10 +1,10 @@
-"""Corners and sides of a tile's convex parts that do not belong to the outline, because other parts adjoin them.
+"""Which corners and sides of a tile's convex parts are not on the outline of the mask, because other parts adjoin them.
 
-If parts that share a corner have angles there that sum to half a turn or more, they leave no convex corner: the corner
-is covered. Otherwise the corner belongs to the first of these parts that has a side of the outline at the corner, and
-it is covered for the other parts. Parts are ordered by tiles, row by row, then in their order within the tile. A corner
-at which the whole outline turns less than the part is marked as blunt. Sides shared by two parts are inner: they do not
-belong to the outline.
+Sides shared by two parts are inner: they are not on the outline. If the angles of all parts at a corner sum to half a
+turn or more, the outline has no convex corner there, and the corner is covered. Otherwise the corner belongs to the
+first of these parts that has a side on the outline at the corner, and is covered for the other parts. Parts are ordered
+by tiles, row by row, then in their order within the tile. A corner at which the whole outline turns less than the part
+is marked as blunt.
 """
 
 import math
@@ -24,7 +24,7 @@ NOBODY = np.zeros((0, 5))  # meetings of a tile without parts: no corner on its 
 
 
 class Survey(NamedTuple):
-    """Angles and corners of a tile's parts: all data that can be computed without the neighbouring tiles."""
+    """Angles and corners of a tile's parts: everything that can be computed without the neighbouring tiles."""
 
     angles: np.ndarray  # (n,) float64 [rad] interior angle of each corner
     seams: np.ndarray  # (n,) bool: one side at the corner is inner, the other is a side of the outline
@@ -34,10 +34,10 @@ class Survey(NamedTuple):
 
 
 def survey(parts: TileParts, at: tuple[int, int], size: int, number: int, origin: tuple[float, float]) -> Survey:
-    """Return the Survey of a tile's parts: angles, corners on the border, and corners in body space.
+    """Return the Survey of a tile's parts.
 
-    parts: in raster pixels; at: top left corner of the tile in the raster; size [px]: side of the tile; number: the
-    tile's number, counted row by row; origin [px]: origin of body space in the raster.
+    parts: TileParts in raster pixels; at: top left corner of the tile in the raster; size [px]: side of the tile;
+    number: the tile's number, counted row by row; origin [px]: origin of body space in the raster.
     """
     n, (left, top) = len(parts.corners), at
     found = Survey(
@@ -48,11 +48,11 @@ def survey(parts: TileParts, at: tuple[int, int], size: int, number: int, origin
 
 
 def movings(before: np.ndarray, after: np.ndarray, row: int, column: int, size: int) -> list[tuple[int, int]]:
-    """Return (row, column) of the tiles on which a change of one tile has an effect through border corners.
+    """Return (row, column) of the tiles that a change of one tile affects, because corners on common borders changed.
 
-    before, after (m, 5): Survey.meetings of the tile before and after its change. A tile is listed if a corner on its
-    border is in only one of these two arrays, even if the tile is outside the mask. row, column: position of the
-    changed tile; size [px]: side of a tile.
+    before, after (m, 5): Survey.meetings of the changed tile before and after. A tile is listed if a corner on its
+    border is in only one of these arrays, even if the tile is outside the mask. row, column: position of the changed
+    tile; size [px]: side of a tile.
     """
     found = np.zeros(9, bool)
     mark_moved(before, after, (column * size, row * size, size), found)
@@ -60,10 +60,10 @@ def movings(before: np.ndarray, after: np.ndarray, row: int, column: int, size: 
 
 
 def inner_bits(parts: TileParts, known: Survey, around: np.ndarray, number: int, columns: int) -> np.ndarray:
-    """Return the flags of inner sides and corners of each part of a tile, (k,) int64: column `inner` of SHAPE.
+    """Return which sides and corners of each part of a tile are not on the outline, as SHAPE.inner flags (k,) int64.
 
-    known: Survey of the parts; around (m, 5): meetings of the tile, its neighbours and possibly other tiles, in the
-    order of tile numbers; number: the tile's number; columns: number of tiles per row.
+    known: Survey of the parts; around (m, 5): Survey.meetings of the tile, its neighbours and possibly other tiles, in
+    the order of tile numbers; number: the tile's number; columns: number of tiles per row.
     """
     inner = np.empty(len(parts.counts), np.int64)
     tell_inner(parts, known, around, (number, columns), np.empty(len(parts.corners)), inner)
@@ -72,10 +72,9 @@ def inner_bits(parts: TileParts, known: Survey, around: np.ndarray, number: int,
 
 @subkernel
 def find_seams(parts, angles_out, seams_out):
-    """Write the interior angle [rad] at each corner of a tile's parts, and whether exactly one side there is inner.
+    """Write the interior angle [rad] at each corner of a tile's parts, and whether the corner is a seam.
 
-    "There" means at the corner, where two sides of the part meet. angles_out (n,) float64, seams_out (n,) bool; parts:
-    TileParts.
+    At a seam exactly one of the two sides is inner. parts: TileParts; angles_out (n,) float64; seams_out (n,) bool.
     """
     corners = parts.corners
     inner = parts.inner
@@ -97,10 +96,10 @@ def find_seams(parts, angles_out, seams_out):
 
 @subkernel
 def gather(corners, known, box, number, found_out):
-    """Write the corners of a tile that lie on its border, in the format of Survey.meetings.
+    """Write the corners of a tile that lie on its border, in the format of Survey.meetings. Return their number.
 
     corners (n, 2) [px]; known: Survey with angles and seams; box [px]: left, top, right, bottom of the tile; number:
-    the tile's number; found_out (n, 5). Return the number of corners.
+    the tile's number; found_out (n, 5).
     """
     left, top, right, bottom = box
     count = 0
@@ -119,9 +118,10 @@ def gather(corners, known, box, number, found_out):
 
 @subkernel
 def mark_alone(mine, others, place, moved_out):
-    """Flag the tiles with a corner that is in the meetings `mine` (n, 5) but not in the meetings `others` (m, 5).
+    """Flag the tiles that have a corner which the meetings `mine` (n, 5) contain, but `others` (m, 5) do not.
 
-    moved_out (9,) bool: the tile and its neighbours, row by row; place: left, top, size [px] of the tile. O(n m).
+    Meetings: see Survey. place: (left, top, size) [px] of the tile; moved_out (9,) bool: the tile and its neighbours,
+    row by row. O(n m).
     """
     left, top, size = place
     for i in range(len(mine)):
@@ -144,10 +144,10 @@ def mark_alone(mine, others, place, moved_out):
 
 @kernel
 def mark_moved(before, after, place, moved_out):
-    """Flag the tiles with a corner that is in only one of two lists of a tile's meetings.
+    """Flag the tiles that have a corner which is in only one of two lists of a tile's meetings.
 
-    before (n, 5), after (m, 5): as Survey.meetings; moved_out (9,) bool: the tile and its neighbours, row by row;
-    place: left, top, size [px] of the tile. O(n m).
+    before (n, 5), after (m, 5): see Survey.meetings; place: (left, top, size) [px] of the tile; moved_out (9,) bool:
+    the tile and its neighbours, row by row. O(n m).
     """
     mark_alone(before, after, place, moved_out)
     mark_alone(after, before, place, moved_out)
@@ -155,16 +155,16 @@ def mark_moved(before, after, place, moved_out):
 
 @subkernel
 def seam_turn(angle):
-    """Return the turn [rad] of the outline at a corner where the interior angles of all parts sum to `angle`.
+    """Return the turn [rad] of the outline at a corner where the angles of all parts sum to `angle` [rad].
 
-    COVERED: there is no convex corner.
+    The result is COVERED if the outline has no convex corner there.
     """
     return COVERED if angle >= HALF_TURN else math.pi - angle
 
 
 @subkernel
 def corner_bits(k, turn):
-    """Return the flags of corner k of a part, as bits of SHAPE.inner. turn [rad]: turn of the outline at the corner."""
+    """Return the SHAPE.inner flags for corner k of a part. turn [rad]: turn of the outline at the corner."""
     if turn == COVERED:
         return 1 << (k + 16)
     return 1 << (k + 32) if turn <= SHARPEST else 0
@@ -172,13 +172,16 @@ def corner_bits(k, turn):
 
 @subkernel
 def turn_bits(turn):
-    """Return the bits of SHAPE.inner that store `turn` [rad], the largest turn of the outline at blunt corners."""
+    """Return the bits of SHAPE.inner that store the largest turn [rad] of the outline at a part's blunt corners."""
     return (math.floor(turn * TURNS) + 1) << 48
 
 
 @subkernel
 def first_of(around, number):
-    """Return the index in meetings `around` (m, 5) of the first row with tile number `number` or higher. O(log m)."""
+    """Return the index of the first row of meetings `around` (m, 5) whose tile number is `number` or higher.
+
+    O(log m).
+    """
     low, high = 0, len(around)
     while low < high:
         middle = (low + high) // 2
@@ -191,13 +194,12 @@ def first_of(around, number):
 
 @subkernel
 def cover_corners(corners, known, around, place, turns_out):
-    """Write to turns_out (n,) the turn [rad] of the outline at each corner of a tile's parts.
+    """Write the turn [rad] of the outline at each corner of a tile's parts to turns_out (n,).
 
-    Only corners between an inner side and a side of the outline (known.seams) are computed; at all others the turn is
-    pi. At a computed corner the interior angles of all parts that share the corner are summed. The turn is COVERED if
-    the sum is HALF_TURN or more, or if an earlier part has a seam at the corner, else it is pi minus the sum. corners
-    (n, 2) [px]; known, around: as in inner_bits; place: (number of the tile, tiles per row). O(n²), plus the meetings
-    of neighbouring tiles.
+    Only the turns at seams (known.seams) are computed; at all other corners the turn is pi. At a seam, the interior
+    angles of all parts with this corner are summed. The turn is COVERED if the sum is HALF_TURN or more, or if an
+    earlier part has a seam at the corner, else it is pi minus the sum. corners (n, 2) [px]; known, around: see
+    inner_bits; place: (number of the tile, tiles per row). O(n²), plus the meetings of neighbouring tiles.
     """
     there = known.seams
     number, columns = place
@@ -227,7 +229,7 @@ def cover_corners(corners, known, around, place, turns_out):
 
 @subkernel
 def first_turn(angles, first):
-    """Return the index of the first corner, from `first` on, that is not collinear (angle below HALF_TURN)."""
+    """Return the index of the first corner, from `first` on, that is not collinear (its angle is below HALF_TURN)."""
     while angles[first] >= HALF_TURN:
         first += 1
     return first
@@ -235,10 +237,10 @@ def first_turn(angles, first):
 
 @subkernel
 def leave_straight(parts, angles, origin, corners_out, counts_out):
-    """Write the corners of TileParts in body space, without collinear ones, and their number per part.
+    """Write the corners of a tile's parts in body space, without collinear ones. Return their total number.
 
-    origin [px]: origin of body space in the raster; corners_out (n, 2) [px]; counts_out (parts,). Return the total
-    number of corners.
+    parts: TileParts; angles (n,) [rad]: interior angles; origin [px]: origin of body space in the raster; corners_out
+    (n, 2) [px]; counts_out (parts,): number of corners of each part.
     """
     left, top = origin
     n = 0
@@ -262,10 +264,10 @@ def leave_straight(parts, angles, origin, corners_out, counts_out):
 
 @kernel
 def survey_tile(parts, box, number, origin, survey_out):
-    """Write the Survey of a tile's parts (TileParts). Return (number of meetings, number of corners).
+    """Write the Survey of a tile's parts. Return (number of meetings, number of corners).
 
-    box [px]: left, top, right, bottom of the tile; number: the tile's number; origin [px]: origin of body space in the
-    raster.
+    parts: TileParts; box [px]: left, top, right, bottom of the tile; number: the tile's number; origin [px]: origin of
+    body space in the raster.
     """
     find_seams(parts, survey_out.angles, survey_out.seams)
     met = gather(parts.corners, survey_out, box, number, survey_out.meetings)
@@ -276,9 +278,9 @@ def survey_tile(parts, box, number, origin, survey_out):
 def tell_inner(parts, known, around, place, turns_out, inner_out):
     """Write which edges and corners of each part are inner, covered or blunt, as flags in the format of SHAPE.inner.
 
-    inner_out (parts,) int64: the flags. Edges are counted without collinear corners. An edge is inner if all collinear
-    sides that it consists of are inner. A corner between two inner sides is covered. parts: TileParts; known, around:
-    as in inner_bits; place: (number of the tile, tiles per row); turns_out (n,): see cover_corners.
+    Edges are counted without collinear corners. An edge is inner if all collinear sides that it consists of are inner.
+    A corner between two inner sides is covered. parts: TileParts; known, around: see inner_bits; place: (number of the
+    tile, tiles per row); turns_out (n,): see cover_corners; inner_out (parts,) int64: the flags.
     """
     cover_corners(parts.corners, known, around, place, turns_out)
     first = 0

@@ -1,4 +1,4 @@
-"""The outline of a large raster, computed tile by tile: points on tile borders, lines between them, convex parts."""
+"""The outline of a large raster, tile by tile: its points on tile borders, the lines between them, and convex parts."""
 
 import math
 from functools import cache
@@ -68,11 +68,12 @@ def to_border(window, x, y, direction):
 
 @subkernel
 def stretch(runs, count, at, seen, x, y):
-    """Fit a line (least squares) to the middles of a path's pixel edges within `seen` edges of a corner (x, y).
+    """Fit a line (least squares) to the middles of a path's pixel edges near a corner (x, y).
 
-    runs: RUN, `count` of them; at: number of edges of the path before the corner. Return (x, y, slope, steep,
-    straight). x, y [px]: a point on the line, relative to the corner; steep: whether the slope is dx / dy instead of dy
-    / dx; straight: whether all middles are near the line.
+    Return (x, y, slope, steep, straight). x, y [px]: a point on the line, relative to the corner; steep: whether the
+    slope is dx / dy instead of dy / dx; straight: whether all middles are near the line. Edges within `seen` edges of
+    the corner are used. runs: RUN rows, of which the first `count` are the path; at: number of edges of the path before
+    the corner.
     """
     n = 0
     sum_x = sum_y = sum_xx = sum_yy = sum_xy = 0.0
@@ -118,11 +119,11 @@ def stretch(runs, count, at, seen, x, y):
 
 @subkernel
 def is_straight(runs, count, at):
-    """Return whether one straight line separates the solid pixels along a path near a corner from the clear pixels.
+    """Return whether a straight line separates the solid from the clear pixels along a path near a corner.
 
-    runs: RUN, `count` of them; at: number of pixel edges of the path before the corner; edges within SEEN of the corner
-    count. Such a line exists if the directions from centres of solid pixels to centres of clear pixels span less than
-    half a turn; only ends of runs need to be tested.
+    Such a line exists if the directions from centres of solid pixels to centres of clear pixels span less than half a
+    turn; only ends of runs need to be tested. Edges within SEEN of the corner are used. runs: RUN rows, of which the
+    first `count` are the path; at: number of pixel edges of the path before the corner.
     """
     first_x = first_y = last_x = last_y = 0.0
     for k in range(count):
@@ -159,8 +160,9 @@ def is_straight(runs, count, at):
 def bend(runs, count, at, x, y):
     """Fit a parabola (least squares) to the middles of a path's pixel edges within SEEN edges of a corner (x, y).
 
-    runs: RUN, `count` of them; at: number of edges of the path before the corner. Return the tangent at the corner, in
-    the format of `stretch`; the last value is whether all middles are near the parabola.
+    Return its tangent at the corner, in the format of `stretch`; the last value is whether all middles are near the
+    parabola. runs: RUN rows, of which the first `count` are the path; at: number of edges of the path before the
+    corner.
     """
     sum_x = sum_y = u_x = u_y = uu_x = uu_y = 0.0
     for part in range(2):
@@ -196,10 +198,10 @@ def bend(runs, count, at, x, y):
 
 @subkernel
 def line_at(runs, count, at, x, y):
-    """Return (x, y, slope, steep) of the line that a path follows at a corner, in the format of `stretch`.
+    """Return the line (x, y, slope, steep) that a path follows at a corner, in the format of `stretch`.
 
-    The line is fitted to the longest straight stretch around the corner, or is the tangent of a curve. runs, count, at,
-    x, y: see stretch.
+    The line is fitted to the longest straight part of the path around the corner, or is the tangent of a curve.
+    Arguments: see stretch.
     """
     for seen in range(SEEN, 1, -1):
         line_x, line_y, slope, steep, straight = stretch(runs, count, at, seen, x, y)
@@ -230,9 +232,10 @@ def meets(runs, count, at, x, y, level):
 
 @subkernel
 def room_in(window, runs, count, k, x, y, after):
-    """Return the distance [px] by which a border crossing is moved from corner (x, y) along run k of a path.
+    """Return how far [px] a border crossing is moved from corner (x, y) along run k of a path.
 
-    runs: RUN, `count` of them; after: True if run k starts at the corner, False if it ends there.
+    runs: RUN rows, of which the first `count` are the path; after: True if run k starts at the corner, False if it ends
+    there.
     """
     run = runs[k]
     direction = run.direction if after else (run.direction + 2) & 3
@@ -259,8 +262,8 @@ def room_in(window, runs, count, k, x, y, after):
 def aside(window, runs, count, k, distance):
     """Return the distance [px] from a point of run k to the line that the path follows, perpendicular to the run.
 
-    The distance is positive in the direction of run k - 1, and at most window.reach. runs: RUN, `count` of them;
-    distance [cracks]: position of the point from the start of the run.
+    It is positive in the direction of run k - 1, and at most window.reach. runs: RUN rows, of which the first `count`
+    are the path; distance: position of the point from the start of the run, in pixel edges.
     """
     run = runs[k]
     if k == 0 or k == count - 1 or distance > KNOWN or run.length - distance > KNOWN:
@@ -280,10 +283,10 @@ def aside(window, runs, count, k, distance):
 def crossing(window, runs, count, at, after):
     """Return the point where the outline crosses the tile's border near a corner of a path.
 
-    The result is (position along the path, offset x, offset y from the path) [px]. runs: RUN of the path, `count` of
-    them, with SEEN edges on either side of the corner; at: number of pixel edges before the corner. after: where the
-    path corner is also a corner of the tile, whether the crossing moves along the run after the corner, not the run
-    before.
+    The result is (position along the path, offset x, offset y from the path) [px]. runs: RUN rows, of which the first
+    `count` are the path, with SEEN edges on either side of the corner; at: number of pixel edges before the corner.
+    after: used only at a corner of the tile, whether the crossing moves along the run after the path's corner or before
+    it.
     """
     k = 0
     while k + 1 < count and runs[k + 1].at <= at:
@@ -333,7 +336,7 @@ PIECE = np.dtype(
 
 
 class Paths(NamedTuple):
-    """Scratch arrays for one tile, and the result of find_paths: the pieces of the outline and their points."""
+    """The pieces of the outline in one tile and their points, as find_paths returns them, with scratch arrays."""
 
     marks: np.ndarray  # [row, col] uint8 of the window; not 0: the crack above this pixel is already in a path
     lines: Lines
@@ -357,7 +360,7 @@ def room_for_paths(size: int, halo: int) -> Paths:
 
 @subkernel
 def along_border(window, x, y):
-    """Return the distance [px] along the tile's border, clockwise from its top left corner, to border point (x, y)."""
+    """Return the position [px] of border point (x, y) along the tile's border, clockwise from its top left corner."""
     size = float(window.high - window.low)
     if y == window.low:
         return x - window.low
@@ -370,9 +373,10 @@ def along_border(window, x, y):
 
 @subkernel
 def put_end(n, runs, count, at, off_x, off_y, places_inout):
-    """Write row n of places: a border crossing, `at` pixel edges along the path, with an offset [px] from the path.
+    """Write row n of places: a border crossing, at a position along a path and an offset [px] from it.
 
-    runs: RUN, `count` of them; off_x, off_y: the offset.
+    runs: RUN rows, of which the first `count` are the path; at: position along the path, in pixel edges; off_x, off_y
+    [px]: the offset.
     """
     k = 0
     while k + 1 < count and runs[k + 1].at <= at:
@@ -385,9 +389,10 @@ def put_end(n, runs, count, at, off_x, off_y, places_inout):
 
 @subkernel
 def put_points(window, found, path, workspace):
-    """Append a piece of the outline (PIECE) and its points (POINT), made of the lines found along a path.
+    """Append the lines found along a path as a piece of the outline (PIECE row) with its points (POINT rows).
 
-    found: number of places in the chain of workspace.lines. Return whether a piece was appended: False if found is 0.
+    Return whether a piece was appended: False if found is 0. found: number of places in the chain of workspace.lines,
+    see paths.cheapest; path: Path; workspace: Paths.
     """
     if found == 0:
         return False
@@ -407,9 +412,9 @@ def put_points(window, found, path, workspace):
 
 @subkernel
 def path_within(window, count, cracks, begin, end):
-    """Return the Path of `count` runs and `cracks` pixel edges. begin, end [cracks]: range of the path inside the tile.
+    """Return the Path of a path in the tile. count: number of runs; cracks: number of pixel edges.
 
-    For a loop the range is infinite.
+    begin, end: range of the path inside the tile, in pixel edges along the path; infinite for a loop.
     """
     low, high = float(window.low), float(window.high)
     return Path(count, cracks, math.isinf(end), window.reach, low, high, begin, end, window.joins)
@@ -417,10 +422,10 @@ def path_within(window, count, cracks, begin, end):
 
 @subkernel
 def add_open(window, x, y, direction, cracks, workspace):
-    """Append the outline of a path from border to border of the tile. Return whether lines were found.
+    """Append the outline along a path from border to border of the tile. Return whether lines were found.
 
     x, y, direction: corner at which the path enters the tile, and its direction there; cracks: number of the path's
-    pixel edges inside the tile; 0: the path only passes the tile's corner, from one border to another.
+    pixel edges inside the tile, 0 if the path only passes the tile's corner, from one border to another.
     """
     runs, places = workspace.lines.runs, workspace.lines.places
     x, y, direction = walked_back(window, x, y, direction, SEEN)
@@ -446,7 +451,10 @@ def add_open(window, x, y, direction, cracks, workspace):
 
 @subkernel
 def add_closed(window, x, y, direction, cracks, workspace):
-    """Append the outline of a loop of `cracks` pixel edges that turns at (x, y). Return whether lines were found."""
+    """Append the outline along a loop of `cracks` pixel edges in the tile. Return whether lines were found.
+
+    x, y, direction: a corner where the loop turns, and the direction in which it leaves the corner.
+    """
     lines = workspace.lines
     count = record(window, x, y, direction, cracks, lines.runs)
     around, anchor = put_loop(lines.runs, count, cracks, lines.places)
@@ -457,7 +465,10 @@ def add_closed(window, x, y, direction, cracks, workspace):
 
 @subkernel
 def add_at_corner(window, x, y, workspace):
-    """Append all pieces that enter the tile at border point (x, y). Return whether lines were found for each."""
+    """Append all pieces of the outline that enter the tile at border point (x, y).
+
+    Return whether lines were found for each.
+    """
     pixels = window.pixels
     done = True
     solid = 0
@@ -483,7 +494,8 @@ def add_at_corner(window, x, y, workspace):
 def find_paths(window, workspace):
     """Find all pieces of the outline in a tile. Return whether lines were found for each.
 
-    workspace: Paths, which holds the result. Linear in pixels and corners, except for the line search.
+    window: Window; workspace: Paths, which receives the result. The time is linear in pixels and corners, except for
+    the line search.
     """
     low, high = window.low, window.high
     workspace.counts[0] = 0
@@ -514,7 +526,7 @@ def find_paths(window, workspace):
 
 @subkernel
 def tile_corner(window, number):
-    """Return (x, y) [px] of the tile's corner `number`: 0 is the top left one, then clockwise on the screen."""
+    """Return (x, y) [px] of a corner of the tile. number: 0 is the top left one, then clockwise on the screen."""
     number &= 3
     return (
         float(window.high if number == 1 or number == 2 else window.low),
@@ -524,9 +536,10 @@ def tile_corner(window, number):
 
 @subkernel
 def put_piece(n, first, piece, points, sides_inout):
-    """Append the sides of a piece to the ring that starts at row `first`. Return the number of sides.
+    """Append the sides of a piece (PIECE row) to a ring. Return the number of sides.
 
-    In an open piece the side that starts at its last point is inner, because this side follows the border.
+    In an open piece the side that starts at its last point is inner, because it follows the tile's border. n: number of
+    sides before; first: row of the ring's first side; points: POINT rows.
     """
     for k in range(piece.count):
         point = points[piece.first + k]
@@ -536,10 +549,10 @@ def put_piece(n, first, piece, points, sides_inout):
 
 @subkernel
 def next_piece(pieces, count, at, around):
-    """Return (piece, distance [px]) of the open piece whose start is the next one along the border, clockwise.
+    """Return (index, distance [px]) of the open piece that starts next along the border, clockwise.
 
-    pieces: PIECE, `count` of them; at [px]: position along the border from which the distance is measured; around [px]:
-    length of the border.
+    pieces: PIECE rows, `count` in use; at [px]: position along the border from which the distance is measured; around
+    [px]: length of the border.
     """
     best = -1
     nearest = math.inf
@@ -557,7 +570,7 @@ def next_piece(pieces, count, at, around):
 
 @subkernel
 def put_border(window, n, first, start, length, sides_inout):
-    """Append the tile's corners that lie on a section of its border to a ring. Return the number of sides.
+    """Append the tile's corners on a section of its border to a ring. Return the number of sides.
 
     n: number of sides before; first: row of the ring's first side; start [px]: start of the section along the border;
     length [px]: its length. Corners of the tile at the ends of the section are not added.
@@ -573,9 +586,9 @@ def put_border(window, n, first, start, length, sides_inout):
 
 @subkernel
 def put_open(window, n, number, workspace, sides_inout):
-    """Append the ring that contains open piece `number`, with the parts of the border between pieces.
+    """Append the ring that contains open piece `number`: pieces of the outline and the tile's border between them.
 
-    n: number of sides before. Return the number of sides.
+    Return the number of sides. n: number of sides before; workspace: Paths.
     """
     around = 4.0 * (window.high - window.low)
     pieces = workspace.pieces
@@ -593,7 +606,7 @@ def put_open(window, n, number, workspace, sides_inout):
 def is_hole(piece, points):
     """Return whether a closed piece of the outline bounds a hole: it is then counter-clockwise on the screen.
 
-    piece: PIECE; points: POINT.
+    piece: PIECE row; points: POINT rows.
     """
     doubled = 0.0
     before = points[piece.first + piece.count - 1]
@@ -606,7 +619,7 @@ def is_hole(piece, points):
 
 @subkernel
 def put_regions(window, workspace, sides_out):
-    """Write the rings around the solid part of a tile (SIDE), holes as separate rings. Return the number of sides.
+    """Write the rings around the solid part of a tile as SIDE rows. Return their number. Holes are separate rings.
 
     workspace: Paths, filled by find_paths.
     """
@@ -647,7 +660,7 @@ HALO = SEEN + SHARP + 1  # [px] width of the margin in neighbouring tiles on whi
 
 
 class TileParts(NamedTuple):
-    """The convex parts of a tile: polygons whose corners are listed part after part."""
+    """The convex parts of one tile: polygons whose corners are listed part after part."""
 
     corners: np.ndarray  # (n, 2) float64 [px], clockwise on the screen; topmost, then leftmost corner first
     inner: np.ndarray  # (n,) bool: the side after the corner is shared with a part of this or a neighbouring tile
@@ -661,10 +674,10 @@ def tile_parts(window: np.ndarray, smooth: float, at: tuple[int, int] = (0, 0)) 
     """Return the convex parts of the outline in one tile of a mask, with at most 16 corners each.
 
     window[row, col] bool: the square tile with a margin of HALO pixels on each side, clear outside the mask; at [px]:
-    top left corner of the tile in the mask. smooth [px] as in contour.outline; the parts of all tiles together are as
+    top left corner of the tile in the mask; smooth [px]: see contour.outline. The parts of all tiles together are as
     near to the pixels' edges as the result of contour.outline. An empty tile has no parts. A solid tile with only solid
-    pixels around it is one square of inner sides. Raises ValueError for a window that is not square, or with a tile not
-    larger than HALO.
+    pixels around it is one square of inner sides. Raises ValueError for a window that is not square, or whose tile is
+    not larger than HALO.
     """
     height, width = window.shape
     size = width - 2 * HALO
@@ -701,7 +714,7 @@ def _fit(window, size, smooth):
 
 
 def _is_cornered(near):
-    """Return whether the outline cuts a corner of a clear tile: at this corner the three pixels outside are solid.
+    """Return whether the outline cuts off a corner of a clear tile: the other three pixels at this corner are solid.
 
     near: the tile's pixels with a margin of 1 px.
     """
@@ -723,10 +736,10 @@ def _room(size):
 
 @kernel
 def convex_tile(window, most, workspace, sides_inout, corners_out, inner_out, counts_out):
-    """Write the convex parts of a tile's outline. Return the number of parts, or -1 if the outline is not a polygon.
+    """Write the convex parts of a tile's outline. Return their number, or -1 if the outline is not a polygon.
 
-    window: Window; most: largest number of corners of a part; workspace: Paths, scratch; sides_inout: SIDE, scratch;
-    corners_out (n, 2) [px], inner_out (n,), counts_out (parts,): in the format of TileParts.
+    window: Window; most: largest number of corners of a part; workspace: Paths, scratch; sides_inout: SIDE rows,
+    scratch; corners_out (n, 2) [px], inner_out (n,), counts_out (parts,): the result, in the format of TileParts.
     """
     if not find_paths(window, workspace):
         return -1

@@ -16,7 +16,7 @@ from physics.jit.plain import popcount, word
 
 @subkernel
 def bits_from(words, row, stride, start):
-    """Return the 64 pixels of a row from column `start` on as a word; pixels beyond the row are clear.
+    """Return the 64 pixels of a row from column `start` on as a word. Pixels beyond the row are clear.
 
     words (n,) uint64: pixels; row: index of the row's first word; stride: number of words per row. O(1).
     """
@@ -32,7 +32,7 @@ def bits_from(words, row, stride, start):
 
 @subkernel
 def columns_up_to(count):
-    """Return a word whose lowest `count` bits are set: no bits for count <= 0, all bits for count >= 64."""
+    """Return a word whose lowest `count` bits are set: none for count <= 0, all for count >= 64."""
     if count >= 64:
         return word(0xFFFFFFFFFFFFFFFF)
     if count <= 0:
@@ -51,7 +51,7 @@ def lowest_bit(value):
 def sum_of_places(value):
     """Return the sum of the indices of all set bits of a word (Knuth 4A, 7.1.3).
 
-    For each binary digit of the indices, the set bits whose index has this digit are counted.
+    For each binary digit of an index, the set bits whose index has this digit are counted.
     """
     return (
         popcount(word(value & word(0xAAAAAAAAAAAAAAAA)))
@@ -83,7 +83,7 @@ def either(a, b):
 
 @subkernel
 def first_run(value):
-    """Return (start, end) of the lowest run of set bits of a word that is not zero; end is exclusive."""
+    """Return (start, end) of the lowest sequence of set bits of a word that is not zero; end is exclusive."""
     start = lowest_bit(value)
     clear = word((value >> word(start)) ^ word(0xFFFFFFFFFFFFFFFF))
     return start, 64 if clear == word(0) else start + lowest_bit(clear)
@@ -103,7 +103,7 @@ def minus(a, b):
 
 @subkernel
 def touch(a, b):
-    """Return whether a pixel of word a is 8-connected to a pixel of word b.
+    """Return whether a pixel of word a touches a pixel of word b, also diagonally.
 
     a, b: words of the same 64 columns in adjacent rows, or of the same 64 rows in adjacent columns.
     """
@@ -127,34 +127,37 @@ def is_set(words, row, x):
 
 @subkernel
 def shared_word(words, word_a, shift_a, word_b, shift_b):
-    """Return the pixels set in both of two words after each is shifted to lower columns by 0..63.
+    """Return the pixels that two words share after each is shifted to lower columns.
 
-    words (n,) uint64; word_*: index of each word, converted to unsigned here, which saves the check for a negative
-    index; shift_*: number of columns.
+    words (n,) uint64; word_a, word_b: index of each word; shift_a, shift_b: by how many columns each is shifted, 0..63.
+    The indices are converted to unsigned, which saves the check for negative ones.
     """
     return word(word(words[word(word_a)] >> word(shift_a)) & word(words[word(word_b)] >> word(shift_b)))
 
 
 @subkernel
 def shifts_to(columns):
-    """Return the arguments (up, down, kept) with which `moved` shifts a word by -64 to 64 columns to the right."""
+    """Return the arguments (up, down, kept) with which `moved` shifts a word to the right by -64 to 64 columns."""
     kept = word(0xFFFFFFFFFFFFFFFF) if abs(columns) < 64 else word(0)
     return word(max(columns, 0) & 63), word(max(-columns, 0) & 63), kept
 
 
 @subkernel
 def moved(value, up, down, kept):
-    """Return a word shifted up by `up` bits, then down by `down` bits, and masked with `kept`; see shifts_to."""
+    """Return a word shifted up by `up` bits, then down by `down` bits, and masked with `kept`.
+
+    up, down, kept: result of shifts_to.
+    """
     return word(word(word(value << up) >> down) & kept)
 
 
 @subkernel
 def shared_row(words, word_a, shift_a, word_b, shift_b, rows):
-    """Return (row, shared pixels) of the first row in which two rasters of one word per row overlap; (rows, 0): none.
+    """Return (row, shared pixels) of the first row in which two rasters overlap; (rows, 0) if there is none.
 
-    rows: number of compared rows; word_*: index of each raster's word in the first compared row; shift_*: number of
-    columns that are skipped on the left of each raster. The right end needs no mask, because words are clear beyond
-    their solid bounds. O(rows).
+    Both rasters are one word wide. rows: number of compared rows; word_a, word_b: index of each raster's word in the
+    first compared row; shift_a, shift_b: number of columns to skip on the left of each raster. The right end needs no
+    mask, because words are clear beyond their solid bounds. O(rows).
     """
     for row in range(rows):
         shared = shared_word(words, word_a + row, shift_a, word_b + row, shift_b)
@@ -164,7 +167,10 @@ def shared_row(words, word_a, shift_a, word_b, shift_b, rows):
 
 
 def packed(solid: np.ndarray) -> np.ndarray:
-    """Return solid[row, col] packed as (rows, ceil(columns/64)) uint64, lowest bit first."""
+    """Return the pixels solid[row, col] as packed words, (rows, ceil(columns/64)) uint64.
+
+    The lowest bit comes first.
+    """
     height, width = solid.shape
     padded = np.zeros((height, -(-width // 64) * 64), bool)
     padded[:, :width] = solid
@@ -172,7 +178,7 @@ def packed(solid: np.ndarray) -> np.ndarray:
 
 
 def halo(solid: np.ndarray) -> np.ndarray:
-    """Return the pixels that are solid or have a solid pixel among their 8 neighbours, as packed words.
+    """Return, as packed words, the pixels that are solid or have a solid pixel among their 8 neighbours.
 
     The raster of the result is larger than solid[row, col] by one pixel on each side.
     """
@@ -193,9 +199,9 @@ def halo(solid: np.ndarray) -> np.ndarray:
 
 @subkernel
 def shared_rectangle(a, b, dx, dy):
-    """Return the intersection (left, top, right, bottom) of the solid bounds of two RASTER rows, in pixels of a.
+    """Return the intersection (left, top, right, bottom) of the solid bounds of two rasters, in pixels of the first.
 
-    dx, dy [px]: top left corner of b in a.
+    a, b: RASTER rows; dx, dy [px]: top left corner of b in a.
     """
     return (
         max(a.set_left, b.set_left + dx),
@@ -207,10 +213,10 @@ def shared_rectangle(a, b, dx, dy):
 
 @subkernel
 def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
-    """Return (found, x, y) of the first pixel, row by row, that masks A and B share; x, y: its column and row in A.
+    """Return (found, x, y) of the first pixel, row by row, that masks A and B share. x, y: its column and row in A.
 
-    rasters: RASTER; words: uint64; mask_a, mask_b: rows of RASTER; dx, dy [px]: top left corner of B in A. O(words) at
-    worst.
+    rasters: RASTER rows; words: uint64; mask_a, mask_b: RASTER row numbers; dx, dy [px]: top left corner of B in A.
+    O(words) at worst.
     """
     a, b = rasters[mask_a], rasters[mask_b]
     left, top, right, bottom = shared_rectangle(a, b, dx, dy)
@@ -235,11 +241,11 @@ def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
 
 @subkernel
 def line_shared(words, row_a, box_a, row_b, box_b, dx, dy, guess):
-    """Return a row of raster A that contains a pixel shared with raster B; -1: the rasters share no pixel.
+    """Return a row of raster A that contains a pixel shared with raster B, or -1 if they share none.
 
-    Both rasters are one word wide. row_*: index of the first word of each raster; box_*: solid bounds (left, top,
-    right, bottom) of each raster; dx, dy [px]: top left corner of B in A; guess: row of A that is tested first. O(1) if
-    the guess is right, else O(rows).
+    Both rasters are one word wide. row_a, row_b: index of the first word of each raster; box_a, box_b: solid bounds
+    (left, top, right, bottom) of each raster; dx, dy [px]: top left corner of B in A; guess: row of A that is tested
+    first. O(1) if the guess is right, else O(rows).
     """
     left, top = max(box_a[0], box_b[0] + dx), max(box_a[1], box_b[1] + dy)
     if left >= min(box_a[2], box_b[2] + dx):
@@ -258,11 +264,10 @@ def line_shared(words, row_a, box_a, row_b, box_b, dx, dy, guess):
 
 @subkernel
 def line_moments(words, row_a, box_a, row_b, box_b, dx, dy):
-    """Return (area, sum of x, sum of y, difference) over the shared pixels of rasters A and B, one word wide.
+    """Return (area, sum of x, sum of y, difference) over the shared pixels of rasters A and B, each one word wide.
 
-    x, y: column and row in A. difference [px2]: the shared area with B moved one pixel to the left minus the shared
-    area with B moved one pixel to the right. The solid bounds of A and B must overlap. Arguments as in line_shared.
-    O(rows).
+    x, y: column and row in A. difference [px2]: the area shared with B moved one pixel to the left, minus that with B
+    moved one pixel to the right. The solid bounds of A and B must overlap. Arguments: see line_shared. O(rows).
     """
     up, down, kept = shifts_to(dx)
     left_up, left_down, left_kept = shifts_to(dx - 1)
@@ -285,7 +290,7 @@ def line_moments(words, row_a, box_a, row_b, box_b, dx, dy):
 
 @subkernel
 def shared_area(rasters, words, mask_a, mask_b, dx, dy):
-    """Return the number of shared pixels of masks A and B. Arguments as first_pixel. O(words)."""
+    """Return the number of pixels that masks A and B share. Arguments: see first_pixel. O(words)."""
     a, b = rasters[mask_a], rasters[mask_b]
     left, top, right, bottom = shared_rectangle(a, b, dx, dy)
     area = 0
@@ -311,9 +316,9 @@ def shared_area(rasters, words, mask_a, mask_b, dx, dy):
 
 @subkernel
 def shared_moments(rasters, words, mask_a, mask_b, dx, dy):
-    """Return (area, sum of x, sum of y) over the shared pixels of masks A and B; x, y: column and row in A.
+    """Return (area, sum of x, sum of y) over the pixels that masks A and B share. x, y: column and row in A.
 
-    Arguments as first_pixel. O(words).
+    Arguments: see first_pixel. O(words).
     """
     a, b = rasters[mask_a], rasters[mask_b]
     left, top, right, bottom = shared_rectangle(a, b, dx, dy)
@@ -355,7 +360,7 @@ BAND = 1 << 14  # pixels rotated per pass: temporary arrays stay in the cache an
 
 @dataclass(frozen=True)
 class Turned:
-    """A mask at one angle: its pixels solid[row, col], its origin, and the source of each pixel.
+    """A mask rotated to one angle: its pixels solid[row, col], its origin, and the source of each pixel.
 
     origin [px] is measured from the top left corner of `solid`.
     """
@@ -367,15 +372,15 @@ class Turned:
 
 
 def bucket_of(angle: float, buckets: int) -> int:
-    """Return the number of the angle bucket nearest to `angle` [rad].
-
-    buckets: number of equal steps of a full turn.
-    """
+    """Return the number of the angle bucket nearest to `angle` [rad]. A full turn has `buckets` equal buckets."""
     return int(math.floor(angle * buckets / math.tau + 0.5)) % buckets
 
 
 def turn(solid: np.ndarray, origin: tuple[float, float], bucket: int, buckets: int) -> Turned:
-    """Return a mask rotated about its origin by bucket/buckets of a full turn, clockwise on the screen."""
+    """Return the mask solid[row, col], rotated about its origin [px] by bucket/buckets of a full turn.
+
+    The rotation is clockwise on the screen.
+    """
     rows, columns = np.ogrid[: solid.shape[0], : solid.shape[1]]
     source_x, source_y = (np.where(solid, each, -1).astype(np.int16) for each in (columns, rows))
     if solid.size == 0 or not solid.any():
@@ -423,11 +428,11 @@ def _any_turn(solid, origin, angle):
 
 
 def _sampled(padded, mixed, base_x, base_y, cosine, sine):
-    """Return arrays (solid, samples, source) with an entry for each rotated pixel.
+    """Sample a mask at the pixels of its rotated raster. Return arrays (solid, samples, source), one entry for each.
 
-    solid: whether the pixel's centre is solid; samples: number of its solid samples; source: flat index, in the padded
-    source, of the pixel under the first solid sample, -1 if no sample is solid. padded: source with a clear border;
-    mixed: result of _mixed; base_x, base_y [px]: first corner of each rotated pixel in the padded source.
+    solid: whether the pixel's centre is solid; samples: how many of its samples are solid; source: flat index of the
+    source pixel under its first solid sample, -1 for none. padded: source pixels with a clear border; mixed: result of
+    _mixed; base_x, base_y [px]: first corner of each rotated pixel in the padded source.
     """
     rows, columns = padded.shape
 
@@ -456,7 +461,7 @@ def _sampled(padded, mixed, base_x, base_y, cosine, sine):
 
 
 def _mixed(padded):
-    """Return for each pixel of `padded` whether the 3 x 3 pixels around it are neither all solid nor all clear."""
+    """Return, for each pixel of `padded`, whether the 3 x 3 pixels around it include both solid and clear ones."""
     wide = np.pad(padded, 1).view(np.uint8)
     row = wide[:, :-2] + wide[:, 1:-1] + wide[:, 2:]
     count = row[:-2] + row[1:-1] + row[2:]
@@ -464,7 +469,7 @@ def _mixed(padded):
 
 
 def _as_many(centered, coverage, wanted):
-    """Return the solid pixels of a rotated mask, `wanted` in number if possible.
+    """Return the solid pixels of a rotated mask, [row, col] bool, `wanted` in number if possible.
 
     At first these are the pixels whose centres are solid (`centered`). If they are too few, the most covered other
     pixels are added. If they are too many, the least covered pixels are removed, except pixels whose removal would

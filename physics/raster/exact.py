@@ -26,7 +26,7 @@ ROUNDED = 2.0**-50  # rounding error of coordinates, as a fraction of the masks'
 
 
 class SquaresPair(NamedTuple):
-    """Two masks as unions of pixel squares: A, the frame of reference, and B, rotated and moved in the raster of A."""
+    """Two masks as unions of pixel squares. A is the frame of reference, B is rotated and moved in A's raster."""
 
     rasters: np.ndarray  # RASTER
     words: np.ndarray  # uint64
@@ -46,10 +46,10 @@ def slack_of(a, b):
 
 @subkernel
 def reach_of(cosine, sine):
-    """Return the distance [px] at which two unit squares stop sharing area, along each axis of either square.
+    """Return the distance [px] of the centres of two unit squares from which they no longer overlap along an axis.
 
-    The squares share area if, on all of these axes, their centres are nearer than this. cosine, sine: cosine and sine
-    of the angle between the squares.
+    The axes are those of both squares. The squares share area if their centres are nearer than this on all axes.
+    cosine, sine: of the angle between the squares.
     """
     return 0.5 + 0.5 * (abs(cosine) + abs(sine))
 
@@ -58,8 +58,8 @@ def reach_of(cosine, sine):
 def do_squares_meet(dx, dy, cosine, sine, near):
     """Return whether two unit squares share area (separating axis test).
 
-    dx, dy [px]: centre of the second square relative to the first; cosine, sine: cosine and sine of the angle between
-    the squares; near [px]: result of reach_of, minus the rounding error.
+    dx, dy [px]: centre of the second square relative to the first; cosine, sine: of the angle between the squares; near
+    [px]: result of reach_of, minus the rounding error.
     """
     return (
         abs(dx) < near
@@ -71,10 +71,10 @@ def do_squares_meet(dx, dy, cosine, sine, near):
 
 @subkernel
 def leave_square(dx, dy, cosine, sine, reach, nx, ny):
-    """Return the distance [px] that a unit square must move along (nx, ny) to be separated from another unit square.
+    """Return how far [px] a unit square must move along the unit vector (nx, ny) to no longer overlap another.
 
-    (nx, ny): unit vector; dx, dy [px]: centre of the moving square relative to the other square; cosine, sine: cosine
-    and sine of the moving square's angle; reach [px]: result of reach_of.
+    dx, dy [px]: centre of the moving square relative to the other square; cosine, sine: of the moving square's angle;
+    reach [px]: result of reach_of.
     """
     least = math.inf
     for axis in range(4):
@@ -91,9 +91,10 @@ def leave_square(dx, dy, cosine, sine, reach, nx, ny):
 
 @subkernel
 def box_in_raster(a, b, u, v, cosine, sine):
-    """Return (left, top, right, bottom) of the pixels of mask B that may overlap the solid bounds of mask A.
+    """Return the box (left, top, right, bottom) of B's pixels that may overlap the solid bounds of mask A.
 
-    a, b: RASTER rows; u, v, cosine, sine: see the comment under "exact". Right and bottom are exclusive.
+    a, b: RASTER rows; u, v [px]: top left corner of B's raster in A's raster; cosine, sine: of B's angle in A's raster.
+    Right and bottom are exclusive.
     """
     half_x, half_y = 0.5 * (a.set_right - a.set_left), 0.5 * (a.set_bottom - a.set_top)
     dx, dy = a.set_left + half_x - u, a.set_top + half_y - v
@@ -110,9 +111,9 @@ def box_in_raster(a, b, u, v, cosine, sine):
 
 @subkernel
 def clip_run(low, high, start, step, least, most):
-    """Return the part (low, high) of an interval low <= t <= high in which least <= start + step * t <= most.
+    """Return the part (low, high) of the interval low <= t <= high in which least <= start + step * t <= most.
 
-    The part is empty if the returned low > high.
+    If the part is empty, the returned low is greater than high.
     """
     if step > 0.0:
         return max(low, (least - start) / step), min(high, (most - start) / step)
@@ -123,10 +124,10 @@ def clip_run(low, high, start, step, least, most):
 
 @subkernel
 def run_near(a, left, right, x, y, cosine, sine, margin):
-    """Return (first, last + 1) of the columns in a row of mask B whose pixel centres are in the solid bounds of mask A.
+    """Return (first, last + 1) of the columns in a row of mask B whose pixel centres are in the solid bounds of A.
 
     a: RASTER row of A; left, right: range of tested columns, right exclusive; x, y [px]: centre of the pixel in column
-    0; cosine, sine: direction of the row; margin [px]: distance by which the bounds are enlarged.
+    0, in A's raster; cosine, sine: direction of the row; margin [px]: by which the bounds are enlarged.
     """
     low, high = clip_run(float(left), right - 1.0, x, cosine, a.set_left - margin, a.set_right + margin)
     low, high = clip_run(low, high, y, sine, a.set_top - margin, a.set_bottom + margin)
@@ -138,8 +139,8 @@ def run_near(a, left, right, x, y, cosine, sine, margin):
 def square_under(words, a, x, y, cosine, sine, near):
     """Return (found, column, row) of the first pixel of mask A that overlaps a rotated pixel square of mask B. O(1).
 
-    a: RASTER row of A; x, y [px]: centre of the square in A's raster; cosine, sine: cosine and sine of the square's
-    angle; near [px]: as in do_squares_meet.
+    words: pixels of all rasters; a: RASTER row of A; x, y [px]: centre of the square in A's raster; cosine, sine: of
+    the square's angle; near [px]: see do_squares_meet.
     """
     column, row = math.floor(x), math.floor(y)
     for j in range(max(0, row - 1), min(a.height, row + 2)):
@@ -154,9 +155,10 @@ def square_under(words, a, x, y, cosine, sine, near):
 
 @subkernel
 def first_upright(pair, u, v):
-    """Return the result of first_squares for two masks at equal angles, by word-wise AND. O(words).
+    """Return the result of first_squares for two masks at equal angles, by AND of whole words. O(words).
 
-    A pixel of one mask overlaps up to four pixels of the other, so up to four offsets in whole pixels are tested.
+    A pixel of one mask overlaps up to four pixels of the other, so up to four offsets in whole pixels are tested. pair,
+    u, v: see first_squares.
     """
     slack = slack_of(pair.rasters[pair.frame], pair.rasters[pair.other])
     column, row = math.floor(u + slack), math.floor(v + slack)
@@ -170,10 +172,10 @@ def first_upright(pair, u, v):
 
 @subkernel
 def first_squares(pair, u, v):
-    """Return (found, column in A, row in A, column in B, row in B) of the first overlapping squares of masks A and B.
+    """Return (found, column in A, row in A, column in B, row in B) of the first overlapping pixels of masks A and B.
 
-    pair: SquaresPair; u, v [px]: top left corner of B's raster in A's raster, in place of pair.u, pair.v. The search
-    ends at the first overlap. O(pixels of B within A's bounds) at worst.
+    The search ends at the first overlap. pair: SquaresPair; u, v [px]: top left corner of B's raster in A's raster,
+    which replaces pair.u, pair.v. O(pixels of B within A's bounds) at worst.
     """
     cosine, sine, words = pair.cosine, pair.sine, pair.words
     if cosine == 1.0 and sine == 0.0:
@@ -201,11 +203,11 @@ def first_squares(pair, u, v):
 
 @subkernel
 def squares_way_out(pair, nx, ny, most):
-    """Return the least distance [px] that mask B must move along (nx, ny) to end the overlap with mask A.
+    """Return how far [px] mask B must move along (nx, ny) to end its overlap with mask A.
 
-    A result above `most` [px] means that no move up to `most` ends the overlap. pair: SquaresPair; nx, ny: unit vector
-    in the raster of mask A. Two squares overlap on one interval of the move. Each overlapping pair that is found
-    advances the move to the end of the pair's interval, so no pair is found twice. O(first_squares · pairs found).
+    A result above `most` [px] means that no move up to `most` is enough. pair: SquaresPair; nx, ny: unit vector in A's
+    raster. Two squares overlap on one interval of the move. Each overlapping pair that is found advances the move to
+    the end of its interval, so no pair is found twice. O(first_squares · pairs found).
     """
     cosine, sine = pair.cosine, pair.sine
     reach = reach_of(cosine, sine)
@@ -234,10 +236,10 @@ def squares_way_out(pair, nx, ny, most):
 
 @subkernel
 def line_share(px, py, qx, qy, width, height):
-    """Return the contribution of a line to (area, moment of x, moment of y) of the part of a region inside a box.
+    """Return what a line contributes to (area, moment of x, moment of y) of the part of a region inside a box.
 
-    The straight line from p to q [px] belongs to the region's outline; the box is 0..width x 0..height. The sides of
-    the box cut the line into up to three pieces; along each piece the x that is clamped to the box is linear.
+    The line from p to q [px] is a part of the region's outline; the box is 0..width x 0..height. The sides of the box
+    cut the line into up to three pieces. Along each piece, x clamped to the box is a linear function.
     """
     area = 0.0
     moment_x, moment_y = 0.0, 0.0
@@ -271,7 +273,10 @@ def line_share(px, py, qx, qy, width, height):
 
 @subkernel
 def arc_primitives(x, y, radius, angle):
-    """Return the integrals of x dy, x²/2 dy and x y dy along a circle around (x, y), from angle 0 to `angle` [rad]."""
+    """Return the integrals of x dy, x²/2 dy and x y dy along a circle, from angle 0 to `angle` [rad].
+
+    x, y, radius [px]: centre and radius of the circle.
+    """
     cosine, sine = math.cos(angle), math.sin(angle)
     r2 = radius * radius
     straight = x * radius * sine + r2 * (0.5 * angle + 0.5 * sine * cosine)
@@ -288,7 +293,8 @@ def arc_primitives(x, y, radius, angle):
 def next_cut(x, y, radius, width, height, after, until):
     """Return the first angle [rad] after `after` at which a circle crosses the line through a side of a box.
 
-    x, y [px]: centre of the circle; the box is 0..width x 0..height. Return `until` if there is no crossing before it.
+    The result is `until` if there is no crossing before it. x, y, radius [px]: centre and radius of the circle; the box
+    is 0..width x 0..height.
     """
     best = until
     for side in range(4):
@@ -308,10 +314,10 @@ def next_cut(x, y, radius, width, height, after, until):
 
 @subkernel
 def arc_share(x, y, radius, start, end, width, height):
-    """Return the contribution of an arc to (area, moment of x, moment of y) of the part of a region inside a box.
+    """Return what an arc contributes to (area, moment of x, moment of y) of the part of a region inside a box.
 
-    The arc belongs to the region's outline; x, y [px]: its centre; start, end [rad]: its angles, start < end. The box
-    is 0..width x 0..height.
+    The arc is a part of the region's outline. x, y, radius [px]: its centre and radius; start, end [rad]: its angles,
+    start < end. The box is 0..width x 0..height.
     """
     area = 0.0
     moment_x, moment_y = 0.0, 0.0
@@ -350,7 +356,7 @@ def arc_share(x, y, radius, start, end, width, height):
 def square_share(x, y, cosine, sine, width, height):
     """Return (area, moment of x, moment of y) of the part of a rotated unit square in the box 0..width x 0..height.
 
-    x, y [px]: centre of the square; cosine, sine: cosine and sine of the square's angle.
+    x, y [px]: centre of the square; cosine, sine: of the square's angle.
     """
     area = 0.0
     moment_x, moment_y = 0.0, 0.0
@@ -369,8 +375,8 @@ def square_share(x, y, cosine, sine, width, height):
 def share_under(words, a, x, y, cosine, sine):
     """Return (area, moment of x, moment of y) of the area that mask A shares with a rotated pixel square of mask B.
 
-    a: RASTER row of A; x, y [px]: centre of the square in A's raster; cosine, sine: cosine and sine of the square's
-    angle.
+    words: pixels of all rasters; a: RASTER row of A; x, y [px]: centre of the square in A's raster; cosine, sine: of
+    the square's angle.
     """
     column, row = math.floor(x) - 1, math.floor(y) - 1
     area = 0.0

@@ -1,4 +1,7 @@
-"""PixelTiles: a raster of pixels in tiles of 64 x 64, its connected pieces, and carving (removal of pixels)."""
+"""PixelTiles: a raster of pixels in tiles of 64 x 64, its connected pieces, and carving (removal of pixels).
+
+A node is an 8-connected component of the pixels inside one tile. A piece is an 8-connected component of all pixels.
+"""
 
 import math
 from collections.abc import Callable, Iterable, Mapping
@@ -47,10 +50,10 @@ NODE = np.dtype(
 
 @subkernel
 def trace_runs(words, runs_out, parents_out):
-    """Write the runs of solid pixels of a tile, and join touching runs in a union-find forest.
+    """Write the runs of a tile (sequences of solid pixels in a row), and join runs that touch. Return their number.
 
-    words (64,) uint64; runs_out (n, 3): row, start, end of each run, end exclusive; parents_out (n,): parent run of
-    each run. O(runs). Return the number of runs.
+    words (64,) uint64: the tile's pixels; runs_out (n, 3): row, start, end of each run, end exclusive; parents_out
+    (n,): parent run of each run, a union-find forest. O(runs).
     """
     count = 0
     above = 0
@@ -78,11 +81,10 @@ def trace_runs(words, runs_out, parents_out):
 
 @kernel
 def find_nodes(words, tile, left, top, runs_out, parents_out, nodes_out):
-    """Write the nodes (8-connected components) of a tile in the order of their first pixels.
+    """Write the nodes (8-connected components) of a tile in the order of their first pixels. Return their number.
 
     words (64,) uint64: the tile's pixels; tile: the tile's number; left, top [px]: position of the tile in its raster;
-    runs_out (2048, 3), parents_out (2048,) int64: scratch arrays; nodes_out (1024,) NODE. O(runs). Return the number of
-    nodes.
+    runs_out (2048, 3), parents_out (2048,) int64: scratch arrays; nodes_out (1024,) NODE. O(runs).
     """
     count = trace_runs(words, runs_out, parents_out)
     found = 0
@@ -128,9 +130,9 @@ def find_nodes(words, tile, left, top, runs_out, parents_out, nodes_out):
 
 @kernel
 def pick_node(words, first, runs_out, parents_out, picked_out):
-    """Write the pixels of one node: all pixels of a tile that are 8-connected to pixel `first` inside the tile.
+    """Write the pixels of one node: all pixels of a tile that are connected to pixel `first` inside the tile.
 
-    first: row * 64 + column; words, picked_out (64,) uint64; runs_out, parents_out: scratch arrays as in find_nodes.
+    first: row * 64 + column; words, picked_out (64,) uint64; runs_out, parents_out: scratch arrays, see find_nodes.
     O(runs).
     """
     count = trace_runs(words, runs_out, parents_out)
@@ -148,10 +150,10 @@ def pick_node(words, first, runs_out, parents_out, picked_out):
 
 @subkernel
 def link_nodes(nodes, starts, tile, other, across, down, parents_inout):
-    """Join touching nodes of two adjacent tiles in a union-find forest.
+    """Join the nodes of two adjacent tiles that touch, in a union-find forest.
 
-    nodes: NODE; starts (tiles + 1,): first node of each tile; tile, other: numbers of the two tiles; across, down:
-    columns and rows from `tile` to `other`; parents_inout (nodes,): parent of each node.
+    nodes: NODE rows; starts (tiles + 1,): index of the first node of each tile; tile, other: numbers of the two tiles;
+    across, down: columns and rows from `tile` to `other`; parents_inout (nodes,): parent of each node.
     """
     for i in range(starts[tile], starts[tile + 1]):
         a = nodes[i]
@@ -171,10 +173,10 @@ def link_nodes(nodes, starts, tile, other, across, down, parents_inout):
 
 @kernel
 def label_pieces(nodes, starts, columns, labels_out):
-    """Write the number of the piece that each node belongs to. Return the number of pieces.
+    """Write the number of the piece to which each node belongs. Return the number of pieces. O(nodes).
 
-    Pieces are numbered from 0 in the order of their first nodes. nodes NODE in the order of tiles; starts (tiles + 1,):
-    first node of each tile; columns: tiles per row; labels_out (nodes,). O(nodes).
+    Pieces are numbered from 0 in the order of their first nodes. nodes: NODE rows in the order of tiles; starts (tiles
+    + 1,): index of the first node of each tile; columns: tiles per row; labels_out (nodes,): the result.
     """
     for k in range(len(nodes)):
         labels_out[k] = k
@@ -207,10 +209,10 @@ def label_pieces(nodes, starts, columns, labels_out):
 
 @kernel
 def measure_pieces(nodes, labels, width, counts_inout, firsts_inout):
-    """Add each node's pixels to the count of its piece, and lower the piece's first pixel to the node's first pixel.
+    """Count the pixels of each piece, and find its first pixel in reading order. O(nodes).
 
-    nodes NODE; labels (nodes,): piece of each node; width [px]: width of the raster; counts_inout (pieces,) [px];
-    firsts_inout (pieces,): first pixel in reading order, row * width + column. O(nodes).
+    nodes: NODE rows; labels (nodes,): piece of each node; width [px]: width of the raster; counts_inout (pieces,): to
+    which the numbers of pixels are added; firsts_inout (pieces,): lowered to row * width + column of the first pixel.
     """
     within = TILE - 1  # mask of a column within its tile
     for k in range(len(nodes)):
@@ -223,10 +225,10 @@ def measure_pieces(nodes, labels, width, counts_inout, firsts_inout):
 
 @kernel
 def add_up(nodes, totals_out):
-    """Write eight totals over all nodes (NODE) of a raster to totals_out (8,). O(nodes).
+    """Write eight totals over the nodes of a raster to totals_out (8,). O(nodes).
 
     They are: number of pixels, sum of columns, sum of rows, sum of column² + row², and the bounds left, top, right,
-    bottom; right and bottom are exclusive. Without nodes all are 0.
+    bottom; right and bottom are exclusive. Without nodes all are 0. nodes: NODE rows.
     """
     for k in range(8):
         totals_out[k] = 0
@@ -254,7 +256,7 @@ FULL = np.uint64(2**64 - 1)
 
 @cache
 def _room():
-    """Return scratch arrays (runs, parents, nodes) of the kernels.
+    """Return scratch arrays (runs, parents, nodes) for the kernels.
 
     All callers share the arrays, so a caller copies its results before another call.
     """
@@ -270,10 +272,10 @@ class Pieces(NamedTuple):
 
 
 class PixelTiles:
-    """The pixels of a raster in tiles of 64 x 64, and the connected components inside each tile (nodes).
+    """The pixels of a raster in tiles of 64 x 64, with the connected components inside each tile (nodes).
 
-    words[tile] (64,) uint64: one word per row of the tile; tiles are numbered row by row. nodes: NODE, in the order of
-    tiles. starts (tiles + 1,): index of the first node of each tile.
+    words[tile] (64,) uint64: one word per row of the tile; tiles are numbered row by row. nodes: NODE rows, in the
+    order of tiles. starts (tiles + 1,): index of the first node of each tile.
     """
 
     def __init__(
@@ -288,7 +290,7 @@ class PixelTiles:
 
     @classmethod
     def of(cls, solid: np.ndarray) -> "PixelTiles":
-        """Return the tiles of solid[row, column] bool. O(pixels)."""
+        """Return the PixelTiles of solid[row, column] bool. O(pixels)."""
         height, width = solid.shape
         blank = cls(width, height, [], np.zeros(0, NODE))
         whole = np.zeros((blank.rows * TILE, blank.columns * TILE), bool)
@@ -303,7 +305,7 @@ class PixelTiles:
         return cls(width, height, list(words), nodes[np.argsort(nodes["tile"], kind="stable")])
 
     def _full_nodes(self, tiles: np.ndarray) -> np.ndarray:
-        """Return the NODE rows of fully solid tiles, as find_nodes() would write them."""
+        """Return one NODE row for each of the fully solid tiles `tiles`, equal to the result of find_nodes."""
         nodes = np.zeros(len(tiles), NODE)
         row, column = np.divmod(tiles, self.columns)
         squares = 0
@@ -318,14 +320,14 @@ class PixelTiles:
         return nodes
 
     def _nodes_of(self, tile: int, words: np.ndarray) -> np.ndarray:
-        """Return the connected components (NODE rows) of one tile. words (64,): its pixels."""
+        """Return the nodes (NODE rows) of one tile. words (64,): its pixels."""
         (runs, parents, nodes), (row, column) = _room(), divmod(tile, self.columns)
         return joined([nodes[: find_nodes(words, tile, column * TILE, row * TILE, runs, parents, nodes)]])
 
     def replaced(self, changed: Mapping[int, np.ndarray]) -> "PixelTiles":
-        """Return a copy with new words in some tiles.
+        """Return a copy in which some tiles have other pixels.
 
-        changed: {tile number: (64,) uint64}; its arrays become read-only. O(tiles + runs of the changed tiles).
+        changed: {tile number: (64,) uint64 words}; its arrays become read-only. O(tiles + runs of the changed tiles).
         """
         words, parts, starts, last = self.words.copy(), [], self.starts.copy(), 0
         for tile, new in sorted(changed.items()):
@@ -354,7 +356,7 @@ class PixelTiles:
         return picked
 
     def node_at(self, tile: int, first: int) -> int:
-        """Return the node that contains a solid pixel of a tile. first: row * 64 + column of the pixel in the tile."""
+        """Return the number of the node that contains a solid pixel of a tile. first: row * 64 + column of it."""
         begin, end = self.starts[tile : tile + 2].tolist()
         if end - begin == 1:
             return begin
@@ -362,9 +364,10 @@ class PixelTiles:
         return next(node for node in range(begin, end) if int(self.words_of(node)[row]) >> column & 1)
 
     def cut_out(self, nodes: np.ndarray) -> tuple[np.ndarray, int, int]:
-        """Return (solid[row, column] bool, left, top) of the pixels of some nodes.
+        """Return the pixels of some nodes as (solid[row, column] bool, left, top).
 
-        solid covers the bounds of these pixels; left, top [px]: position of the bounds in the raster.
+        solid covers the bounds of these pixels; left, top [px]: position of the bounds in the raster. nodes: node
+        numbers.
         """
         some = self.nodes[nodes]
         left, top = int(some["min_x"].min()), int(some["min_y"].min())
@@ -380,9 +383,9 @@ class PixelTiles:
         return np.ascontiguousarray(window), left, top
 
     def window(self, left: int, top: int, size: int) -> np.ndarray:
-        """Return the (size, size) bool pixels from column `left` and row `top` on; pixels beyond the raster are clear.
+        """Return a square of pixels, (size, size) bool, whose first pixel is at column `left`, row `top`. O(size²).
 
-        O(size²).
+        Pixels beyond the raster are clear.
         """
         column, row = left // TILE, top // TILE
         columns, rows = (left + size - 1) // TILE - column + 1, (top + size - 1) // TILE - row + 1
@@ -396,10 +399,10 @@ class PixelTiles:
         return unpacked(words[y : y + size])[:, x : x + size]
 
     def differences(self, other: "PixelTiles", tiles: Iterable[int]) -> list[tuple[int, int, int, int]]:
-        """Return a box around the pixels that differ from another raster, for each tile of `tiles` with such pixels.
+        """Return boxes around the pixels that differ from another raster, one for each tile that has such pixels.
 
         A box is (left, top, right, bottom) [px]; right and bottom are exclusive. other: a raster of the same size;
-        tiles: numbers of the compared tiles.
+        tiles: numbers of the tiles to compare.
         """
         found = []
         for tile in tiles:
@@ -419,7 +422,10 @@ class PixelTiles:
 
     @property
     def packed(self) -> np.ndarray:
-        """The pixels as bits, (rows * 64, columns) uint64: bit b of word k in a row is column 64k + b. O(words)."""
+        """The pixels as bits, (rows * 64, columns) uint64: bit b of word k in a row is pixel column 64k + b.
+
+        O(words).
+        """
         whole = np.array(self.words, np.uint64).reshape(self.rows, self.columns, TILE)
         return np.ascontiguousarray(whole.transpose(0, 2, 1)).reshape(-1, self.columns)
 
@@ -431,7 +437,7 @@ class PixelTiles:
 
     @property
     def sums(self) -> tuple[int, int, int, int]:
-        """Integer sums over the solid pixels: (number, sum of columns, sum of rows, sum of column² + row²)."""
+        """Sums over the solid pixels as integers: (number, sum of columns, sum of rows, sum of column² + row²)."""
         count, x, y, squares = self._totals[:4]
         return count, x, y, squares
 
@@ -445,7 +451,7 @@ class PixelTiles:
 
 
 def unpacked(words: np.ndarray) -> np.ndarray:
-    """Return packed words (rows, columns) uint64 as pixels (rows, 64 * columns) bool: the inverse of bits.packed."""
+    """Return packed words (rows, columns) uint64 as pixels (rows, 64 * columns) bool, the inverse of bits.packed."""
     return np.unpackbits(words.astype("<u8", copy=False).view(np.uint8), axis=1, bitorder="little").view(bool)
 
 
@@ -457,9 +463,9 @@ Box = tuple[float, float, float, float]  # min_x, min_y, max_x, max_y [px]
 
 
 class Loose(NamedTuple):
-    """A piece that a cut separated: solid[row, column] bool, the piece's pixels within its bounds.
+    """A piece that a cut separated: its pixels solid[row, column] bool, within their bounds.
 
-    (left, top) [px]: top left pixel of the bounds.
+    left, top [px]: position of the bounds in the raster.
     """
 
     solid: np.ndarray
@@ -478,12 +484,12 @@ class Cut(NamedTuple):
 
 
 def cut(tiles: PixelTiles, tool: Tool, box: Box, one_piece: bool, crumb: int) -> Cut:
-    """Remove the pixels that a tool covers, and the pieces that this separates from the rest. Return a Cut.
+    """Remove the pixels that a tool covers, and all pieces that this separates from the rest. Return a Cut.
 
-    box [px]: bounds of the tool in the raster. one_piece: True if only the largest of all pieces stays, False if each
-    piece that existed before the cut keeps its largest part. Of parts of equal size, the part with the first pixel
-    stays. The result lists the separated pieces, except pieces of fewer than `crumb` pixels. O(tiles + runs of changed
-    tiles).
+    The result lists the separated pieces, except pieces of fewer than `crumb` pixels. tool: see Tool; box [px]: bounds
+    of the tool in the raster. one_piece: True if only the largest of all pieces stays, False if each piece that existed
+    before the cut keeps its largest part. Of parts of equal size, the part with the first pixel stays. O(tiles + runs
+    of changed tiles).
     """
     changed, removed = _taken(tiles, tool, box)
     if not removed:
@@ -512,9 +518,9 @@ def cut(tiles: PixelTiles, tool: Tool, box: Box, one_piece: bool, crumb: int) ->
 
 
 def _taken(tiles, tool, box):
-    """Return ({tile number: words without the pixels that the tool finds}, number of pixels found).
+    """Return ({tile number: words without the pixels that the tool removes}, number of these pixels).
 
-    box [px]: bounds of the tool in the raster.
+    tool: see Tool; box [px]: bounds of the tool in the raster.
     """
     first_column, first_row = (max(0, int(each // TILE)) for each in box[:2])
     last_column, last_row = int(min(box[2] // TILE, tiles.columns - 1)), int(min(box[3] // TILE, tiles.rows - 1))
@@ -531,9 +537,9 @@ def _taken(tiles, tool, box):
 
 
 def _pieces_before(before, after, changed):
-    """Return for each piece after a cut the number of the piece before the cut that contained it: (pieces,) int64.
+    """Return, for each piece after a cut, the number of the piece that contained it before: (pieces,) int64.
 
-    changed: numbers of the tiles that the cut changed.
+    before, after: PixelTiles; changed: numbers of the tiles that the cut changed.
     """
     labels, parts, last = before.pieces.labels, [], 0
     for tile in sorted(changed):
@@ -554,7 +560,7 @@ def _pieces_before(before, after, changed):
 
 @subkernel
 def is_in_hull(corners, radius, x, y):
-    """Return whether point (x, y) [px] is inside or on a convex hull rounded by a radius [px].
+    """Return whether point (x, y) [px] is inside or on a convex hull that is rounded by a radius [px].
 
     corners (n, 2) [px], n >= 1, clockwise on the screen.
     """
@@ -578,10 +584,10 @@ def is_in_hull(corners, radius, x, y):
 
 @kernel
 def find_in_hull(words, left, top, corners, radius, found_out):
-    """Write the solid pixels of a tile whose centres are in a convex hull rounded by a radius. Return their number.
+    """Write the solid pixels of a tile whose centres are in a rounded convex hull. Return their number.
 
     words, found_out (64,) uint64; left, top [px]: position of the tile in the hull's coordinates; corners (n, 2) [px],
-    n >= 1, clockwise on the screen. O(pixels within the hull's box · n).
+    n >= 1, clockwise on the screen; radius [px]. O(pixels within the hull's box · n).
     """
     min_x, max_x = math.inf, -math.inf
     min_y, max_y = math.inf, -math.inf
@@ -618,11 +624,10 @@ def is_in_pixels(solid, x, y):
 
 @kernel
 def find_in_pixels(words, solid, x, y, cosine, sine, found_out):
-    """Write the solid pixels of a tile whose centres are in the pixel squares of another mask. Return their number.
+    """Write the solid pixels of a tile whose centres are in solid pixels of another mask. Return their number.
 
     words, found_out (64,) uint64; solid[row, column] bool: pixels of the other mask; x, y [px]: top left corner of the
-    tile in the other mask's raster; cosine, sine: cosine and sine of the tile's angle in that raster. O(pixels of the
-    tile).
+    tile in the other mask's raster; cosine, sine: of the tile's angle in that raster. O(pixels of the tile).
     """
     count = 0
     for row in range(TILE):
