@@ -1,4 +1,4 @@
-"""Write every file of assets/ that a script makes, or check that the files in the folder are what the scripts make.
+"""Write every file of assets/ that a script makes, or check that the files in the folder are up to date.
 
 python -m assets.build            regenerate all
 python -m assets.build sounds     only products whose name contains "sounds"
@@ -39,10 +39,10 @@ PRODUCTS = {
 
 
 def make(name):
-    """Return the files of one product, without writing them: {path relative to assets/: bytes, or a Recording to be
-    encoded}.
+    """Return the files of one product without writing them, by path relative to assets/.
 
-    Raises KeyError, which names the valid products, for an unknown name.
+    A value is the bytes of the file, or a Recording that is to be encoded. Raises KeyError, which names the valid
+    products, for an unknown name.
     """
     if name not in PRODUCTS:
         raise KeyError(f"no product {name!r}; choose one of {', '.join(PRODUCTS)}")

@@ -1,1 +1,1 @@
-"""The sound effects, and the music: harmony, notation, instruments, mixing."""
+"""Sound effects, and music: harmony, notation, instruments, mixing."""

@@ -1,12 +1,10 @@
-"""Sounds of breaking: torn metal, a splash, a bomb's fuse, a throw."""
+"""Sounds of breaking and throwing: torn metal, a splash, a bomb's fuse, a throw."""
 
 from assets.craft.synth import envelope, low_pass, mixed, soft_clip, voice
 
 
 def tear():
-    """Return the sound of a breaking plane: a crack, two plates that shriek past each other, rivets that give way one
-    by one.
-    """
+    """Return the sound of a breaking plane: a crack, two shrieking plates, and rivets that break one by one."""
     crack = low_pass(voice("noise", 320, 90, envelope(0, 0.008, 0.07, 0.5), seed=111), 6_500, 1_800)
     shriek = voice("saw", 540, 150, envelope(0.02, 0.07, 0.26, 0.4), vibrato=(0.09, 37))
     plate = voice("triangle", 233, 120, envelope(0.004, 0.04, 0.22), vibrato=(0.05, 19))
@@ -25,16 +23,14 @@ def splash():
 
 
 def fuse():
-    """Return the sound of a lit fuse: a spit of sparks that continues as a hiss. The game repeats this sound while the
-    fuse burns.
-    """
+    """Return the sound of a lit fuse: sparks, then a hiss. The game repeats it while the fuse burns."""
     spit = low_pass(voice("noise", 300, 200, envelope(0, 0.010, 0.05, 0.5), seed=115), 3_600, 2_200)
     hiss = low_pass(voice("noise", 300, 320, envelope(0.02, 0.10, 0.10), vibrato=(0.2, 31), seed=116), 3_000, 2_400)
     return mixed((0, 0.8, spit), (0.01, 0.7, hiss))
 
 
 def throw():
-    """Return the sound of a throw: a breath that rises and ends."""
+    """Return the sound of a throw: a breath of air that rises and ends."""
     air = low_pass(voice("noise", 60, 210, envelope(0.03, 0.03, 0.09, 0.5), seed=117), 1_300, 3_000)
     tone = voice("triangle", 240, 410, envelope(0.01, 0.03, 0.08))
     return mixed((0, 1.0, air), (0.02, 0.35, tone))

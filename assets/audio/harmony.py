@@ -1,4 +1,4 @@
-"""Notes, chords and scales, and the rules by which every note of a tune fits the chord under it.
+"""Notes, chords and scales, and the rules by which every note of a tune fits its chord.
 
 Pitches are MIDI numbers: C4 = 60, a semitone is 1. A pitch class is a pitch modulo 12, C = 0.
 """
@@ -43,7 +43,7 @@ STEP_WISE = 2  # semitones: a whole tone at most counts as a step
 
 
 class Chord(NamedTuple):
-    """A chord. root and bass as pitch classes; tones as semitones above the root."""
+    """A chord. root, bass: pitch classes; tones: semitones above the root."""
 
     name: str
     root: int
@@ -93,8 +93,8 @@ def scale(text):
 def degree_pitch(at, degree, floor):
     """Return the MIDI pitch of a degree (1, 3, 5 ...) of the chord `at`, counted upward from the chord's bass note.
 
-    The bass note is placed at the first pitch at or above `floor` that fits. Raises ValueError if the chord has no such
-    tone.
+    The bass note is the first one at or above the MIDI pitch `floor`. Raises ValueError if the chord has no such
+    degree.
     """
     bass = floor + (at.bass - floor) % 12
     if degree in (1, 8):
@@ -106,17 +106,19 @@ def degree_pitch(at, degree, floor):
 
 
 def tone_pitch(at, index, floor):
-    """Return the MIDI pitch of tone number `index` of the chord `at`, counted upward from the pitch `floor`.
+    """Return the MIDI pitch of the chord tone with number `index`, counted upward from the MIDI pitch `floor`.
 
-    The count begins at the same pitch for all chords. So each tone moves only a short way when the chord changes.
+    at: the chord. The count begins at the same pitch for all chords, so each tone moves only a short way when the chord
+    changes.
     """
     ladder = sorted(floor + (tone - floor) % 12 for tone in {(at.root + tone) % 12 for tone in at.tones})
     return ladder[index % len(ladder)] + 12 * (index // len(ladder))
 
 
 def scale_over(key, at):
-    """Return the pitch classes of `key`, adapted to the chord `at`: chord tones that are not in the key replace the
-    key's classes a semitone away.
+    """Return the pitch classes of `key` adapted to the chord `at`.
+
+    Chord tones that are not in the key replace the key's pitch classes a semitone away.
     """
     foreign = at.classes - key
     bent = {tone for tone in key if tone in at.classes or all((tone - other) % 12 not in (1, 11) for other in foreign)}
@@ -124,15 +126,17 @@ def scale_over(key, at):
 
 
 def complaints(tune):
-    """Return the audible errors of a tune as a list of texts, one for each violation of these rules; [] without errors.
+    """Return the audible errors of a tune as a list of texts, one for each broken rule; [] without errors.
 
-    1. A note is in the key, or in the key as adapted to the chord under it (scale_over).
-    2. A note that stands out (on a beat for a beat or more, or two beats long) is a tone of its chord, or is followed
-       by a step to a note that is one.
-    3. A note held over a change of chord is a tone of the new chord, too, or is followed by such a step within a beat.
+    1. A note is in the key, or in the key as adapted to its chord (scale_over).
+    2. A note that stands out is a tone of its chord, or is followed by a step to such a tone. A note stands out if it
+       starts on a beat and lasts a beat or more, or if it lasts two beats.
+    3. A note held over a change of chord is also a tone of the new chord, or is followed by such a step within a beat.
     4. A short note that is not a tone of its chord is reached or left by a step.
     5. Two voices that start together on a beat are not a semitone apart. With octaves in between they may be, if the
        chord contains both notes.
+
+    A step is at most a whole tone.
     """
     found = []
     for voice, notes in tune.notes.items():

@@ -4,8 +4,9 @@ from assets.craft.synth import envelope, low_pass, mixed, soft_clip, voice
 
 
 def thrust():
-    """Return a breath of the engine, which swells and sinks. The game repeats it every eighth of a second, so that the
-    breaths join.
+    """Return the sound of the engine, which swells and fades. The game repeats it every eighth of a second.
+
+    So the repetitions join to one sound.
     """
     roar = low_pass(voice("noise", 26, 22, envelope(0.07, 0.06, 0.12), seed=91), 900, 620)
     hiss = low_pass(voice("noise", 160, 140, envelope(0.06, 0.05, 0.11), seed=92), 3_200, 2_400)
@@ -14,7 +15,7 @@ def thrust():
 
 
 def blast():
-    """Return the sound of a shell in rock: a crack, a thump, falling stones."""
+    """Return the sound of a shell that hits rock: a crack, a thump, falling stones."""
     crack = low_pass(voice("noise", 240, 60, envelope(0, 0.010, 0.09, 0.5), seed=93), 6_500, 1_400)
     roar = low_pass(voice("noise", 52, 8, envelope(0, 0.06, 0.46, 0.6, 1.6), seed=94), 3_800, 260)
     thump = voice("sine", 120, 34, envelope(0.001, 0.05, 0.26, 0.3))
@@ -26,7 +27,7 @@ def blast():
 
 
 def clank():
-    """Return the sound of a knock on the hull: two plates that do not ring in tune."""
+    """Return the sound of a knock on the hull: two plates that ring out of tune."""
     plate = voice("triangle", 310, 285, envelope(0, 0.008, 0.20, 0.4))
     other = voice("pulse", 467, 440, envelope(0, 0.006, 0.12), duty=(0.3, 0.2))
     thud = voice("sine", 105, 52, envelope(0, 0.02, 0.13, 0.3))
@@ -37,19 +38,19 @@ def clank():
 
 
 def alarm():
-    """Return the alarm of a fast descent: one short call of two tones, the second a fourth lower."""
+    """Return the alarm of a fast descent: one short call of two tones, the second a fourth below the first."""
     body = voice("pulse", 784, 784, envelope(0.004, 0.11, 0.05), duty=(0.3, 0.3), steps=((0.07, 0.749),))
     return low_pass(body, 4_200, 2_600)
 
 
 def low_fuel():
-    """Return two soft high beeps."""
+    """Return the sound of low fuel: two soft high beeps."""
     beep = voice("triangle", 1_047, 1_047, envelope(0.004, 0.05, 0.05))
     return mixed((0, 1.0, beep), (0.13, 0.8, beep))
 
 
 def hook():
-    """Return the sound of a line that runs out and a claw that closes."""
+    """Return the sound of a line that runs out, and of a claw that closes."""
     whirr = low_pass(voice("noise", 120, 260, envelope(0.01, 0.05, 0.05), seed=103), 4_000, 2_500)
     click = voice("triangle", 900, 620, envelope(0, 0.004, 0.05))
     return mixed((0, 0.5, whirr), (0.09, 1.0, click), (0.12, 0.5, click))

@@ -1,10 +1,11 @@
 """Render the tunes of assets/tunes to assets/music/<name>.ogg: stereo, 22,050 Hz, looping without a seam.
 
-Everything is added to a ring of the tune's length: sound past the end continues at the start, and so do filters and
-echoes. The level follows from the loudness of the whole, so that all tunes are equally loud.
+All sound is added to a ring, a buffer of the tune's length: sound past its end continues at its start, and so do
+filters and echoes. The gain of a tune follows from its loudness, so that all tunes are equally loud.
 
-Bass, kick and snare are in the middle, the other voices at their `pan` and `spread`, echoes on both sides in turn. The
-gains of the left and the right side always have the same sum, so that a mono mix is the same wherever a voice is.
+Bass, kick and snare are in the middle, the other voices at their `pan` and `spread`. Echoes alternate between both
+sides. The gains of the left and the right side always have the same sum, so a mono mix does not depend on a voice's
+position.
 """
 
 import hashlib
@@ -40,7 +41,7 @@ def tune_of(name):
 
 
 def render(tune):
-    """Return the tune as (frames, 2) int16 samples at RATE."""
+    """Return the samples of a tune, (frames, 2) int16 at RATE."""
     length = round((tune.seconds(tune.steps) + (0 if tune.loop else TAIL)) * RATE) * OVERSAMPLING
     ring = np.zeros((2, length))
     for name, notes in tune.notes.items():
@@ -55,7 +56,7 @@ def render(tune):
 
 
 def _sing(tune, notes, voice):
-    """Add the notes of a pulse or triangle voice of a tune to `voice`, the voice's ring of samples (2, length)."""
+    """Add the notes of a pulse or triangle voice to `voice`, its ring of samples (2, length)."""
     made, before = {}, None
     for note in notes:
         instrument = note.instrument
@@ -73,8 +74,9 @@ def _sing(tune, notes, voice):
 
 
 def _drums(tune, notes, voice):
-    """Add the strokes of the drums of a tune to `voice`, their ring of samples (2, length). Each drum has TAKES
-    variants, used in turn.
+    """Add the strokes of a tune's drums to `voice`, their ring of samples (2, length).
+
+    Each drum has TAKES variants, which are used in turn.
     """
     takes, struck = {}, {}
     for note in notes:
@@ -87,21 +89,20 @@ def _drums(tune, notes, voice):
 
 
 def _gain(note):
-    """Return the gain of a note, which depends on its volume and on its position in the beat."""
+    """Return the gain of a note, from its volume and its position in the beat."""
     return note.volume * STRESS[note.start % STEPS_PER_BEAT]
 
 
 def _sides(place):
-    """Return the gains of the left and the right side, (2, 1). place: -1 left .. 1 right."""
+    """Return the gains of the left and the right side, (2, 1). place: position, -1 left .. 1 right."""
     place = max(-1.0, min(1.0, place))
     return np.array([[1 - place], [1 + place]])
 
 
 def _add(ring, start, samples, gain, place):
-    """Add mono samples, times `gain`, to a ring (2, length), from index `start` on; samples past its end continue at
-    its start.
+    """Add mono samples to a ring (2, length) from index `start` on. Samples past its end continue at its start.
 
-    place: -1 left .. 1 right.
+    gain: factor on the samples; place: position, -1 left .. 1 right.
     """
     length, gains = ring.shape[1], gain * _sides(place)
     start %= length
@@ -112,10 +113,10 @@ def _add(ring, start, samples, gain, place):
 
 
 def _echo(tune, voice, instrument):
-    """Add the echoes of an instrument to `voice`, the ring of samples (2, length) of its voice.
+    """Add the echoes of a voice to its ring of samples, `voice` (2, length).
 
-    Each echo is duller than the voice and softer than the echo before. The echoes change sides; the first is on the
-    side away from the voice.
+    Each echo is duller than the voice and softer than the echo before. The echoes alternate between the sides, and the
+    first is opposite to the voice.
     """
     shift = round(instrument.delay * (60.0 / STEPS_PER_BEAT) / tune.tempo * FINE)
     dull, gain, number = low_pass(voice.mean(axis=0), ECHO_CORNER, around=True), instrument.echo, 1
@@ -126,8 +127,9 @@ def _echo(tune, voice, instrument):
 
 
 def _mastered(samples, loop):
-    """Return samples (2, n) as int16 (n, 2) at the standard loudness, with high peaks rounded off. A jingle (not
-    `loop`) is faded at both ends.
+    """Return samples (2, n) as int16 (n, 2) at the standard loudness, with high peaks rounded off.
+
+    A jingle (`loop` is False) is faded at both ends.
     """
     heard = samples - low_pass(samples, HEARD, RATE, around=True)
     samples = samples * round(10 ** (LOUDNESS / 20) / _level(heard), 4)
@@ -143,7 +145,7 @@ def _mastered(samples, loop):
 
 
 def _level(samples):
-    """Return the root mean square of samples (2, n), without the parts that are rests.
+    """Return the root mean square of samples (2, n), measured without rests.
 
     The sum is over integers, so that the order of summing has no effect.
     """
@@ -156,8 +158,7 @@ def _level(samples):
 
 
 def music_files(name):
-    """Return {relative path: bytes or Recording} of one tune: a file with the hash of its samples, and the Recording of
-    the samples.
+    """Return {relative path: bytes or Recording} of one tune: its Recording, and a file with the hash of its samples.
 
     Raises ValueError if a note does not fit its chord.
     """

@@ -1,4 +1,4 @@
-"""Reads the tunes in assets/tunes/*.txt: a tracker's pages as text, one line per voice, bars between | signs.
+"""Read the tunes in assets/tunes/*.txt. A file has one line per voice, with bars between | signs.
 
 ; after a semicolon comes a comment
 name Over the Bay              what the tune is called
@@ -18,12 +18,16 @@ section theme                  as many bars as it has chords
   set lead volume=0.4          another instrument in this section
 order theme bridge theme+2 theme(-lead -drums)      +2: two semitones up; (-lead): that voice rests
 
-Tokens: `F#5` a note; `1 2 3 5 6 7 8 9` that degree of the chord, upward from its bass note, which is the first at or
-above the voice's `from`; `a b c .. h` the chord's tones counted upward from `from`; `[ace]` several of them as a rapid
-arpeggio; `-` holds; `.` rests; on a noise voice `k s h o t c` kick, snare, hat, open hat, tom, crash, also together:
-`kh`.
-After a note: `'` and `,` an octave up and down, `!` louder, `?` softer, `/` slides up or down to it, `~` more vibrato.
-A mistake raises TuneError with file, line and reason.
+Tokens:
+    F#5              a note
+    1 2 3 5 6 7 8 9  that degree of the chord, upward from its bass note, the first at or above the voice's `from`
+    a b c .. h       the chord's tones, counted upward from `from`
+    [ace]            several chord tones as a rapid arpeggio
+    - .              hold the note; rest
+    k s h o t c      on a noise voice: kick, snare, hat, open hat, tom, crash; together as in `kh`
+
+Marks after a note: `'` and `,` an octave up and down, `!` louder, `?` softer, `/` slides up or down to it, `~` more
+vibrato. A mistake raises TuneError with file, line and reason.
 """
 
 import re
@@ -38,7 +42,7 @@ DRUM_TOKEN = re.compile(rf"(?P<what>[{DRUMS}]+)(?P<marks>[!?]*)")
 
 
 class TuneError(ValueError):
-    """A tune that cannot be read: file, line and reason."""
+    """A tune that cannot be read. It has the file, the line and the reason."""
 
     def __init__(self, path, line, reason):
         super().__init__(f"{path}: line {line}: {reason}")
@@ -47,7 +51,7 @@ class TuneError(ValueError):
 
 @dataclass
 class Section:
-    """One section of a tune: the contents of its lines, with the number of each line."""
+    """One section of a tune: the contents of its lines, with their line numbers."""
 
     line: int
     chords: list = field(default_factory=list)  # a list of Chord per bar
@@ -213,7 +217,7 @@ class _Reader:
         self.section.changes.setdefault(name, {}).update(changes)
 
     def _bars(self, text):
-        """Return [(text of one bar, line number)] of a line, with phrases and repeats expanded."""
+        """Return the bars of a line as [(text of one bar, line number)], with phrases and repeats expanded."""
         bars = []
         for bar in _split(text):
             repeated = re.search(r"\s\*(\d+)$", bar)
@@ -240,8 +244,9 @@ class _Reader:
             self.order.append((name, int(move or 0), resting, self.line))
 
     def _append(self, name, move, mutes, line):
-        """Append the section `name` to the tune, transposed by `move` semitones and without the voices `mutes`. line:
-        number of the line, for errors.
+        """Append the section `name` to the tune.
+
+        move: transposition in semitones; mutes: voices to leave out; line: number of the line, for errors.
         """
         section, tune = self.sections[name], self.tune
         bar_steps = tune.beats * STEPS_PER_BEAT
@@ -263,11 +268,10 @@ class _Reader:
                 tune.notes[voice] += self._notes(voice, bars, instrument, first, move)
 
     def _notes(self, voice, bars, instrument, first, move):
-        """Return the notes of one voice in one section, with degrees and tones resolved against the chords.
+        """Return the notes of one voice in one section. Degrees and chord tones are replaced by pitches.
 
         bars: [(text of a bar, line number)]; instrument: the voice's instrument in this section; first: step at which
-        the
-        section begins; move: transposition in semitones.
+        the section begins; move: transposition in semitones.
         """
         notes, bar_steps, sounding = [], self.tune.beats * STEPS_PER_BEAT, False
         for index, (bar, line) in enumerate(bars):
@@ -311,5 +315,5 @@ class _Reader:
 
 
 def _split(text):
-    """Return the bars of a line; a | at its start or end separates nothing."""
+    """Return the texts of a line's bars, which are separated by |. A | at its start or end is ignored."""
     return [bar.strip() for bar in text.strip().strip("|").split("|") if bar.strip()]

@@ -1,6 +1,6 @@
-"""The sound effects: each is a function that returns samples, which are written to assets/sounds/<name>.wav.
+"""The sound effects. Each is a function that returns its samples; they are written to assets/sounds/<name>.wav.
 
-They are short and share one mood: pulse waves for the player and rewards, noise for damage, sine and saw for enemies.
+They are short and share a style: pulse waves for the player and rewards, noise for damage, sine and saw for enemies.
 """
 
 from assets.audio import breaking_sounds, lander_sounds
@@ -8,28 +8,28 @@ from assets.craft.synth import envelope, finish, low_pass, mixed, soft_clip, to_
 
 
 def laser():
-    """Return the player's shot: a falling pulse that thins out, soft enough for eight shots a second."""
+    """Return the sound of the player's shot: a falling pulse that thins out, soft enough for eight shots a second."""
     body = voice("pulse", 1150, 240, envelope(0.001, 0.03, 0.12, 0.2), duty=(0.5, 0.18))
     click = voice("noise", 420, 160, envelope(0, 0.004, 0.02), seed=4)
     return low_pass(mixed((0, 0.8, body), (0, 0.35, click)), 7_500, 1_800)
 
 
 def enemy_shot():
-    """Return an enemy's shot, rounder and lower than the player's: a falling sine with a little growl."""
+    """Return the sound of an enemy's shot, rounder and lower than the player's: a falling sine with a little growl."""
     body = voice("sine", 820, 230, envelope(0.002, 0.04, 0.14, 0.3))
     growl = voice("saw", 410, 115, envelope(0.002, 0.02, 0.10))
     return mixed((0, 1.0, body), (0, 0.22, growl))
 
 
 def hit():
-    """Return a bullet on armour: a tick of noise over a metallic pair of tones."""
+    """Return the sound of a bullet on armour: a tick of noise over a metallic pair of tones."""
     tick = voice("noise", 190, 60, envelope(0, 0.012, 0.08, 0.5), seed=7)
     ring = voice("triangle", 1480, 1320, envelope(0, 0.005, 0.07))
     return low_pass(mixed((0, 1.0, tick), (0, 0.35, ring)), 6_000, 2_200)
 
 
 def explosion():
-    """Return an explosion: noise that falls and darkens, with a falling deep tone under it."""
+    """Return the sound of an explosion: noise that falls and darkens, over a falling deep tone."""
     roar = low_pass(voice("noise", 55, 7, envelope(0, 0.10, 0.72, 0.7, 1.6), seed=11), 6_000, 400)
     boom = voice("sine", 95, 32, envelope(0.002, 0.08, 0.40, 0.2))
     crack = voice("noise", 300, 120, envelope(0, 0.010, 0.05), seed=12)
@@ -37,7 +37,7 @@ def explosion():
 
 
 def big_explosion():
-    """Return the gunship's explosion: two blasts and a long rumble."""
+    """Return the sound of the gunship's explosion: two blasts and a long rumble."""
     first = low_pass(voice("noise", 60, 6, envelope(0, 0.16, 1.15, 0.6, 1.5), vibrato=(0.2, 7), seed=21), 5_000, 260)
     second = low_pass(voice("noise", 48, 8, envelope(0, 0.10, 0.80, 0.5, 1.6), seed=22), 4_000, 320)
     boom = voice("sine", 80, 26, envelope(0.002, 0.16, 0.70, 0.2))
@@ -52,7 +52,7 @@ def coin():
 
 
 def powerup():
-    """Return a rising arpeggio with vibrato."""
+    """Return the sound of a power-up: a rising arpeggio with vibrato."""
     steps = ((0.07, 1.25), (0.14, 1.2), (0.21, 1.3333), (0.28, 1.25))
     lead = voice("pulse", 392, 400, envelope(0.002, 0.30, 0.26), duty=(0.25, 0.5), vibrato=(0.012, 13), steps=steps)
     under = voice("triangle", 196, 200, envelope(0.002, 0.30, 0.26), steps=steps)
@@ -60,20 +60,20 @@ def powerup():
 
 
 def jump():
-    """Return a quick upward chirp."""
+    """Return the sound of a jump: a quick upward chirp."""
     body = voice("pulse", 250, 620, envelope(0.001, 0.07, 0.11), duty=(0.42, 0.22))
     return low_pass(body, 6_500, 3_000)
 
 
 def hurt():
-    """Return a buzzing fall with a thud."""
+    """Return the sound of the hurt player: a buzzing fall with a thud."""
     buzz = voice("saw", 430, 85, envelope(0.001, 0.06, 0.20, 0.3), vibrato=(0.05, 28))
     thud = voice("noise", 60, 18, envelope(0, 0.02, 0.10, 0.3), seed=31)
     return soft_clip(low_pass(mixed((0, 0.9, buzz), (0, 0.7, thud)), 5_000, 1_200), 2.5)
 
 
 def spring():
-    """Return a boing: a wobbling rise."""
+    """Return the sound of a spring: a wobbling rise."""
     body = voice("triangle", 190, 760, envelope(0.001, 0.10, 0.24), vibrato=(0.16, 24))
     edge = voice("pulse", 190, 760, envelope(0.001, 0.04, 0.14), duty=(0.3, 0.2), vibrato=(0.16, 24))
     return low_pass(mixed((0, 1.0, body), (0, 0.35, edge)), 6_000, 2_500)
@@ -85,25 +85,25 @@ def land():
 
 
 def stomp():
-    """Return the sound of a squashed walker: a short falling blob."""
+    """Return the sound of a walker that is jumped on: a short, dull fall."""
     body = voice("triangle", 360, 90, envelope(0.001, 0.03, 0.12, 0.2))
     puff = voice("noise", 80, 30, envelope(0, 0.010, 0.09), seed=43)
     return low_pass(mixed((0, 1.0, body), (0, 0.5, puff)), 4_500, 1_500)
 
 
 def blip():
-    """Return the menu's cursor."""
+    """Return the sound of the menu's cursor when it moves."""
     return low_pass(voice("pulse", 660, 700, envelope(0.001, 0.02, 0.04)), 5_000, 3_000)
 
 
 def confirm():
-    """Return the menu's yes: two rising notes."""
+    """Return the sound of a choice in the menu: two rising notes."""
     body = voice("pulse", 523, 523, envelope(0.001, 0.06, 0.16), duty=(0.25, 0.25), steps=((0.06, 1.5),))
     return low_pass(body, 6_000, 3_000)
 
 
 def goal():
-    """Return the end of a level: four notes and a held fifth."""
+    """Return the sound of a level's end: four notes and a held fifth."""
     steps = ((0.12, 1.26), (0.24, 1.19), (0.36, 1.335))
     lead = voice("pulse", 523, 523, envelope(0.002, 0.55, 0.55), duty=(0.25, 0.4), vibrato=(0.006, 6), steps=steps)
     low = voice("triangle", 262, 262, envelope(0.002, 0.55, 0.55), steps=steps)
@@ -112,7 +112,7 @@ def goal():
 
 
 def heavy_laser():
-    """Return the player's strongest shot, and a boss's beam: a saw tone that falls, with a lower tone under it."""
+    """Return the sound of the player's strongest shot and of a boss's beam: a falling saw tone over a lower tone."""
     body = voice("saw", 620, 90, envelope(0.001, 0.05, 0.20, 0.3))
     under = voice("pulse", 310, 45, envelope(0.001, 0.05, 0.18), duty=(0.5, 0.3))
     spit = voice("noise", 300, 90, envelope(0, 0.006, 0.04), seed=5)
@@ -120,9 +120,7 @@ def heavy_laser():
 
 
 def bomb():
-    """Return the sound of the player's bomb: a drawn breath, a blast deeper than any other, and wind with a tone that
-    sinks.
-    """
+    """Return the sound of the player's bomb: an intake of air, the deepest blast of all, wind with a sinking tone."""
     swell = low_pass(voice("noise", 14, 70, envelope(0.12, 0.01, 0.03), seed=51), 700, 4_500)
     roar = low_pass(voice("noise", 58, 6, envelope(0, 0.18, 1.05, 0.8, 1.5), seed=52), 2_400, 140)
     wind = low_pass(voice("noise", 30, 10, envelope(0.10, 0.20, 1.05), vibrato=(0.15, 5), seed=53), 1_200, 300)
@@ -134,14 +132,14 @@ def bomb():
 
 
 def graze():
-    """Return a bullet that just missed: a glint, high but soft, for many in a row."""
+    """Return the sound of a bullet that just missed: high but soft, so that many in a row are bearable."""
     glint = voice("triangle", 1_760, 2_350, envelope(0.002, 0.008, 0.055))
     air = voice("noise", 260, 420, envelope(0.004, 0.006, 0.035), seed=61)
     return low_pass(mixed((0, 1.0, glint), (0, 0.22, air)), 6_000, 3_000)
 
 
 def warning():
-    """Return the warning of a boss: a horn of two tones, three times; each call is muffled at first, then brightens."""
+    """Return the warning of a boss: a horn of two tones, three times. Each call starts muffled and brightens."""
     call = voice("pulse", 220, 220, envelope(0.02, 0.22, 0.14), duty=(0.5, 0.25), steps=((0.17, 1.4142),))
     low = voice("saw", 110, 110, envelope(0.02, 0.22, 0.14), steps=((0.17, 1.4142),))
     horn = low_pass(mixed((0, 0.8, call), (0, 0.6, low)), 900, 3_200)
@@ -169,7 +167,7 @@ def checkpoint():
 
 
 def secret():
-    """Return the sound of a secret: six quick notes up a whole-tone stair, like a lid that opens, with an echo."""
+    """Return the sound of a found secret: six quick rising notes in whole tones, with an echo."""
     steps = tuple((0.06 * i, 1.122462) for i in range(1, 6))
     lead = voice("triangle", 587, 587, envelope(0.002, 0.34, 0.24), steps=steps)
     glint = voice("pulse", 1_174, 1_174, envelope(0.002, 0.34, 0.16), duty=(0.25, 0.25), steps=steps)
@@ -178,7 +176,7 @@ def secret():
 
 
 def crate():
-    """Return wood that knocks on wood or stone: a hollow double tone with a dry tick."""
+    """Return the sound of a crate that knocks on wood or stone: a hollow double tone with a dry tick."""
     knock = voice("sine", 240, 175, envelope(0, 0.006, 0.075, 0.4))
     hollow = voice("triangle", 610, 520, envelope(0, 0.003, 0.035))
     tick = low_pass(voice("noise", 110, 40, envelope(0, 0.004, 0.03), seed=81), 3_500, 1_200)
@@ -193,13 +191,13 @@ def ladder():
 
 
 def back():
-    """Return the menu's no: the yes reversed, softer."""
+    """Return the sound of a step back in the menu: `confirm` reversed, and softer."""
     body = voice("pulse", 523, 523, envelope(0.001, 0.06, 0.13), duty=(0.25, 0.25), steps=((0.06, 0.6674),))
     return low_pass(body, 4_200, 2_200)
 
 
 def chain_break():
-    """Return the end of the score chain: a soft sigh down a minor third."""
+    """Return the sound of the end of a score chain: two soft notes down a minor third."""
     body = voice("triangle", 494, 494, envelope(0.006, 0.09, 0.20), steps=((0.09, 0.8409),))
     air = voice("sine", 247, 200, envelope(0.006, 0.08, 0.18))
     return low_pass(mixed((0, 0.9, body), (0, 0.5, air)), 3_000, 1_500)
@@ -255,5 +253,5 @@ PRODUCTS = {f"sounds/{name}": (__name__, "sound_files", (name,)) for name in SOU
 
 
 def sound_files(name):
-    """Return {relative path: bytes} of one sound."""
+    """Return {relative path: bytes} of one sound. name: of its function."""
     return {f"sounds/{name}.wav": to_wav(finish(SOUNDS[name]()))}

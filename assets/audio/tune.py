@@ -1,4 +1,4 @@
-"""A tune in memory: instruments, notes, and the chord and key at each step of a sixteenth."""
+"""A tune in memory: instruments, notes, and the chord and key at each step (a sixteenth note)."""
 
 from dataclasses import dataclass, field
 
@@ -10,7 +10,7 @@ LOUDER, SOFTER = 1.25, 0.6
 
 @dataclass(frozen=True)
 class Instrument:
-    """The sound of a voice. Times in s."""
+    """The sound of a voice. Times are in seconds."""
 
     wave: str = "pulse50"
     volume: float = 0.5  # 0..1
@@ -46,7 +46,11 @@ RANGES: dict[str, tuple[float, float]] = {
 
 @dataclass(frozen=True)
 class Note:
-    """One note, from step `start` on for `steps` steps: its pitches (several: a rapid arpeggio), or drums."""
+    """One note, from step `start` on for `steps` steps.
+
+    pitches: its MIDI pitches, of which several make a rapid arpeggio; drums: letters of the drums in its place; marks:
+    see notation.py; line: line number in the file.
+    """
 
     start: int
     steps: int
@@ -58,13 +62,15 @@ class Note:
 
     @property
     def volume(self):
-        """Volume of the instrument, with the note's marks."""
+        """Volume of the instrument, changed by the note's marks for louder and softer."""
         return self.instrument.volume * (LOUDER if "!" in self.marks else 1) * (SOFTER if "?" in self.marks else 1)
 
     @property
     def place(self):
-        """Position, -1 left .. 1 right. The pitch that is an octave above the instrument's `floor` is at the
-        instrument's `pan`.
+        """Position in the stereo field, -1 left .. 1 right.
+
+        The pitch an octave above the instrument's `floor` is at its `pan`; higher pitches are farther right, lower ones
+        farther left, by its `spread`.
         """
         octaves = (self.pitches[0] - self.instrument.floor) / 12 - 1
         return self.instrument.pan + self.instrument.spread * max(-1.0, min(1.0, octaves))
@@ -72,7 +78,7 @@ class Note:
 
 @dataclass
 class Tune:
-    """A whole tune, step by step. `parts`: (name of the section, first step, steps) in order."""
+    """A whole tune, step by step. parts: [(name of the section, first step, number of steps)], in order."""
 
     name: str = ""
     tempo: float = 0.0
@@ -88,11 +94,11 @@ class Tune:
 
     @property
     def steps(self):
-        """Length in steps."""
+        """Length of the tune in steps."""
         return len(self.chords)
 
     def seconds(self, step):
-        """Return the start of a step [s], with the swing."""
+        """Return the time at which a step starts [s], including the swing."""
         beat, part = divmod(step, STEPS_PER_BEAT)
         part /= STEPS_PER_BEAT
         part = part * 2 * self.swing if part < 0.5 else self.swing + (part - 0.5) * 2 * (1 - self.swing)

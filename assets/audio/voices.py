@@ -1,6 +1,6 @@
 """The instruments of the tunes, at four times the rate of the file: pulses, triangles and drums.
 
-Edges are averaged over one sample, and the sum is filtered before every fourth sample is kept; both prevent aliases.
+Edges are averaged over one sample, and the sum is filtered before every fourth sample is kept. Both prevent aliasing.
 Only elementwise arithmetic and rounded tables are used, as in synth.py: the bytes are the same on every machine.
 """
 
@@ -36,11 +36,10 @@ def falling(seconds, constant):
 
 
 def tone(instrument, pitches, seconds, slide_from=None, vibrato=None):
-    """Return samples at the rate FINE of one note of `seconds`, followed by its release. pitches: MIDI numbers;
-    several: an arpeggio.
+    """Return the samples of one note at the rate FINE, followed by its release.
 
-    slide_from: MIDI pitch from which the note slides to its own, or None. vibrato: depth [cents]; None: the
-    instrument's.
+    pitches: MIDI numbers, several for an arpeggio; seconds: length without the release; slide_from: MIDI pitch from
+    which the note slides to its own, or None; vibrato: depth [cents], None: the instrument's.
     """
     count = int((seconds + instrument.release) * FINE)
     time = np.arange(count) / FINE
@@ -79,11 +78,10 @@ def _oscillate(wave, phase, time):
 
 
 def low_pass(samples, corner, rate=FINE, around=False):
-    """Return samples after a one-pole low-pass with its corner at `corner` [Hz], exact to a millionth. It filters along
-    the last axis.
+    """Return samples after a one-pole low-pass filter along the last axis, exact to a millionth.
 
-    The filter takes a few whole-array steps: (1 + az)(1 + a^2 z^2)(1 + a^4 z^4) ... rate: samples per second. around:
-    the samples are a loop, whose end precedes its start.
+    corner [Hz]: corner frequency; rate: samples per second; around: whether the samples are a loop, whose end precedes
+    its start. The filter is computed in a few whole-array steps: (1 + az)(1 + a^2 z^2)(1 + a^4 z^4) ...
     """
     share = round(math.exp(-2 * math.pi * corner / rate), 9)
     out, shift = samples * (1 - share), 1
@@ -115,7 +113,10 @@ def decimated(samples):
 
 
 def drum(name, seed=0):
-    """Return samples at FINE of a kick, snare, hat, open hat, tom or crash; each seed gives another stroke."""
+    """Return the samples of a drum at the rate FINE. Each seed gives another stroke.
+
+    name: k, s, h, o, t or c for kick, snare, hat, open hat, tom or crash.
+    """
     return {"k": _kick, "s": _snare, "h": _hat, "o": _open_hat, "t": _tom, "c": _crash}[name](seed)
 
 
@@ -124,7 +125,10 @@ def _time(seconds):
 
 
 def _noise(seed, time, rate):
-    """Return random levels at the times `time` [s], each held for 1 / rate [s]: the rate is the noise's pitch."""
+    """Return random levels at the times `time` [s].
+
+    Each level is held for 1 / rate [s], which sets the noise's pitch.
+    """
     place = (time * rate).astype(np.int64)
     return np.random.default_rng(seed).random(int(place[-1]) + 1)[place] * 2 - 1
 
@@ -137,8 +141,9 @@ def _faded(samples):
 
 
 def _drop(time, start, end, constant):
-    """Return a sine at the times `time` [s] whose frequency falls from `start` to `end` [Hz] with the time constant
-    `constant` [s].
+    """Return a sine at the times `time` [s] whose frequency falls exponentially from `start` to `end` [Hz].
+
+    constant [s]: time constant of the fall.
     """
     return sine(np.cumsum(end + (start - end) * falling(time, constant)) / FINE)
 

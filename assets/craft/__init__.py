@@ -1,1 +1,1 @@
-"""Tools of art and sound: colours, fields and shading, sheets, drawings as text, PNG, a synthesiser."""
+"""Tools to make art and sound: colours, shading, sprite sheets, drawings as text, PNG and Ogg files, a synthesiser."""

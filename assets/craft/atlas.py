@@ -1,6 +1,6 @@
-"""Sprite sheets: many frames in one picture, and a JSON file with their places.
+"""Sprite sheets: many frames in one picture, and a JSON file that says where each frame is.
 
-The JSON: {"frames": {name: {"x", "y", "w", "h"}}, "animations": {name: {"frames": [names], "fps": n}}}, pixels.
+The JSON: {"frames": {name: {"x", "y", "w", "h"}}, "animations": {name: {"frames": [names], "fps": n}}}, in pixels.
 """
 
 import json
@@ -14,7 +14,7 @@ WIDTH = 256  # [px] sheets are this wide unless a frame is wider
 
 
 class Sheet:
-    """Frames in the order they were added, and named animations over them."""
+    """A sprite sheet: frames in the order in which they were added, and named animations made of them."""
 
     def __init__(self, name, gap=GAP):
         self.name = name
@@ -29,7 +29,7 @@ class Sheet:
         self.frames[name] = pixels
 
     def animate(self, name, frames, fps):
-        """Name a sequence. frames: names of added frames; fps: frames per second.
+        """Add an animation. frames: names of frames that were added before; fps: frames per second.
 
         Raises ValueError for an unknown frame.
         """
@@ -39,9 +39,9 @@ class Sheet:
         self.animations[name] = {"frames": list(frames), "fps": fps}
 
     def add_sequence(self, name, pictures, fps):
-        """Add the pictures as frames name_0, name_1, ...
+        """Add pictures as frames name_0, name_1, ..., and the animation `name` that shows them.
 
-        and the animation `name` over them, at `fps` frames per second.
+        pictures: (h, w, 4) uint8 each; fps: frames per second.
         """
         names = [f"{name}_{i}" for i in range(len(pictures))]
         for frame, picture in zip(names, pictures, strict=True):
@@ -66,8 +66,9 @@ class Sheet:
 
 
 def _shelves(frames, gap):
-    """Place frames left to right on shelves, tallest first, with `gap` px between them. Return ({name: (x, y)}, (width,
-    height)).
+    """Place frames from left to right on shelves, tallest first. Return ({name: (x, y)}, (width, height)) [px].
+
+    gap [px]: clear pixels between frames.
     """
     width = max([WIDTH] + [frame.shape[1] + 2 * gap for frame in frames.values()])
     order = sorted(frames, key=lambda name: -frames[name].shape[0])  # stable: equal heights keep their order
@@ -83,7 +84,7 @@ def _shelves(frames, gap):
 
 
 def to_json(table):
-    """Return a dict as JSON bytes with one entry per line at depth two: small, and with readable diffs."""
+    """Return a dict as JSON bytes, with one entry per line at depth two: small, and with readable diffs."""
     lines = []
     for key, value in table.items():
         if isinstance(value, dict) and value:

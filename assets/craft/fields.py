@@ -1,7 +1,8 @@
 """Signed distance fields of simple shapes, and noise for the texture of surfaces.
 
-A field is an array (h, w) of pixels: negative inside, sampled at pixel centres. Only +, -, *, / and sqrt are used,
-which round the same on every machine, so a picture is reproduced to the bit.
+A field is an array (h, w) with the distance [px] of each pixel's centre from the edge of a shape; it is negative
+inside. The functions take x, y: the pixel centres (see grid). Only +, -, *, / and sqrt are used, which round the same
+on every machine, so a picture is reproduced to the bit.
 """
 
 import numpy as np
@@ -10,35 +11,36 @@ BAYER = np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]])
 
 
 def grid(width, height):
-    """Return (x, y) of all pixel centres, each (height, width)."""
+    """Return (x, y) of all pixel centres, (height, width) each."""
     y, x = np.mgrid[0:height, 0:width]
     return x + 0.5, y + 0.5
 
 
 def length(x, y):
-    """Return the Euclidean length of (x, y) by exactly rounded steps, since hypot differs between C libraries."""
+    """Return the Euclidean length of (x, y). It is rounded equally everywhere; hypot differs between C libraries."""
     return np.sqrt(x * x + y * y)
 
 
 def dither(height, width):
-    """Return the Bayer matrix tiled to (height, width), centred on 0."""
+    """Return the Bayer matrix for ordered dithering, repeated to (height, width), with values centred on 0."""
     return np.tile(BAYER, (height // 4 + 1, width // 4 + 1))[:height, :width] - 15 / 32
 
 
 def circle(x, y, center_x, center_y, radius):
-    """Return the field of a disc around (center_x, center_y)."""
+    """Return the distance field of a disc around (center_x, center_y)."""
     return length(x - center_x, y - center_y) - radius
 
 
 def ellipse(x, y, center_x, center_y, radius_x, radius_y):
-    """Return the field of an ellipse around (center_x, center_y); exact on its edge, accurate enough elsewhere for
-    shading.
+    """Return the distance field of an ellipse around (center_x, center_y).
+
+    It is exact on the edge of the ellipse, and accurate enough for shading elsewhere.
     """
     return (length((x - center_x) / radius_x, (y - center_y) / radius_y) - 1) * min(radius_x, radius_y)
 
 
 def capsule(x, y, start, end, start_radius, end_radius=None):
-    """Return the field of a thick line from start to end whose radius changes along it."""
+    """Return the distance field of a thick line from start to end. Its radius changes along the line."""
     end_radius = start_radius if end_radius is None else end_radius
     along_x, along_y = end[0] - start[0], end[1] - start[1]
     t = np.clip(((x - start[0]) * along_x + (y - start[1]) * along_y) / (along_x**2 + along_y**2), 0, 1)
@@ -47,14 +49,14 @@ def capsule(x, y, start, end, start_radius, end_radius=None):
 
 
 def box(x, y, left, top, right, bottom, corner=0.0):
-    """Return the field of the box from (left, top) to (right, bottom), with corners rounded by the radius `corner`."""
+    """Return the distance field of the box from (left, top) to (right, bottom). corner: radius of its corners."""
     dx = np.abs(x - (left + right) / 2) - (right - left) / 2 + corner
     dy = np.abs(y - (top + bottom) / 2) - (bottom - top) / 2 + corner
     return length(np.maximum(dx, 0), np.maximum(dy, 0)) + np.minimum(np.maximum(dx, dy), 0) - corner
 
 
 def polygon(x, y, points):
-    """Return the field of any simple polygon with corners `points` (crossing rule for the sign)."""
+    """Return the distance field of a simple polygon with the corners `points`. The crossing rule decides the sign."""
     nearest = np.full(x.shape, 1e9)
     inside = np.zeros(x.shape, bool)
     for i, (ax, ay) in enumerate(points):
@@ -69,7 +71,10 @@ def polygon(x, y, points):
 
 
 def noise(width, height, cells_x, cells_y, seed):
-    """Return smooth value noise 0..1, (height, width), seamless in both directions, from cells_x x cells_y cells."""
+    """Return smooth value noise 0..1, (height, width), seamless in x and y.
+
+    cells_x, cells_y: number of random values along x and y, between which the noise is interpolated.
+    """
     lattice = np.random.default_rng(seed).random((cells_y, cells_x))
     x, y = grid(width, height)
     x, y = x * cells_x / width, y * cells_y / height
@@ -84,9 +89,10 @@ def noise(width, height, cells_x, cells_y, seed):
 
 
 def layered_noise(width, height, cells_x, cells_y, octaves, seed, gain=0.5):
-    """Return the sum of octaves of seamless noise, scaled to 0..1. The first octave has cells_x x cells_y cells.
+    """Return a sum of several layers (octaves) of seamless noise, scaled to 0..1.
 
-    Each further octave is twice as fine and `gain` times as strong as the octave before.
+    The first has cells_x x cells_y cells. Each further octave is twice as fine and `gain` times as strong as the one
+    before.
     """
     total, weight, strength = np.zeros((height, width)), 0.0, 1.0
     for octave in range(octaves):

@@ -1,8 +1,8 @@
 """Ogg Vorbis files of int16 samples, (frames, channels): writing, reading, and comparison with the samples.
 
-The encoder comes with soundfile, of the extra "assets"; the game reads such files without it. Vorbis is lossy, and no
-two encodings have the same bytes. A file is right if it decodes to the same number of frames and differs from the
-samples by no more than LOSS.
+The encoder is part of soundfile, which the extra "assets" installs; the game reads such files without it. Vorbis is
+lossy, and no two encodings have the same bytes. A file is up to date if it decodes to the same number of frames and
+differs from the samples by no more than LOSS.
 """
 
 import io
@@ -22,7 +22,7 @@ BLOCK = 8192  # frames written at a time: the encoder's stack is too small for a
 
 
 def is_available():
-    """Return whether files can be written and decoded here."""
+    """Return whether soundfile is installed, so that files can be written and decoded."""
     return soundfile is not None
 
 
@@ -33,8 +33,9 @@ def _needed():
 
 
 def encode(samples, rate):
-    """Return the bytes of an Ogg file. samples: (frames, channels) int16; rate: Hz. Raises RuntimeError without the
-    encoder.
+    """Return the bytes of an Ogg file with the given samples, (frames, channels) int16.
+
+    rate: samples per second. Raises RuntimeError if soundfile is not installed.
     """
     buffer = io.BytesIO()
     with _needed().SoundFile(
@@ -46,8 +47,9 @@ def encode(samples, rate):
 
 
 def decode(ogg):
-    """Return (samples as in `encode`, rate) of an Ogg file. Raises ValueError for a damaged file, RuntimeError without
-    the decoder.
+    """Return (samples, rate) of an Ogg file; the samples are (frames, channels) int16.
+
+    Raises ValueError for a damaged file, RuntimeError if soundfile is not installed.
     """
     try:
         return _needed().read(io.BytesIO(ogg), dtype="int16", always_2d=True)
@@ -56,9 +58,9 @@ def decode(ogg):
 
 
 def frame_count(ogg):
-    """Return the number of frames of an Ogg file, from its last page.
+    """Return the number of frames of an Ogg file, read from its last page.
 
-    Raises ValueError for anything but whole pages.
+    Raises ValueError if the bytes are not whole Ogg pages.
     """
     at, frames = 0, 0
     while at < len(ogg):
@@ -73,7 +75,7 @@ def frame_count(ogg):
 
 
 def loss(kept, samples):
-    """Return the root mean square of `kept` - `samples`, divided by that of `samples`; both are int16 of one shape."""
+    """Return the root mean square of `kept` - `samples`, divided by that of `samples`. Both are int16 of one shape."""
     power = float(np.mean(np.square(samples.astype(np.float64))))
     lost = float(np.mean(np.square(kept.astype(np.float64) - samples)))
     return (lost / power) ** 0.5
@@ -81,18 +83,19 @@ def loss(kept, samples):
 
 @dataclass(frozen=True)
 class Recording:
-    """Samples, (frames, channels) int16 at `rate` [Hz], to be stored as an Ogg file."""
+    """Samples, (frames, channels) int16 at `rate` [Hz], that are to be stored as an Ogg file."""
 
     samples: np.ndarray
     rate: int
 
     def encoded(self):
-        """Return the bytes of a file. Raises RuntimeError without the encoder."""
+        """Return the bytes of the Ogg file. Raises RuntimeError if soundfile is not installed."""
         return encode(self.samples, self.rate)
 
     def is_kept_in(self, ogg):
-        """Return whether an Ogg file has these samples. It is decoded if a decoder is available; otherwise only its
-        length is compared.
+        """Return whether an Ogg file contains these samples.
+
+        It is decoded if soundfile is installed; otherwise only its length is compared.
         """
         try:
             if frame_count(ogg) != len(self.samples):

@@ -15,7 +15,7 @@ SHADOW_LEAN, LIGHT_LEAN = 0.45, 0.35  # share of the shift to those hues at the 
 
 
 def oklch(lightness, chroma, hue):
-    """Return a colour, (3,) uint8, for OKLab lightness 0..1, chroma (about 0..0.3) and hue in degrees.
+    """Return a colour, (3,) uint8. lightness: OKLab lightness 0..1; chroma: about 0..0.3; hue in degrees.
 
     Matrices from Ottosson, "A perceptual color space for image processing" (2020). Colours out of gamut are clipped.
     """
@@ -38,7 +38,7 @@ def oklch_all(*values):
 
 
 def _encode(linear):
-    """Return linear light as 0..255 by the sRGB transfer curve."""
+    """Convert a linear light value 0..1 to 0..255 by the sRGB transfer curve."""
     linear = min(1.0, max(0.0, linear))
     if linear <= 0.0031308:
         return round(255 * 12.92 * linear)
@@ -46,8 +46,9 @@ def _encode(linear):
 
 
 def ramp(hue, chroma, low=DARKEST, high=LIGHTEST):
-    """Return (STEPS, 3) uint8 from shadow to light around a base hue in degrees. low, high: lightness of the first and
-    the last colour.
+    """Return a ramp of colours from shadow to light around a base hue, (STEPS, 3) uint8.
+
+    hue in degrees; chroma: see oklch; low, high: lightness of the first and the last colour.
     """
     colours = []
     for i in range(STEPS):
@@ -105,10 +106,10 @@ def mix(first, second, share):
 
 
 def graded(ramp, level):
-    """Return the colour of each pixel, (..., 3), for its level: the first of the ramp for levels from 0 to 1, the
-    second from 1 to 2, and so on.
+    """Return the colour of each pixel, (..., 3), for its level on a ramp.
 
-    Levels outside the ramp have its first or last colour.
+    Levels from 0 to 1 have the first colour of the ramp, levels from 1 to 2 the second, and so on. Levels outside the
+    ramp have its first or last colour.
     """
     # Rounded first: at a whole level, the last bit of a sum must not decide the colour.
     return ramp[np.clip(np.floor(np.round(level, 6)), 0, len(ramp) - 1).astype(int)]

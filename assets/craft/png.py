@@ -1,6 +1,6 @@
-"""PNG files from arrays, written without an imaging library so that the bytes depend on zlib alone.
+"""PNG files from arrays, written without an imaging library, so that their bytes depend on zlib alone.
 
-`payload` gives parts that do not even depend on zlib: two files show the same picture if their headers and their
+`payload` returns data that do not even depend on zlib: two files show the same picture if their headers and their
 inflated rows are equal.
 """
 
@@ -33,7 +33,7 @@ def _chunk(kind, data):
 
 
 def payload(png):
-    """Return (header bytes, inflated row bytes) of a PNG, which do not depend on its compression.
+    """Return (header bytes, inflated row bytes) of a PNG, which do not depend on the way it is compressed.
 
     Raises ValueError if the bytes are not a whole PNG.
     """
@@ -57,7 +57,7 @@ def payload(png):
 
 
 def decode(png):
-    """Return (h, w, channels) uint8 of a PNG written by `encode`. Raises ValueError for any other kind of PNG."""
+    """Return the pixels (h, w, channels) uint8 of a PNG written by `encode`. Raises ValueError for other PNGs."""
     header, rows = payload(png)
     width, height, depth, colour = struct.unpack(">IIBB", header[:10])
     channels = {2: 3, 6: 4}.get(colour)

@@ -1,7 +1,8 @@
 """Sprites built from parts: each part is a distance field, shaded as a soft bulge and coloured by a ramp.
 
-Parts are drawn back to front. Each darkens a thin band around itself on the parts below (contact shadow), then takes
-its ramp colour from the slope of its bulge towards the light; the rim light and the dark outline come last.
+Parts are drawn back to front. Each part first darkens a thin band around itself on the parts below (contact shadow). It
+then takes colours of its ramp, from the slope of its bulge towards the light. The rim light and the dark outline come
+last.
 """
 
 import numpy as np
@@ -15,7 +16,7 @@ SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1))
 
 
 def shifted(solid, dx, dy):
-    """Return the mask `solid` moved by (dx, dy) px, with clear pixels coming in from outside."""
+    """Return the mask `solid` (h, w) bool moved by (dx, dy) px. Pixels that come in from outside are clear."""
     height, width = solid.shape
     out = np.zeros_like(solid)
     out[max(0, dy) : height + min(0, dy), max(0, dx) : width + min(0, dx)] = solid[
@@ -25,7 +26,10 @@ def shifted(solid, dx, dy):
 
 
 class Sprite:
-    """A picture being drawn: rgb (h, w, 3) uint8 and solid (h, w) bool, with pixel centres x and y for fields."""
+    """A picture while it is drawn: rgb (h, w, 3) uint8 and solid (h, w) bool. x, y: pixel centres, for fields.
+
+    The drawing methods return the sprite, so that calls can be chained.
+    """
 
     def __init__(self, width, height):
         self.rgb = np.zeros((height, width, 3), np.uint8)
@@ -33,11 +37,11 @@ class Sprite:
         self.x, self.y = grid(width, height)
 
     def part(self, field, ramp, bulge=4.0, base=0.5, gain=0.42, grain=0.5, shadow=0.55):
-        """Add a lit part.
+        """Add a part that is lit as a soft bulge.
 
-        field: distance in px; ramp: colours from dark to light; bulge: px from the edge to the top of the bulge; base:
-        brightness 0..1 of a flat top; gain: how much the slope changes it; grain: strength of the dither; shadow:
-        brightness left in the contact shadow, 1 for none.
+        field: distance [px]; ramp: colours from dark to light; bulge: distance [px] from the edge to the top of the
+        bulge; base: brightness 0..1 of a flat top; gain: how much the slope changes the brightness; grain: strength of
+        the dither; shadow: brightness that remains in the contact shadow, 1 for none.
         """
         inside = field < 0
         height_map = np.sqrt(np.clip(-field / bulge, 0, 1)) * bulge
@@ -59,7 +63,10 @@ class Sprite:
         return self
 
     def paint(self, field, colour, share=1.0):
-        """Mix a colour by `share` into the solid pixels inside a field: markings, stripes, panel lines."""
+        """Mix a colour into the solid pixels inside a field, for markings, stripes and panel lines.
+
+        share: 0..1, weight of the colour.
+        """
         inside = (field < 0) & self.solid
         self.rgb[inside] = mix(self.rgb[inside], colour, share)
         return self
@@ -71,7 +78,10 @@ class Sprite:
         return self
 
     def stamp(self, rows, x, y, tones):
-        """Set the pixels of a drawing, its top left at (x, y). rows: texts; tones: {letter: colour}, others clear."""
+        """Set the pixels of a drawing with its top left at (x, y).
+
+        rows: texts, a letter for each pixel; tones: {letter: colour}; other letters are clear.
+        """
         for down, row in enumerate(rows):
             for across, letter in enumerate(row):
                 if letter in tones:
@@ -84,13 +94,16 @@ class Sprite:
         return self
 
     def rim(self, colour=RIM, share=0.6):
-        """Mix a colour by `share` into the pixels whose neighbour towards the light, above or on the left, is clear."""
+        """Mix a colour into the pixels whose neighbour above or on the left, towards the light, is clear.
+
+        share: 0..1, weight of the colour.
+        """
         edge = self.solid & ~(shifted(self.solid, 1, 0) & shifted(self.solid, 0, 1))
         self.rgb[edge] = mix(self.rgb[edge], colour, share)
         return self
 
     def outline(self):
-        """Set a dark pixel wherever a clear pixel touches the shape at one of its four sides."""
+        """Add a dark outline: each clear pixel that touches the shape at one of its four sides becomes dark."""
         around = np.zeros_like(self.solid)
         for dx, dy in SIDES:
             around |= shifted(self.solid, dx, dy)
@@ -100,12 +113,12 @@ class Sprite:
         return self
 
     def pixels(self):
-        """Return (h, w, 4) uint8, alpha 0 or 255."""
+        """Return the picture, (h, w, 4) uint8, with alpha 0 or 255."""
         return cut_out(self.rgb, self.solid)
 
 
 def opaque(rgb):
-    """Return the picture `rgb` (h, w, 3) as (h, w, 4) uint8 without clear pixels."""
+    """Return the picture `rgb` (h, w, 3) uint8 with an alpha of 255 everywhere, (h, w, 4) uint8."""
     return np.concatenate([rgb, np.full(rgb.shape[:2] + (1,), 255, np.uint8)], axis=2)
 
 
@@ -117,16 +130,16 @@ def cut_out(rgb, solid):
 
 
 def flashed(pixels):
-    """Return a frame (h, w, 4) as a flat white silhouette, for a hit."""
+    """Return a frame (h, w, 4) as a flat white silhouette, which is shown after a hit."""
     out = pixels.copy()
     out[..., :3][out[..., 3] > 0] = WHITE
     return out
 
 
 def glow(size, ramp, brightest=0.70):
-    """Return a disc of light for additive blending: opaque, black outside, with a dithered falloff.
+    """Return a disc of light, to be drawn by addition: opaque, black outside, with a dithered falloff.
 
-    ramp: name of its colours; brightest: brightness of its middle, 0..1.
+    size [px]: of the square picture; ramp: name of its colours; brightest: brightness of its middle, 0..1.
     """
     x, y = grid(size, size)
     fall = np.clip(1 - length(x - size / 2, y - size / 2) / (size / 2), 0, 1)

@@ -1,7 +1,7 @@
-"""A small synthesiser in the manner of sfxr: one swept oscillator, an envelope, a filter, a finish.
+"""A small synthesiser in the manner of sfxr: an oscillator whose pitch glides, an envelope, a filter, and a finish.
 
-Everything is NumPy at 4x oversampling. Sines come from a rounded table and powers from `math`, so the samples do not
-depend on NumPy's vector instructions: the same script writes the same bytes.
+The oscillator runs at 4 times the sample rate. Sines come from a rounded table and powers from `math`, so the samples
+do not depend on NumPy's vector instructions: the same script writes the same bytes.
 """
 
 import io
@@ -27,19 +27,19 @@ def sine(phase):
 
 
 def triangle(phase):
-    """Return a triangle wave in 15 steps, like the sound chip of an 8-bit console, at a phase in turns."""
+    """Return a triangle wave in 15 steps, like that of an 8-bit console's sound chip. phase: in turns."""
     return np.round((1 - 4 * np.abs(phase % 1.0 - 0.5)) * 7.5) / 7.5
 
 
 def sweep(start, end, count):
-    """Return a pitch that glides exponentially from `start` to `end`, both > 0, in `count` samples."""
+    """Return `count` pitches that glide exponentially from `start` to `end`, both > 0."""
     ratio = end / start
     knots = [start * math.pow(ratio, i / KNOTS) for i in range(KNOTS + 1)]
     return np.interp(np.linspace(0, KNOTS, count), np.arange(KNOTS + 1), np.round(knots, 6))
 
 
 def envelope(attack, sustain, decay, punch=0.0, curve=2.0):
-    """Return an envelope, values at RATE: it rises for `attack`, holds for `sustain` and decays for `decay` seconds.
+    """Return an envelope at RATE: it rises for `attack`, holds for `sustain` and decays for `decay` seconds.
 
     punch: the hold starts this much above 1 and falls back to 1. curve: power of the decay, 1 for a straight line.
     """
@@ -50,11 +50,11 @@ def envelope(attack, sustain, decay, punch=0.0, curve=2.0):
 
 
 def voice(kind, start, end, shape, duty=(0.5, 0.5), vibrato=(0.0, 0.0), steps=(), seed=0):
-    """Return one note of sound at RATE.
+    """Return the samples of one note at RATE.
 
     kind: pulse, saw, triangle, sine or noise; start, end: pitch in Hz; shape: an envelope; duty: duty cycle of a pulse
-    at the start and at the end; vibrato: (depth as a share of the pitch, Hz); steps: ((seconds, factor), ...) jumps of
-    the pitch.
+    at the start and at the end; vibrato: (depth as a share of the pitch, Hz); steps: ((seconds, factor), ...), times at
+    which the pitch jumps by a factor; seed: of the noise.
     """
     count = len(shape) * OVERSAMPLING
     time = np.arange(count) / (RATE * OVERSAMPLING)
@@ -85,7 +85,7 @@ def _oscillate(kind, phase, duty, seed):
 
 
 def low_pass(samples, start, end):
-    """Return samples after a one-pole low-pass whose corner glides from start to end in Hz."""
+    """Return samples after a one-pole low-pass filter whose corner frequency glides from start to end [Hz]."""
     corners = sweep(start, end, KNOTS + 1)
     shares = [1 - math.exp(-2 * math.pi * hertz / RATE) for hertz in corners]
     share = np.interp(np.linspace(0, KNOTS, len(samples)), np.arange(KNOTS + 1), np.round(shares, 9))
@@ -97,7 +97,7 @@ def low_pass(samples, start, end):
 
 
 def remove_dc(samples, corner=30.0):
-    """Return samples after a one-pole high-pass, which removes the DC of a one-sided pulse. corner in Hz."""
+    """Return samples after a one-pole high-pass filter, which removes their constant part. corner [Hz]."""
     share = round(1 - math.exp(-2 * math.pi * corner / RATE), 9)
     out, level = np.empty_like(samples), 0.0
     for i, value in enumerate(samples.tolist()):
@@ -107,7 +107,7 @@ def remove_dc(samples, corner=30.0):
 
 
 def mixed(*layers):
-    """Return the sum of (start in seconds, gain, samples) layers."""
+    """Return the sum of several layers, each given as (start in seconds, gain, samples)."""
     length = max(int(at * RATE) + len(samples) for at, _, samples in layers)
     total = np.zeros(length)
     for at, gain, samples in layers:
@@ -117,13 +117,13 @@ def mixed(*layers):
 
 
 def soft_clip(samples, drive):
-    """Return samples limited by x / (1 + |x|), with the input multiplied by `drive`."""
+    """Return samples multiplied by `drive` and then limited by x / (1 + |x|)."""
     pushed = samples * drive
     return pushed / (1 + np.abs(pushed))
 
 
 def finish(samples):
-    """Return int16 samples: no DC, faded ends, peak at -3 dB."""
+    """Return finished int16 samples: without a constant part, with faded ends, peak at -3 dB."""
     samples = remove_dc(samples)
     fade = np.linspace(0, 1, int(FADE * RATE))
     samples[: len(fade)] *= fade

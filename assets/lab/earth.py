@@ -1,4 +1,4 @@
-"""The ground of lab/carving: hills, a bridge, a rock on a thin neck, an overhang; and the wall behind them."""
+"""The ground of lab/carving: hills, a bridge, a rock on a thin neck, an overhang. Also the wall behind them."""
 
 import numpy as np
 
@@ -17,7 +17,7 @@ HILLS += ((300, 184), (330, 198), (352, 196), (372, 176), (392, 118), (480, 112)
 
 
 def solid():
-    """Return the solid pixels of earth, bool (240, 480)."""
+    """Return which pixels are earth, bool (240, 480)."""
     x, y = grid(*SIZE)
     field = polygon(x, y, HILLS)
     bridge = np.minimum(box(x, y, 112, 136, 232, 149, 3.0), box(x, y, 222, 136, 238, 204, 2.0))
@@ -50,7 +50,7 @@ def depth_of(earth):
 
 
 def painted():
-    """Return (the earth, the wall behind), (h, w, 4) uint8 each."""
+    """Return the pictures (the earth, the wall behind it), (h, w, 4) uint8 each."""
     earth = solid()
     height, width = earth.shape
     edge, facing = (np.tile(each, (1, 2))[:height, :width] for each in boulders(SEED, 190))
@@ -70,7 +70,7 @@ def painted():
 
 
 def _grow_turf(rgb, earth):
-    """Draw grass on the earth (h, w) bool under open sky, with blades of several lengths, into the picture `rgb`."""
+    """Draw grass on earth under open sky into the picture `rgb`, with blades of several lengths. earth (h, w) bool."""
     height, width = earth.shape
     open_above = np.logical_and.accumulate(~earth, axis=0)
     top = np.argmax(~open_above, axis=0)

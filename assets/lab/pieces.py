@@ -1,4 +1,4 @@
-"""The sheet "lab": pictures of the lab's bodies: crates, blocks, balls, dominoes, and the billiard table.
+"""The sheet "lab": pictures of the bodies in the lab: crates, blocks, balls, dominoes, and the billiard table.
 
 A piece fills its picture to the last pixel, outline included, so that picture and collision shape have the same size.
 """
@@ -18,7 +18,7 @@ POCKET = 9.0  # [px] radius of a hole
 
 
 def crate(size, look):
-    """Return a wooden crate of size x size px. look: 0 braced, 1 planked, 2 dark with a cross."""
+    """Return a wooden crate, size x size px. look: 0 with braces, 1 with planks, 2 dark with a cross."""
     sprite = Sprite(size, size)
     x, y, edge = sprite.x, sprite.y, max(2, size // 7)
     wood = RAMPS["wood"] if look < 2 else RAMPS["dirt"]
@@ -62,7 +62,7 @@ def disc(radius, ramp):
 
 
 def pill(length, radius, ramp):
-    """Return a capsule lying along x: `length` between the centres of its ends. ramp: name of its colours."""
+    """Return a capsule lying along x. length [px]: between the centres of its ends; ramp: name of its colours."""
     sprite = Sprite(length + 2 * radius, 2 * radius)
     x, y, end = sprite.x, sprite.y, length + radius
     sprite.part(
@@ -78,15 +78,19 @@ def pill(length, radius, ramp):
 
 
 def gem(points, size, ramp):
-    """Return a convex piece with the corners `points` [px], in a picture of size x size. ramp: name of its colours."""
+    """Return a convex piece with the corners `points` [px], in a picture of size x size px.
+
+    ramp: name of its colours.
+    """
     sprite = Sprite(size, size)
     sprite.part(polygon(sprite.x, sprite.y, points) + 0.8, RAMPS[ramp], bulge=3, base=0.5, gain=0.35, grain=0.3)
     return sprite.outline().pixels()
 
 
 def corners(count, size, start):
-    """Return the corners of a regular polygon with `count` corners that fills size x size; start: angle of the first
-    one in degrees.
+    """Return the corners of a regular polygon with `count` corners that fills size x size px.
+
+    start: angle of the first corner in degrees.
     """
     angles = [math.radians(start + i * 360 / count) for i in range(count)]
     # Rounded, as in synth.py: the last bits of sines differ between machines.
@@ -133,8 +137,9 @@ def billiard_ball(number):
 
 
 def domino(width, height, pips):
-    """Return an ivory domino standing upright, with a line across its middle. pips: number of pips in the upper and the
-    lower half.
+    """Return an ivory domino standing upright, with a line across its middle.
+
+    pips: number of pips in the upper and in the lower half.
     """
     sprite = Sprite(width, height)
     x, y = sprite.x, sprite.y
@@ -160,7 +165,7 @@ def card(length, thickness, ramp):
 
 
 def floor(width, height):
-    """Return a polished table top seen from the side: boards with grain, a lit edge."""
+    """Return a polished table top seen from the side, width x height px: boards with grain and a lit edge."""
     sprite = Sprite(width, height)
     x, y, wood = sprite.x, sprite.y, RAMPS["wood"]
     sprite.flat(box(x, y, 0, 0, width, height), wood[1])
@@ -175,7 +180,7 @@ def floor(width, height):
 
 
 def table():
-    """Return the billiard table from above: wooden frame, cushions, cloth, six holes."""
+    """Return the billiard table from above: wooden frame, cushions, cloth, six pockets."""
     width, height = TABLE
     sprite = Sprite(width, height)
     x, y = sprite.x, sprite.y
@@ -227,7 +232,7 @@ def shot():
 
 
 def bracket(ramp):
-    """Return an L of iron: concave, so that its hull contains air. ramp: name of its colours."""
+    """Return an L of iron. It is concave, so its convex hull contains empty space. ramp: name of its colours."""
     sprite = Sprite(32, 24)
     x, y = sprite.x, sprite.y
     corner = polygon(x, y, ((1, 1), (10, 1), (10, 14), (31, 14), (31, 23), (1, 23)))
@@ -251,7 +256,7 @@ def star(ramp):
 
 
 def tray():
-    """Return a stone floor with a low rim at both ends, for rolling bodies."""
+    """Return a stone floor with a low rim at both ends, on which bodies roll."""
     sprite = Sprite(94, 24)
     x, y = sprite.x, sprite.y
     stone = RAMPS["stone"]

@@ -1,1 +1,1 @@
-"""The lander's moon: its ground, its stations and loose things, the sky behind it."""
+"""Pictures of the lander's moon: its ground, its stations and loose things, the sky behind it."""

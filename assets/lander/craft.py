@@ -1,4 +1,4 @@
-"""The lander and its parts in flight: hull, legs, window, flame, shell, hook; also its small pictures for the HUD."""
+"""The lander and its parts: hull, legs, flame, shell, hook. Also small pictures for the display of the game (HUD)."""
 
 from assets.craft.fields import box, capsule, circle, ellipse, polygon
 from assets.craft.palette import OUTLINE, RAMPS, WHITE, mix
@@ -10,7 +10,7 @@ FLAME = (12, 22)  # [px]
 
 
 def ship():
-    """Return the lander, (32, 30, 4) uint8: a round cabin on a tank, an engine bell under it, two broad-footed legs."""
+    """Return the lander, (32, 30, 4) uint8: a round cabin on a tank, an engine bell, two legs with broad feet."""
     sprite = Sprite(WIDTH, HEIGHT)
     for side in (-1, 1):
         _leg(sprite, side)
@@ -68,7 +68,7 @@ def _cabin(sprite):
 
 
 def flame(frame):
-    """Return the engine's fire, frame 0..3, from its root down; drawn under the bell."""
+    """Return the flame of the engine, which is drawn under the bell. frame: 0..3."""
     width, height = FLAME
     sprite = Sprite(width, height)
     x, y, middle = sprite.x, sprite.y, width / 2
@@ -81,7 +81,7 @@ def flame(frame):
 
 
 def shell(frame):
-    """Return a blasting shell, frame 0..1: a hot ball with a dark rim, clearly visible before rock and ice."""
+    """Return a shell that the ship fires: a hot ball with a dark rim, visible before rock and ice. frame: 0..1."""
     sprite = Sprite(7, 7)
     sprite.flat(circle(sprite.x, sprite.y, 3.5, 3.5, 2.5), RAMPS["gold"][4 - frame])
     sprite.flat(circle(sprite.x, sprite.y, 3.5, 3.5, 1.3), WHITE)
@@ -89,7 +89,7 @@ def shell(frame):
 
 
 def hook():
-    """Return the claw at the end of the line."""
+    """Return the claw at the end of the ship's line."""
     rows = ("..d..", ".dsd.", "dsdsd", "s.d.s", "d...d")
     return Sprite(5, 5).stamp(rows, 0, 0, {"d": OUTLINE, "s": RAMPS["steel"][4]}).pixels()
 
@@ -113,7 +113,7 @@ ICONS = {
 
 
 def icons():
-    """Return {name: pixels} for the HUD."""
+    """Return {name: pixels} of the small pictures for the HUD."""
     tones = {
         "w": WHITE,
         "s": RAMPS["steel"][4],

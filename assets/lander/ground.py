@@ -1,6 +1,4 @@
-"""Picture of the lander's moon: rock in wedged boulders with lit edges, snow under open sky, ice, the wall behind
-holes.
-"""
+"""Picture of the lander's moon: rock made of boulders, snow under open sky, ice, and the wall behind holes."""
 
 import numpy as np
 
@@ -43,8 +41,10 @@ GEMS, CLUSTER = 62, 9  # clusters of crystals, and the extent of each [px]
 
 
 def boulders(seed, count):
-    """Return (edge, facing) for `count` boulders, arrays (CELL, CELL): distance to the nearest crack between boulders
-    [px], and how far the boulder's side faces the light.
+    """Return (edge, facing), (CELL, CELL) each, of a seamless pattern of `count` boulders.
+
+    edge: distance from the nearest crack between boulders [px]; facing: how far the side of the boulder faces the
+    light.
     """
     random = np.random.default_rng(seed)
     middles = random.random((count, 2)) * CELL
@@ -62,13 +62,14 @@ def boulders(seed, count):
 
 
 def tiled(pattern, height, width):
-    """Return a pattern repeated over a picture."""
+    """Return a pattern (CELL, CELL) repeated over (height, width)."""
     return np.tile(pattern, (height // CELL + 1, width // CELL + 1))[:height, :width]
 
 
 def depths(solid):
-    """Return the depth [px] of each solid pixel below its surface, up to DEEPEST. Layers of pixels are removed one
-    after another.
+    """Return the depth [px] of each solid pixel below the surface, up to DEEPEST, and 0 for others.
+
+    Layers of pixels are removed one after another.
     """
     depth, left = np.zeros(solid.shape, np.int16), solid.copy()
     for layer in range(DEEPEST):
@@ -85,8 +86,9 @@ def depths(solid):
 
 
 def facings(solid, reach=4):
-    """Return (towards the light, upwards), each -1..1: how far the ground at each pixel faces there. It is the slope of
-    `solid`, blurred by `reach` px.
+    """Return (towards the light, upwards), -1..1 each: how far the ground at each pixel faces in these directions.
+
+    It is computed from the slope of `solid`, blurred by `reach` px.
     """
     total = np.zeros(solid.shape, np.int32)
     for axis in (1, 0):
@@ -102,7 +104,7 @@ def facings(solid, reach=4):
 
 
 def painted(moon):
-    """Return the picture of the moon's ground, (height, width, 4) uint8."""
+    """Return the picture of the moon's ground, (height, width, 4) uint8. moon: Landscape."""
     solid = moon.solid
     height, width = solid.shape
     depth = depths(solid)
@@ -126,8 +128,9 @@ def painted(moon):
 
 
 def _edges(picture, moon, depth, light):
-    """Draw the outermost pixels of the moon's ground: bright towards the light, dark away from it. depth: depths();
-    light: facings()[0].
+    """Draw the outermost pixels of the moon's ground: bright on the side of the light, dark on the other.
+
+    moon: Landscape; depth: result of depths; light: first result of facings.
     """
     rim = moon.solid & (depth == 1)
     ramp = np.where(moon.ice[..., None], ICE[7], ROCK[6])
@@ -139,7 +142,7 @@ def _edges(picture, moon, depth, light):
 
 
 def _snow(picture, moon, up, light):
-    """Draw snow on all ground under open sky that is not too steep. up, light: results of facings()."""
+    """Draw snow on all ground under open sky that is not too steep. moon: Landscape; up, light: results of facings."""
     height, width = moon.solid.shape
     top = np.argmax(moon.solid, axis=0)  # first solid row of each column
     y = np.mgrid[0:height, 0:width][0]
@@ -156,7 +159,7 @@ def _snow(picture, moon, up, light):
 
 
 def _gems(picture, moon, depth):
-    """Draw crystals in the walls of the moon's caves. depth: result of depths()."""
+    """Draw crystals in the walls of the moon's caves. moon: Landscape; depth: result of depths."""
     random = np.random.default_rng(77)
     cave = moon.massif & ~moon.solid
     near = cave.copy()
@@ -176,7 +179,7 @@ def _gems(picture, moon, depth):
 
 
 def _gem(picture, solid, row, column, size):
-    """Draw one cut stone of `size` [px] around (column, row), lit from the upper left, only where `solid` is True."""
+    """Draw one cut stone around (column, row), lit from the upper left, only where `solid` is True. size [px]."""
     height, width = solid.shape
     for dy in range(-size - 1, size + 2):
         half = size - abs(dy) * size // (size + 1) - (abs(dy) == size + 1)
@@ -187,7 +190,10 @@ def _gem(picture, solid, row, column, size):
 
 
 def wall(moon):
-    """Return the wall behind the moon's removed rock, (height, width, 4) uint8: the same boulders, in the dark."""
+    """Return the wall that shows where rock was removed, (height, width, 4) uint8: the same boulders, darker.
+
+    moon: Landscape.
+    """
     height, width = moon.solid.shape
     edge, boulder = (tiled(pattern, height, width) for pattern in boulders(57, 60))
     rough = layered_noise(width, height, 32, 8, 3, 520) - 0.5
@@ -199,6 +205,6 @@ def wall(moon):
 
 
 def ground_files():
-    """Return {relative path: bytes} of the ground and of the wall behind it."""
+    """Return {relative path: bytes} of the pictures of the ground and of the wall behind it."""
     moon = landscape()
     return {"images/lander_ground.png": png.encode(painted(moon)), "images/lander_wall.png": png.encode(wall(moon))}

@@ -1,6 +1,4 @@
-"""Background of the lander's moon: a polar night with aurora and a ringed planet, and three ranges of ice, seamless in
-x.
-"""
+"""Background of the lander's moon: a polar night with aurora and a ringed planet, and ranges of ice. Seamless in x."""
 
 import numpy as np
 
@@ -49,7 +47,7 @@ STARS = 170
 
 
 def sky():
-    """Return the night, (270, 480, 4) uint8."""
+    """Return the night sky, (270, 480, 4) uint8."""
     x, y = grid(WIDTH, HEIGHT)
     level = y / HEIGHT
     steps = np.clip(np.floor(level * level**0.5 * BANDS + dither(HEIGHT, WIDTH) + 0.5), 0, BANDS - 1).astype(int)
@@ -77,7 +75,7 @@ def _stars(picture):
 
 
 def _aurora(picture):
-    """Draw two curtains of light: bright along the lower hem, with streaks that fade upwards."""
+    """Draw the aurora: two curtains of light, bright along the lower edge, with streaks that fade upwards."""
     y = np.mgrid[0:HEIGHT, 0:WIDTH][0] + 0.5
     grain = np.tile(BAYER, (HEIGHT // 4 + 1, WIDTH // 4 + 1))[:HEIGHT, :WIDTH]
     for hem, sway, tall, seed, strength in ((150, 60, 96, 61, 1.0), (108, 44, 66, 64, 0.7)):
@@ -93,7 +91,7 @@ def _aurora(picture):
 
 
 def _planet(picture, x, y):
-    """Draw the planet: banded, lit from the left, its rings before and behind it."""
+    """Draw the planet: banded, lit from the left, with rings before and behind it. x, y: its middle."""
     dx, dy = x - PLANET[0], y - PLANET[1]
     across, down = dx + LEAN * dy, (dy - LEAN * dx) * FLAT
     ring = length(across, down) / RADIUS
@@ -117,7 +115,7 @@ def _planet(picture, x, y):
 
 
 def heavens_files():
-    """Return {relative path: bytes} of all layers."""
+    """Return {relative path: bytes} of the pictures of all layers."""
     far = oklch_all((0.40, 0.070, 235), (0.455, 0.075, 225), (0.54, 0.078, 210), (0.64, 0.070, 190))
     far_snow = oklch_all((0.52, 0.072, 222), (0.66, 0.060, 200))
     mid = oklch_all((0.275, 0.066, 262), (0.325, 0.072, 254), (0.40, 0.078, 240), (0.50, 0.075, 222))

@@ -1,6 +1,6 @@
 """The shape of the lander's moon: the pixels of rock, of ice that a shell breaks, and of the wall behind holes.
 
-The plan in assets/levels/lander.json has straight lines; noise bends these lines, so that edges look natural.
+The plan in assets/levels/lander.json has straight lines. Noise bends these lines, so that edges look natural.
 """
 
 import json
@@ -24,8 +24,9 @@ ACROSS, DOWN = ((1, 0), (-1, 0)), ((0, 1), (0, -1))
 
 @dataclass
 class Landscape:
-    """The moon, as (height, width) bool arrays. `solid`: rock and ice; `ice`: ice; `massif`: rock before caves were
-    hollowed out.
+    """The moon as (height, width) bool arrays.
+
+    solid: rock and ice; ice: ice alone; massif: rock before caves were hollowed out.
     """
 
     solid: np.ndarray
@@ -39,7 +40,7 @@ def plan():
 
 
 def landscape():
-    """Return the moon before the first landing."""
+    """Return the Landscape of the moon before the first landing."""
     drawn = plan()
     width, height = drawn["size"]
     x, y = grid(width, height)
@@ -73,8 +74,9 @@ def _bend(width, height, seed):
 
 
 def _inside(x, y, points):
-    """Return the pixels (x, y) inside the polygon `points`, by the crossing rule. Each edge is applied only to the rows
-    that it can reach.
+    """Return which pixels are inside the polygon `points`, by the crossing rule. x, y: positions of the pixels.
+
+    Each edge is applied only to the rows that it can reach.
     """
     inside = np.zeros(x.shape, bool)
     for i, (ax, ay) in enumerate(points):
@@ -88,7 +90,10 @@ def _inside(x, y, points):
 
 
 def _near(solid, x, y, points, reach, change):
-    """Call change(solid, x, y) with the part of each array that contains the points and `reach` px around them."""
+    """Call change(solid, x, y) with the part of each array that contains the points and `reach` px around them.
+
+    change: function that changes `solid` in place; x, y: positions of the pixels.
+    """
     reach += MARGIN
     left, right = (max(0, int(f(p[0] for p in points) + s * reach)) for f, s in ((min, -1), (max, 1)))
     top, bottom = (max(0, int(f(p[1] for p in points) + s * reach)) for f, s in ((min, -1), (max, 1)))
@@ -111,7 +116,7 @@ def _filled(points):
 
 
 def _around(pixels, far=1, ways=(*ACROSS, *DOWN)):
-    """Return the given pixels and those at the distance `far` [px] from them in the directions `ways`."""
+    """Return `pixels` and those that are `far` px away from them in one of the directions `ways`."""
     out = pixels.copy()
     for dx, dy in ways:
         out |= shifted(pixels, far * dx, far * dy)
@@ -119,10 +124,10 @@ def _around(pixels, far=1, ways=(*ACROSS, *DOWN)):
 
 
 def _crack(rock, ice):
-    """Return the crack between a mountain over a cave and the ground, where ice joins the two: in the middle of the
-    ice, a pixel wide.
+    """Return the pixels of a crack in the ice, one pixel wide, between a hanging mountain and the ground below.
 
-    So the mountain is a separate piece from the start, and stays in place when all the ice is shot away.
+    A hanging mountain touches the ground only through ice. Because of the crack it is a separate piece from the start,
+    so it stays in place when all the ice is shot away.
     """
     hanging = _hanging(rock)
     open_ice = ice & ~rock
@@ -137,7 +142,7 @@ def _crack(rock, ice):
 
 
 def _hanging(rock):
-    """Return the pixels of rock that are not connected by rock to the lower edge."""
+    """Return the pixels of rock that rock does not connect to the lower edge of the picture."""
     surface = pygame.Surface(rock.T.shape, pygame.SRCALPHA)
     pygame.surfarray.pixels_alpha(surface)[:] = rock.T * np.uint8(255)
     found = np.zeros_like(rock)
@@ -149,8 +154,9 @@ def _hanging(rock):
 
 
 def _level(solid, ice, massif, pad):
-    """Level the ground for a pad's feet, and clear rock and ice from the air over it. If the pad is under open sky,
-    remove that air from `massif`, too.
+    """Make level ground for the feet of a landing pad, and clear rock and ice from the air over it.
+
+    If the pad is under open sky, this air is also removed from `massif`.
     """
     left, right = pad["x"] - pad["width"] // 2 - SHOULDER, pad["x"] + pad["width"] // 2 + SHOULDER
     floor = pad["floor"]

@@ -1,4 +1,4 @@
-"""The sheet "lander": the ship, its shots and flame, and the things on its moon."""
+"""The sheet "lander": the ship, its shots and flame, and the things on the moon."""
 
 from assets.craft.atlas import Sheet
 from assets.craft.shading import glow

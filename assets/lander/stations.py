@@ -1,4 +1,4 @@
-"""Things on the lander's moon: pads and their masts, cargo, loose rocks, cans of fuel."""
+"""Things on the lander's moon: landing pads and their masts, cargo, loose rocks, fuel cans."""
 
 import numpy as np
 
@@ -13,7 +13,7 @@ MAST = (18, 44)  # [px]
 
 
 def pad(width):
-    """Return a landing deck of that width [px]: plates, a lit stripe, hazard marks at its ends, struts."""
+    """Return a landing deck, `width` px wide: plates, a lit stripe, hazard marks at its ends, struts."""
     sprite = Sprite(width, DECK)
     x, y = sprite.x, sprite.y
     for foot in range(STRUT // 2, width, STRUT):
@@ -40,8 +40,9 @@ def pad(width):
 
 
 def mast(lit):
-    """Return a mast beside a pad, with a dish half way up and its lamp on (`lit`) or off. Its foot is at the picture's
-    lower edge.
+    """Return a mast that stands beside a pad, with a dish half way up. lit: whether its lamp is on.
+
+    Its foot is at the lower edge of the picture.
     """
     sprite = Sprite(*MAST)
     x, y = sprite.x, sprite.y
@@ -68,8 +69,9 @@ def mast(lit):
 
 
 def crate():
-    """Return cargo in a steel box with orange corners, 18 x 18 px. It is a full square, so that it slides and tips like
-    a box.
+    """Return cargo in a steel box with orange corners, 18 x 18 px.
+
+    It fills the square, so that it slides and tips like a box.
     """
     sprite = Sprite(18, 18)
     x, y = sprite.x, sprite.y
@@ -87,7 +89,7 @@ def crate():
 
 
 def drum():
-    """Return cargo in a round drum, 18 x 18 px, seen from its end: it rolls."""
+    """Return cargo in a round drum, seen from its end, 18 x 18 px. It rolls."""
     sprite = Sprite(18, 18)
     x, y = sprite.x, sprite.y
     sprite.part(circle(x, y, 9, 9, 8), RAMPS["orange"], bulge=4, base=0.50)
@@ -116,7 +118,7 @@ def rock(seed, size):
 
 
 def can(frame):
-    """Return a can of fuel, frame 0..3: a canister with a moving light."""
+    """Return a can of fuel with a moving light. frame: 0..3."""
     sprite = Sprite(14, 16)
     x, y = sprite.x, sprite.y
     sprite.part(box(x, y, 5, 1, 9, 4, 1), RAMPS["gunmetal"], bulge=2, base=0.5)

@@ -1,8 +1,8 @@
-"""Background of the platformer's level, 480 px wide; scrolling layers are seamless in x.
+"""Background layers of the platformer's level, 480 px wide. Layers that scroll are seamless in x.
 
 mountains_far, mountains_mid, mountains_near and keep_far are drawn along the bottom of the screen. sky_dusk is the
-fixed sky behind them, and clouds a bank for the upper half. Underground, cave_far (opaque) and cave_near fill the
-screen.
+fixed sky behind them. clouds is a bank of clouds for the upper half. Underground, cave_far (opaque) and cave_near fill
+the screen.
 """
 
 from assets.craft import png
@@ -12,6 +12,6 @@ from assets.platformer.skyline import backdrop_layers
 
 
 def backdrop_files():
-    """Return {relative path: bytes} of every layer."""
+    """Return {relative path: bytes} of the pictures of all layers."""
     layers = backdrop_layers() | cave_layers() | {"keep_far": keep()}
     return {f"images/{name}.png": png.encode(pixels) for name, pixels in layers.items()}

@@ -1,4 +1,4 @@
-"""Targets of a bomb: a wall of rough blocks full of cracks, and the bomb itself, with its blast."""
+"""Pictures of a wall of cracked blocks that a bomb can break, and of the bomb."""
 
 from itertools import pairwise
 
@@ -33,7 +33,7 @@ CRACKS = (
 
 
 def wall():
-    """Return the wall, 32 x 64 px, solid all over, with visible cracks that show its weakness."""
+    """Return the wall, 32 x 64 px, opaque. Visible cracks show that it can be broken."""
     sprite = Sprite(*WALL)
     x, y = sprite.x, sprite.y
     sprite.flat(box(x, y, -1, -1, WALL[0] + 1, WALL[1] + 1), RAMPS["stone"][0])
@@ -61,7 +61,7 @@ def wall():
 
 
 def bomb(look):
-    """Return a round bomb, its fuse up, 14 x 16 px; look 0: cold, 1: about to burst."""
+    """Return a round bomb with its fuse up, 14 x 16 px. look: 0 cold, 1 about to burst."""
     sprite = Sprite(14, 16)
     x, y = sprite.x, sprite.y
     sprite.flat(capsule(x, y, (7.4, 5), (8.6, 2.6), 0.8), RAMPS["wood"][3])
@@ -74,7 +74,7 @@ def bomb(look):
 
 
 def stand():
-    """Return the iron ring that a bomb waits in, 16 x 5 px."""
+    """Return the iron ring on which a bomb waits, 16 x 5 px."""
     sprite = Sprite(16, 5)
     x, y = sprite.x, sprite.y
     sprite.part(

@@ -1,4 +1,4 @@
-"""The cave's and the keep's tiles: boulders of the rock, its back wall, dripstone, crystals, and things on walls.
+"""The tiles of the cave and the keep: rock made of boulders, back walls, dripstone, crystals, and things on walls.
 
 Rock is cold (violet in the shade, teal in the light), which distinguishes it from the warm ground above it.
 """
@@ -17,8 +17,10 @@ WALL_DARK = (18, 17, 38)
 
 
 def _cells(seeds):
-    """Return (own, next, slope), each (TILE, TILE): distance of a pixel to the nearest and the second nearest point of
-    `seeds` [px], and how far the pixel faces the light.
+    """Divide a tile into cells around points. Return (own, next, slope), (TILE, TILE) each.
+
+    own, next [px]: distance of a pixel from the nearest and the second nearest of the points `seeds`; slope: how far
+    the pixel faces the light.
     """
     y, x = np.mgrid[0:TILE, 0:TILE] + 0.5
     nearest, second, facing = np.full(x.shape, 99.0), np.full(x.shape, 99.0), np.zeros(x.shape)
@@ -34,8 +36,9 @@ def _cells(seeds):
 
 
 def boulders(variant):
-    """Return the inside of the rock, (16, 16, 3) uint8: wedged boulders. variant: 0..3; the variants share one layout,
-    so they fit together.
+    """Return the inside of the rock, (16, 16, 3) uint8: boulders that fill the tile.
+
+    variant: 0..3; all have the same layout of boulders, so they fit together.
     """
     ramp = RAMPS["rock"]
     nearest, second, facing = _cells(SEEDS)
@@ -61,8 +64,9 @@ def boulders(variant):
 
 
 def clods(ramp, seed):
-    """Return packed earth, (16, 16, 3) uint8: wedged pieces like those of rock, but soft and of little contrast. ramp:
-    array of its colours.
+    """Return packed earth, (16, 16, 3) uint8: clods shaped like boulders, but softer and with little contrast.
+
+    ramp: array of its colours.
     """
     nearest, second, facing = _cells(CLODS)
     grain = noise(TILE, TILE, 8, 8, seed) - 0.5
@@ -82,12 +86,15 @@ def clods(ramp, seed):
 
 
 def back_cave(variant):
-    """Return the dark rough wall behind the cave, variant 0..1, opaque: the same boulders, far back in the dark."""
+    """Return the rough wall behind the cave, (16, 16, 4) uint8, opaque: the boulders of the rock, darkened.
+
+    variant: 0..1.
+    """
     return opaque(mix(boulders(0 if variant == 0 else 2), WALL_DARK, 0.62))
 
 
 def dripstone(hanging):
-    """Return a stalactite, or a stalagmite if `hanging` is False. Its broad end touches the tile's edge."""
+    """Return a stalactite, or a stalagmite if `hanging` is False. Its broad end touches the edge of the tile."""
     sprite = Sprite(TILE, TILE)
     ways = ([(2.6, -2), (7.6, -2), (5.4, 13.6)], [(8.4, -2), (13.4, -2), (11.2, 8.6)])
     for points in ways[::-1]:
@@ -101,7 +108,7 @@ def dripstone(hanging):
 
 
 def crystal(variant):
-    """Return a cluster of glowing crystals on the ground, variant 0..1."""
+    """Return a cluster of glowing crystals on the ground, 16 x 16 px. variant: 0..1."""
     sprite = Sprite(TILE, TILE)
     ramp = RAMPS["teal"]
     spears = (
@@ -138,7 +145,7 @@ def crystal(variant):
 
 
 def glowcap():
-    """Return two glowing mushrooms, 16 x 16."""
+    """Return two glowing mushrooms, 16 x 16 px."""
     sprite = Sprite(TILE, TILE)
     x, y = sprite.x, sprite.y
     for middle, top, radius in ((10.6, 9.4, 3.2), (5.4, 6, 4.2)):
@@ -153,7 +160,7 @@ def glowcap():
 
 
 def banner():
-    """Return a long cloth on the back wall: red with a gold wing, its end cut in two points."""
+    """Return a long cloth on the back wall: red with a gold wing, cut into two points at its lower end."""
     picture = back_wall(0)
     sprite = Sprite(TILE, TILE)
     x, y = sprite.x, sprite.y
@@ -183,7 +190,7 @@ def window():
 
 
 def chain():
-    """Return a hanging chain of iron, repeating downwards, clear around it."""
+    """Return a hanging iron chain, clear around it, that continues when it is repeated downwards."""
     sprite = Sprite(TILE, TILE)
     links = (
         "..ab..",
@@ -201,7 +208,7 @@ def chain():
 
 
 def cave_tiles():
-    """Return {name: (pixels, properties)} of all decoration here, in the order of the tileset."""
+    """Return {name: (pixels, properties)} of the tiles here that do not collide, in the order of the tileset."""
     table = {f"back_cave_{i}": back_cave(i) for i in range(2)}
     table |= {"stalactite": dripstone(True), "stalagmite": dripstone(False)}
     table |= {f"crystal_{i}": crystal(i) for i in range(2)}

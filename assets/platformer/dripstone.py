@@ -1,6 +1,6 @@
-"""The platformer's cave behind the tiles: a far wall with faint veins of crystal, and near pillars of dripstone.
+"""The platformer's cave behind the tiles: a far wall with faint crystals, and near pillars of dripstone.
 
-Both are 480 x 270 and seamless in x. The far wall is opaque; the near layer is clear between its pillars.
+Both are 480 x 270 px and seamless in x. The far wall is opaque; the near layer is clear between its pillars.
 """
 
 import numpy as np
@@ -42,7 +42,7 @@ SPIKES = (
 
 
 def far_wall():
-    """Return the back of the cave, (270, 480, 3) uint8: strata, hollows with blue haze, dim crystals."""
+    """Return the back of the cave, (270, 480, 3) uint8: layers of rock, hollows with blue haze, dim crystals."""
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH] + 0.5
     rough = layered_noise(WIDTH, HEIGHT, 6, 4, 5, 810, 0.55)
     slope_y = np.roll(rough, -2, 0) - np.roll(rough, 2, 0)
@@ -63,7 +63,7 @@ def far_wall():
 
 
 def _cluster(picture, middle_x, middle_y, size):
-    """Draw a few crystals of `size` [px] in a fan around (middle_x, middle_y), with their light on the wall."""
+    """Draw a few crystals in a fan around (middle_x, middle_y), and their light on the wall. size [px]."""
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH] + 0.5
     dx = (x - middle_x + WIDTH / 2) % WIDTH - WIDTH / 2
     dy = y - middle_y
@@ -87,7 +87,10 @@ def _cluster(picture, middle_x, middle_y, size):
 
 
 def near_pillars():
-    """Return dripstone before the far wall, (270, 480, 4) uint8, with a closed ceiling and floor of rock."""
+    """Return pillars of dripstone that stand before the far wall, (270, 480, 4) uint8.
+
+    The ceiling and the floor are closed by rock.
+    """
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH] + 0.5
     wobble = (noise(WIDTH, HEIGHT, 60, 68, 870) - 0.5) * 3.4
     roof = 15 + (layered_noise(WIDTH, 4, 8, 1, 3, 880)[0] - 0.5) * 24

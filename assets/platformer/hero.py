@@ -1,7 +1,7 @@
 """The platformer's hero: parts drawn by hand in drawings/hero.txt, combined into frames.
 
-Every frame is 24 x 24 and faces right; the feet stand on the bottom row, centred on column 12: draw a frame at (box
-centre x - 12, box bottom - 24). The scarf flies behind and does not collide.
+Every frame is 24 x 24 px and faces right. The feet stand on the bottom row, centred on column 12. So a frame is drawn
+at (box centre x - 12, box bottom - 24). The scarf flies behind and does not collide.
 """
 
 import numpy as np
@@ -89,7 +89,7 @@ ANIMATIONS = {
 
 
 def compose(frame, parts):
-    """Return one frame, (24, 24, 4) uint8. parts: as read from the drawing."""
+    """Return one frame, (24, 24, 4) uint8. frame: key of FRAMES; parts: {name: picture}, read from the drawing."""
     body, (head, dx, dy), (scarf, scarf_x, scarf_y) = FRAMES[frame]
     out = np.zeros((SIZE, SIZE, 4), np.uint8)
     lay(out, parts[scarf], scarf_x, scarf_y)

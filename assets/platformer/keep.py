@@ -1,6 +1,6 @@
-"""The platformer's keep in the distance: towers and walls against the dusk, 480 x 150, seamless in x.
+"""The keep (castle) of the platformer in the distance: towers and walls at dusk, 480 x 150 px, seamless in x.
 
-It is drawn like a range of mountains along the bottom of the screen; its light comes from the upper left as everywhere.
+Like the mountains it is drawn along the bottom of the screen. The light comes from the upper left, as everywhere.
 """
 
 import numpy as np
@@ -35,7 +35,7 @@ PARTS = (
 
 
 def keep():
-    """Return the picture, (150, 480, 4) uint8."""
+    """Return the picture of the keep, (150, 480, 4) uint8."""
     out = np.zeros((HEIGHT, WIDTH, 4), np.uint8)
     stone = noise(WIDTH, HEIGHT, 80, 50, 920)
     for left, width, height, kind in PARTS:
@@ -50,10 +50,10 @@ def _put(out, x, y, colour):
 
 
 def _part(out, stone, left, width, height, kind):
-    """Draw a wall or a tower into `out`, from its top down to the picture's edge.
+    """Draw a wall or a tower into `out`, from its top down to the edge of the picture.
 
-    left, width, height [px]; kind: "wall", "spire" for a tower with a roof, anything else for a tower without; stone:
-    noise (HEIGHT, WIDTH).
+    left, width, height [px]; kind: "wall", "tower" with battlements or "spire" with a pointed roof; stone: noise
+    (HEIGHT, WIDTH).
     """
     top = HEIGHT - height
     for column in range(width):
@@ -81,8 +81,9 @@ def _part(out, stone, left, width, height, kind):
 
 
 def _roof(out, left, width, top):
-    """Draw a steep roof into `out`, on a tower whose top is at y = top. It overhangs by two pixels; its left side is
-    lit.
+    """Draw a steep roof into `out`, on a tower whose top is at y = top.
+
+    It overhangs by two pixels, and its left side is lit.
     """
     reach = width + 4
     for i in range(reach + 6):
@@ -98,7 +99,7 @@ def _roof(out, left, width, top):
 
 
 def _fog(out):
-    """Fade the foot of the picture `out` into the valley's haze, dithered."""
+    """Fade the lower part of the picture `out` into the haze of the valley, dithered."""
     y = np.mgrid[0:HEIGHT, 0:WIDTH][0]
     share = (y - HEIGHT * 0.62) / (HEIGHT * 0.38) + dither(HEIGHT, WIDTH) * 0.45
     for limit, strength in ((0.35, 0.3), (0.6, 0.55), (0.85, 0.8)):

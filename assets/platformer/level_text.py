@@ -1,4 +1,4 @@
-"""A level as text, assets/levels/platformer.txt: a letter per tile under [map], and sections below it."""
+"""A level as text, assets/levels/platformer.txt: one letter per tile under [map], and further sections below it."""
 
 from assets.platformer.decoration import TILE
 
@@ -8,7 +8,7 @@ ACTS = ("meadow", "cave", "keep")
 
 
 class Map:
-    """The letters of a level and its sections."""
+    """A level: the letters of its tiles, and its other sections."""
 
     def __init__(self, text, source):
         sections = _sections(text, source)
@@ -36,15 +36,15 @@ class Map:
         }  # open tiles under covers
 
     def at(self, x, y):
-        """Return the letter at a tile. Outside the map it is GROUND, so that the map's edges look like its inside."""
+        """Return the letter of a tile. Outside the map it is GROUND, so that the map's edges look like its inside."""
         return self.rows[y][x] if 0 <= x < self.width and 0 <= y < self.height else GROUND
 
     def buried(self, x, y):
-        """Return the letter at a tile of the level in which all covered rooms are filled."""
+        """Return the letter of a tile as if all covered rooms were filled with ground."""
         return Filled(self, self.rooms).at(x, y)
 
     def places(self, letter):
-        """Return the tiles (x, y) of a letter, column by column from the left, each from top to bottom."""
+        """Return all tiles (x, y) with a letter, column by column from the left, each from top to bottom."""
         return [(x, y) for x in range(self.width) for y in range(self.height) if self.rows[y][x] == letter]
 
 
@@ -63,7 +63,10 @@ def _sections(text, source):
 
 
 def _numbers(line, count, source, rule):
-    """Return `count` whole numbers of a line, as a tuple. Raises ValueError, with the text `rule`, otherwise."""
+    """Return the `count` whole numbers in a line, as a tuple.
+
+    Raises ValueError with the text `rule` if the line has other contents. source: name of the file, for errors.
+    """
     try:
         values = [int(word) for word in line.split()]
     except ValueError:
@@ -82,9 +85,10 @@ def _platform(line, source):
 
 
 def _zone(line, source):
-    """Return (act, rectangle, rows) of a zone, in tiles. rectangle: (x, y, width, height).
+    """Return (act, rectangle, rows) of a zone. rectangle: (x, y, width, height) in tiles.
 
-    rows: (top, bottom) that the camera may show, () if not given. source: name of the file, for errors.
+    act: one of ACTS, the look of the zone; rows: (top, bottom) in tiles that the camera may show, () if not given;
+    source: name of the file, for errors.
     """
     act, _, rest = line.partition(" ")
     if act not in ACTS:
@@ -101,13 +105,13 @@ def _hint(line, source):
 
 
 class Filled:
-    """A level whose covered rooms are filled. A filled tile has the letter of the nearest tile above the room."""
+    """A level whose covered rooms are filled. A filled tile has the letter of the nearest tile above its room."""
 
     def __init__(self, level, rooms):
         self.level, self.rooms = level, rooms
 
     def at(self, x, y):
-        """Return the letter at a tile."""
+        """Return the letter of a tile."""
         while (x, y) in self.rooms:
             y -= 1
         return self.level.at(x, y)

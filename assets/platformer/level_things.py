@@ -1,5 +1,4 @@
-"""The objects of a level, as rows for Tiled's object layers. They come from the letters and sections that are not
-tiles.
+"""The objects of a level, as rows for Tiled's object layers. They are made from letters and sections that are no tiles.
 
 A row is (type, x, y, width, height, properties) in px; (x, y) is the top left corner.
 """
@@ -30,7 +29,11 @@ SPIKES_INSET = (3, 7)  # [px] smaller than drawn: the points' outer pixels do no
 
 
 def objects(level):
-    """Return the rows of the level's things, column by column from the left, each from top to bottom."""
+    """Return the rows of the level's objects.
+
+    Objects on the map come first, column by column from the left, each from top to bottom. Then follow zones and
+    covers.
+    """
     out, signs, platforms = [], iter(level.signs), iter(level.platforms)
     for x in range(level.width):
         for y in range(level.height):
@@ -67,7 +70,7 @@ def objects(level):
 
 
 def hints(level):
-    """Return the rows of the scripted player's path, in its order."""
+    """Return the rows that guide the scripted player (bot) along its path, in order."""
     return [
         ("hint", x * TILE, y * TILE, TILE, TILE, {"order": number, "act": act})
         for number, (x, y, act) in enumerate(level.hints)
@@ -108,7 +111,7 @@ def _pixels(rect):
 def walking_range(level, x, y, most=4):
     """Return how far a walker at a tile may go to either side [px], at most `most` tiles.
 
-    It may go as far as the ground is flat and free; on a platform, to the ends of the deck.
+    It may go as far as the ground is level and free, or on a platform to its ends.
     """
     deck = _deck(level, x, y + 1)
     for step in range(1, most + 1):
@@ -121,7 +124,7 @@ def walking_range(level, x, y, most=4):
 
 
 def _deck(level, x, y):
-    """Return the tile (column, row) of the platform whose deck is at a tile, or None."""
+    """Return the tile (column, row) of the platform whose upper side is at a tile, or None."""
     for (column, row), (_, _, _, width) in zip(level.places("P"), level.platforms, strict=True):
         if row == y and 0 <= x - column < width // TILE:
             return column, row

@@ -1,4 +1,4 @@
-"""Choice of a level's tiles: the letter gives the kind, its neighbours the picture."""
+"""Choice of a level's tiles: the letter determines the material, its neighbours determine the picture."""
 
 from assets.platformer.decoration import SCENERY
 from assets.platformer.level_text import GROUND, SOLIDS, Filled
@@ -36,7 +36,7 @@ GROWTH = (("tuft_0", 30), ("tuft_1", 55), ("flower_0", 62), ("flower_1", 67))  #
 
 
 def tile_name(level, x, y):
-    """Return the name of the colliding tile at (x, y), or None."""
+    """Return the name of the tile at (x, y) if it collides, else None."""
     letter = level.at(x, y)
     if letter in SLOPE_LETTERS:
         return SLOPE_LETTERS[letter]
@@ -49,7 +49,7 @@ def tile_name(level, x, y):
 
 
 def solid_name(level, x, y):
-    """Return the name of the ground, rock or stone tile at (x, y), by its neighbours."""
+    """Return the name of the ground, rock or stone tile at (x, y), which depends on its neighbours."""
     letter = level.at(x, y)
     if level.at(x, y - 1) in SLOPE_LETTERS:
         return f"under_{SLOPE_LETTERS[level.at(x, y - 1)]}"
@@ -67,7 +67,7 @@ def solid_name(level, x, y):
 
 
 def cover_names(level):
-    """Return {(x, y): tile name} of the layer that makes covered rooms and the walls around them look like ground."""
+    """Return {(x, y): tile name} of the layer that hides covered rooms, and the walls around them, as ground."""
     rooms = level.rooms
     if not rooms:
         return {}
@@ -77,8 +77,9 @@ def cover_names(level):
 
 
 def _depth(level, x, y):
-    """Return the number of tiles to the nearest open tile, at most DEEP. A covered room does not count as open, so that
-    the tiles do not reveal it.
+    """Return how many solid tiles lie between a tile and the nearest open one, at most DEEP.
+
+    A covered room does not count as open, so that the tiles do not reveal it.
     """
     for reach in range(1, DEEP + 1):
         ring = [
@@ -97,12 +98,12 @@ def _joins(level, x, y):
 
 
 def _scatter(x, y):
-    """Return a fixed pseudo-random number 0..99 per tile."""
+    """Return a pseudo-random number 0..99 that is always the same for a tile."""
     return (x * 7919 + y * 104729 + x * y * 31 + (x ^ y) * 613) % 9973 % 100
 
 
 def decor_names(level):
-    """Return (decor, walls), each {(x, y): tile name}: the decoration layer, and the layer of the walls behind it."""
+    """Return (decor, walls), {(x, y): tile name} each: the decoration layer, and the layer of walls behind it."""
     out, walls = {}, {}
     for y in range(level.height):
         for x in range(level.width):
@@ -133,8 +134,8 @@ def decor_names(level):
 def _wall_behind(level, x, y):
     """Return the name of the wall behind a tile, or None.
 
-    A letter for a wall names it. Behind a thing, the wall is that of the nearest tile in the row that is no thing;
-    behind a plank, it may also be that of the tile below.
+    The letters in WALLS name a wall. The wall behind a thing is that of the nearest tile in the row that is not a
+    thing. The wall behind a plank may also be that of the tile below.
     """
     if level.at(x, y) in WALLS:
         return WALLS[level.at(x, y)]

@@ -1,4 +1,4 @@
-"""A rope bridge that sags: its boards, whose upper side the hero walks on, and the ropes behind him."""
+"""A rope bridge that sags: its boards, on which the hero walks, and the ropes behind the hero."""
 
 import numpy as np
 
@@ -12,14 +12,18 @@ POST = 3  # [px] width of a post, outlines included
 
 
 def tops():
-    """Return (128,) whole px from the ends' height down to the upper side of the boards: a parabola."""
+    """Return how far the upper side of the boards is below the bridge's ends, in each column: (128,) whole px.
+
+    The values follow a parabola.
+    """
     across = (np.arange(WIDTH) + 0.5) / WIDTH
     return np.floor(4.0 * SAG * across * (1.0 - across) + 0.5).astype(int)
 
 
 def boards():
-    """Return the boards, 128 x 20 px, alpha 255 from the upper side down and 0 above it: their picture is their
-    collision shape.
+    """Return the boards, 128 x 20 px. The picture is also their collision shape: alpha is 0 above the upper side.
+
+    From the upper side down alpha is 255.
     """
     wood = RAMPS["wood"]
     picture = np.zeros((SAG + THICK, WIDTH, 4), np.uint8)
@@ -34,7 +38,7 @@ def boards():
 
 
 def ropes():
-    """Return handrails, hangers and posts, 128 x 30 px; the ends of boards are at 12 px from the top."""
+    """Return handrails, hangers and posts, 128 x 30 px. The boards' ends are 12 px below the top of the picture."""
     wood, rope = RAMPS["wood"], RAMPS["gold"]
     picture = np.zeros((RAIL + SAG + 4, WIDTH, 4), np.uint8)
     levels = tops().tolist()

@@ -1,6 +1,4 @@
-"""Moving and crumbling things of the platformer: crumbling stone and its bits, the belt's three pieces, the hidden
-gem.
-"""
+"""Moving and crumbling things of the platformer: crumbling stone, its fragments, the conveyor belt, the hidden gem."""
 
 from itertools import pairwise
 
@@ -25,8 +23,9 @@ GAPS = ((), ((8, 0, 11, 3),), ((0, 13, 4, 16), (21, 0, 24, 3)), ((14, 12, 18, 16
 
 
 def crumble(look):
-    """Return a crumbling stone slab. look: 0..3, with more cracks and then missing bits; the slab is in one piece in
-    all looks.
+    """Return a crumbling stone slab, 32 x 16 px.
+
+    look: 0..3, with more and more cracks and missing bits. The slab remains in one piece.
     """
     sprite = Sprite(*CRUMBLE)
     x, y = sprite.x, sprite.y
@@ -50,7 +49,7 @@ def crumble(look):
 
 
 def crumble_bit(kind):
-    """Return a fallen bit of the crumbling stone, kind 0..2: 8 x 8 px."""
+    """Return a fragment of the crumbling stone, 8 x 8 px. kind: 0..2."""
     sprite = Sprite(8, 8)
     points = (
         ((1.4, 2), (4.4, 1.2), (6.6, 3.4), (5.6, 6.4), (2.2, 6.4)),
@@ -62,8 +61,9 @@ def crumble_bit(kind):
 
 
 def belt(part, phase):
-    """Return a piece of conveyor belt, 16 x 16 px, its top running right with rising phase. part: left_end, mid,
-    right_end.
+    """Return a piece of conveyor belt, 16 x 16 px. part: left_end, mid or right_end.
+
+    phase: 0..3; the top of the belt moves to the right as it rises.
     """
     sprite = Sprite(16, 16)
     x, y = sprite.x, sprite.y
@@ -91,7 +91,7 @@ def belt(part, phase):
 
 
 def _wheel(sprite, middle, radius, phase):
-    """Draw a wheel of the belt around x = middle, whose spoke rotates with the phase 0..3."""
+    """Draw a wheel of the belt around x = middle. Its spoke rotates with the phase, 0..3."""
     x, y = sprite.x, sprite.y
     sprite.part(circle(x, y, middle, 7, radius), RAMPS["steel"], bulge=2.4, base=0.50, gain=0.5, grain=0)
     turn = ((1.0, 0.0), (0.7, 0.7), (0.0, 1.0), (-0.7, 0.7))[phase]
@@ -106,13 +106,16 @@ def _wheel(sprite, middle, radius, phase):
 
 
 def _open(sprite, column):
-    """Open the side of the belt at `column` towards the next piece: draw the outline only above and below the belt."""
+    """Draw the open side of a belt piece, where the next piece follows: the outline only above and below the belt.
+
+    column: of the picture at this side.
+    """
     for row in (0, 13):
         sprite.dot(column, row, OUTLINE)
 
 
 def gem(frame):
-    """Return a rotating cut stone, frame 0..3: 14 x 14 px; the light stays in place."""
+    """Return a rotating cut stone, 14 x 14 px. frame: 0..3; the highlight stays in place."""
     sprite = Sprite(14, 14)
     x, y, half = sprite.x, sprite.y, GEM_WIDTHS[frame]
     ramp = RAMPS["teal"]

@@ -87,7 +87,7 @@ def sparkle(frame):
 
 
 def dust(frame):
-    """Return a puff at the feet, frame 0..4: 16 x 10 px: two rolling clouds that part, rise and thin."""
+    """Return a puff of dust at the feet, 16 x 10 px: two clouds that part, rise and thin. frame: 0..4."""
     sprite = Sprite(16, 10)
     x, y = sprite.x, sprite.y
     tones = (RAMPS["dirt"][4], RAMPS["dirt"][5], RAMPS["stone"][5])
@@ -103,7 +103,7 @@ def dust(frame):
 
 
 def crate(size):
-    """Return a wooden crate, size x size px, framed and cross-braced."""
+    """Return a wooden crate with a frame and cross braces, size x size px."""
     sprite = Sprite(size, size)
     x, y, edge = sprite.x, sprite.y, max(3, size // 8)
     sprite.part(box(x, y, 1, 1, size - 1, size - 1, 1), RAMPS["wood"], bulge=2, base=0.36, gain=0.2)
@@ -129,7 +129,7 @@ def crate(size):
 
 
 def platform(width):
-    """Return a moving platform of stone slabs on brackets, width x 16 px; its top row is the surface."""
+    """Return a moving platform of stone slabs on brackets, width x 16 px. Its top row is the surface to stand on."""
     sprite = Sprite(width, 16)
     x, y = sprite.x, sprite.y
     sprite.part(box(x, y, 1, 1, width - 1, 9, 2), RAMPS["stone"], bulge=3, base=0.56)
@@ -148,7 +148,7 @@ def platform(width):
 
 
 def checkpoint(lit, frame):
-    """Return a lamp post, 16 x 32 px. lit: whether the lamp glows; frame: 0..1."""
+    """Return a lamp post, 16 x 32 px. lit: whether the lamp glows; frame: 0..1 of its flicker."""
     sprite = Sprite(16, 32)
     x, y = sprite.x, sprite.y
     sprite.part(capsule(x, y, (8, 13), (8, 30), 1.4), RAMPS["wood"], bulge=1.5, base=0.5)
@@ -182,7 +182,7 @@ def goal(frame):
 
 
 def arrow(frame):
-    """Return a bobbing hint arrow pointing down, frame 0..1: 11 x 12 px."""
+    """Return an arrow that points down as a hint and moves up and down, 11 x 12 px. frame: 0..1."""
     sprite = Sprite(11, 12)
     shape = ((4, 1), (7, 1), (7, 5), (9.8, 5), (5.5, 10), (1.2, 5), (4, 5))
     points = [(x, y + frame) for x, y in shape]
@@ -191,7 +191,7 @@ def arrow(frame):
 
 
 def hedgehog(frame):
-    """Return a walker full of spines, frame 0..3, facing left: 20 x 14 px. It cannot be stomped."""
+    """Return a walker covered with spines, facing left, 20 x 14 px. frame: 0..3. It cannot be stomped."""
     sprite = Sprite(20, 14)
     x, y = sprite.x, sprite.y
     for i, foot in enumerate((6.2, 9.4, 13.0, 16.0)):  # near and far feet in turn

@@ -1,9 +1,9 @@
-"""Conversion of assets/levels/platformer.txt, one letter per tile, to a Tiled map (.tmj) with the tileset embedded.
+"""Convert assets/levels/platformer.txt, one letter per tile, to a Tiled map (.tmj) with the tileset embedded.
 
-Layers, back to front: "decor" and "solid" (tiles), "cover" (tiles that hide rooms until the hero is inside), "things"
-and "bot hints" (objects). Objects are rectangles in px, given by their top left corner (x, y). Moving platforms have
-to_x, to_y (that corner at the far end [px]) and period (there and back [s]); belts have speed [px/s]; zones have the
-act that sets their look.
+Layers, back to front: "wall", "decor", "solid" (tiles), "cover" (tiles that hide rooms until the hero is inside), then
+"things" and "bot hints" (objects). Objects are rectangles in px, given by their top left corner (x, y). Moving
+platforms have to_x, to_y, that corner at the far end [px], and period, the time there and back [s]. Belts have speed
+[px/s]. Zones have the act that sets their look.
 """
 
 import itertools
@@ -25,7 +25,10 @@ def _properties(values):
 
 
 def tileset(table):
-    """Return the embedded tileset of a tile_table(): the place of each tile in images/tiles.png, and its kind."""
+    """Return the tileset to embed in the map: for each tile its place in images/tiles.png and its kind.
+
+    table: result of tile_table().
+    """
     columns = SHEET_WIDTH // TILE
     rows = -(-len(table) // columns)
     return {
@@ -71,7 +74,10 @@ def tiled_map(level):
 
 
 def _tile_layers(level, table):
-    """Return the layers of tiles, back to front. table: all tiles in the order of the tileset, from 1; 0 is no tile."""
+    """Return the tile layers, back to front, as Tiled's JSON structure.
+
+    table: all tiles in the order of the tileset. They are numbered from 1; 0 means no tile.
+    """
     numbers = {name: i for i, name in enumerate(table, 1)}
     cells = [(x, y) for y in range(level.height) for x in range(level.width)]
     decor, walls = decor_names(level)
@@ -90,7 +96,7 @@ def _tile_layers(level, table):
 
 
 def _object_layers(level):
-    """Return the layers of objects, which are numbered through from 1."""
+    """Return the object layers as Tiled's JSON structure. Objects are numbered from 1 across both layers."""
     numbers, groups = itertools.count(1), []
     for name, rows in (("things", objects(level)), ("bot hints", hints(level))):
         things = [
@@ -124,7 +130,7 @@ def _object_layers(level):
 
 
 def to_tmj(structure):
-    """Return the bytes of a tiled_map(), with a line per map row, tile and object, so that changes give small diffs."""
+    """Return a tiled_map() as bytes, with a line per map row, tile and object, so that changes give small diffs."""
     text = json.dumps(structure, ensure_ascii=False)
     for layer in structure["layers"]:
         if "data" in layer:
@@ -137,7 +143,7 @@ def to_tmj(structure):
 
 
 def level_files():
-    """Return {relative path: bytes} of every level."""
+    """Return {relative path: bytes} of all levels."""
     path = FOLDER / "levels" / "platformer.txt"
     level = Map(path.read_text(encoding="utf-8"), path.name)
     return {"levels/platformer.tmj": to_tmj(tiled_map(level))}

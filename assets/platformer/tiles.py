@@ -1,8 +1,8 @@
 """The sheet "tiles": 16 px ground, stone, rock, slopes, planks, ladders and decoration, each with its collision kind.
 
-The picture of ground, stone and rock depends on which of the eight neighbours are of the same kind, so a map made of
+The picture of ground, stone and rock depends on which of the eight neighbours are of the same kind. So a map made of
 one letter gets its grass, edges and corners by itself. Such a tile is named `ground_<mask>`. The mask is the sum of the
-neighbours present: N 1, NE 2, E 4, SE 8, S 16, SW 32, W 64, NW 128, where a corner counts only if both its sides do (47
+neighbours present: N 1, NE 2, E 4, SE 8, S 16, SW 32, W 64, NW 128. A corner counts only if both its sides do (47
 cases).
 """
 
@@ -45,7 +45,7 @@ FRINGE = np.array([3, 4, 3, 5, 4, 3, 3, 4, 5, 4, 3, 4, 3, 3, 5, 4])  # [px] dept
 
 
 def reduced(mask):
-    """Return a mask without its invisible corner bits: those without both of their sides."""
+    """Return a mask of neighbours without corner bits that make no difference: those without both of their sides."""
     for corner, first, second in CORNERS:
         if not (mask & first and mask & second):
             mask &= ~corner
@@ -56,8 +56,9 @@ BLOBS = sorted({reduced(mask) for mask in range(256)})
 
 
 def texture(material, variant=0):
-    """Return the inside of a material, (16, 16, 3) uint8: quiet, with a few clods, stones or cracks. All variants fit
-    together.
+    """Return the inside of a material, (16, 16, 3) uint8, plain, with a few clods, stones or cracks.
+
+    material: key of MATERIALS; variant: 0..3; all variants fit together.
     """
     body, _, seed = MATERIALS[material]
     ramp = RAMPS[body]
@@ -79,8 +80,9 @@ def texture(material, variant=0):
 
 
 def deep(variant):
-    """Return ground far below the surface, (16, 16, 4) uint8: darker and quieter. variant: 0..2 plain, 3 a bone, 4 a
-    crystal.
+    """Return ground far below the surface, (16, 16, 4) uint8: darker and plainer.
+
+    variant: 0..2 plain, 3 with a bone, 4 with a crystal.
     """
     dark = mix(RAMPS["dirt"][1], OUTLINE, 0.42)
     light = mix(RAMPS["dirt"][1], OUTLINE, 0.18)
@@ -98,7 +100,8 @@ def deep(variant):
 
 
 def fading(variant):
-    """Return the transition from ground to deep ground, (16, 16, 4) uint8: pixels of the two in a dither pattern.
+    """Return the transition from ground to deep ground, (16, 16, 4) uint8: both mixed in a dither pattern.
+
     variant: 0..1.
     """
     upper, lower = texture("ground", variant), deep(variant)[..., :3]
@@ -106,10 +109,9 @@ def fading(variant):
 
 
 def _bricks(picture, ramp, variant):
-    """Draw two courses of blocks in the colours of `ramp`, offset by half, with lit upper and dark lower edges; return
-    the picture.
+    """Draw two courses of blocks, offset by half a block, with lit upper and dark lower edges. Return the picture.
 
-    variant: 0 plain, 1 and 3 with a crack, 2 worn.
+    picture (16, 16, 3) uint8; ramp: its colours; variant: 0 plain, 1 and 3 with a crack, 2 worn.
     """
     picture[:] = mix(picture, ramp[2], 0.6)
     for row, offset in ((0, 4), (8, 12)):
@@ -132,9 +134,9 @@ def _bricks(picture, ramp, variant):
 
 
 def blob(material, mask, variant=0):
-    """Return one tile of a material for the neighbours in mask, (16, 16, 4) uint8, fully solid.
+    """Return one tile of a material, (16, 16, 4) uint8, opaque, as its neighbours require.
 
-    variant: see texture().
+    mask: the neighbours, see the top of this file; variant: see texture.
     """
     ramp, cap = RAMPS[MATERIALS[material][0]], RAMPS[MATERIALS[material][1]]
     picture = texture(material, variant)
@@ -164,9 +166,7 @@ def _side(picture, ramp, column, inward, light):
 
 
 def _top(picture, cap, material):
-    """Draw the top of a tile in the colours of `cap`: lit blades and a ragged fringe of grass on ground, a worn lip on
-    stone or rock.
-    """
+    """Draw the top of a tile: grass with a ragged fringe on ground, a worn edge on stone or rock. cap: its colours."""
     picture[0] = OUTLINE
     if material != "ground":
         picture[1] = cap[5]
@@ -186,8 +186,9 @@ def _top(picture, cap, material):
 
 
 def _inner_corner(picture, corner, cap, grass):
-    """Draw the outline, and the end of the neighbour's grass, in a corner (NE, SE, SW or NW) where the diagonal
-    neighbour is missing.
+    """Draw the outline, and the end of the neighbour's grass, in a corner whose diagonal neighbour is missing.
+
+    corner: NE, SE, SW or NW; cap: colours of the top; grass: whether the material is ground.
     """
     column = 0 if corner in (NW, SW) else 15
     row = 0 if corner in (NW, NE) else 15
@@ -201,7 +202,7 @@ def _inner_corner(picture, corner, cap, grass):
 
 
 def slope(name):
-    """Return a grassy slope, (16, 16, 4) uint8: clear above the surface."""
+    """Return a slope with grass, (16, 16, 4) uint8, clear above the surface. name: key of SLOPES."""
     left, right = SLOPES[name]
     cap = RAMPS["grass"]
     picture = texture("ground", 1)
@@ -219,7 +220,7 @@ def slope(name):
 
 
 def under_slope(name):
-    """Return the tile below a slope's foot: plain ground with the last of the slope's grass shadow, fully solid."""
+    """Return the opaque ground tile below a slope, with the lower end of the slope's grass. name: key of SLOPES."""
     left, right = SLOPES[name]
     picture = texture("ground", 0)
     cap = RAMPS["grass"]
@@ -232,7 +233,10 @@ def under_slope(name):
 
 
 def plank(part):
-    """Return a one-way plank, 16 x 16 with its boards in the top 6 rows. part: left, middle, right or single."""
+    """Return a plank, 16 x 16 px, with its boards in the top 6 rows. part: left, middle, right or single.
+
+    It is one-way: bodies pass through it from below.
+    """
     wood = RAMPS["wood"]
     picture = np.zeros((TILE, TILE, 4), np.uint8)
     rows = (OUTLINE, wood[5], wood[4], wood[3], wood[2], OUTLINE)
@@ -250,8 +254,9 @@ def plank(part):
 
 
 def _bracket(picture, column, inward):
-    """Draw a short strut under an end of a plank. column: of the strut; inward: 1 or -1, direction of the plank's
-    middle.
+    """Draw a short strut under an end of a plank. column: of the strut.
+
+    inward: 1 or -1, direction of the plank's middle.
     """
     for i in range(5):
         for dx, colour in ((0, RAMPS["wood"][2]), (inward, RAMPS["wood"][1])):
@@ -261,8 +266,9 @@ def _bracket(picture, column, inward):
 
 
 def ladder(top):
-    """Return a wooden ladder, 16 x 16, repeating downwards. top: the top piece, which has a landing of planks to stand
-    on.
+    """Return a piece of a wooden ladder, 16 x 16 px, that is repeated downwards.
+
+    top: whether it is the top piece, which has a landing of planks to stand on.
     """
     wood = RAMPS["wood"]
     picture = np.zeros((TILE, TILE, 4), np.uint8)
@@ -286,8 +292,9 @@ def ladder(top):
 
 
 def material_tiles(material):
-    """Return {name: (pixels, properties)} of one material: a tile for every mask of neighbours, then the variants of
-    its inside.
+    """Return {name: (pixels, properties)} of one material.
+
+    There is a tile for every mask of neighbours, then the variants of the material's inside.
     """
     table = {f"{material}_{mask}": (blob(material, mask), {"kind": "solid"}) for mask in BLOBS}
     for variant in range(1, DEPTHS):
@@ -296,7 +303,10 @@ def material_tiles(material):
 
 
 def tile_table():
-    """Return {name: (pixels, properties)} of every tile, in the order of the tileset; properties as in the .tmj."""
+    """Return {name: (pixels, properties)} of all tiles in the order of the tileset.
+
+    The properties are those in the .tmj.
+    """
     table = {}
     for material in MATERIALS:
         if material not in LATER:

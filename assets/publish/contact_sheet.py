@@ -1,4 +1,4 @@
-"""Writes docs/sprites.png, every sprite and backdrop on one picture, and docs/moments.png, moments of the games.
+"""Write docs/sprites.png, a picture of all sprites and backdrops, and docs/moments.png, moments of the games.
 
 python -m assets.publish.contact_sheet            both pictures; the bots play some minutes of game time
 python -m assets.publish.contact_sheet sprites    only docs/sprites.png
@@ -57,7 +57,7 @@ def load_frames(name):
 
 
 def section(name, frames):
-    """Return one sheet's frames in rows under its name, (h, WIDTH, 3) uint8."""
+    """Return a picture of one sheet's frames in rows under its name, (h, WIDTH, 3) uint8."""
     rows, row, used = [], [], GAP
     for frame in frames.values():
         if used + frame.shape[1] + GAP > WIDTH and row:
@@ -84,7 +84,7 @@ def section(name, frames):
 
 
 def shrunk(name):
-    """Return every third pixel of a backdrop along x and along y, (h, w, 4) uint8."""
+    """Return a backdrop at a third of its size, (h, w, 4) uint8: every third pixel along x and along y."""
     picture = png.decode((FOLDER / "images" / f"{name}.png").read_bytes())[::SHRUNK, ::SHRUNK]
     return picture if picture.shape[2] == 4 else opaque(picture)
 
@@ -100,7 +100,7 @@ PICTURES = {"sprites": sprites, "moments": moments.sheet}
 
 
 def main(arguments=None):
-    """Write the pictures. Return the exit code: 0 success, 2 for an unknown picture."""
+    """Write the pictures named in `arguments`, or all. Return the exit code: 0 success, 2 an unknown picture."""
     names = (sys.argv[1:] if arguments is None else arguments) or list(PICTURES)
     for name in names:
         if name not in PICTURES:

@@ -1,6 +1,6 @@
-"""Pictures of the games, filmed while their bots play: the menu's small pictures of all scenes.
+"""Pictures of the games, taken while bots play them: the menu's small pictures of all scenes.
 
-The scripts of assets/ do not import the games: the program scenes/filming.py films the games, and is run here.
+The scripts of assets/ do not import the games. The program scenes/filming.py takes the pictures, and is run here.
 """
 
 import os
@@ -17,10 +17,9 @@ ROOT = FOLDER.parents[len(ABOVE)]  # where the names are looked up
 
 
 def filmed(what, *names):
-    """Run `python -m scenes.filming` with the arguments `what` and `names`; return {file name: bytes} in the order of
-    the file names.
+    """Run `python -m scenes.filming` with the arguments `what` and `names`. Return {file name: bytes} of its pictures.
 
-    Raises RuntimeError with the program's output when it fails.
+    They are in the order of their file names. Raises RuntimeError with the program's output if it fails.
     """
     with TemporaryDirectory() as folder:
         command = [sys.executable, "-P", "-m", PROGRAM, what, *names, folder]
@@ -32,5 +31,5 @@ def filmed(what, *names):
 
 
 def picture_files():
-    """Return {relative path: bytes} of the menu's pictures, one per scene, 160 x 90."""
+    """Return {relative path: bytes} of the menu's pictures, one per scene, 160 x 90 px."""
     return {f"images/pictures/{name}": content for name, content in filmed("pictures").items()}

@@ -1,4 +1,4 @@
-"""docs/moments.png: twelve moments of each game, three in a row with a caption each, filmed while its bot plays."""
+"""docs/moments.png: twelve moments of each game with captions, three in a row, taken while a bot plays the game."""
 
 import json
 
@@ -17,21 +17,21 @@ PAPER = oklch(0.22, 0.045, 285)
 
 
 def sheet():
-    """Return the whole picture, (h, w, 3) uint8."""
+    """Return the picture with the moments of all games, (h, w, 3) uint8."""
     return np.concatenate([game_moments(name) for name in GAMES])
 
 
 def game_moments(name):
-    """Return the picture of one game's moments, under the game's name, (h, w, 3) uint8."""
+    """Return the picture of one game's moments under the game's name, (h, w, 3) uint8."""
     files = filmed("moments", name)
     captions = json.loads(files.pop("captions.json"))
     return laid_out(name, captions, [png.decode(content) for content in files.values()])
 
 
 def laid_out(name, captions, pictures):
-    """Return a picture of a heading and the pictures in rows, each of FRAME's size and over its caption.
+    """Return a picture with a heading, and below it the given pictures in rows, each over its caption.
 
-    Raises ValueError unless there are COLUMNS * ROWS captions and as many pictures.
+    pictures: FRAME px each. Raises ValueError unless there are COLUMNS * ROWS captions and as many pictures.
     """
     if not len(captions) == len(pictures) == COLUMNS * ROWS:
         raise ValueError(f"{name}: {COLUMNS * ROWS} moments must be there (got {len(captions)}, {len(pictures)})")

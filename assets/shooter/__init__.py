@@ -1,1 +1,1 @@
-"""The sheets "planes" and "effects" and the shooter's grounds."""
+"""Pictures of the shooter: the sheets "planes" and "effects", and the grounds."""

@@ -1,4 +1,4 @@
-"""Grounds of the shooter, 480 x 540, seamless in both directions, to be scrolled downwards.
+"""Grounds of the shooter, 480 x 540 px, seamless in both directions, which scroll downwards.
 
 The grounds are sea, coast and storm. Over them lie clouds_low with cloud_shadows, clouds_high and clouds_storm.
 """
@@ -14,7 +14,7 @@ LOW_ALPHA, HIGH_ALPHA, STORM_ALPHA, SHADOW_ALPHA = 130, 90, 150, 70
 
 
 def backdrop_files():
-    """Return {relative path: bytes} of every layer."""
+    """Return {relative path: bytes} of the pictures of all layers."""
     low = from_above(901, 0.62, LOW_ALPHA, 5, 5)
     layers = {
         "sea": ground(),

@@ -1,6 +1,6 @@
-"""The player's strong weapons: the bomb's shock ring, the heavy shot of full power, and the spark of a graze.
+"""The player's strong weapons: the bomb's shock ring, the shot of full power, and the spark of a grazing bullet.
 
-The ring is blended normally, not added: a thin bright front, and a broken wake that cools from teal to blue.
+The ring is blended normally, not added: a thin bright front, and behind it a broken wake that cools from teal to blue.
 """
 
 import numpy as np
@@ -15,7 +15,7 @@ WAKE = (0.95, 0.58, 0.38, 0.28, 0.21, 0.15)  # width of the wake behind the fron
 
 
 def bomb_ring(frame):
-    """Return frame 0..5 of the shock ring."""
+    """Return the shock ring of the player's bomb. frame: 0..5."""
     size = RING_SIZES[frame]
     sprite = Sprite(size, size)
     radius = size / 2 - 1.5
@@ -45,7 +45,7 @@ def bomb_ring(frame):
 
 
 def heavy_shot():
-    """Return the bolt of full power, flying up: 10 x 22 px."""
+    """Return the player's shot of full power, flying up, 10 x 22 px."""
     sprite = Sprite(10, 22)
     x, y = sprite.x, sprite.y
     sprite.flat(capsule(x, y, (5, 5), (5, 18.6), 4.6, 1.4), RAMPS["blue"][2])
@@ -58,7 +58,7 @@ def heavy_shot():
 
 
 def graze_spark(frame):
-    """Return four splinters of light for a grazing bullet, frame 0..2: 12 x 12 px."""
+    """Return the spark of a bullet that just missed: four splinters of light, 12 x 12 px. frame: 0..2."""
     sprite = Sprite(12, 12)
     start, end = ((0.0, 3.0), (1.6, 4.6), (3.4, 5.2))[frame]
     for dx, dy in ((0.7, -0.7), (-0.7, -0.7), (-0.7, 0.7), (0.7, 0.7)):

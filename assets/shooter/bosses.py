@@ -1,7 +1,7 @@
-"""The shooter's two leaders, flying down: the heavy bomber of the middle of the stage and the fortress of its end.
+"""The shooter's two bosses, flying down: the heavy bomber in the middle of the stage, and the fortress at its end.
 
-The fortress has three looks of one family: whole with its eye half shut, armour torn open, and burning with a wing tip
-gone. Each look has two frames (engines and eye pulse) with the same silhouette, so that both frames have one mask.
+The fortress has three looks: whole with its eye half shut, with torn armour, and burning with a wing tip gone. Each
+look has two frames (engines and eye pulse) with the same silhouette, so that both frames have one mask.
 """
 
 from assets.craft.fields import box, capsule, ellipse, polygon
@@ -14,7 +14,7 @@ LOOKS = "abc"
 
 
 def midboss(frame):
-    """Return the heavy bomber, frame 0..1: a flying wing in rust and iron with four engines and three turrets."""
+    """Return the heavy bomber: a flying wing in rust and iron with four engines and three turrets. frame: 0..1."""
     sprite = Sprite(*MIDBOSS)
     x, y = sprite.x, sprite.y
     for side in (-1, 1):
@@ -43,7 +43,7 @@ def midboss(frame):
 
 
 def _midboss_side(sprite, side, frame):
-    """Draw wing, tail fin, two engines, turret and gun of one side. side: -1 left, 1 right."""
+    """Draw the wing, tail fin, two engines, turret and gun of one side. side: -1 left, 1 right."""
     x, y = sprite.x, sprite.y
     lit = -side * 0.06
 
@@ -104,7 +104,7 @@ def _midboss_side(sprite, side, frame):
 
 
 def boss(look, frame):
-    """Return the flying fortress. look: one of LOOKS; frame 0..1."""
+    """Return the flying fortress. look: one of LOOKS, from whole to burning; frame: 0..1."""
     sprite = Sprite(*BOSS)
     hurt = LOOKS.index(look)
     hot = (0.15, 0.5, 0.85)[hurt] + 0.15 * frame
@@ -188,7 +188,7 @@ def _wing(sprite, side, frame):
 
 
 def _prong(sprite, side):
-    """Draw the claw at a wing's end with its heavy gun. side: -1 left, 1 right."""
+    """Draw the claw at the end of a wing, with its heavy gun. side: -1 left, 1 right."""
     x, y = sprite.x, sprite.y
     lit = -side * 0.06
 
@@ -211,7 +211,7 @@ def _prong(sprite, side):
 
 
 def _hull(sprite, frame):
-    """Draw the spine: stern, bridge, armoured neck and the great gun in the bow."""
+    """Draw the middle of the fortress: stern, bridge, armoured neck, and the great gun in the bow."""
     x, y = sprite.x, sprite.y
     for side in (-1, 1):
         nozzle(sprite, 66 + side * 7 - 5, 66 + side * 7 + 5, 1.5, 14, 1 - frame)
@@ -252,8 +252,9 @@ def _hull(sprite, frame):
 
 
 def _eye(sprite, hurt, hot):
-    """Draw the core: a lens behind an iris of armour. hurt: number of the look, 0..2; the iris is shut in look 0 and
-    gone in look 2. hot: glow, 0..1.
+    """Draw the core of the fortress: a lens behind an iris of armour.
+
+    hurt: number of the look, 0..2; the iris is shut in look 0 and gone in look 2; hot: brightness of the glow, 0..1.
     """
     x, y = sprite.x, sprite.y
     sprite.part(ellipse(x, y, 66, 42, 14.2, 14.2), RAMPS["gold"], bulge=3, base=0.44, grain=0.4)
@@ -279,8 +280,9 @@ def _eye(sprite, hurt, hot):
 
 
 def _damage(sprite, hurt, hot):
-    """Draw holes, soot and glowing cracks of look `hurt`, 1 or 2. In look 2 the right claw is shot off and the wings
-    are open. hot: glow, 0..1.
+    """Draw holes, soot and glowing cracks. hurt: number of the look, 1 or 2; hot: brightness of the glow, 0..1.
+
+    In look 2 the right claw is shot off and the wings are open.
     """
     wound(sprite, 34, 21, 4.6, 3, hot)
     wound(sprite, 95, 44, 4.0, 5, hot)

@@ -1,4 +1,4 @@
-"""Clouds over the shooter's grounds, and their shadows: thresholded seamless noise in a few tones."""
+"""Clouds over the shooter's grounds, and their shadows: seamless noise above a threshold, in a few tones."""
 
 import numpy as np
 
@@ -11,10 +11,10 @@ STORM = oklch_all((0.20, 0.030, 285), (0.26, 0.032, 280), (0.32, 0.030, 272), (0
 
 
 def cover(width, height, cells_x, cells_y, seed, threshold):
-    """Return (thickness, solid) of a seamless cloud field of cells_x x cells_y cells: solid where the thickness is
-    above 0.
+    """Return (thickness, solid), (height, width) each, of a seamless field of clouds.
 
-    The lower the threshold 0..1, the denser is the field.
+    There are clouds (solid) where the thickness is above 0. cells_x, cells_y: cells of the noise; threshold 0..1: the
+    lower it is, the denser the field.
     """
     field = layered_noise(width, height, cells_x, cells_y, 5, seed, 0.55)
     low, high = field.min(), field.max()
@@ -23,9 +23,9 @@ def cover(width, height, cells_x, cells_y, seed, threshold):
 
 
 def from_above(seed, threshold, alpha, cells_x, cells_y, tones=HIGH):
-    """Return clouds over the ground, (540, 480, 4) uint8, seamless in both directions.
+    """Return clouds seen from above, (540, 480, 4) uint8, seamless in both directions.
 
-    threshold, cells_x, cells_y: see cover(); alpha: opacity 0..255 of a thick part; tones: colours from dark to light.
+    threshold, cells_x, cells_y: see cover; alpha: opacity 0..255 of thick parts; tones: colours from dark to light.
     """
     thickness, solid = cover(480, 540, cells_x, cells_y, seed, threshold)
     lit = np.roll(thickness, (3, 2), (0, 1)) - thickness  # thicker towards the bottom right: faces the light
@@ -40,7 +40,7 @@ def from_above(seed, threshold, alpha, cells_x, cells_y, tones=HIGH):
 
 
 def shadow_of(clouds, alpha):
-    """Return the shadow of a cloud layer: the same shape in a dark colour with the given alpha, 0..255."""
+    """Return the shadow of a cloud layer: the same shape in a dark colour. alpha: its opacity, 0..255."""
     out = np.zeros_like(clouds)
     solid = clouds[..., 3] > 0
     out[solid] = (12, 10, 30, alpha)

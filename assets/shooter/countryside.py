@@ -1,6 +1,6 @@
-"""The shooter's second stretch: a coast with woods, fields, a river, roads and villages, 480 x 540, seamless.
+"""The shooter's second ground: a coast with woods, fields, a river, roads and villages, 480 x 540 px, seamless.
 
-Like the sea (terrain.py) it stays at or under 60 % lightness and muted, so that bullets stand out from it.
+Like the sea (terrain.py) it has at most 60 % lightness and muted colours, so that bullets stand out from it.
 """
 
 import numpy as np
@@ -39,8 +39,9 @@ VILLAGES = ((96, 150), (352, 64), (238, 402), (420, 300))  # [px] middles; those
 
 
 def patchwork(count, seed):
-    """Return (number, edge) for a seamless patchwork of `count` fields: number of the field at each pixel, and distance
-    to the next field [px].
+    """Return (number, edge), (HEIGHT, WIDTH) each, of a seamless patchwork of `count` fields.
+
+    number: number of the field at each pixel; edge: distance from the next field [px].
     """
     random = np.random.default_rng(seed)
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH] + 0.5
@@ -60,7 +61,7 @@ def patchwork(count, seed):
 
 
 def countryside():
-    """Return the picture, (HEIGHT, WIDTH, 3) uint8."""
+    """Return the picture of the ground, (HEIGHT, WIDTH, 3) uint8."""
     height = height_map(4100, 4200)
     light = hill_light(height)
     picture = pick(SEA, np.clip((height - 0.06) / (SHORE - 0.06), 0, 1) ** 2)
@@ -97,8 +98,9 @@ def countryside():
 
 
 def _fields(picture, where, light):
-    """Draw crops where `where` (h, w) is True: each field in its own tone and furrows, with hedges between the fields.
-    light: see hill_light().
+    """Draw fields where `where` (h, w) is True. Each has its own colour and furrows, and hedges lie between them.
+
+    light: result of hill_light.
     """
     number, edge = patchwork(LAND_CELLS, 301)
     random = np.random.default_rng(302)
@@ -119,8 +121,9 @@ def _fields(picture, where, light):
 
 
 def _villages(picture, where, road):
-    """Draw groups of small houses where `where` is True and no `road` is, each with a lit and a shaded side of its roof
-    and a shadow.
+    """Draw groups of small houses where `where` is True and no `road` is, (h, w) bool each.
+
+    Each house has a lit and a shaded side of its roof, and a shadow.
     """
     random = np.random.default_rng(731)
     for middle_x, middle_y in VILLAGES:

@@ -1,8 +1,8 @@
-"""Enemy bullets: dark ring, saturated ring, white core, so that a bullet stands out on any ground.
+"""Enemy bullets: a dark ring, a saturated ring and a white core, so that a bullet stands out on any ground.
 
 Each kind comes twice with the same silhouette: as NAME_0..1, and as safe_NAME_0..1 in colours of the Okabe-Ito set,
-which stay distinct under colour blindness. The cores of the safe kinds also differ in shape. The second frame of a pair
-pulses.
+which stay distinct under colour blindness. The cores of the safe kinds also differ in shape. Each kind has two frames,
+between which it pulses.
 """
 
 import numpy as np
@@ -35,9 +35,9 @@ RING_DARK = mix(OUTLINE, RAMPS["purple"][0], 0.3)
 
 
 def tones_of(name, safe):
-    """Return (edge, body, light) of a bullet's saturated ring, dark to light.
+    """Return the colours (edge, body, light) of a bullet's saturated ring, dark to light.
 
-    safe: in the colours for colour blindness.
+    name: of the bullet; safe: whether to use the colours for colour blindness.
     """
     if safe:
         colour = np.array(SAFE[name][0], np.uint8)
@@ -47,7 +47,7 @@ def tones_of(name, safe):
 
 
 def round_bullet(name, safe, frame):
-    """Return one round bullet, frame 0..1. name: key of ROUND; safe: in the colours for colour blindness."""
+    """Return one round bullet. name: key of ROUND; safe: in the colours for colour blindness; frame: 0..1."""
     radius, size, _ = ROUND[name]
     sprite = Sprite(size, size)
     dx, dy = sprite.x - size / 2, sprite.y - size / 2
@@ -78,7 +78,7 @@ def round_bullet(name, safe, frame):
 
 
 def needle(safe):
-    """Return the aimed shot, drawn pointing down: 7 x 14 px. safe: in the colours for colour blindness."""
+    """Return the bullet of aimed shots, pointing down, 7 x 14 px. safe: in the colours for colour blindness."""
     sprite = Sprite(7, 14)
     x, y = sprite.x, sprite.y
     edge, body, light = tones_of("bullet_needle", safe)
@@ -91,7 +91,7 @@ def needle(safe):
 
 
 def add_enemy_bullets(sheet):
-    """Put every bullet and its safe twin on a sheet."""
+    """Add every bullet to a sheet, both in its own colours and in those for colour blindness."""
     for safe in (False, True):
         prefix = "safe_" if safe else ""
         for name in ROUND:

@@ -1,7 +1,7 @@
-"""Explosions: balls of heat fly out, merge, cool through the fire ramp, break into cinders and vanish.
+"""Explosions: hot balls fly out, merge, cool through the colours of fire, break into cinders and vanish.
 
-The heat of a pixel is that of its hottest ball plus noise; its colour falls with heat and with time. The balls stay
-inside the cell, so no frame is cut off at its border.
+The heat of a pixel is that of its hottest ball plus noise; its colour darkens with lower heat and with time. The balls
+stay inside the frame, so no frame is cut off at its border.
 """
 
 import numpy as np
@@ -16,8 +16,9 @@ RING_FRAMES = range(1, 5)  # frames with the shock ring
 
 
 def directions(count):
-    """Return `count` unit vectors around the circle, from rational points ((1-t²)/(1+t²), 2t/(1+t²)): exact on every
-    machine.
+    """Return `count` unit vectors around the circle, equal on every machine.
+
+    They are computed from rational points ((1-t²)/(1+t²), 2t/(1+t²)).
     """
     quarter = []
     for i in range(count // 4):
@@ -32,7 +33,7 @@ def directions(count):
 
 
 def explosion(frames, size, seed):
-    """Return the frames of one explosion, each (size, size, 4) uint8."""
+    """Return the frames of one explosion, (size, size, 4) uint8 each. frames: their number."""
     random = np.random.default_rng(seed)
     compass = directions(DIRECTIONS)
     balls = [
@@ -80,7 +81,7 @@ def _frame(t, index, size, balls, grain, compass):
 
 
 def _ring(sprite, radius, index):
-    """Draw the shock ring of `radius` [px] behind the fire. index: 1..4, later rings are thinner."""
+    """Draw the shock ring behind the fire. radius [px]; index: 1..4, later rings are thinner."""
     centre = sprite.solid.shape[0] / 2
     distance = abs(length(sprite.x - centre, sprite.y - centre) - min(radius, centre - 1.5))
     ring = (distance < (0.9, 0.75, 0.6, 0.5)[index - 1]) & ~sprite.solid
@@ -91,8 +92,9 @@ def _ring(sprite, radius, index):
 
 
 def _sparks(sprite, t, compass):
-    """Draw ten glowing specks that overtake the fire. t: time 0..1 of the explosion; compass: unit vectors from
-    directions().
+    """Draw ten glowing specks that fly ahead of the fire.
+
+    t: time 0..1 of the explosion; compass: unit vectors from directions().
     """
     size = sprite.solid.shape[0]
     if t > 0.62:

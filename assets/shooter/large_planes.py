@@ -1,7 +1,7 @@
-"""Two large planes for the lab, where they are dragged and rotated over each other.
+"""Two large planes for the lab, where the user drags and rotates them over each other.
 
 Their outlines show the differences of the collision tiers: a jet with deep notches between wings, fins and body, and a
-bomber with long thin wings. Box, hull and pixels disagree over large areas of both.
+bomber with long thin wings. For both, box, hull and pixels differ over large areas.
 """
 
 from assets.craft.fields import box, capsule, circle, ellipse, length, polygon
@@ -37,7 +37,7 @@ def jet():
 
 
 def _jet_side(sprite, side):
-    """Draw wing, intake, engine, tail plane and fin of one side. side: -1 left, 1 right."""
+    """Draw the wing, intake, engine, tail plane and fin of one side. side: -1 left, 1 right."""
     x, y = sprite.x, sprite.y
     lit = -side * 0.06
 
@@ -81,7 +81,10 @@ def _jet_side(sprite, side):
 
 
 def _strip(sprite, first, second, corner=0.0):
-    """Return the box field between two corners (x, y), `first` above `second`; either may be the left one."""
+    """Return the distance field of the box between two corners (x, y).
+
+    first: the upper corner, which may be the left or the right one; second: the lower corner; corner: rounding radius.
+    """
     left, right = min(first[0], second[0]), max(first[0], second[0])
     return box(sprite.x, sprite.y, left, first[1], right, second[1], corner)
 

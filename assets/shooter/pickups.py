@@ -1,4 +1,4 @@
-"""The shooter's pick-ups: power, bombs and lives, distinct by colour, outline and sign; 18 x 18 px."""
+"""The shooter's pick-ups: power, bombs and lives. They differ in colour, outline and sign, and are 18 x 18 px."""
 
 from assets.craft.fields import box, capsule, circle
 from assets.craft.palette import OUTLINE, RAMPS, WHITE, mix
@@ -6,7 +6,7 @@ from assets.craft.shading import Sprite
 
 
 def powerup(frame):
-    """Return a capsule with a glowing core that pulses, frame 0..3: 18 x 18 px."""
+    """Return a capsule with a glowing core that pulses, 18 x 18 px. frame: 0..3."""
     sprite = Sprite(18, 18)
     x, y = sprite.x, sprite.y
     glow = (0.22, 0.34, 0.46, 0.34)[frame]
@@ -21,7 +21,7 @@ def powerup(frame):
 
 
 def bomb_item(frame):
-    """Return a bomb to pick up, frame 0..3: a round teal shell with a band and a burning fuse, 18 x 18 px."""
+    """Return a bomb to pick up, 18 x 18 px: a round teal shell with a band and a burning fuse. frame: 0..3."""
     sprite = Sprite(18, 18)
     x, y = sprite.x, sprite.y
     sprite.part(capsule(x, y, (9, 5), (9, 2.4), 2.2), RAMPS["gunmetal"], bulge=2, base=0.5)
@@ -37,7 +37,7 @@ def bomb_item(frame):
 
 
 def life_item(frame):
-    """Return a life to pick up, frame 0..3: a green capsule with a small plane in it, 18 x 18 px."""
+    """Return a life to pick up, 18 x 18 px: a green capsule with a small plane in it. frame: 0..3."""
     sprite = Sprite(18, 18)
     x, y = sprite.x, sprite.y
     sprite.part(box(x, y, 1.5, 3, 16.5, 15, 5), RAMPS["steel"], bulge=4, base=0.58)

@@ -1,4 +1,4 @@
-"""The player's plane, seen from above and flying up, with four banking frames, its exhaust and its marked core."""
+"""The player's plane, seen from above and flying up: level, four banking frames, its exhaust and its marked core."""
 
 from assets.craft.fields import box, capsule, circle, ellipse, polygon
 from assets.craft.palette import OUTLINE, RAMPS, WHITE, mix
@@ -16,7 +16,7 @@ BANKS = {
 
 
 def player(bank):
-    """Return one frame of the player's plane. bank: a key of BANKS."""
+    """Return one frame of the player's plane. bank: a key of BANKS, how far it leans to a side."""
     left, right, spine, light_left, light_right = BANKS[bank]
     sprite = Sprite(SIZE, SIZE)
     centre = SIZE / 2
@@ -28,8 +28,10 @@ def player(bank):
 
 
 def _wing(sprite, centre, side, reach, light):
-    """Draw one swept wing with its stripe, gun pod and tail plane. centre: x of the plane's middle; side: -1 left, 1
-    right; reach: 1 = level flight.
+    """Draw one swept wing with its stripe, gun pod and tail plane.
+
+    centre: x of the plane's middle; side: -1 left, 1 right; reach: length of the wing as a share of that in level
+    flight; light: added to its brightness.
     """
     x, y = sprite.x, sprite.y
 
@@ -57,7 +59,7 @@ def _wing(sprite, centre, side, reach, light):
 
 
 def _body(sprite, centre, spine):
-    """Draw fuselage, nose, canopy and engine. centre: x of the plane's middle; spine: lean of the canopy [px]."""
+    """Draw the fuselage, nose, canopy and engine. centre: x of the plane's middle; spine: lean of the canopy [px]."""
     x, y = sprite.x, sprite.y
     sprite.part(capsule(x, y, (centre, 3.5), (centre, 23.5), 1.5, 3.5), RAMPS["steel"], bulge=3.4, base=0.6)
     sprite.part(box(x, y, centre - 2.2, 26.5, centre + 2.2, 30, 1), RAMPS["gunmetal"], bulge=2.4, base=0.45)
@@ -85,7 +87,7 @@ def _body(sprite, centre, spine):
 
 
 def exhaust(frame):
-    """Return the engine's flame under the player, frame 0..3: 8 x 12 px, drawn below the plane's tail."""
+    """Return the flame of the player's engine, 8 x 12 px, which is drawn below the plane's tail. frame: 0..3."""
     sprite = Sprite(8, 12)
     reach = (6.5, 8.5, 7.2, 9.6)[frame]
     x, y = sprite.x, sprite.y
@@ -96,7 +98,7 @@ def exhaust(frame):
 
 
 def marked_core(frame):
-    """Return the player's core, 6 x 6 px, frame 0..1: a lit jewel in a dark setting that glows in turn."""
+    """Return the mark of the player's core, 6 x 6 px: a jewel in a dark setting. frame: 0..1, of which one glows."""
     rows = (".dddd.", "drwwrd", "dwWWrd", "dwWrrd", "drrrrd", ".dddd.")
     tones = {
         "d": OUTLINE,

@@ -1,6 +1,6 @@
 """Surface details of large machines: panel lines, rivets, vents, turrets, lights, scorch marks and holes.
 
-Every function draws on a Sprite and returns nothing; places are px in its picture.
+Every function draws on a Sprite and returns nothing. Coordinates are px in the sprite's picture.
 """
 
 from itertools import pairwise
@@ -20,10 +20,9 @@ GLOWS = {
 
 
 def seam(sprite, ramp, left, top, right, bottom):
-    """Draw a panel line one pixel wide, level or upright, from (left, top) to (right, bottom), with the lit edge of the
-    next plate beside it.
+    """Draw a straight panel line, with the lit edge of the next plate beside it. ramp: name of the plates' colours.
 
-    ramp: name of the plates' colours.
+    The line fills the box from (left, top) to (right, bottom), which is one pixel wide or one pixel high.
     """
     x, y = sprite.x, sprite.y
     level = right - left >= bottom - top
@@ -33,8 +32,9 @@ def seam(sprite, ramp, left, top, right, bottom):
 
 
 def rivets(sprite, ramp, places):
-    """Draw rivets at the places (x, y): one dark pixel each, with a light one at its upper left. ramp: name of the
-    colours.
+    """Draw rivets at the places [(x, y)]: one dark pixel each, with a light one at its upper left.
+
+    ramp: name of the colours.
     """
     for x, y in places:
         if sprite.solid[int(y), int(x)]:
@@ -44,7 +44,7 @@ def rivets(sprite, ramp, places):
 
 
 def vent(sprite, left, top, right, bottom):
-    """Draw a sunken grille of dark slits into the box from (left, top) to (right, bottom)."""
+    """Draw a sunken grille with dark slits into the box from (left, top) to (right, bottom)."""
     x, y = sprite.x, sprite.y
     sprite.paint(box(x, y, left, top, right, bottom), RAMPS["gunmetal"][1])
     for row in range(int(top) + 1, int(bottom), 2):
@@ -53,7 +53,7 @@ def vent(sprite, left, top, right, bottom):
 
 
 def stripes(sprite, left, top, right, bottom):
-    """Draw warning stripes of gold and iron, which lean to the right, in the box (left, top) to (right, bottom)."""
+    """Draw warning stripes of gold and iron, leaning to the right, into the box from (left, top) to (right, bottom)."""
     inside = box(sprite.x, sprite.y, left, top, right, bottom) < 0
     gold = ((sprite.x + sprite.y) // STRIPE).astype(int) % 2 == 0
     inside &= sprite.solid
@@ -62,8 +62,9 @@ def stripes(sprite, left, top, right, bottom):
 
 
 def turret(sprite, x, y, radius, ramp, reach):
-    """Draw a round gun turret on its ring, whose two barrels point down; reach: px from its middle to the muzzles.
-    ramp: name of its colours.
+    """Draw a round gun turret on its ring, with two barrels that point down.
+
+    x, y, radius: its middle and radius; ramp: name of its colours; reach: distance from its middle to the muzzles.
     """
     px, py = sprite.x, sprite.y
     sprite.part(circle(px, py, x, y, radius + 1.5), RAMPS["gunmetal"], bulge=1.5, base=0.26, gain=0.3)
@@ -79,7 +80,7 @@ def turret(sprite, x, y, radius, ramp, reach):
 
 
 def lens(sprite, x, y, radius, glow, strength):
-    """Draw a glowing lens in a dark socket. strength 0..1: extent of the bright colours."""
+    """Draw a glowing lens in a dark socket. glow: key of GLOWS; strength 0..1: extent of the bright colours."""
     distance = length(sprite.x - x, sprite.y - y)
     sprite.flat(distance - radius, OUTLINE)
     tones = GLOWS[glow]
@@ -94,8 +95,9 @@ def lens(sprite, x, y, radius, glow, strength):
 
 
 def nozzle(sprite, left, right, top, bottom, hot):
-    """Draw an engine's rear end, seen from above, into the box from (left, top) to (right, bottom), with its mouth at
-    the top. hot: glow, 0..1.
+    """Draw the rear end of an engine, seen from above, into the box from (left, top) to (right, bottom).
+
+    Its mouth is at the top. hot: brightness of the glow, 0..1.
     """
     x, y = sprite.x, sprite.y
     sprite.part(box(x, y, left, top, right, bottom, 1.5), RAMPS["gunmetal"], bulge=3, base=0.46)
@@ -105,7 +107,7 @@ def nozzle(sprite, left, right, top, bottom, hot):
 
 
 def scorch(sprite, x, y, radius, seed):
-    """Draw soot around a hit, ragged and dithered into the paint."""
+    """Draw soot around a hit at (x, y), with a ragged edge."""
     height, width = sprite.solid.shape
     rough = (noise(width, height, max(2, width // 5), max(2, height // 5), seed) - 0.5) * radius
     field = length(sprite.x - x, sprite.y - y) - radius + rough
@@ -130,7 +132,7 @@ def wound(sprite, x, y, radius, seed, hot):
 
 
 def cracks(sprite, lines, hot):
-    """Draw glowing fissures: each line a list of points, drawn one pixel wide with a dark rim. hot: brightness 0..1."""
+    """Draw glowing fissures one pixel wide, with a dark rim. lines: lists of points; hot: brightness 0..1."""
     tone = mix(RAMPS["orange"][3], RAMPS["gold"][5], hot)
     for points in lines:
         for start, end in pairwise(points):
@@ -141,10 +143,7 @@ def cracks(sprite, lines, hot):
 
 
 def torn(sprite, points, seed):
-    """Cut away everything inside a polygon, with a ragged edge.
-
-    points: corners in px. The remaining edge is charred.
-    """
+    """Cut away everything inside a polygon, with a ragged and charred edge. points: its corners."""
     height, width = sprite.solid.shape
     rough = (noise(width, height, max(2, width // 3), max(2, height // 3), seed) - 0.5) * 4
     field = polygon(sprite.x, sprite.y, points) + rough

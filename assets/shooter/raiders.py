@@ -1,4 +1,4 @@
-"""The shooter's later kinds: the hornet, a small fast flanker, and the gun platform, fixed to the ground.
+"""The shooter's later kinds of enemies: the hornet, which is small and fast, and the gun platform on the ground.
 
 Like the first three (enemies.py) they face down, and each has its own colour and outline.
 """
@@ -14,7 +14,7 @@ HORNET, TURRET = (22, 22), (36, 36)  # [px] width, height of the frames
 
 
 def hornet(frame):
-    """Return the flanker, frame 0..1 (its jets flicker): black and gold bands, blades swept forward."""
+    """Return the hornet: black and gold bands, blades swept forward. frame: 0..1, in which its jets flicker."""
     sprite = Sprite(*HORNET)
     x, y = sprite.x, sprite.y
     for side in (-1, 1):
@@ -48,9 +48,7 @@ def hornet(frame):
 
 
 def gun_platform(frame):
-    """Return the gun platform, frame 0..1 (its lamps blink): a round armoured fort with a twin gun, for sea and
-    land.
-    """
+    """Return the gun platform: a round armoured fort with a twin gun, for sea and land. frame: 0..1 (its lamps)."""
     sprite = Sprite(*TURRET)
     x, y = sprite.x, sprite.y
     for dx, dy in ((-1, -1), (1, -1), (-1, 1), (1, 1)):  # four feet with bollards
@@ -83,6 +81,6 @@ def gun_platform(frame):
 
 
 def _octagon(sprite, radius):
-    """Return the field of a regular octagon around the platform's middle."""
+    """Return the distance field of a regular octagon around the platform's middle."""
     dx, dy = abs(sprite.x - 18), abs(sprite.y - 17)
     return np.maximum(np.maximum(dx, dy), (dx + dy) * 0.7071) - radius

@@ -1,7 +1,7 @@
-"""The shooter's last stretch: a fortress of concrete and steel on black rocks in a night sea, 480 x 540, seamless.
+"""The shooter's last ground: a fortress of concrete and steel on black rocks in a night sea, 480 x 540 px, seamless.
 
-It is darker than the stretches before it, so that the boss's bullets stand out more. Pads, blocks and tanks are placed
-at random on the paving, with a fixed seed.
+It is darker than the grounds before it, so that the boss's bullets stand out more. Pads, blocks and tanks are placed at
+random on the paving, with a fixed seed.
 """
 
 import numpy as np
@@ -31,7 +31,7 @@ PADS, TANKS, BLOCKS = 9, 26, 90  # number of attempts for each; those without fr
 
 
 def stronghold():
-    """Return the picture, (HEIGHT, WIDTH, 3) uint8."""
+    """Return the picture of the ground, (HEIGHT, WIDTH, 3) uint8."""
     height = height_map(6150, 6250)
     light = hill_light(height)
     picture = pick(NIGHT, np.clip((height - 0.10) / (SHORE - 0.10), 0, 1) ** 1.5)
@@ -50,7 +50,10 @@ def stronghold():
 
 
 def _build(picture, paved, random):
-    """Draw pads, tanks and buildings on free paving, on a grid of 6 px. paved: (h, w) bool."""
+    """Draw landing pads, tanks and buildings on free paving, on a grid of 6 px.
+
+    paved: the paved pixels, (h, w) bool; random: generator of random numbers.
+    """
 
     def place(margin):
         x, y = random.integers(0, ((WIDTH - margin) // 6, (HEIGHT - margin) // 6))
@@ -69,7 +72,10 @@ def _build(picture, paved, random):
 
 
 def _paving(picture, height):
-    """Draw slabs over the middle of the land, and around the slabs a wall with lamps. Return the paved pixels."""
+    """Draw paving over the middle of the land, and around it a wall with lamps. Return the paved pixels, (h, w) bool.
+
+    height: heights of the land, see height_map.
+    """
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH]
     # The yard's edge follows a grid, like a real building's.
     coarse = height[(y // GRID * GRID + GRID // 2) % HEIGHT, (x // GRID * GRID + GRID // 2) % WIDTH]
@@ -103,7 +109,7 @@ def _paving(picture, height):
 
 
 def _lamp(picture, x, y):
-    """Draw a small lamp and its pool of light."""
+    """Draw a small lamp at (x, y), and the light around it."""
     rows, columns = np.mgrid[y - 4 : y + 5, x - 4 : x + 5]
     near = length(columns - x, rows - y)
     for reach, share in ((4.2, 0.16), (2.4, 0.34)):
@@ -114,17 +120,17 @@ def _lamp(picture, x, y):
 
 
 def _free(paved, left, top, width, depth):
-    """Return whether a rectangle lies wholly on paving, the pixels `paved`. The picture wraps around."""
+    """Return whether a rectangle lies completely on paving. paved: the paved pixels; the picture wraps around."""
     rows = np.arange(top, top + depth) % HEIGHT
     columns = np.arange(left, left + width) % WIDTH
     return bool(paved[np.ix_(rows, columns)].all())
 
 
 def _block(picture, paved, left, top, width, depth, high, roof):
-    """Draw a building seen from above and slightly from the south: roof, lit rim, side with lit windows, shadow.
+    """Draw a building, seen from above and slightly from the south: roof, lit rim, side with lit windows, shadow.
 
-    It is drawn only if all of its place is `paved`. left, top, width, depth: rectangle of the roof [px]; high: height
-    of the visible side [px]; roof: index in ROOF.
+    It is drawn only if all pixels in its place are `paved`. left, top, width, depth: rectangle of the roof [px]; high:
+    height of the visible side [px]; roof: index in ROOF.
     """
     if not _free(paved, left - 1, top - 1, width + 4, depth + high + 3):
         return
@@ -148,7 +154,7 @@ def _block(picture, paved, left, top, width, depth, high, roof):
 
 
 def _tank(picture, paved, x, y, radius):
-    """Draw a round fuel tank with a lit cap, if all of its place is `paved`."""
+    """Draw a round fuel tank with a lit cap, if all pixels in its place are `paved`."""
     if not _free(paved, x - radius - 1, y - radius - 1, 2 * radius + 5, 2 * radius + 7):
         return
     rows, columns = np.mgrid[y - radius - 1 : y + radius + 8, x - radius - 1 : x + radius + 6]
@@ -169,7 +175,7 @@ def _tank(picture, paved, x, y, radius):
 
 
 def _pad(picture, paved, x, y, radius):
-    """Draw a landing pad, painted ring and H, lamps at its rim, if all of its place is `paved`."""
+    """Draw a landing pad with a painted ring, an H, and lamps at its rim, if all pixels in its place are `paved`."""
     if not _free(paved, x - radius, y - radius, 2 * radius, 2 * radius):
         return
     rows, columns = np.mgrid[y - radius : y + radius, x - radius : x + radius]

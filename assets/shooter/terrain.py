@@ -1,6 +1,6 @@
-"""The shooter's ground: a sea with islands seen from above, 480 x 540, seamless in both directions.
+"""The shooter's first ground: a sea with islands seen from above, 480 x 540 px, seamless in both directions.
 
-Everything stays at or under 60 % lightness and low chroma, so that bullets, planes and explosions stand out from it.
+Everything has at most 60 % lightness and low chroma, so that bullets, planes and explosions stand out from it.
 """
 
 import numpy as np
@@ -31,7 +31,7 @@ GLINT_CUT = 0.80  # share of the water without glints
 
 
 def height_map(seed=2024, ridge_seed=77):
-    """Return heights 0..1, (HEIGHT, WIDTH), stretched so that about a quarter is above SHORE."""
+    """Return the heights 0..1 of a landscape, (HEIGHT, WIDTH), of which about a quarter is above SHORE. Seamless."""
     rough = layered_noise(WIDTH, HEIGHT, 4, 4, 6, seed, 0.52)
     ridges = 1 - abs(layered_noise(WIDTH, HEIGHT, 3, 4, 4, ridge_seed) * 2 - 1)
     height = rough * 0.78 + ridges * 0.22
@@ -40,14 +40,17 @@ def height_map(seed=2024, ridge_seed=77):
 
 
 def hill_light(height):
-    """Return how far each pixel faces the light from the top left, about -1..1. Seamless."""
+    """Return how far each pixel of a landscape faces the light from the top left, about -1..1.
+
+    height: see height_map.
+    """
     slope_x = np.roll(height, -1, 1) - np.roll(height, 1, 1)
     slope_y = np.roll(height, -1, 0) - np.roll(height, 1, 0)
     return np.clip((slope_x * 0.55 + slope_y * 0.8) * 28, -1, 1)
 
 
 def border(land):
-    """Return the pixels just outside of the area `land`, in a picture that wraps around."""
+    """Return the pixels just outside of the area `land`, (h, w) bool. The picture wraps around."""
     around = np.zeros_like(land)
     for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
         around |= np.roll(land, (dy, dx), (0, 1))
@@ -55,12 +58,12 @@ def border(land):
 
 
 def pick(ramp, level, grain=0.8):
-    """Return the ramp's colours for a level 0..1 per pixel, dithered with the strength `grain`."""
+    """Return the colour of each pixel for its level 0..1 on a ramp, dithered. grain: strength of the dither."""
     return graded(ramp, level * (len(ramp) - 1) + 0.5 + dither(*level.shape) * grain)
 
 
 def ground():
-    """Return the picture, (HEIGHT, WIDTH, 3) uint8."""
+    """Return the picture of the ground, (HEIGHT, WIDTH, 3) uint8."""
     height = height_map()
     light = hill_light(height)
     picture = pick(SEA, np.clip((height - 0.12) / (SHORE - 0.12), 0, 1) ** 2)
@@ -84,8 +87,9 @@ def ground():
 
 
 def glints(picture, water, seed=31, cut=GLINT_CUT):
-    """Draw short horizontal wave crests in patches of the water (h, w) bool. cut: level of noise 0..1 above which a
-    crest is drawn.
+    """Draw short horizontal wave crests in patches of the water (h, w) bool.
+
+    cut: level of noise 0..1 above which a crest is drawn.
     """
     crest = noise(WIDTH, HEIGHT, 40, 270, seed)
     group = layered_noise(WIDTH, HEIGHT, 8, 9, 2, seed + 10)
@@ -96,9 +100,9 @@ def glints(picture, water, seed=31, cut=GLINT_CUT):
 
 
 def plant(picture, where, seed, spacing=(5, 4)):
-    """Draw tree crowns on a jittered grid, back to front, each with its shadow, wherever `where` (h, w) bool allows.
+    """Draw tree crowns with their shadows, at jittered places of a grid, wherever `where` (h, w) bool allows.
 
-    spacing: distance between trees along x and along y [px].
+    They are drawn back to front. spacing: distance between trees along x and along y [px].
     """
     random = np.random.default_rng(seed)
     across, down = spacing
@@ -112,7 +116,7 @@ def plant(picture, where, seed, spacing=(5, 4)):
 
 
 def _crown(picture, x, y, radius, lean):
-    """Draw one tree: a lit disc, wrapped around the edges of the picture. lean: 0..1, brightness."""
+    """Draw one tree: a lit disc, which wraps around the edges of the picture. lean: its brightness, 0..1."""
     reach = int(radius) + 2
     columns = np.arange(x - reach, x + reach + 1)
     rows = np.arange(y - reach, y + reach + 1)

@@ -1,9 +1,9 @@
 """Two bitmap fonts of this project, drawn as text in assets/drawings/*.txt.
 
-A drawing consists of bands: a line "= A B C" names the glyphs, and the lines under it show these glyphs side by side, #
-for ink. A glyph has its drawn width, so text is proportional; digits share one width, so numbers in a column stay
-aligned. The JSON: {"height", "baseline", "glyphs": {character: {"x", "y", "w"}}}; w is the advance, one clear column
-included.
+A drawing consists of bands: a line "= A B C" names the glyphs, and the lines under it show these glyphs side by side,
+with # for ink. A glyph has its drawn width, so text is proportional; all digits are equally wide, so that numbers in a
+column stay aligned. The JSON of a font: {"height", "baseline", "glyphs": {character: {"x", "y", "w"}}}, where w is the
+distance [px] to the next character, one clear column included.
 """
 
 import numpy as np
@@ -20,7 +20,10 @@ SHEET_WIDTH = 128  # [px]
 
 
 def read_drawing(text, height):
-    """Return {character: (height, w) bool}. Raises ValueError naming the line of a badly drawn band."""
+    """Return {character: (height, w) bool, True for ink} of a font's drawing.
+
+    height [px]: of every glyph. Raises ValueError, which names the line, for a badly drawn band.
+    """
     glyphs, names, rows, start = {}, [], [], 0
     for number, line in enumerate(text.splitlines() + ["="], 1):
         if line.startswith("="):
@@ -48,7 +51,7 @@ def _band(names, rows, height, line):
 
 
 def load_glyphs(name):
-    """Return {character: (height, w) bool} of one font, the space included."""
+    """Return {character: (height, w) bool, True for ink} of one font, including the space."""
     shape = FONTS[name]
     text = (FOLDER / "drawings" / f"{name}.txt").read_text(encoding="utf-8")
     glyphs = read_drawing(text, shape["height"])
@@ -57,7 +60,7 @@ def load_glyphs(name):
 
 
 def write(target, text, x, y, colour):
-    """Write one line of the larger font in a colour on target (h, w, 3) uint8, its top left at (x, y)."""
+    """Draw one line of text in the larger font on target (h, w, 3) uint8. x, y: top left corner; colour: (r, g, b)."""
     glyphs = load_glyphs("font5x7")
     for character in text:
         ink = glyphs[character]

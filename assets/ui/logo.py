@@ -1,6 +1,7 @@
-"""The title's logo, a picture of the game's subject.
+"""The title's logo, which shows the subject of the game.
 
-It shows letters with their bounding boxes, and one hit where the box of the X overlaps the box of the O.
+It consists of letters with their bounding boxes. The boxes of the X and the O overlap, and the pixels of this overlap
+are marked as a hit.
 """
 
 import numpy as np
@@ -17,7 +18,7 @@ BOX_COLOUR, HIT_COLOUR = oklch(0.86, 0.14, 195), oklch(0.72, 0.20, 20)
 
 
 def letter_field(letter, x, y):
-    """Return the distance field of one logo letter at its place in the logo. x, y: pixel centres."""
+    """Return the distance field of one letter at its place in the logo (see craft/fields.py). x, y: pixel centres."""
     left = LETTER_X[letter]
     right, middle = left + LETTER_WIDTH[letter], (TOP + BOTTOM) / 2
     if letter == "H":
@@ -56,7 +57,7 @@ def letter_field(letter, x, y):
 
 
 def logo():
-    """Return the logo, (72, 244, 4) uint8."""
+    """Return the picture of the logo, (72, 244, 4) uint8."""
     width, height = LOGO
     sprite = Sprite(width, height)
     x, y = sprite.x, sprite.y
@@ -87,8 +88,9 @@ def logo():
 
 
 def _boxes(sprite, face):
-    """Draw the thin bounding boxes with their corners, and the pixels of the one true hit. face: the pixels of the
-    letters.
+    """Draw the bounding boxes of two letters with their corners, and the pixels where the boxes overlap.
+
+    face: the pixels of the letters, (h, w) bool.
     """
     for letter, colour in (("O", BOX_COLOUR), ("X", BOX_COLOUR)):
         left, right = LETTER_X[letter] - 4, LETTER_X[letter] + LETTER_WIDTH[letter] + 3

@@ -33,8 +33,9 @@ LETTERS = {
 
 
 def panel(light, body):
-    """Return a 24 x 24 window frame, to be stretched from its 8 px corners. light: colour of its edge; body: of its
-    inside.
+    """Return a 24 x 24 window frame, to be stretched from its 8 px corners.
+
+    light: colour of its edge; body: colour of its inside.
     """
     sprite = Sprite(24, 24)
     x, y = sprite.x, sprite.y
@@ -46,7 +47,7 @@ def panel(light, body):
 
 
 def bar(ramp):
-    """Return an 8 x 8 piece of a filled bar, to be repeated in x. ramp: name of its colours."""
+    """Return an 8 x 8 piece of a filled bar, which is repeated in x. ramp: name of its colours."""
     out = np.zeros((8, 8, 4), np.uint8)
     out[..., 3] = 255
     for row, tone in enumerate((None, 5, 4, 4, 3, 3, 2, None)):
