@@ -98,7 +98,7 @@ def exhaust(frame):
 
 
 def marked_core(frame):
-    """Return the mark of the player's core, 6 x 6 px: a jewel in a dark setting. frame: 0..1, of which one glows."""
+    """Return the mark of the player's core, 6 x 6 px: a jewel in a dark setting. frame: 0..1, the second brighter."""
     rows = (".dddd.", "drwwrd", "dwWWrd", "dwWrrd", "drrrrd", ".dddd.")
     tones = {
         "d": OUTLINE,

@@ -551,9 +551,9 @@ def lay_lines(found, path, workspace, n, points_out):
 
 @kernel
 def lines_of_loop(path, workspace, points_out):
-    """Write the points (POINT rows) of the outline along a closed path.
+    """Write the points of the outline along a closed path. Return their number, or 0 if no lines were found.
 
-    path: Path; workspace: Lines, which holds the path's runs. Return their number, or 0 if no lines were found.
+    path: Path; workspace: Lines, which holds the path's runs; points_out: POINT rows.
     """
     around, anchor = put_loop(workspace.runs, path.count, path.cracks, workspace.places)
     found = cheapest_loop(around, anchor, path.reach, workspace.places, workspace.chain)

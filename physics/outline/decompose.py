@@ -266,7 +266,10 @@ def simple_rings(outer: np.ndarray, holes: Sequence[np.ndarray]) -> list[np.ndar
 
 
 def without_straight(ring: np.ndarray, flat: float) -> np.ndarray:
-    """Return a ring (n, 2) without repeated and collinear corners. flat [px2]: as in Walls."""
+    """Return a ring (n, 2) [px] without repeated and collinear corners.
+
+    flat [px2]: a corner is collinear if twice the area of the triangle with its neighbours is at most this.
+    """
     while len(ring) > 2:
         before, after = ring - np.roll(ring, 1, axis=0), np.roll(ring, -1, axis=0) - ring
         straight = np.abs(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]) <= flat
@@ -668,9 +671,9 @@ def _halving(sides):
 
 
 def _joined(points, pieces, flat):
-    """Merge convex pieces across their common sides, where the union is convex with at most 16 corners.
+    """Return convex pieces after merging them across common sides, if the union is convex with at most 16 corners.
 
-    The longest common side is tried first. points (n, 2) [px]; pieces: lists of indices of points. Return the pieces.
+    The longest common side is tried first. points (n, 2) [px]; pieces: lists of indices of points.
     """
     owner = {side: number for number, piece in enumerate(pieces) for side in _sides(piece)}
     common = [side for side in owner if side[0] < side[1] and side[::-1] in owner]

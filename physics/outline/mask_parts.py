@@ -67,12 +67,12 @@ def join_touching(n, sides_inout):
 
 @kernel
 def cut_rings(points, counts, most, sides_inout, corners_out, inner_out, counts_out):
-    """Decompose a polygon, given by rings, into convex parts.
+    """Decompose a polygon into convex parts. Return their number, or -1 if the rings are not a polygon.
 
     points (n, 2) [px]: corners ring after ring, the outer ring first; counts (rings,): number of corners of each ring;
     most: largest number of corners of a part; sides_inout: SIDE rows, scratch; corners_out (n, 2) [px]: corners part
     after part; inner_out (n,): whether the side after each corner is shared by two parts; counts_out (parts,): number
-    of corners of each part. Return their number, or -1 if the rings are not a polygon.
+    of corners of each part.
     """
     n = 0
     start = 0

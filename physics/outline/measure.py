@@ -74,7 +74,7 @@ def boundary(hulls: Sequence[Hull]) -> list[Stretch]:
 
 
 def line(start: np.ndarray, end: np.ndarray) -> Stretch:
-    """Return the straight stretch from `start` to `end`."""
+    """Return the straight line from `start` to `end` as a Stretch."""
     return Stretch(np.asarray(start, float), np.asarray(end, float), np.zeros(2), 0.0, 0.0, 0.0)
 
 

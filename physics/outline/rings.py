@@ -31,7 +31,7 @@ SIDE = np.dtype(
 
 @subkernel
 def put_side(n, first, x, y, inner, sides_inout):
-    """Append a side that starts at (x, y) [px] to a ring. Return the number of sides.
+    """Append a side that starts at (x, y) [px] to a ring. Return the new number of sides.
 
     A side that starts where the last side starts is not added; only the last side's flag is replaced by `inner`. n:
     number of sides before; first: row of the ring's first side; inner: whether the polygon continues beyond the side.
@@ -92,7 +92,7 @@ def is_reflex(sides, k):
     """Return whether the angle at corner k is more than half a turn, so that a cut is needed there.
 
     An angle of exactly half a turn between an inner side and a side on the outline also counts. So each side of a part
-    is either inner or on the outline as a whole.
+    is either wholly inner or wholly on the outline.
     """
     side = sides[k]
     turn = turn_at(sides, side.previous, k, side.next)
@@ -138,7 +138,7 @@ def blocks(sides, k, a, b):
 def sees(sides, a, b):
     """Return whether the line between two corners a and b of one ring lies inside and meets no other side.
 
-    O(corners).
+    The time is O(corners).
     """
     if not faces(sides, a, b) or not faces(sides, b, a):
         return False
@@ -166,7 +166,7 @@ def sees_through(sides, count, a, b):
 
 @subkernel
 def put_cut(n, a, b, sides_inout):
-    """Append a cut between corners a and b, as two sides that are linked into their rings. Return the number of sides.
+    """Append a cut between corners a and b, as two sides linked into their rings. Return the new number of sides.
 
     n: number of sides before.
     """

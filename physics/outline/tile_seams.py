@@ -1,7 +1,7 @@
 """Which corners and sides of a tile's convex parts are not on the outline of the mask, because other parts adjoin them.
 
 Sides shared by two parts are inner: they are not on the outline. If the angles of all parts at a corner sum to half a
-turn or more, the outline has no convex corner there, and the corner is covered. Otherwise the corner belongs to the
+turn or more, the outline has no convex corner there. The corner is then covered. Otherwise the corner belongs to the
 first of these parts that has a side on the outline at the corner, and is covered for the other parts. Parts are ordered
 by tiles, row by row, then in their order within the tile. A corner at which the whole outline turns less than the part
 is marked as blunt.
@@ -178,10 +178,7 @@ def turn_bits(turn):
 
 @subkernel
 def first_of(around, number):
-    """Return the index of the first row of meetings `around` (m, 5) whose tile number is `number` or higher.
-
-    O(log m).
-    """
+    """Return the index of the first row of `around` (m, 5) whose tile number is `number` or higher. O(log m)."""
     low, high = 0, len(around)
     while low < high:
         middle = (low + high) // 2
@@ -197,9 +194,9 @@ def cover_corners(corners, known, around, place, turns_out):
     """Write the turn [rad] of the outline at each corner of a tile's parts to turns_out (n,).
 
     Only the turns at seams (known.seams) are computed; at all other corners the turn is pi. At a seam, the interior
-    angles of all parts with this corner are summed. The turn is COVERED if the sum is HALF_TURN or more, or if an
-    earlier part has a seam at the corner, else it is pi minus the sum. corners (n, 2) [px]; known, around: see
-    inner_bits; place: (number of the tile, tiles per row). O(n²), plus the meetings of neighbouring tiles.
+    angles of all parts with this corner are summed. The turn is pi minus the sum. It is COVERED if the sum is HALF_TURN
+    or more, or if an earlier part has a seam at the corner. corners (n, 2) [px]; known, around: see inner_bits; place:
+    (number of the tile, tiles per row). O(n²), plus the meetings of neighbouring tiles.
     """
     there = known.seams
     number, columns = place

@@ -191,9 +191,9 @@ class QueryIndex:
         """Update the AABBs of shapes to the present poses, and the list of loose shapes.
 
         Loose shapes are those that the broad phase may miss. world: a World, or the StepState of its step. If no body
-        has moved since the last call, nothing is done. After a step of a world with sleeping, only bodies that may have
-        moved are read: those that were awake before or after the step, were moved by the user, or were edited.
-        Otherwise all bodies are read.
+        has moved since the last call, nothing is done. After a step of a world with sleeping, only some bodies are
+        read: those that were awake before or after the step, that the user moved, or that were edited. Otherwise all
+        bodies are read.
         """
         bodies, shapes, pairs, awake = world.bodies, world.shapes, world.pairs, world.awake
         newest = int(shapes["id"][-1]) if len(shapes) else -1

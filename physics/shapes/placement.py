@@ -278,7 +278,7 @@ def chain_aabb(geometry, chain, cosine, sine):
 def aabb_at(geometry, shapes, row, x, y, angle):
     """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a shape with its body at a pose. O(corners).
 
-    The AABB of a mask is that of its solid pixels: on whole pixels if it is tested as drawn (snap=True) and its role is
+    The AABB of a mask is that of its solid pixels. They are on whole pixels if the mask has snap=True and its role is
     not PIXELS, otherwise at the exact pose. The AABB of an empty mask is the point (x, y). row: SHAPE row.
     """
     s = shapes[row]

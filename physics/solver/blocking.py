@@ -1,8 +1,8 @@
 """Blocking: a body that would overlap another keeps its old pose, as in the movement loop of simple arcade games.
 
 Unlike in `projection`, only kinematic bodies push other bodies. A dynamic body that would overlap keeps its old pose
-and loses its velocity towards the obstacle. At its old pose it may block other bodies, so the test is repeated until no
-further body overlaps: at most once per body, two or three rounds in practice.
+and loses its velocity towards the obstacle. At its old pose it may block other bodies. So the test is repeated until no
+further body overlaps, at most once per body; in practice two or three times.
 """
 
 import math

@@ -316,10 +316,10 @@ def order_joints(joints, classes, starts_out, rows_out):
 
 @kernel
 def order_in_one_group(contacts, bodies, dt, limits, motions_inout, lists_inout, plan_out):
-    """Order all constraints as one group in which every island has the same number of substeps.
+    """Order all constraints as one group, in which every island has the same number of substeps.
 
-    O(constraints + motions). Contacts are sorted by colour. Return (number of contacts to solve, number of these
-    without a colour). Arguments: see list_and_color.
+    Return (number of contacts to solve, number of these without a colour). Contacts are sorted by colour. Arguments:
+    see list_and_color. O(constraints + motions).
     """
     count, unchanged = list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, plan_out)
     plan, starts = plan_out, plan_out.starts[: COLORS + 2]
@@ -452,10 +452,10 @@ def add_estimates(blocks, count, substeps, rules, motions_inout):
 def choose_by_load(blocks, count, group, links_islands, rules, plan_inout, motions_inout):
     """Write to the MOTION rows how many substeps each island of a group takes in the next step.
 
-    O(members + constraints). Return how many islands have needed more substeps than allowed for at least rules.patience
-    [s]. This time excludes short impacts. blocks, count: the contacts of the group, in the first `count` blocks;
-    links_islands: see MotionLists; rules: see LoadRules; plan_inout: see Plan. Islands are searched only if a body
-    needs another number of substeps.
+    Return how many islands have needed more substeps than allowed for at least rules.patience [s]. This time excludes
+    short impacts. blocks, count: the contacts of the group, in the first `count` blocks; links_islands: see
+    MotionLists; rules: see LoadRules; plan_inout: see Plan. Islands are searched only if a body needs another number of
+    substeps. O(members + constraints).
     """
     plan = plan_inout
     substeps = group.substeps

@@ -1,12 +1,12 @@
 """Energy bound: contacts add no energy to an island, except the work of kinematic bodies and moving surfaces.
 
-Several things may add energy: contacts that separate overlaps, springs that ring, normals that are a step old on curved
-ground, and moment arms that are fixed for a substep. Bodies that exchanged impulses in a step form a set of touching
+Contacts may add energy if they separate overlaps, if their springs ring, if their normals are a step old on curved
+ground, or if their moment arms are fixed for a substep. Bodies that exchanged impulses in a step form a set of touching
 bodies. After the step, the kinetic energy of a set is compared with its energy before the step plus the work of
 gravity, forces and moving surfaces. A further gain may come from the reserve of the bodies, which is energy lost in
 earlier steps. The rest of the gain is removed by scaling the velocities.
 
-Bodies in flight that hit only each other keep their momentum and angular momentum: only their velocities relative to
+Bodies in flight that hit only each other keep their momentum and angular momentum. Only their velocities relative to
 their common motion as one rigid body are scaled.
 """
 
@@ -194,7 +194,7 @@ def balance_bodies(group, degrees, floor, lift, keep, motions, balance_inout):
     """Write the energy that each body of a group gained. Return whether a body in contact gained more than allowed.
 
     The allowed gain per mass is `floor` [px2/s2], or the gain that the body may take from its reserve if that is
-    greater. The gain from the reserve is limited, too: by the greater of SHARE_BACK of the body's energy, and the
+    greater. The gain from the reserve is also limited. The limit is SHARE_BACK of the body's energy or, if greater, the
     energy of a lift by `lift` [px] against its acceleration. A body with a joint always counts as having gained more
     than allowed.
 
@@ -227,7 +227,7 @@ def balance_bodies(group, degrees, floor, lift, keep, motions, balance_inout):
 
 @inlined
 def reset_balance(balance_out):
-    """Clear the fields of a BALANCE row that hold sums over a set of touching bodies, or normals of contacts."""
+    """Clear the fields of a BALANCE row that hold normals of contacts, or sums over a set of touching bodies."""
     e = balance_out
     e.lift, e.surfaces = 0.0, 0.0
     e.face_x, e.face_y, e.fastest = 0.0, 0.0, 0.0
@@ -383,10 +383,10 @@ def draw_on_reserve(slop, balance_inout):
     A gain that the reserve covers is taken from the reserve, not removed. Return 1 if a gain has to be removed, else 0.
     balance_inout: BALANCE row of the root of the set, with the sums of sum_balances.
 
-    Errors of the integrator alternate in sign, so bodies may take back energy that they lost before: per step
+    Errors of the integrator alternate in sign, so bodies may take back energy that they lost before. Per step this is
     SHARE_BACK of their energy, or the energy of a lift by a slop [px]. Sets with joints may take back all of their
-    reserve in one step: light links under tension exchange much of their energy with the error of the integrator. Work
-    of surfaces that did not speed up a body is not added to the reserve. Bodies with motors, springs or joints to
+    reserve in one step, because light links under tension exchange much energy with the integrator's error. Work of
+    surfaces that did not speed up a body is not added to the reserve. Bodies with motors, springs or joints to
     kinematic bodies keep all gains.
     """
     e = balance_inout
@@ -447,10 +447,11 @@ def join_pushed(blocks, count, group, links_islands, parents_out):
 def keep_losses(group, parents, motions, balance_inout):
     """Add the energy that each set of touching bodies lost to its reserve, if no set of the group gained energy.
 
-    Return whether no set gained; otherwise no reserve is changed. parents (motions) int32: the root of each body. This
-    is a shortcut for worlds without joints and moving kinematic bodies, with the result of sum_balances and
-    draw_on_reserve: there surfaces can only add energy to a set, so a set without a gain is not slowed down. In a pile
-    that settles it takes a third of the time.
+    Return whether no set gained; otherwise no reserve is changed. parents (motions) int32: the root of each body.
+
+    This is a shortcut for worlds without joints and moving kinematic bodies, and gives the result of sum_balances and
+    draw_on_reserve. In such worlds surfaces can only add energy to a set, so a set without a gain is not slowed down.
+    In a pile that settles it takes a third of the time.
     """
     for k in range(len(group.members)):
         e = balance_inout[group.members[k]]
@@ -529,8 +530,8 @@ def limit_energy(blocks, count, group, links_islands, moving, context, plan_inou
     """Remove the energy that the contacts of a group have added. O(members + lanes).
 
     Return how many sets of touching bodies had gained energy. In islands squeezed between faces, the speed of a body is
-    also limited: to the speed of the faces plus the push-out speed, or to its own speed before the step if that was
-    greater.
+    also limited to the speed of the faces plus the push-out speed. A body that was faster before the step keeps its
+    speed.
 
     blocks, count: the contacts, in the first `count` blocks; group, plan_inout: see contact_lanes.Group and Plan;
     links_islands: see MotionLists; moving: number of kinematic bodies that move; context: see StepContext;
@@ -596,10 +597,10 @@ def note_faces(edges, count, lists, slop, parents, squeeze_out):
 def find_squeezed(edges, count, lists, motions, limits, parents_out, squeeze_out):
     """Find the islands without room, and write the bounds of their impulses as SQUEEZE rows. O(count + motions).
 
-    Return whether there are any. An island has no room if it overlaps deeply and one of two conditions holds:
-    overlapping faces point in different directions, or a moving face is opposite to another face. A face is the side of
-    a body of infinite mass. edges, count: the constraints, in the first `count` graph edges; lists: MotionLists;
-    motions: MOTION rows; limits: see settings.Limits; parents_out (motions) int32: the root of the island of each body.
+    Return whether there are any. A face is the side of a body of infinite mass at a contact. An island has no room if
+    it overlaps deeply, and if overlapping faces point in different directions or a moving face is opposite to another
+    face. edges, count: the constraints, in the first `count` graph edges; lists: MotionLists; motions: MOTION rows;
+    limits: see settings.Limits; parents_out (motions) int32: the root of the island of each body.
     """
     for i in range(len(motions)):
         s = squeeze_out[i]

@@ -1,11 +1,13 @@
 """The direct tier of joints: the parts of joints that trees can solve, as rows for the solver in joint_trees.py.
 
 For a joint in a tree, the parts that hold its anchors and its angle are solved exactly, together with all other joints
-of the tree. So is its coordinate, if that is held or has a spring. All else is solved by the passes of joint_rows.py,
-before the trees: motors, limits, parts with a bounded force, joints that close a loop, and further joints between the
-same two bodies. Rigid parts have no spring: a velocity removes an error of position within the next substep, and the
-solve at the end of that substep removes this velocity again. A spring that the user has set enters as compliance
-(Catto, Soft Constraints, GDC 2011).
+of the tree. So is its coordinate, if that is held or has a spring. The passes of joint_rows.py solve all else, before
+the trees: motors, limits and parts with a bounded force. They also solve joints that close a loop, and further joints
+between the same two bodies.
+
+Rigid parts have no spring. A velocity removes an error of position within the next substep, and the solve at the end of
+that substep removes this velocity again. A spring that the user has set enters as compliance (Catto, Soft Constraints,
+GDC 2011).
 """
 
 from typing import NamedTuple
@@ -255,10 +257,10 @@ def write_targets(joint, rate, context, a, b, first, rows_inout):
 def add_inertia(rows, order, h, joints_inout, motions_inout):
     """Raise the inertia of light bodies in trees under tension, so that substeps can follow their oscillations.
 
-    O(order). A light link between heavy bodies oscillates like a string. A tension F at an arm r turns the link back by
-    a torque F r per radian. With an inertia of at least h² Σ F r, the oscillation advances by at most one radian in a
-    substep of h [s] (geometric stiffness: Andrews, Teichmann and Kövecses, 2017). F is the greatest recent force, and
-    fades within a quarter of a second: a chain that jerks is slack in between. rows, order: see JointSet.
+    A light link between heavy bodies oscillates like a string. A tension F at an arm r turns the link back by a torque
+    F r per radian. With an inertia of at least h² Σ F r, the oscillation advances by at most one radian in a substep of
+    h [s]. F is the greatest recent force, and fades within a quarter of a second, because a chain that jerks is slack
+    in between. Source: geometric stiffness, Andrews, Teichmann and Kövecses, 2017. rows, order: see JointSet. O(order).
     """
     fade = max(1.0 - h / FADING, 0.0)
     for k in range(len(order)):
@@ -354,10 +356,10 @@ class JointSet(NamedTuple):
 
 @subkernel
 def begin_trees(context, joints_inout, motions_inout):
-    """Compute the geometry of joints in trees at the present poses, and factor the trees.
+    """Prepare the trees for a solve at the present poses. Return the number of redundant rows, see factor_trees.
 
-    Redundant rows: see factor_trees. context: see StepContext; joints_inout: JointSet; motions_inout: MOTION rows.
-    Return the number of redundant rows.
+    The geometry of their joints is computed, and the trees are factored. context: see StepContext; joints_inout:
+    JointSet; motions_inout: MOTION rows.
     """
     s = joints_inout
     if len(s.order) == 0:

@@ -472,7 +472,7 @@ def impulse_of(joint):
 def warm_joints(rows, joints_inout, motions_inout):
     """Compute the geometry of joints at the present poses, and apply the impulses of the last substep (warm start).
 
-    O(rows). rows: indices of JOINT rows.
+    rows: indices of JOINT rows. O(rows).
     """
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
@@ -598,7 +598,7 @@ def velocity_at(body, x, y):
 def report_joints(bodies, joints_inout):
     """Write the fields of the JOINT rows that users read: angle, translation, speed, separation and `broken`.
 
-    O(joints). They are computed at the present poses of the BODY rows `bodies`.
+    They are computed at the present poses of the BODY rows `bodies`. O(joints).
     """
     for k in range(len(joints_inout)):
         j = joints_inout[k]

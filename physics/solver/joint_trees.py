@@ -158,9 +158,10 @@ def has_infinite_mass(motion):
 
 @subkernel
 def take_joints(order, motion_a, motion_b, motions, forest_inout, taken_out):
-    """Choose the joints that form the forest, and list them for each body as half-edges.
+    """Choose the joints that form the forest. Return their number. The joints of each body are linked into a list.
 
-    A half-edge is one side of a joint, see Forest. Arguments: see build_forest. Return the number of chosen joints.
+    The elements of these lists are half-edges: a half-edge is one side of a joint, see Forest. Arguments: see
+    build_forest.
     """
     f = forest_inout
     for i in range(len(motions)):
@@ -554,7 +555,7 @@ def move_body(body, motion_inout):
 
 @inlined
 def place_body(motion, body_out):
-    """Copy the velocity of a MOTION row to a TREE_BODY row, and clear the impulse of the TREE_BODY row."""
+    """Copy the velocity of a MOTION row to a TREE_BODY row, and set the impulse of the TREE_BODY row to 0."""
     b, m = body_out, motion
     b.vx = 0.0 if abs(m.vx) < AT_REST else m.vx
     b.vy = 0.0 if abs(m.vy) < AT_REST else m.vy
@@ -564,9 +565,9 @@ def place_body(motion, body_out):
 
 @subkernel
 def sweep_trees(count, forest_inout, joint_rows_inout):
-    """Solve all trees for the velocities of the first `count` TREE_BODY rows: from leaves to roots, and back.
+    """Solve all trees for the velocities of the first `count` TREE_BODY rows, in O(joints).
 
-    O(joints).
+    One pass leads from the leaves to the roots, a second one back to the leaves.
     """
     f = forest_inout
     for slot in range(count - 1, -1, -1):

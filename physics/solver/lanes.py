@@ -1,4 +1,4 @@
-"""Contacts in lanes: their layout, their points and bodies, and how lanes are filled from CONTACT rows."""
+"""Contacts in SIMD lanes: their layout, the points and bodies in them, and how they are filled from CONTACT rows."""
 
 import math
 from collections.abc import Callable
@@ -293,11 +293,10 @@ def scatter_velocities(s, lane, a_out, b_out):
 
 @inlined
 def measure_gaps(lane, s, c_inout):
-    """Compute the separations [px] at both points of a contact at the present poses, and write them to GAP_1 and GAP_2.
+    """Write the separations [px] of both points of a contact at the present poses to GAP_1 and GAP_2.
 
-    The contact points rotate with their bodies. The core of a rounded shape is the shape without its radius: the point
-    on the core rotates, and the surface stays one radius away from it along the normal. s: gathered poses, see
-    GATHERED.
+    The core of a rounded shape is the shape without its radius. A point on the core rotates with its body. The surface
+    stays one radius away from it along the normal. s: gathered poses, see GATHERED.
     """
     c = c_inout
     nx = c[NX + lane]
@@ -582,8 +581,8 @@ def speed_of_drift(a, b, rate, slop, contact_inout):
 def how_it_turns(contact, a, b, dt, lane, c):
     """Return how the solver updates the normal and arms of a contact within a step: FIXED, ARMS or NORMAL_OF_….
 
-    It is FIXED if no shape is round, if the bodies (MOTION rows a, b) hardly rotate in dt [s], or if the impact is
-    elastic: restitution uses the arms at the start of the step. c, lane: the contact's lane in a block.
+    It is FIXED if no shape is round, or the bodies (MOTION rows a, b) hardly rotate in dt [s]. An elastic impact is
+    also FIXED, because restitution uses the arms at the start of the step. c, lane: the contact's lane in a block.
     """
     m = contact
     elastic = m.restitution > 0.0 and (c[LOADED + lane] == 0.0 or c[BOUNCING + lane] > 0.0)

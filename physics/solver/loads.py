@@ -43,8 +43,8 @@ def forget_below(rows, size, bodies, blow, stamp, lists_inout, contacts_inout):
     An outer body is affected if bodies of a group press on it with a force per mass of more than `blow` [px/s2]. Then
     all its contacts lose their cached forces, and so do all contacts of the dynamic bodies connected to it by contacts.
 
-    rows: BODY rows of the groups, `size` rows per group; bodies: all BODY rows; stamp: a number not less than any mark
-    in lists_inout (see Lists). Return the greatest stamp used. O(contacts of the groups and of the connected bodies).
+    Return the greatest stamp used. stamp: a number not less than any mark in lists_inout (see Lists); rows: BODY rows
+    of the groups, `size` rows per group; bodies: all BODY rows. O(contacts of the groups and of the connected bodies).
     """
     heads, nexts = lists_inout.heads, lists_inout.nexts
     marks, reached = lists_inout.marks, lists_inout.reached

@@ -342,7 +342,7 @@ class Motions:
         self.used, self.island_bodies, self.kinematic = self.rows[:0], *self.lists.by_kind[:, :0]
 
     def gather(self, state: StepState) -> None:
-        """Copy the awake bodies to MOTION rows."""
+        """Copy the awake bodies to MOTION rows, see make_gather."""
         rows, bodies, effects = state.awake.bodies, state.bodies, state.effects
         if len(self.rows) < len(rows) + 1:
             self._grow(2 * len(rows) + 1, self.lists.motion_of)

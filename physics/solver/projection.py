@@ -72,8 +72,8 @@ def restitution_threshold(press, a, b, nx, ny):
 def prepare_pushes(geometry, bodies, shapes, manifolds, conveyor, press, pushes_out):
     """Write a PUSH row for every contact point, except for contacts of sensors. Return the number of rows.
 
-    O(manifolds). geometry: tables of the shape library; manifolds: CONTACT rows; conveyor: 1 to use surface speeds, 0
-    to ignore them; press: see Press.
+    geometry: tables of the shape library; manifolds: CONTACT rows; conveyor: 1 to use surface speeds, 0 to ignore them;
+    press: see Press. O(manifolds).
     """
     found = 0
     for i in range(len(manifolds)):
