@@ -46,7 +46,7 @@ def slack_of(a, b):
 
 @subkernel
 def reach_of(cosine, sine):
-    """Return the distance [px] of the centres of two unit squares from which they no longer overlap along an axis.
+    """Return the centre distance [px] along an axis at which two unit squares just touch.
 
     The axes are those of both squares. The squares share area if their centres are nearer than this on all axes.
     cosine, sine: of the angle between the squares.
