@@ -1,48 +1,23 @@
 """Advice on the settings of a scene: the fastest setting whose error is within a limit.
 
-First, settings that differ from the present one by a single change are measured at moments of a recorded run. Then the
-changes that save time are measured together. Advice is given only if it is certain: over all moments, the intervals of
-the two times do not overlap, and the times differ by more than 10 % (pareto_front.TIE). At last the advice is applied:
-the whole run is played with the present setting and with the advised one in turns. If the measured times do not
-confirm the advice, it is withdrawn.
+First, settings that differ from the present one by a single change are measured. Then the changes that save time are
+measured together. Advice is given only if it is certain: over all moments, the intervals of the two times do not
+overlap, and the times differ by more than 10 % (pareto_front.TIE).
 """
 
 from collections.abc import Callable, Iterable, Sequence
-from itertools import islice
 from random import Random
 from typing import NamedTuple
 
-import numpy as np
-
-from game.measure.errors import VISIBLE, Error, References
+from game.measure.errors import VISIBLE, References
 from game.measure.moment import STEPS, Moment
-from game.measure.pareto_front import TIE, cheaper
-from game.measure.recorded_run import Overview, RecordedRun, changes_to, look_over, seconds_of_steps
+from game.measure.pareto_front import cheaper
 from game.measure.setting import Setting, settings_around
 from game.measure.survey import Survey, is_sound
 from game.measure.timing import RUNS
 
-APPLIED_RUNS = 3  # repetitions of a whole run with each of two settings
-WARM_STEPS = 60  # of each setting, before the first repetition
-MOST_TRIED = 3  # settings tried on the whole run, if the first ones do not hold
 # groups of fields of Setting that are chosen independently
 PARTS = (("broadphase",), ("tier",), ("solver", "substeps"), ("narrowphase",))
-
-
-class Applied(NamedTuple):
-    """An advised setting, applied to a whole run. Times are shares of the time of the present setting."""
-
-    setting: Setting
-    predicted: float  # at the moments
-    mean: float  # over all steps of the run
-    interval: tuple[float, float]  # least and greatest mean of the repetitions
-    p99: float  # of the slowest step in a hundred
-    refused: str = ""  # the reason why the scene cannot play with the setting; the measured shares are then 0
-
-    @property
-    def holds(self) -> bool:
-        """True if the whole run is certainly faster, and its slowest steps are no slower."""
-        return not self.refused and self.interval[1] < 1.0 - TIE and self.p99 < 1.0 + TIE
 
 
 class Advice(NamedTuple):
@@ -55,7 +30,6 @@ class Advice(NamedTuple):
     here: Setting
     best: Setting | None
     within: tuple[Setting, ...]  # all settings within the error, the cheapest first
-    applied: tuple[Applied, ...] = ()  # the advised settings that were tried on the whole run, the last one counts
 
 
 Report = Callable[[int, int], object]  # called with (runs done, runs in all)
@@ -111,67 +85,6 @@ def advise(
     return Advice(here, best, tuple(within)), survey
 
 
-def advise_on_run(
-    run: RecordedRun, error: float, report: Report = lambda done, of: None, seed: int = 0
-) -> tuple[Advice, Survey, Overview]:
-    """Return the advice on a recorded run, tried on the whole of it, the survey, and what was looked at.
-
-    error: as in advise. An advice that does not hold is withdrawn, and the setting that was next best is tried. Raises
-    ValueError for a run without steps.
-    """
-    overview = look_over(run)
-    advice, survey = advise(overview.moments, error, report, seed)
-    here, tried = advice.here, []
-    count_encounters(survey, here, overview)
-    within = settings_within(survey, error)
-    if not within:
-        return Advice(here, None, ()), survey, overview
-    sure = [each for each in within if each != here and (here not in within or is_cheaper(survey, each, here))]
-    best = here if here in within else None
-    for setting in sure[:MOST_TRIED]:
-        tried.append(apply_to_run(run, setting, share(survey, setting, here)))
-        if tried[-1].holds or (here not in within and not tried[-1].refused):
-            best = setting
-            break
-    return Advice(here, best, tuple(within), tuple(tried)), survey, overview
-
-
-def count_encounters(survey: Survey, here: Setting, overview: Overview) -> None:
-    """Replace the errors of tiers in a survey by those of the encounters over a whole run."""
-    for setting, dot in survey.dots.items():
-        found = overview.encounters.get(setting.tier or "")
-        if found is not None and "verdict" in survey.kinds and setting.narrowphase:
-            failures = dot.error("verdict")
-            dot.errors = {0: {"verdict": Error.of(found, STEPS, {} if failures is None else failures.failures)}}
-            dot.forget()
-
-
-def apply_to_run(run: RecordedRun, setting: Setting, predicted: float) -> Applied:
-    """Play a whole run with the present setting and with another one in turns, APPLIED_RUNS times each.
-
-    predicted: time of the setting at the moments, as a share of the present time.
-    """
-    changes = changes_to(setting, run.make())
-    if isinstance(changes, str):
-        return Applied(setting, predicted, 0.0, (0.0, 0.0), 0.0, changes)
-    for each in ((), changes):
-        for _ in islice(run.play(each), WARM_STEPS):
-            pass  # compiles what is missing
-    now, other = [], []
-    for _ in range(APPLIED_RUNS):
-        now.append(seconds_of_steps(run, ()))
-        other.append(seconds_of_steps(run, changes))
-    ratios = sorted(b.mean() / a.mean() for a, b in zip(now, other, strict=True))
-    slowest = [np.percentile(np.min(each, axis=0), 99) for each in (other, now)]
-    return Applied(
-        setting,
-        predicted,
-        float(np.median(ratios)),
-        (float(ratios[0]), float(ratios[-1])),
-        float(slowest[0] / slowest[1]),
-    )
-
-
 def advised(survey: Survey, here: Setting, error: float = VISIBLE) -> Setting | None:
     """Return the fastest measured setting whose error of every kind is at most `error` [px].
 
@@ -204,7 +117,7 @@ def settings_within(survey: Survey, error: float) -> list[Setting]:
     """
     found = {}
     for setting, dot in survey.dots.items():
-        errors = [dot.error(kind) for kind in survey.kinds]
+        errors = [survey.error(setting, kind) for kind in survey.kinds]
         if dot.cost is not None and all(
             e is not None and is_sound(e) and e.interval[_end(survey, setting, e)] <= error for e in errors
         ):

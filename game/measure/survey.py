@@ -38,10 +38,6 @@ class Dot:
         self.errors[moment] = errors
         self._known.clear()
 
-    def forget(self) -> None:
-        """Drop the cached results, because `spent` or `errors` was replaced."""
-        self._known.clear()
-
     @property
     def cost(self) -> Cost | None:
         """Seconds per step: the mean over the moments; None before the first run."""
@@ -90,6 +86,8 @@ class Survey:
         self.kinds: tuple[str, ...] = ()
         self.moments = 0
         self.planned = 0  # settings that are being measured
+        # Of the whole run, by tier; they count instead of the encounters at the moments. {}: no run was recorded.
+        self.encounters: dict[str, Verdicts] = {}
 
     @property
     def first(self) -> Setting:
@@ -100,11 +98,19 @@ class Survey:
         """Return the dot of a setting; a new one if there is none."""
         return self.dots.setdefault(setting, Dot(setting))
 
+    def error(self, setting: Setting, kind: str) -> Error | None:
+        """Return the error of a measured setting, pooled over all moments or over the whole run; None if unknown."""
+        error = self.dots[setting].error(kind)
+        verdicts = self.encounters.get(setting.tier or "") if setting.narrowphase else None
+        if error is None or error.verdicts is None or verdicts is None:
+            return error
+        return Error.of(verdicts, error.steps, error.failures)
+
     def known(self, kind: str) -> dict[Setting, tuple[Cost, Error]]:
         """Return {setting: (cost, error)} of the settings with a cost and an error of this kind."""
         found = {}
         for setting, dot in self.dots.items():
-            cost, error = dot.cost, dot.error(kind)
+            cost, error = dot.cost, self.error(setting, kind)
             if cost is not None and error is not None:
                 found[setting] = cost, error
         return found
@@ -115,11 +121,12 @@ class Survey:
         """
         return pareto_front({s: (cost.median, reported_error(error)) for s, (cost, error) in self.known(kind).items()})
 
-    def finding(self, kind: str, here: Setting) -> str:
+    def finding(self, kind: str, here: Setting, proven: Setting | None = None) -> str:
         """Return one sentence that compares the setting `here` with the others by cost and by this kind of error; "" if
         too few are measured.
 
-        Two errors count as different only if their intervals are apart.
+        Two errors count as different only if their intervals are apart. proven: the cheaper setting that has proved
+        itself on the whole run; only this one is said to be cheaper.
         """
         known = {s: each for s, each in self.known(kind).items() if self.dots[s].sure}
         if here not in known or len(known) < 2:
@@ -130,6 +137,8 @@ class Survey:
         as_good = {s: c for s, (c, e) in sound.items() if e.interval[1] <= (1.0 + TIE) * most}
         best = min(as_good, key=lambda s: as_good[s].median, default=here)
         if best != here and cheaper(as_good[best][:2], cost[:2]):
+            if best != proven:
+                return "nothing as exact has proved cheaper over a whole run"
             share = as_good[best].median / cost.median
             return f"{best.label(here)}: as exact in {share:.2f} x the time"
         exacter = {s: (c, e) for s, (c, e) in sound.items() if e.interval[1] < (1.0 - TIE) * least}

@@ -2,6 +2,7 @@
 
 import contextlib
 import json
+import pickle
 import queue
 import subprocess
 import tempfile
@@ -32,11 +33,12 @@ from physics.jit.workers import end_all, start_module
 class Surveyor:
     """Client of the measuring process: the measure methods send orders, turn() stores the results that have arrived.
 
-    `trouble`: the reason why nothing is measured, or "". The process starts with the first order, and again with the
-    first order after stop().
+    module: name of the module that the process runs. `trouble`: the reason why nothing is measured, or "". The process
+    starts with the first order, and again with the first order after stop().
     """
 
-    def __init__(self) -> None:
+    def __init__(self, module: str = f"{__package__}.worker") -> None:
+        self.module = module
         self.survey = Survey()
         self.here: Setting | None = None  # setting of the last moment
         self.busy = False
@@ -50,20 +52,41 @@ class Surveyor:
         self.effects: dict[str, EffectCost] = {}  # costs of effects once requested, as far as measured
         self.found: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
         self.folder: tempfile.TemporaryDirectory[str] | None = None  # folder of the files that orders name
+        self.proofs: list[list[Any]] = []  # JSON forms of game.run.proven_advice.Applied, in the order of arrival
         self.process: subprocess.Popen[str] | None = None
 
-    def measure(self, snapshot: Snapshot, broadphase: str) -> None:
+    def measure(self, snapshot: Snapshot, broadphase: str, run: object = None) -> None:
         """Order measurements of all settings, starting from `snapshot`; the results go to `survey`. The order replaces
         an unfinished earlier one.
 
-        broadphase: name of the broad phase of the snapshot's world.
+        broadphase: name of the broad phase of the snapshot's world. run: the recorded run so far, for a process that
+        counts the encounters of a run (game.run.run_worker); None: not recorded.
         """
         if not self._started():
             return
         self.survey.moments += 1
         number = self.latest = self.survey.moments
         order = {"moment": number, "snapshot": self._path(f"{number}.npz"), "broadphase": broadphase}
-        self._hand_on_beside(order, partial(snapshot.save, order["snapshot"]))
+        if run is not None:
+            order["run"] = self._path(f"{number}.run")
+
+        def save():
+            snapshot.save(order["snapshot"])
+            if run is not None:
+                _save_run(order["run"], run)
+
+        self._hand_on_beside(order, save)
+
+    def prove(self, run: object, setting: Setting, predicted: float) -> None:
+        """Order that a setting is applied to a whole recorded run; the result goes to `proofs`.
+
+        predicted: time of the setting as a share of the present time. The process must be game.run.run_worker.
+        """
+        if not self._started():
+            return
+        self.latest = f"proof {self.revision}"
+        order = {"moment": self.latest, "prove": [setting, predicted], "run": self._path("proof.run")}
+        self._hand_on_beside(order, partial(_save_run, order["run"], run))
 
     def measure_sprites(self, first: PixelMask, second: PixelMask) -> None:
         """Order measurements of every tier for a pair of sprites, `first` and `second`; the results go to `figures`."""
@@ -127,7 +150,7 @@ class Surveyor:
         """Start the measuring process if it does not run, and mark it as busy. Return whether it runs."""
         if self.process is None:
             try:
-                self.process = start_module(f"{__package__}.worker")
+                self.process = start_module(self.module)
                 self.folder = tempfile.TemporaryDirectory(prefix="hitbox-", ignore_cleanup_errors=True)
             except (OSError, ValueError) as error:
                 self.stop()
@@ -186,6 +209,10 @@ class Surveyor:
             if "costs" in found:
                 known = known._replace(cost=Cost(*found["costs"][0]), without=Cost(*found["costs"][1]))
             self.effects[known.effect] = known._replace(kernels=found.get("kernels", known.kernels))
+        elif "encounters" in found:
+            survey.encounters = {tier: verdicts_of(each) for tier, each in found["encounters"].items()}
+        elif "applied" in found:
+            self.proofs.append(found["applied"])
         elif "done" in found:
             self.busy = self.busy and found["moment"] != self.latest
         else:
@@ -250,10 +277,17 @@ def figures_of(values: list[Any]) -> TierFigures:
 def error_of(values: dict[str, Any]) -> Error:
     """Return an Error from its JSON form."""
     verdicts = values["verdicts"]
-    if verdicts is not None:
-        reported, true, own = verdicts
-        verdicts = Verdicts(_pairs(reported), _pairs(true), own)
-    return Error(**{**values, "verdicts": verdicts})
+    return Error(**{**values, "verdicts": None if verdicts is None else verdicts_of(verdicts)})
+
+
+def verdicts_of(values: list[Any]) -> Verdicts:
+    """Return Verdicts from their JSON form."""
+    reported, true, own = values
+    return Verdicts(_pairs(reported), _pairs(true), own)
+
+
+def _save_run(path, run):
+    Path(path).write_bytes(pickle.dumps(run))
 
 
 def _pairs(lists):

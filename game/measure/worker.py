@@ -10,15 +10,16 @@ import os
 import queue
 import sys
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cache, partial
 from random import Random
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
 from game.measure.effect_costs import measure_effects
-from game.measure.errors import Error, References
+from game.measure.errors import Error, References, Verdicts
 from game.measure.measured_runs import measure_runs
 from game.measure.moment import Moment
 from game.measure.setting import settings_around
@@ -33,10 +34,12 @@ NICE = 19  # of 0 to 19: the game has priority
 
 def sent(error: Error) -> dict[str, Any]:
     """Return the JSON form of an error, which surveyor.error_of reads."""
-    verdicts = error.verdicts
-    if verdicts is None:
-        return vars(error)
-    return {**vars(error), "verdicts": (sorted(verdicts.reported), sorted(verdicts.true), verdicts.own)}
+    return {**vars(error), "verdicts": None if error.verdicts is None else sent_verdicts(error.verdicts)}
+
+
+def sent_verdicts(verdicts: Verdicts) -> tuple[list, list, bool]:
+    """Return the JSON form of verdicts, which surveyor.verdicts_of reads."""
+    return sorted(verdicts.reported), sorted(verdicts.true), verdicts.own
 
 
 class Orders:
@@ -178,8 +181,14 @@ def _listen(lines, heard):
     heard.put(None)
 
 
-def main() -> None:
-    """Carry out orders until standard input closes."""
+Work = Callable[[dict[str, Any], Callable[[str], object], Callable[[], bool]], None]
+
+
+def main(also: Mapping[str, Work] = MappingProxyType({})) -> None:
+    """Carry out orders until standard input closes.
+
+    also: {key: function} for orders that hold the key; the function is called with (order, report, goes_on).
+    """
     with contextlib.suppress(OSError, AttributeError):
         os.nice(NICE)
     orders, order = Orders(), None
@@ -188,7 +197,10 @@ def main() -> None:
         order = orders.next(order)
         try:
             report, goes_on = partial(print, flush=True), partial(orders.holds, order)
-            if "sprites" in order:
+            own = next((work for key, work in also.items() if key in order), None)
+            if own is not None:
+                own(order, report, goes_on)
+            elif "sprites" in order:
                 measure_sprites(order, report)
             elif "runs" in order:
                 measure_stored_runs(order, report, goes_on)

@@ -7,16 +7,16 @@ import sys
 from time import perf_counter
 
 from game.errors import UsageError
-from game.measure.advice import APPLIED_RUNS, Advice, Applied, advise_on_run
 from game.measure.errors import VISIBLE
 from game.measure.moment import STEPS
-from game.measure.recorded_run import SECOND, Overview, RecordedRun
 from game.measure.setting import Setting
-from game.measure.survey import Survey, shown
+from game.measure.survey import shown
 from game.measure.timing import RUNS
 from game.registry import Registry
 from game.run.headless import start_dummy_display
 from game.run.options import DEFAULT_FRAMES, Options, make_scene, scene_class_of
+from game.run.proven_advice import APPLIED_RUNS, Applied, Proven, advise_on_run
+from game.run.recorded_run import SECOND, RecordedRun
 from game.run.replay import Recorder
 from game.run.session import Session
 from game.run.sources import BotSource
@@ -37,12 +37,12 @@ def run_advice(options: Options, registry: Registry) -> int:
     warm_up_scene(scene_class_of(options, registry), options.broadphase, options.solver)
     error = VISIBLE if options.error is None else options.error
     run = recorded_run(options, registry, frames)
-    advice, survey, overview = advise_on_run(run, error, Progress(), options.seed or 0)
+    proven = advise_on_run(run, error, Progress(), options.seed or 0)
     if options.json:
-        print(json.dumps(as_json(options, error, advice, survey, overview)))
+        print(json.dumps(as_json(options, error, proven)))
     else:
-        print("\n".join(lines_of(options, error, advice, survey, overview)))
-    return 0 if advice.best is not None else 1
+        print("\n".join(lines_of(options, error, proven)))
+    return 0 if proven.advice.best is not None else 1
 
 
 def recorded_run(options: Options, registry: Registry, frames: int) -> RecordedRun:
@@ -69,11 +69,12 @@ class Progress:
             print(f"{done} of {of} runs, about {left:.0f} s more", file=sys.stderr, flush=True)
 
 
-def lines_of(options: Options, error: float, advice: Advice, survey: Survey, overview: Overview) -> list[str]:
+def lines_of(options: Options, error: float, proven: Proven) -> list[str]:
     """Return what was looked at, the measured settings of the survey, and the advice as lines of text.
 
     error: the allowed error, in pixels, or in wrong answers per 100 encounters where tiers are measured.
     """
+    advice, tried, survey, overview = proven
     here, best = advice.here, advice.best
     limit = f"{error:g} wrong of 100 hits" if survey.kinds == ("verdict",) else f"{error:g} px"
     steps = options.frames or DEFAULT_FRAMES
@@ -85,14 +86,14 @@ def lines_of(options: Options, error: float, advice: Advice, survey: Survey, ove
         _line("now", here, here, survey),
     ]
     if best is None:
-        lines += [_tried(each, here) for each in advice.applied]
+        lines += [_tried(each, here) for each in tried]
         return [*lines, f"nothing with which the scene can play is within {limit}"]
     lines += [_line("within", each, here, survey) for each in advice.within if each not in (here, best)]
-    lines += [_tried(each, here) for each in advice.applied]
+    lines += [_tried(each, here) for each in tried]
     if best == here:
         return [*lines, f"advice: leave it; within {limit} nothing is surely cheaper over the whole run"]
     lines.append(_line("advice", best, here, survey))
-    applied = advice.applied[-1]
+    applied = tried[-1]
     least, most = applied.interval
     return [*lines, f"advice: {best.label(here)}: {applied.mean:.2f} x the time ({least:.2f} to {most:.2f})"]
 
@@ -116,10 +117,11 @@ def _tried(applied: Applied, here: Setting) -> str:
     return f"tried   {applied.setting.label(here)}: predicted {applied.predicted:.2f}, {measured}: {end}"
 
 
-def as_json(options: Options, error: float, advice: Advice, survey: Survey, overview: Overview) -> dict:
+def as_json(options: Options, error: float, proven: Proven) -> dict:
     """Return the allowed error, the advice, the survey and what was looked at as a dict for JSON."""
+    advice, tried, survey, overview = proven
     best, here = advice.best, advice.here
-    applied = advice.applied[-1] if advice.applied and best != here else None
+    applied = tried[-1] if tried and best != here else None
     return {
         "looked_at": {
             "steps": options.frames or DEFAULT_FRAMES,
@@ -130,9 +132,7 @@ def as_json(options: Options, error: float, advice: Advice, survey: Survey, over
                 for tier, found in overview.encounters.items()
             },
         },
-        "tried": [
-            {**each._asdict(), "setting": each.setting._asdict(), "holds": each.holds} for each in advice.applied
-        ],
+        "tried": [{**each._asdict(), "setting": each.setting._asdict(), "holds": each.holds} for each in tried],
         "scene": options.scene,
         "error": error,
         "here": here._asdict(),
@@ -145,7 +145,9 @@ def as_json(options: Options, error: float, advice: Advice, survey: Survey, over
             {
                 **setting._asdict(),
                 "cost": None if dot.cost is None else dot.cost._asdict(),
-                "errors": {kind: _as_dict(found) for kind in survey.kinds if (found := dot.error(kind)) is not None},
+                "errors": {
+                    kind: _as_dict(found) for kind in survey.kinds if (found := survey.error(setting, kind)) is not None
+                },
             }
             for setting, dot in survey.dots.items()
         ],
@@ -160,6 +162,8 @@ def _as_dict(error):
 
 def _line(word, setting, here, survey):
     dot = survey.dots[setting]
-    reported = ", ".join(f"{kind} {shown(error)}" for kind in survey.kinds if (error := dot.error(kind)) is not None)
+    reported = ", ".join(
+        f"{kind} {shown(error)}" for kind in survey.kinds if (error := survey.error(setting, kind)) is not None
+    )
     cost = f"{1e6 * dot.cost.median:8.1f} us +{100 * dot.cost.noise:.0f} %" if dot.cost is not None else ""
     return f"{word:7}{cost}  {setting.label(here)}: {reported}"

@@ -67,7 +67,7 @@ class Play(SceneScreen):
         source = recording or (BotSource(devices) if bot else devices)
         self.renews = self.person and not records  # each attempt gets its own recording
         self.table = table_of(scene.name, scene.level_file)  # before the level's file may change or vanish
-        self.recorder = Recorder(scene, bot, KEPT_EVERY if self.renews else 1) if records or self.person else None
+        self.recorder = Recorder(scene, bot, 1 if records else KEPT_EVERY) if records or recording is None else None
         self.session = Session(scene, source, self.recorder, recording, strict)
         self.overlays = Overlays(scene.overlays if overlays is None else overlays)
         self.timeline: Timeline | None = None  # a recording is rewound by Watch only
@@ -77,9 +77,8 @@ class Play(SceneScreen):
         self.clock = FixedStep()
         self.panel = Panel(lambda: play_rows(self))
         self.panel_open = False
-        self.measuring = Measuring(scene, devices)
-        measuring = self.measuring
-        self.costs = CostPanel(measuring.surveyor, measuring.now, self.try_setting, self.start_race, measuring.tuner)
+        self.measuring = Measuring(scene, devices, lambda: self.recorder)
+        self.costs = CostPanel(self.measuring, self.try_setting, self.start_race)
         self.costs_open = False
         self.contact_inspector = ContactInspectorView(scene)
         self.lighter = Lighter(scene, devices) if self.person else None

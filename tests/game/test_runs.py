@@ -94,7 +94,7 @@ def test_bots_and_recordings_are_not_helped_nor_kept():
     play = Play(
         Race(), DeviceSource(), Sounds(silent=True), bot=True, settings=Settings(**SEEN, invincible=True, speed=0.5)
     )
-    assert play.devices.changes == [] and play.clock.game_speed == 1.0 and play.recorder is None and play.hint is None
+    assert play.devices.changes == [] and play.clock.game_speed == 1.0 and not play.renews and play.hint is None
 
 
 def test_pads_rumble_when_it_hurts_and_only_then():

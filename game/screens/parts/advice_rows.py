@@ -9,24 +9,23 @@ import pygame
 from game.drawing.canvas import SMALL, shorten
 from game.drawing.colors import DUSK, FOG, GREEN, PAPER, SKY
 from game.drawing.presenter import Frame
-from game.measure.advice import advised, share
 from game.measure.setting import Setting
-from game.measure.tuner import Tuner
+from game.screens.parts.measuring import Measuring
 
 TAKE, TUNE = pygame.K_PAGEUP, pygame.K_PAGEDOWN
 ROW = 9  # [text px]
 
 
 class AdviceRows:
-    """The two lines. now(): the current setting; apply(setting): apply a setting to the scene."""
+    """The two lines. measuring: the measurements of the played scene; apply(setting): apply a setting to the scene."""
 
-    def __init__(self, tuner: Tuner, now: Callable[[], Setting], apply: Callable[[Setting], None]) -> None:
-        self.tuner, self.now, self.apply = tuner, now, apply
+    def __init__(self, measuring: Measuring, apply: Callable[[Setting], None]) -> None:
+        self.measuring, self.tuner, self.apply = measuring, measuring.tuner, apply
         self.rects = [pygame.Rect(0, 0, 0, 0), pygame.Rect(0, 0, 0, 0)]
 
     def stamp(self) -> tuple:
         """Return a value that changes whenever the text of the lines changes, so that the panel is painted again."""
-        return self.tuner.on, len(self.tuner.decisions)
+        return self.tuner.on, len(self.tuner.decisions), self.measuring.advice
 
     def key(self, key: int) -> bool:
         """Process a key: Page Up applies the advice, Page Down switches the tuner. Return whether the key was Page Up
@@ -46,10 +45,10 @@ class AdviceRows:
         return False
 
     def take(self) -> None:
-        """Apply the advice, if there is any."""
-        best = advised(self.tuner.survey, self.now())
-        if best is not None:
-            self.apply(best)
+        """Apply the advice, if there is any that has proved itself."""
+        advice = self.measuring.advice
+        if advice is not None and isinstance(advice[1], float):
+            self.apply(advice[0])
 
     def draw(self, frame: Frame, left: int, y: int, width: int, scale: int) -> int:
         """Draw the lines from (left, y) down, `width` wide. Return the y below them."""
@@ -64,16 +63,16 @@ class AdviceRows:
         return y + 2 * ROW * scale + scale
 
     def _advice(self):
-        survey, here = self.tuner.survey, self.now()
-        best = advised(survey, here)
-        if best is not None:
-            return f"PgUp: {best.label(here)}, {share(survey, best, here):.2f} x the time within 1 px"
-        known = here in survey.dots and survey.dots[here].sure
-        return (
-            "leave it: within 1 px nothing is surely cheaper"
-            if known
-            else "the advice comes when this setting is known"
-        )
+        survey, here, advice = self.tuner.survey, self.measuring.now(), self.measuring.advice
+        if advice is None:
+            known = here in survey.dots and survey.dots[here].sure
+            return "leave it: nothing as good is surely cheaper" if known else "advice comes when this setting is known"
+        best, proof = advice
+        if proof is None:
+            return f"trying it on the run so far: {best.label(here)}"
+        if isinstance(proof, str):
+            return f"leave it; {best.label(here)}: {proof}"
+        return f"PgUp: {best.label(here)}, {proof:.2f} x the time over the run"
 
     def _tuning(self):
         if not self.tuner.on:

@@ -13,14 +13,13 @@ from game.measure.errors import VISIBLE, Error
 from game.measure.moment import STEPS
 from game.measure.setting import Setting
 from game.measure.survey import reported_error, shown
-from game.measure.surveyor import Surveyor
 from game.measure.timing import RUNS, Cost
-from game.measure.tuner import Tuner
 from game.screens.parts.advice_rows import AdviceRows
+from game.screens.parts.measuring import Measuring
 from game.screens.parts.switches import following
 
 TITLES = {
-    "verdict": "wrong of 100 hits",
+    "verdict": "wrong answers of 100 hits",
     "overlap": "deepest overlap of bodies [px]",
     "way": "bodies astray from a reference run [px]",
 }
@@ -47,20 +46,17 @@ ROW = 8  # [text px]
 
 
 class CostPanel:
-    """Panel of accuracy and cost. now(): the current setting; apply(setting): apply it to the scene, or report why that
-    is impossible; race(setting): race the scene against a copy under that setting; tuner: the scene's tuner.
+    """Panel of accuracy and cost.
+
+    measuring: the measurements of the played scene; apply(setting): apply a setting to the scene, or report why that is
+    impossible; race(setting): race the scene against a copy under that setting.
     """
 
-    def __init__(
-        self,
-        surveyor: Surveyor,
-        now: Callable[[], Setting],
-        apply: Callable[[Setting], None],
-        race: Callable[[Setting], None],
-        tuner: Tuner,
-    ) -> None:
-        self.surveyor, self.survey, self.now, self.apply, self.race = surveyor, surveyor.survey, now, apply, race
-        self.advice = AdviceRows(tuner, now, apply)
+    def __init__(self, measuring: Measuring, apply: Callable[[Setting], None], race: Callable[[Setting], None]) -> None:
+        self.measuring = measuring
+        self.surveyor, self.now, self.apply, self.race = measuring.surveyor, measuring.now, apply, race
+        self.survey = self.surveyor.survey
+        self.advice = AdviceRows(measuring, apply)
         self.kind: str | None = None  # kind of error to plot; None: the first one
         self.trail: list[Setting] = []
         self.places: list[tuple[tuple[float, float], Setting]] = []  # dots of the last picture
@@ -173,14 +169,24 @@ class CostPanel:
     def _draw_head(self, frame, left, y, width, scale):
         frame.text("What accuracy costs", left, y, GOLD, TEXT, scale)
         y += 10 * scale
+        kind = self.shown_kind()
+        if kind == "verdict" and (sentence := self.survey.boxes_and_pixels()):
+            y = self._draw_sentence(frame, left, y, width, sentence, scale)
         lines = wrap(self._state(), width, SMALL, scale)
-        if kind := self.shown_kind():
+        if kind:
             more = f"  ({len(self.survey.kinds)} kinds, \u2190 \u2192)" if len(self.survey.kinds) > 1 else ""
             lines = [*wrap(f"up: {TITLES[kind]}{more}; right: time of a step [us]", width, SMALL, scale), *lines]
         self.head = pygame.Rect(left, y, width, len(lines) * 7 * scale)
         for row, line in enumerate(lines):
             frame.text(line, left, y + row * 7 * scale, FOG, SMALL, scale)
         return self.head.bottom + 2 * scale
+
+    def _draw_sentence(self, frame, left, y, width, sentence, scale):
+        """Draw the sentence that the plot opens with. Return the y below it."""
+        for line in wrap(sentence, width, TEXT, scale):
+            frame.text(line, left, y, PAPER, TEXT, scale)
+            y += 9 * scale
+        return y + 2 * scale
 
     def _state(self):
         survey = self.survey
@@ -265,11 +271,10 @@ class CostPanel:
         return y + (ROW + 2) * scale
 
     def _draw_finding(self, frame, left, y, width, now, scale):
-        finding = self.survey.finding(self.shown_kind(), now)
-        for line in wrap(finding or "the finding comes when enough is measured", width, TEXT, scale):
-            frame.text(line, left, y, PAPER if finding else FOG, TEXT, scale)
-            y += 9 * scale
-        return y + 2 * scale
+        advice = self.measuring.advice
+        proven = advice[0] if advice is not None and isinstance(advice[1], float) else None
+        finding = self.survey.finding(self.shown_kind(), now, proven)
+        return self._draw_sentence(frame, left, y, width, finding or "the finding comes when enough is measured", scale)
 
     def _draw_list(self, frame, rect, known, now, scale):
         """Draw the settings, the cheapest first, and how many do not fit above and below. known: {setting: (cost,

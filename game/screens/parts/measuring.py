@@ -1,17 +1,21 @@
 """Measurements of a scene while it is played, made in background processes, and changes of its setting."""
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from operator import is_
+from typing import NamedTuple
 
-from game.drawing.number_text import plain_name
 from game.input.devices import DeviceSource
+from game.measure.advice import advised, share
 from game.measure.moment import here_of
 from game.measure.setting import Setting, settings_around
 from game.measure.surveyor import Surveyor
 from game.measure.tuner import Tuner
 from game.measurement_requests import RunRequest, SpriteRequest
+from game.run.proven_advice import Applied
+from game.run.recorded_run import SECOND, RecordedRun, changes_to
+from game.run.replay import Recorder
 from game.run.warmup import pieces_of
-from game.scene import SUBSTEPS, Scene
+from game.scene import Scene
 from game.screens.parts.race import Race
 from game.screens.parts.race_split import SplitScreen
 from physics import World
@@ -20,13 +24,29 @@ LINGER = 0.5  # [s] for which the panel must be open before the effects are meas
 EVERY = 8.0  # [s] between two moments (measured states of the world), if the last one is done and the game runs
 
 
-class Measuring:
-    """The measurements of one played scene. beside() and turn() run them; close() and leave() end them."""
+class Proof(NamedTuple):
+    """A setting that is tried on the recorded run."""
 
-    def __init__(self, scene: Scene, devices: DeviceSource) -> None:
-        self.scene, self.devices = scene, devices
-        self.surveyor = Surveyor()
-        self.tuner = Tuner(self.surveyor.survey, self._try)
+    here: Setting  # the present setting at that time
+    setting: Setting
+    steps: int  # of the run
+    number: int  # index of the result in Surveyor.proofs
+
+
+class Measuring:
+    """The measurements of one played scene. beside() and turn() run them; close() and leave() end them.
+
+    recorder(): the recorder of the present run, None if it is not recorded.
+    """
+
+    def __init__(self, scene: Scene, devices: DeviceSource, recorder: Callable[[], Recorder | None]) -> None:
+        self.scene, self.devices, self.recorder = scene, devices, recorder
+        self.surveyor = Surveyor("game.run.run_worker")
+        self.tuner = Tuner(self.surveyor.survey, self._try, self.prove)
+        self.asked: Proof | None = None  # the last advice that was tried on the recorded run
+        self.advice: tuple[Setting, float | str | None] | None = (
+            None  # the advised setting, and what prove() says of it
+        )
         self.bench = Surveyor()  # for the scene's measurement requests …
         self.benched: SpriteRequest | Sequence[Hashable] | None = (
             None  # … which are these sprites, or runs of these names
@@ -96,6 +116,8 @@ class Measuring:
         Return a line about a decision of the tuner, or "" if there is none. Call it once per picture, at `now` [s].
         """
         self.surveyor.turn()
+        best = advised(self.surveyor.survey, self.now())
+        self.advice = None if best is None else (best, self.prove(best))
         self._take_moment(now)
         decided = self.tuner.step(self.scene.frame, self.now())
         if decided is None:
@@ -105,11 +127,35 @@ class Measuring:
 
     def _try(self, setting):
         """Apply a setting. Return "", or the reason if it cannot be applied."""
-        changes = self._changes(setting)
+        changes = changes_to(setting, self.scene)
         if isinstance(changes, str):
             return changes
         self.apply(setting)
         return ""
+
+    def prove(self, setting: Setting) -> float | str | None:
+        """Try a setting on the recorded run so far. Return its time as a share of the present time, or a text that says
+        why the advice is withdrawn; None while it is being tried.
+
+        A setting is tried again once the run is twice as long.
+        """
+        recorder, surveyor = self.recorder(), self.surveyor
+        if recorder is None or recorder.frames < SECOND:
+            return f"a recorded run of {SECOND} steps or more is needed to try it on"
+        here, asked = self.now(), self.asked
+        known = asked is not None and asked[:2] == (here, setting) and recorder.frames < 2 * asked.steps
+        if asked is None or not known:
+            if not surveyor.busy:
+                self.asked = Proof(here, setting, recorder.frames, len(surveyor.proofs))
+                predicted = share(surveyor.survey, setting, here)
+                surveyor.prove(RecordedRun.of(self.scene, recorder), setting, predicted)
+            return None
+        if asked.number >= len(surveyor.proofs):
+            return None
+        applied = Applied.from_json(surveyor.proofs[asked.number])
+        if applied.holds:
+            return applied.mean
+        return applied.refused or f"predicted {applied.predicted:.2f}, measured {applied.mean:.2f}: withdrawn"
 
     def _take_moment(self, now):
         frame = self.scene.frame
@@ -117,8 +163,9 @@ class Measuring:
             waits = self.surveyor.busy or now - self.taken_at[0] < EVERY or frame == self.taken_at[1]
             if waits or self.surveyor.trouble:
                 return
-        self.taken_at = now, frame
-        self.surveyor.measure(self.world.snapshot(), self.world.broadphase.name)
+        self.taken_at, recorder = (now, frame), self.recorder()
+        run = RecordedRun.of(self.scene, recorder) if recorder is not None and recorder.frames else None
+        self.surveyor.measure(self.world.snapshot(), self.world.broadphase.name, run)
 
     def close(self) -> None:
         """Stop measuring settings, unless the tuner is on. Results are kept, and extended when the panel reopens."""
@@ -136,7 +183,7 @@ class Measuring:
 
     def apply(self, setting: Setting) -> str:
         """Apply a setting as input of the next step, so that recordings contain it. Return a line to show."""
-        now, changes = self.now(), self._changes(setting)
+        now, changes = self.now(), changes_to(setting, self.scene)
         if isinstance(changes, str):
             return changes
         for name, value in changes:
@@ -147,7 +194,7 @@ class Measuring:
         """Start a race against a copy of the scene under this setting. The caller must restart the scene in the next
         step. Return a line to show.
         """
-        now, changes = self.now(), self._changes(setting)
+        now, changes = self.now(), changes_to(setting, self.scene)
         if isinstance(changes, str):
             return changes
         self.race = Race(self.scene, changes)
@@ -172,33 +219,4 @@ class Measuring:
     def rivals(self) -> list[Setting]:
         """Return the settings under which the scene can be raced: all that differ from the current one by one field."""
         found = settings_around(self.now(), self.world.effects)[1:]
-        return [setting for setting in found if not isinstance(self._changes(setting), str)]
-
-    def _changes(self, setting):
-        """Return the (name, value) changes that bring the scene to a setting, or a sentence on why it is impossible."""
-        changes = []
-        for name in setting.differs(self.now()):
-            change = self._change(self.scene, name, getattr(setting, name))
-            if isinstance(change, str):
-                return change
-            changes += change
-        return changes
-
-    def _change(self, scene, name, value):
-        """Return the (name, value) changes for one part of a setting, or a sentence that says why the scene cannot
-        change it.
-        """
-        if value is None:
-            return []
-        if name == "broadphase" and not scene.switches_broadphase:
-            return "each world here has a broad phase of its own"
-        if name == "solver" and value not in scene.solver_choices():
-            slider = next((each for each in scene.sliders if each.name == "solver" and value in each.choices), None)
-            if slider is None:
-                return f"each world here has a solver of its own: {plain_name(value)} is only measured"
-            return [("slider:solver", slider.low + slider.choices.index(value))]
-        if name == "tier" and value not in scene.tiers:
-            return f"this scene does not play with the tier {value}: it is only measured"
-        if name == "substeps" and value not in SUBSTEPS:
-            return f"{value} substeps are those that the scene began with: restart it"
-        return [(name, value)]
+        return [setting for setting in found if not isinstance(changes_to(setting, self.scene), str)]

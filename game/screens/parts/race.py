@@ -1,6 +1,7 @@
 """The race: the played scene and a rival, which is the same scene under another setting, with equal seed and input."""
 
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import replace
 from time import perf_counter
 
@@ -36,7 +37,7 @@ class Race:
     step(session) after each step of the scene.
     """
 
-    def __init__(self, scene: Scene, changes: list[tuple[str, object]]) -> None:
+    def __init__(self, scene: Scene, changes: Sequence[tuple[str, object]]) -> None:
         self.scene = scene
         self.rival = type(scene)(scene.seed, scene.broadphase, scene.solver, scene.tier, scene.level_file)
         for name, value in [*chosen_before(scene), *changes]:

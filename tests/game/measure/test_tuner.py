@@ -55,7 +55,9 @@ def test_a_wrong_choice_is_reported_and_the_right_one_is_not(survey):
 def test_the_tuner_reports_what_it_does_and_asks_nobody_twice_who_refuses(survey):
     put(survey, TREE, 0.5)
     taken = []
-    tuner = Tuner(survey, lambda setting: taken.append(setting) or ("no" if setting == TREE else ""))
+    tuner = Tuner(
+        survey, lambda setting: taken.append(setting) or ("no" if setting == TREE else ""), lambda setting: 0.5
+    )
     assert tuner.step(1, HERE) is None and not taken, "it is off"
     tuner.on = True
     decision = tuner.step(7, HERE)

@@ -7,6 +7,7 @@ every tier, and the time of its steps with a setting applied.
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from importlib import import_module
+from itertools import islice, repeat
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -61,22 +62,42 @@ class RecordedRun(NamedTuple):
         *first, level = self.arguments
         return found(*first, level and Path(level))
 
-    def play(self, changes: Changes = ()) -> Iterator[Scene]:
-        """Play the run. Yield the scene after each step.
-
-        changes: (name, value) pairs for Scene.change, applied before the first step; later changes of the same names in
-        the inputs are left out.
-        """
-        scene, state, fixed = self.make(), InputState(), {name for name, _ in changes}
-        for name, value in changes:
-            scene.change(name, value)
+    def frames(self) -> Iterator[InputFrame]:
+        """Yield the input of each step."""
         for count, frame in self.inputs:
-            frame = replace(frame, changes=tuple(each for each in frame.changes if each[0] not in fixed))
-            for _ in range(count):
-                state.set(frame)
-                scene.step(state)
-                scene.observe()
-                yield scene
+            yield from repeat(frame, count)
+
+    def continues(self, other: "RecordedRun", steps: int) -> bool:
+        """Return whether the first `steps` steps of this run are those of another one."""
+        pairs = islice(zip(self.frames(), other.frames(), strict=False), steps)
+        same = (self.scene, self.arguments) == (other.scene, other.arguments)
+        return same and self.steps >= steps and all(a == b for a, b in pairs)
+
+    def play(self, changes: Changes = ()) -> Iterator[Scene]:
+        """Play the run. Yield the scene after each step. changes: see Player."""
+        player = Player(self, changes)
+        for frame in self.frames():
+            player.step(frame)
+            yield player.scene
+
+
+class Player:
+    """A scene that is played from recorded inputs.
+
+    changes: (name, value) pairs for Scene.change, applied before the first step; later changes of the same names in the
+    inputs are left out.
+    """
+
+    def __init__(self, run: RecordedRun, changes: Changes = ()) -> None:
+        self.scene, self.state, self.fixed = run.make(), InputState(), {name for name, _ in changes}
+        for name, value in changes:
+            self.scene.change(name, value)
+
+    def step(self, frame: InputFrame) -> None:
+        """Make one step with this input."""
+        self.state.set(replace(frame, changes=tuple(each for each in frame.changes if each[0] not in self.fixed)))
+        self.scene.step(self.state)
+        self.scene.observe()
 
 
 def changes_to(setting: Setting, scene: Scene) -> Changes | str:

@@ -1,0 +1,102 @@
+"""Advice on a scene from a recorded run: the advised setting is tried on the whole run before it is given.
+
+The run is played with the present setting and with the advised one in turns, with the scene's rules. If the measured
+times do not confirm the advice, it is withdrawn, and the next best setting is tried.
+"""
+
+from collections.abc import Callable
+from itertools import islice
+from typing import NamedTuple
+
+import numpy as np
+
+from game.measure.advice import Advice, advise, is_cheaper, settings_within, share
+from game.measure.pareto_front import TIE
+from game.measure.setting import Setting
+from game.measure.survey import Survey
+from game.run.recorded_run import Overview, RecordedRun, changes_to, look_over, seconds_of_steps
+
+APPLIED_RUNS = 3  # repetitions of a whole run with each of two settings
+WARM_STEPS = 60  # of each setting, before the first repetition
+MOST_TRIED = 3  # settings tried on the whole run, if the first ones do not hold
+Report = Callable[[int, int], object]  # called with (runs done, runs in all)
+
+
+class Applied(NamedTuple):
+    """An advised setting, applied to a whole run. Times are shares of the time of the present setting."""
+
+    setting: Setting
+    predicted: float  # at the moments
+    mean: float  # over all steps of the run
+    interval: tuple[float, float]  # least and greatest mean of the repetitions
+    p99: float  # of the slowest step in a hundred
+    refused: str = ""  # the reason why the scene cannot play with the setting; the measured shares are then 0
+
+    @classmethod
+    def from_json(cls, values: list) -> "Applied":
+        """Return the value from its JSON form, a list of its fields."""
+        setting, predicted, mean, interval, p99, refused = values
+        return cls(Setting(*setting), predicted, mean, (interval[0], interval[1]), p99, refused)
+
+    @property
+    def holds(self) -> bool:
+        """True if the whole run is certainly faster, and its slowest steps are no slower."""
+        return not self.refused and self.interval[1] < 1.0 - TIE and self.p99 < 1.0 + TIE
+
+
+class Proven(NamedTuple):
+    """Advice with all that it stands on."""
+
+    advice: Advice
+    applied: tuple[Applied, ...]  # the settings that were tried on the whole run; the last one counts
+    survey: Survey
+    overview: Overview
+
+
+def advise_on_run(run: RecordedRun, error: float, report: Report = lambda done, of: None, seed: int = 0) -> Proven:
+    """Return the advice on a recorded run, tried on the whole of it.
+
+    error: as in advise. An advice that does not hold is withdrawn, and the setting that was next best is tried. Raises
+    ValueError for a run without steps.
+    """
+    overview = look_over(run)
+    advice, survey = advise(overview.moments, error, report, seed)
+    here, tried = advice.here, []
+    survey.encounters = overview.encounters
+    within = settings_within(survey, error)
+    if not within:
+        return Proven(Advice(here, None, ()), (), survey, overview)
+    sure = [each for each in within if each != here and (here not in within or is_cheaper(survey, each, here))]
+    best = here if here in within else None
+    for setting in sure[:MOST_TRIED]:
+        tried.append(apply_to_run(run, setting, share(survey, setting, here)))
+        if tried[-1].holds or (here not in within and not tried[-1].refused):
+            best = setting
+            break
+    return Proven(Advice(here, best, tuple(within)), tuple(tried), survey, overview)
+
+
+def apply_to_run(run: RecordedRun, setting: Setting, predicted: float) -> Applied:
+    """Play a whole run with the present setting and with another one in turns, APPLIED_RUNS times each.
+
+    predicted: time of the setting at the moments, as a share of the present time.
+    """
+    changes = changes_to(setting, run.make())
+    if isinstance(changes, str):
+        return Applied(setting, predicted, 0.0, (0.0, 0.0), 0.0, changes)
+    for each in ((), changes):
+        for _ in islice(run.play(each), WARM_STEPS):
+            pass  # compiles what is missing
+    now, other = [], []
+    for _ in range(APPLIED_RUNS):
+        now.append(seconds_of_steps(run, ()))
+        other.append(seconds_of_steps(run, changes))
+    ratios = sorted(b.mean() / a.mean() for a, b in zip(now, other, strict=True))
+    slowest = [np.percentile(np.min(each, axis=0), 99) for each in (other, now)]
+    return Applied(
+        setting,
+        predicted,
+        float(np.median(ratios)),
+        (float(ratios[0]), float(ratios[-1])),
+        float(slowest[0] / slowest[1]),
+    )

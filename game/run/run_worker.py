@@ -1,0 +1,84 @@
+"""`python -m game.run.run_worker`: the measuring process of a played scene, which also plays its recorded run.
+
+Besides the orders of game.measure.worker it takes two with a recorded run. "prove": apply a setting to the whole run. A
+moment with a run: count the encounters of the run so far under every tier, then measure the moment as usual. A run that
+goes on is not played from its start again.
+"""
+
+import json
+import pickle
+from collections.abc import Callable
+from functools import partial
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+from game.measure.errors import Verdicts, exact_tier
+from game.measure.moment import Moment
+from game.measure.setting import Setting
+from game.measure.worker import main, measure, sent_verdicts
+from game.run.headless import start_dummy_display
+from game.run.proven_advice import apply_to_run
+from game.run.recorded_run import Player, RecordedRun, touching
+
+LOOK_EVERY = 12  # steps between two looks at the touching pairs
+
+
+class Follower:
+    """Plays a recorded run as far as it goes, and counts the encounters under every tier."""
+
+    def __init__(self) -> None:
+        self.run: RecordedRun | None = None
+        self.player: Player | None = None
+        self.steps = 0  # played so far
+        self.met: dict[str, set[tuple[int, int]]] = {}
+        self.exact = ""
+
+    def follow(self, run: RecordedRun, goes_on: Callable[[], bool]) -> dict[str, Verdicts]:
+        """Play on to the end of `run` while goes_on() is True. Return the encounters by tier; {} without tiers.
+
+        A run that does not continue the last one, because of a restart or a rewind, is played from its start.
+        """
+        if self.run is None or self.player is None or not run.continues(self.run, self.steps):
+            self.player, self.steps, self.met = Player(run), 0, {}
+        self.run, scene = run, self.player.scene
+        for frame in islice(run.frames(), self.steps, None):
+            if scene.tier is None or not goes_on():
+                break
+            self.player.step(frame)
+            self.steps += 1
+            if self.steps % LOOK_EVERY == 0:
+                world = scene.views()[0][0]
+                moment = Moment(world.snapshot(), world.broadphase.name)
+                self.exact = exact_tier(moment.here.tier or "")
+                for tier, pairs in touching(moment).items():
+                    self.met.setdefault(tier, set()).update(pairs)
+        true = frozenset(self.met.get(self.exact, ()))
+        return {tier: Verdicts(frozenset(pairs), true, tier == self.exact) for tier, pairs in self.met.items()}
+
+
+def measure_played(
+    follower: Follower, order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]
+) -> None:
+    """Report the encounters of the recorded run of an order, then measure its moment."""
+    met = follower.follow(_loaded(order), goes_on)
+    found = {tier: sent_verdicts(verdicts) for tier, verdicts in met.items()}
+    report(json.dumps({"moment": order["moment"], "encounters": found}))
+    measure(order, report, goes_on)
+
+
+def prove(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
+    """Apply the setting of an order to its whole run, and report the measured times."""
+    setting, predicted = order["prove"]
+    applied = apply_to_run(_loaded(order), Setting(*setting), predicted)
+    report(json.dumps({"moment": order["moment"], "applied": applied}))
+    report(json.dumps({"moment": order["moment"], "done": True}))
+
+
+def _loaded(order) -> RecordedRun:
+    return pickle.loads(Path(order["run"]).read_bytes())  # written by the game that started this process
+
+
+if __name__ == "__main__":
+    start_dummy_display()
+    main({"prove": prove, "run": partial(measure_played, Follower())})
