@@ -17,7 +17,7 @@ RACK = (1, 9, 2, 10, 8, 3, 4, 11, 5, 12, 13, 6, 14, 7, 15)
 
 
 def cushions():
-    """Return the shapes of the six cushions and of the wooden frame behind the pockets."""
+    """Return the shapes of the six cushions and of the wooden frame behind the pockets, a list of Polygon."""
     left, top, right, bottom, middle = CLOTH.left, CLOTH.top, CLOTH.right, CLOTH.bottom, CLOTH.centerx
     shapes = []
     for y, way in ((top, -1), (bottom, 1)):
@@ -72,7 +72,10 @@ def first_in_the_way(start, heading, balls):
 
 
 def best_point(cue, balls):
-    """Return the point [whole canvas px] to aim the cue ball at, for the straightest and nearest shot to pot a ball."""
+    """Return the canvas point (whole px) at which to aim the cue ball in order to pot a ball.
+
+    Of all pairs of a ball and a pocket, the function picks the one with the straightest and shortest shot.
+    """
     x, y = cue
     best = (-2.0, (round(x) + 40, round(y)))
     for bx, by in balls:

@@ -1,13 +1,12 @@
 """Fifteen balls, a cue ball and six pockets: does a break keep the momentum it was given?
 
-What to see: seen from above there is no gravity, only the cloth's drag. Until the first ball meets a cushion the
-momentum of all balls together is the cue ball's, in size and direction, however they scatter; and no collision of two
-ever adds energy. Pockets are sensors: they push nothing and report each ball.
+What to see: the table is seen from above, so there is no gravity, only the drag of the cloth. Until a ball meets a
+cushion, the total momentum of all balls equals that of the cue ball, in size and direction. No collision of two balls
+adds energy. Pockets are sensors: they push nothing and report each ball.
 
-Why it matters: Billiard games stand or fall with the break, and a solver that loses momentum there makes every table
-dull.
+Why it matters: Billiard games depend on the break; a solver that loses momentum there makes every table dull.
 
-To try: break with the cue from other sides, and read how far the momentum is off before the first cushion.
+To try: break with the cue from other sides, and read the error of the momentum before the first cushion.
 
 Source: Coriolis, Theorie mathematique du jeu de billard, 1835.
 """
@@ -41,7 +40,7 @@ SIDE = 396  # [canvas px] left of the score
 
 
 class Billiards(Scene):
-    """One world seen from above."""
+    """Scene with one world: a billiard table seen from above."""
 
     name = "lab/billiards"
     title = "Billiards"
@@ -95,7 +94,7 @@ class Billiards(Scene):
         return body
 
     def change_slider(self, name, value):
-        """Apply a change of a slider: rack the balls again."""
+        """Set a slider, then rack the balls again."""
         super().change_slider(name, value)
         self.fill()
 
@@ -155,9 +154,10 @@ class Billiards(Scene):
         self.play("hit", self.cue.position[0], 0.4 + 0.6 * self.power)
 
     def _keep_books(self, before):
-        """Compare the total momentum with the cue ball's at the break, until a cushion is hit.
+        """Update the errors of momentum and energy after a step. `before`: kinetic energy before the step.
 
-        Compare the kinetic energy with the energy before the step, `before`.
+        Momentum: compare the total momentum with that of the cue ball at the shot, until a ball hits a cushion. Energy:
+        compare the kinetic energy with the energy before the step. The drag of the cloth is taken into account in both.
         """
         keep = 1.0 / (1.0 + self.values["drag"] * self.world.dt)
         self.energy = kinetic_energy(self.world)
@@ -334,8 +334,9 @@ class Billiards(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the error of the momentum of a break before its first cushion, and the gain of energy
-        in collisions of two balls.
+        """Return a sentence with the greatest error of momentum before a cushion, and the greatest gain of energy.
+
+        The gain of energy is that of collisions of two balls only.
         """
         if not self.compared:
             return "not yet: a ball has to be hit and to run a step before it meets a cushion"
@@ -345,7 +346,7 @@ class Billiards(Scene):
         return f"{sentence}; a collision of two added {max(self.grown, 0.0):.1g} of the energy at most"
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: break, then shoot at the best aligned ball and pocket."""
+        """Return the bot's input for the next step. The bot breaks, then plays the straightest and shortest shot."""
         if self.calm == CALM and self.shots:
             return InputFrame(frozenset(), best_point(self.cue.position, self._others()))
         if self.calm == CALM + 1:

@@ -1,11 +1,11 @@
 """Four broad phases on the same bodies: do they find the same pairs, and what does each pay for it?
 
-What to see: which strategy is cheap in which layout. Even bodies of one size suit the hash; slow movers along the
-ground suit the sweep; many still things and few movers suit the tree; brute force pays n squared.
+What to see: each layout has another cheapest strategy. The hash suits evenly spread bodies of one size; the sweep suits
+slow movers along the ground; the tree suits many still bodies and few movers. Brute force tests all n squared pairs.
 
 Why it matters: Without it n bodies are n (n - 1) / 2 pairs a step, too many for any narrow phase.
 
-To try: change the layout with left and right, wait for the exponents, and see which order of the four turns round.
+To try: change the layout with left and right, wait for the exponents, and compare the order of the four.
 
 Source: Baraff 1992 (sweep); Teschner 2003 (hash); Catto, Dynamic Bounding Volume Hierarchies, GDC 2019 (tree).
 """
@@ -69,7 +69,7 @@ class Broadphases(Scene):
     legend_at = (330, 248)
 
     def build(self):
-        """Make pictures, curves and counts; fill() makes the four worlds."""
+        """Make pictures, curves and counts, and let fill() make the four worlds."""
         self.cameras = [Camera((*corner, VIEW_WIDTH, VIEW_HEIGHT), ZOOM) for corner in CORNERS]
         self.curves = [
             Curves(title, {"all four": PAPER} if i == 0 else BROADPHASE_COLORS) for i, (title, _) in enumerate(PLOTS)
@@ -93,10 +93,10 @@ class Broadphases(Scene):
             populate(self.add_world(broadphase=strategy), self.layout, int(self.values["bodies"]), self.seed)
 
     def measured(self):
-        """Return the runs to time beside the game.
+        """Return the runs that the measuring process times during the game.
 
-        A run is a step of one broad phase in the current layout. There is one for every size in SIZES, and one for the
-        current number of bodies.
+        A run steps a world of the current layout with one broad phase. There is one run for each broad phase and each
+        size: the sizes in SIZES, and the current number of bodies.
         """
         sizes = sorted({*SIZES, min(int(self.values["bodies"]), LARGEST)})
         names = [(self.layout, size, strategy) for size in sizes for strategy in STRATEGIES]
@@ -108,8 +108,10 @@ class Broadphases(Scene):
         return MeasuredRun([made], strategy, stage="broad_phase")
 
     def growth(self, strategy):
-        """Return the Series of the broad phase `strategy` in this layout: the measured points (number, cost), and the
-        fitted power law.
+        """Return the Series of the broad phase `strategy` in this layout.
+
+        It contains the measured points (number of bodies, cost of a step), and the power law fitted to them, or None
+        while points are missing.
         """
         known = [(size, self.figures.get((self.layout, size, strategy))) for size in SIZES]
         points = [(size, figures.cost) for size, figures in known if figures is not None]
@@ -118,7 +120,7 @@ class Broadphases(Scene):
         return Series(BROADPHASE_COLORS[strategy], points, law, FITTED)
 
     def change_slider(self, name, value):
-        """Apply a change of a slider: fill the worlds again after a change of number or layout."""
+        """Set a slider. After a change of the number of bodies or of the layout, fill the worlds again."""
         super().change_slider(name, value)
         if name == "bodies":
             self.tests = dict.fromkeys(STRATEGIES, 0)  # among few bodies all need as many as brute force
@@ -144,7 +146,7 @@ class Broadphases(Scene):
             self.tests[strategy] += tests_of(world)
 
     def observe(self):
-        """Add this step's counts of candidates and of tests to the curves."""
+        """Append this step's number of candidate pairs, and of box tests of each broad phase, to the curves."""
         by_name = dict(zip(STRATEGIES, self.worlds, strict=True))
         self.curves[0].note({"all four": len(self.worlds[0].candidates)})
         self.curves[1].note({name: tests_of(w) for name, w in by_name.items()})
@@ -179,7 +181,7 @@ class Broadphases(Scene):
         draw_growth(frame, GROWTH, "time of a step over bodies [log]", series, int(self.values["bodies"]))
 
     def finding(self):
-        """Return a sentence with the exponent of each strategy's cost in this layout."""
+        """Return a sentence with the exponent of each strategy's cost in this layout (cost of a step ~ n^exponent)."""
         laws = {name: self.growth(name).law for name in STRATEGIES}
         if None in laws.values():
             known = sum((self.layout, size, name) in self.figures for size in SIZES for name in STRATEGIES)
@@ -211,12 +213,12 @@ class Broadphases(Scene):
         ]
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: another layout every two seconds."""
+        """Return the bot's input for the next step. The bot changes the layout every two seconds."""
         turn = self.frame > 0 and self.frame % 120 == 0
         return InputFrame(frozenset(("right",)) if turn else frozenset())
 
     def state(self):
-        """Return the settings and the results, for the replay digest; everything else is part of the physics state."""
+        """Return the settings and results for the replay digest, which contains the physics state already."""
         return (
             self.frame,
             self.values["bodies"],
@@ -228,7 +230,7 @@ class Broadphases(Scene):
 
 
 def bounce(world):
-    """Reverse the velocities at the edges of the world, all at once."""
+    """Reverse the velocity of all bodies that leave the world at one of its edges."""
     bodies = world.bodies
     for place, speed, low, high in (("x", "vx", 0.0, WIDTH), ("y", "vy", 0.0, HEIGHT)):
         position, velocity = bodies[place], bodies[speed]
@@ -237,13 +239,19 @@ def bounce(world):
 
 
 def tests_of(world):
-    """Return how many box tests the broad phase made in the last step, of shapes with shapes or with tree nodes."""
+    """Return the number of box tests that the broad phase made in the last step.
+
+    Tests of two shapes and tests of a shape with a tree node both count.
+    """
     counters = world.profile.counters
     return counters["pairs_tested"] + counters["nodes_visited"]
 
 
 def draw_dots(surface, world, camera, color):
-    """Draw every body as one canvas pixel, red while it is in a pair, and the one giant body as a ring."""
+    """Draw every body as one canvas pixel in `color`, or in red while it has a contact.
+
+    The one giant body of the layout, if it has one, is drawn as a ring.
+    """
     bodies, view = world.bodies, camera.viewport
     x, y = camera.to_canvas(bodies["x"], bodies["y"])
     paired = np.unique(np.concatenate((world.contacts["body_a"], world.contacts["body_b"])))

@@ -1,4 +1,4 @@
-"""The picture of lab/effects: the bodies of a yard, and outlines of bodies that are elsewhere in a second yard."""
+"""Drawing for lab/effects: the bodies of one yard, and the outlines of bodies that are elsewhere in a second yard."""
 
 import numpy as np
 import pygame
@@ -28,7 +28,10 @@ class BusyPicture:
         self.planks = load_atlas("tiles")
 
     def draw(self, canvas, yard, alpha, way):
-        """Draw a yard at `alpha` (0..1) between its last two steps. `way`: how far the belt has moved [px]."""
+        """Draw a yard, interpolated by `alpha` (0..1) between its last two steps.
+
+        way: distance that the belt's surface has moved [px].
+        """
         surface = canvas.surface
         surface.blit(self.ground.picture, (0, 0))
         surface.fill(INK, (LEFT - 2, 0, 2, FLOOR))
@@ -60,8 +63,9 @@ class BusyPicture:
         return turning(shape, "steel" if asleep else ramp)
 
     def _draw_rods(self, surface, yard, poses):
-        """Draw the rods of the pendulum. Without the effect joints there are none. poses: {body id: (x, y, angle) on
-        the surface}.
+        """Draw the rods of the pendulum, which exist only in a world with the effect `joints`.
+
+        poses: {body id: (x [px], y [px], angle [rad]) on the surface}.
         """
         if yard.world.effects.joints:
             at = HOOK
@@ -82,7 +86,10 @@ class BusyPicture:
 
 
 def draw_ghost(frame, camera, yard, numbers, color):
-    """Draw the outlines of the bodies of a yard with the given numbers, at window resolution; sprites as boxes."""
+    """Draw the outlines of some bodies of a yard at window resolution. Pixel masks are drawn as boxes.
+
+    numbers: the yard's numbers of these bodies, keys of `yard.ids`.
+    """
     world, lens = yard.world, frame.lens(camera)
     shapes, ids = world.shapes, [yard.ids[number] for number in numbers]
     rows = np.flatnonzero(np.isin(shapes["body"], ids) & (shapes["role"] != PART))

@@ -1,4 +1,4 @@
-"""The yard of lab/effects: a world with bodies of many kinds, so that each effect of the engine acts on some."""
+"""The yard of lab/effects: a world with so many kinds of bodies that each effect of the engine acts on some of them."""
 
 from dataclasses import dataclass
 from math import sqrt
@@ -25,7 +25,10 @@ CRATE = Polygon.box(14, 14)
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of body that is added at intervals: one every `every` steps, from step `first` on, for `life` steps."""
+    """A kind of body that is added at intervals and removed again.
+
+    One body is added every `every` steps, from step `first` on. Each body is removed `life` steps later.
+    """
 
     name: str
     shape: Circle | Polygon | Capsule | PixelMask
@@ -56,10 +59,10 @@ PLACED = 1000000  # first number of things that are there from the start; the st
 
 
 class BusyYard:
-    """A world to which bodies are added and from which they are removed by a schedule.
+    """A world to which bodies are added, and from which they are removed, by a schedule.
 
-    `ids`: {number: body id} of its moving bodies. Copies of a yard use the same numbers, so that a number denotes the
-    same body in all copies, even if the worlds develop differently.
+    ids: {number: body id} of its moving bodies. A number denotes the same body in a yard and in its copies, while their
+    body ids may differ.
     """
 
     def __init__(self, world):
@@ -70,7 +73,7 @@ class BusyYard:
         self.worked = 0  # bodies moved, pairs tested and rows solved, over all steps
 
     def furnish(self):
-        """Add the static bodies, and the moving bodies that are there from the start."""
+        """Add the static bodies, and the moving bodies that exist from the start."""
         world, middle = self.world, (LEFT + RIGHT) / 2
         world.add_body(Polygon.box(800, 40), position=(middle, FLOOR + 20), kind="static", material=GRIP)
         for x in (LEFT - 10, RIGHT + 10):
@@ -101,8 +104,9 @@ class BusyYard:
         self.ids[number], self.kinds[number] = body.id, name
 
     def _renew_rock(self):
-        """Replace the carved rock by a whole rock. Bodies in its place are removed, except the star, which moves to its
-        start.
+        """Replace the carved rock by a whole rock.
+
+        Bodies in its place are removed, except the star, which is moved back to its start.
         """
         x, y, width, height = ROCK
         star, numbers = PLACED, {identity: number for number, identity in self.ids.items()}
@@ -123,14 +127,20 @@ class BusyYard:
         self.rock = self.world.add_body(mask, position=(x, y), kind="static", material=GRIP).id
 
     def beside(self, world):
-        """Return a copy of this yard for `world`, which must have the same bodies with the same ids."""
+        """Return a copy of this yard for another world.
+
+        The bodies of `world` must have the same ids as those of this world.
+        """
         other = BusyYard(world)
         other.ids, other.kinds, other.ends = dict(self.ids), dict(self.kinds), dict(self.ends)
         other.rock = self.rock
         return other
 
     def step(self, clock):
-        """Add, remove and carve bodies as scheduled for step `clock`; step the world; add up events and work."""
+        """Add, remove and carve bodies as scheduled for step number `clock`, then step the world and update the totals.
+
+        The totals are the numbers of events by kind, and the work: bodies moved, pairs tested, solver rows.
+        """
         world = self.world
         for number in [number for number, end in self.ends.items() if end == clock]:
             self._remove(number)
@@ -169,14 +179,15 @@ class BusyYard:
         self.worked += sum(counters[name] for name in ("bodies_integrated", "narrow_tests", "solver_rows"))
 
     def places(self, numbers):
-        """Return the centres of mass of the bodies with the given numbers, an array (n, 2) [px]."""
+        """Return the centres of mass of some bodies, an array (n, 2) [px]. numbers: keys of `ids`."""
         rows = self.world.bodies[self.world.rows([self.ids[number] for number in numbers])]
         return np.column_stack([rows["center_x"], rows["center_y"]])
 
 
 def apart(one, other):
-    """Return (numbers, distances): the numbers of the bodies that both yards have, and an array of the distances
-    between their positions in the two yards [px].
+    """Return (numbers, distances) of the bodies that exist in both yards.
+
+    numbers: list of keys of `ids`; distances: array (n,) [px] between the two positions of each body.
     """
     numbers = sorted(one.ids.keys() & other.ids.keys())
     return numbers, np.hypot(*(one.places(numbers) - other.places(numbers)).T) if numbers else np.zeros(0)

@@ -1,10 +1,10 @@
 """A house of cards: how much friction does it need to stand?
 
-What to see: two cards that lean on each other push their feet apart with half their weight times the tangent of
-their lean. So a single pair needs a friction of 0.223 at the table, no more and no less: the two pairs on the right
-have a twentieth less and a twentieth more. The house, whose lower cards carry the upper ones, needs twice that.
+What to see: two cards that lean on each other push their feet apart. The force is half their weight times the tangent
+of their lean, so one pair needs a friction of 0.223 at the table. Of the two pairs on the right, one has 5 % less and
+one 5 % more. The house, whose lower cards carry the upper ones, needs twice that.
 
-Why it matters: Friction that is a little too weak or creeps is seen first where only friction holds something up.
+Why it matters: A house of cards stands by friction alone, so friction that is too weak or creeps shows here first.
 
 To try: lower the friction until the house falls, and compare with the single pairs beside it.
 
@@ -47,7 +47,7 @@ SLIPPERY_AT, SLIPPERY = 604, 20  # the bot's step, and its choice of friction [1
 
 
 class CardHouse(Scene):
-    """One world: the house, and two pairs of cards on cloths of known friction."""
+    """Scene with one world: the house of cards, and two pairs of cards on cloths of known friction."""
 
     name = "lab/card_house"
     title = "House of cards"
@@ -63,14 +63,14 @@ class CardHouse(Scene):
     legend_at = (342, 88)
 
     def build(self):
-        """Build the table; fill() builds the house on it."""
+        """Build the table, and let fill() build the house on it."""
         self.yard = Yard(FLOOR, 60, table=True)
         self.held = None  # [px] motion of its cards in the ten seconds, or None
         self.slipped = False  # the house fell once with too little friction
         self.fill()
 
     def fill(self):
-        """Make a new world with everything as built."""
+        """Make a new world with the house and the two pairs as built."""
         self.worlds = []
         self.camera = Camera(((0, 16), (480, 254)), 1.0, y=16.0)
         self.add_world(substeps=int(self.values["substeps"]))
@@ -102,7 +102,7 @@ class CardHouse(Scene):
         )
 
     def _pair(self, x, floor, material):
-        """Add two cards that lean on each other over x, with their feet on `floor`."""
+        """Add two cards that lean on each other. x: middle between them [px]; floor: y of their feet [px]."""
         shape = Capsule((-LENGTH / 2, 0), (LENGTH / 2, 0), RADIUS)
         cards = []
         for side in (-1, 1):
@@ -126,7 +126,7 @@ class CardHouse(Scene):
         return cards
 
     def change_slider(self, name, value):
-        """Apply a change of a slider: build everything again."""
+        """Set a slider, then build everything again."""
         super().change_slider(name, value)
         self.fill()
 
@@ -159,12 +159,12 @@ class CardHouse(Scene):
         self.play("coin")
 
     def moved(self, card):
-        """Return the distance of a card from its start [px]."""
+        """Return the distance of a card from its starting position [px]."""
         x, y = self.start[card.id]
         return hypot(card.center[0] - x, card.center[1] - y)
 
     def stands(self, cards):
-        """Return whether each of these Bodies is less than REACH / 2 away from its start."""
+        """Return whether each of these bodies is less than REACH / 2 away from its starting position."""
         return all(self.moved(card) < REACH / 2 for card in cards)
 
     @property
@@ -208,7 +208,7 @@ class CardHouse(Scene):
         canvas.text(word, x, FLOOR - 82, PAPER if still else ORANGE, SMALL, align="center")
 
     def draw_on_frame(self, frame):
-        """Draw a ring at the middle of each moved card, to show where the house gives way."""
+        """Draw a ring at the middle of each card that has moved, which shows where the house gives way."""
         lens = frame.lens(self.camera)
         for card in self.cards:
             moved = self.moved(card)
@@ -236,8 +236,9 @@ class CardHouse(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the time for which the house stands at its friction, and with two frictions: a pair of
-        cards stands at one and slides at the other.
+        """Return a sentence with the time that the house has stood at its friction.
+
+        It also names the frictions of the two pairs of cards: one at which a pair stands, one at which it slides.
         """
         if self.since < 60:
             return "not yet: the cards have to stand, or slide, for a second"
@@ -251,7 +252,10 @@ class CardHouse(Scene):
         return f"{sentence}; a pair slides at {LESS:.3f} and stands at {MORE:.3f}, as theory says: {NEEDED:.3f}"
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: watch for ten seconds, then make the cards slippery."""
+        """Return the bot's input for the next step.
+
+        The bot waits for ten seconds, then lowers the friction of the cards.
+        """
         changes = (("slider:friction", SLIPPERY),) if self.frame == SLIPPERY_AT else ()
         return InputFrame(changes=changes)
 

@@ -1,12 +1,12 @@
 """Ground of 480 x 240 pixels to blast and dig: what is undermined falls, rolls and comes to rest by its own pixels.
 
 What to see: a carve rebuilds only the tiles that it touches, so it costs the same in large ground as in small. A loose
-part is a body at once, with its own pixels, mass and spin. All pixels are counted: each one gone from the ground is in
-a piece, was taken by the tool, or was a crumb. The overlay of masks shows the tiles.
+part becomes a body in the same step, with its own pixels, mass and spin. All pixels are counted: a pixel that left the
+ground is in a fragment, was removed by the tool, or was a crumb. The overlay of masks shows the tiles.
 
 Why it matters: Diggable ground costs rebuilt pixels; the cost of a hole must not grow with the level.
 
-To try: cut a block off all around and watch it become a body as the last pixel goes.
+To try: cut a block free on all sides, and watch it become a body with the last pixel.
 
 Source: Rosenfeld and Pfaltz, Sequential operations in digital picture processing, 1966 (pieces).
 """
@@ -54,7 +54,7 @@ FEWEST = 6  # places of the ground at which a carve is timed
 
 
 class Carving(Scene):
-    """One world: the ground, things on it, and fragments of the ground and of the things."""
+    """Scene with one world: the ground, toys on it, and the fragments carved off both."""
 
     name = "lab/carving"
     title = "Carving"
@@ -83,7 +83,7 @@ class Carving(Scene):
     hides_pointer = False
 
     def build(self):
-        """Build ground, bedrock, walls beyond the picture's sides, and toys."""
+        """Build the ground, the bedrock, the walls at both sides of the picture, and the toys."""
         self.sky, self.wall = load_backdrop("sky_dusk"), load_backdrop("lab_earth_wall")
         world = self.add_world()
         for shape, place in (
@@ -116,12 +116,12 @@ class Carving(Scene):
         self.draggable = self.tool.name == "hand"
 
     def change_slider(self, name, value):
-        """Change the tool or its size."""
+        """Set a slider: the tool or its size."""
         super().change_slider(name, value)
         self._take_tool()
 
     def solid(self):
-        """Return the number of solid pixels in all masks, counted one by one."""
+        """Return the number of solid pixels in the masks of all bodies, counted pixel by pixel."""
         masks = (shape for each in self.prints.of for shape in self.world.body(each).shapes)
         return sum(int(np.count_nonzero(mask.solid)) for mask in masks if isinstance(mask, PixelMask))
 
@@ -143,7 +143,10 @@ class Carving(Scene):
         self._follow()
 
     def _carve(self, shape, pose):
-        """Carve the tool's shape out of all masks in its reach."""
+        """Carve the tool's shape out of every carvable body within reach, and update the counts.
+
+        pose: (x, y, angle) of `shape`.
+        """
         x, y = self.pointed
         tiles = self._tiles()
         reached = sorted(self.world.query_aabb(*self.tool.reach), key=lambda each: each.id)
@@ -157,7 +160,11 @@ class Carving(Scene):
             self.particles.burst(x, y, min(10 + taken // 12, 90), DUST, (10, 110), (0.3, 0.9), gravity=200.0)
 
     def _carve_one(self, body, shape, pose):
-        """Carve pixels out of one body."""
+        """Carve `shape` out of one body.
+
+        Fragments become bodies of the scene; a body without pixels left is forgotten. Return the number of pixels that
+        the tool removed. pose: (x, y, angle) of `shape`.
+        """
         identity, place, (before,) = body.id, (*body.position, body.angle), body.shapes
         parent = (self.prints.of[identity], before, place)
         carved = body.carve(shape, pose, crumb=CRUMB)
@@ -173,7 +180,10 @@ class Carving(Scene):
         return carved.removed
 
     def measured(self):
-        """Return the runs to time beside the game: the current tool carves at up to sixty places of the ground."""
+        """Return the run that the measuring process times during the game, or None without a tool or enough ground.
+
+        In this run the current tool carves at up to sixty places of the ground.
+        """
         if self.tool.name == "hand" or self.ground not in self.world:
             return None
         masks = self.world.body(self.ground).shapes
@@ -191,7 +201,10 @@ class Carving(Scene):
         return self.tool.name, self.tool.radius
 
     def _tiles(self):
-        """Return {tile of the ground: ids of its collision parts}. A tile that was rebuilt has new ids."""
+        """Return {tile of the ground: list of the ids of its collision parts}.
+
+        A rebuilt tile has parts with new ids.
+        """
         shapes = self.world.shapes
         mine = shapes[(shapes["body"] == self.ground) & (shapes["role"] == PART)]
         found = {}
@@ -200,7 +213,7 @@ class Carving(Scene):
         return found
 
     def _blast(self, x, y):
-        """Push dynamic bodies away from a blast, the nearer the faster."""
+        """Push the dynamic bodies around (x, y) [px] outwards. A nearer body gets a higher speed."""
         reach = BLAST_REACH * self.tool.radius
         self.play("explosion", x, 0.5)
         self.camera.shake(0.18 + self.tool.radius / 120)
@@ -214,7 +227,7 @@ class Carving(Scene):
                     body.apply_impulse((gain * dx, gain * dy - 0.25 * gain * far))
 
     def _follow(self):
-        """Track the fall of loose pieces; play the sounds of impacts."""
+        """Update the greatest fall of a loose piece, and play the sound of the strongest impact of this step."""
         for identity, height in self.loose_at.items():
             self.fell = max(self.fell, self.world.body(identity).center[1] - height)
         hits = self.world.events.hits
@@ -261,7 +274,7 @@ class Carving(Scene):
             canvas.text(value, x + 116, y + 17 + number * 8, PAPER, SMALL, align="right")
 
     def draw_on_frame(self, frame):
-        """Draw the tool about the pointer."""
+        """Draw the outline of the tool around the pointer."""
         if self.tool.name == "hand":
             return
         lens = frame.lens(self.camera)
@@ -297,9 +310,10 @@ class Carving(Scene):
         return f"{tiles}; of {self.whole:,} pixels {self.removed + self.crumbs:,} were taken and {lost} lost"
 
     def bot(self):
-        """Return the bot's input for the next step.
+        """Return the bot's input for the next step, from the plan in digging_plan.py.
 
-        Its plan: cut down the bridge, the rock on its neck, the cliff; dig under the crates; stamp a sprite.
+        The bot cuts down the bridge, the rock on its neck and the cliff; it digs under the crates, and carves with the
+        star.
         """
         return plan(self.frame)
 

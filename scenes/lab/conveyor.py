@@ -1,11 +1,10 @@
 """Belts that run, level, up and down: does everything that lies on them end up at the belt's speed?
 
-What to see: above, the belts' surfaces run and carry boxes, a hexagon, a capsule and a wheel whose rolling is
-braked. Below stand the same belts in a world that does not declare the effect: there the same crates stay where
-they fall. Turn the speed.
+What to see: above, the surfaces of the belts carry boxes, a hexagon, a capsule and a wheel with rolling resistance.
+Below, the same belts are in a world without the effect "conveyor", and the same crates stay where they fall. Turn the
+speed.
 
-Why it matters: A belt is the simplest thing that moves others and does not move itself; faking it by hand jitters on
-slopes.
+Why it matters: A belt moves others and does not move itself; imitations by hand jitter on slopes.
 
 To try: turn the speed below zero and see what the slopes still hold.
 
@@ -58,7 +57,7 @@ DUST = ((250, 230, 190), (190, 150, 120), (110, 90, 100))
 
 
 class Conveyor(Scene):
-    """Two worlds: one with the effect conveyor, one without it."""
+    """Scene with two worlds: one with the effect `conveyor`, one without it."""
 
     name = "lab/conveyor"
     title = "Conveyor"
@@ -79,7 +78,7 @@ class Conveyor(Scene):
     legend_at = (8, 34)
 
     def build(self):
-        """Build the belts in both worlds; crates are added over time."""
+        """Build the belts in both worlds. Crates are added over time by update()."""
         self.add_world()
         self.add_world(effects=self.effects.with_(conveyor=False))
         self.cameras = [Camera(view) for view in VIEWS]
@@ -112,7 +111,7 @@ class Conveyor(Scene):
                 belts[name] = world.add_body(Capsule(start, end, BELT_RADIUS), kind="static", material=material)
 
     def change_slider(self, name, value):
-        """Apply a change of a slider: rebuild the belts at once; measurements start again after SETTLE."""
+        """Set a slider, and rebuild the belts at once. After SETTLE steps the measurements start again."""
         before = self.values[name]
         super().change_slider(name, value)
         if self.values[name] != before:
@@ -136,7 +135,7 @@ class Conveyor(Scene):
         self._collect()
 
     def _drop(self, index):
-        """Add the next crate to world number `index`, once its place is free."""
+        """Add the next crate to the world `worlds[index]` if it is due and its place is free."""
         world = self.worlds[index]
         every = max(1, round(APART / self.values["speed"] * 60))
         if self.frame % every or (index == 1 and self.dropped[1] >= len(KINDS)):
@@ -155,7 +154,7 @@ class Conveyor(Scene):
         self.dropped[index] += 1
 
     def _measure(self):
-        """Record a crate's speed along a belt when it leaves the window near the belt's end."""
+        """Record the speed of each crate that leaves a belt's measuring window, the stretch near the belt's end."""
         world, speed = self.world, float(self.values["speed"])
         if self.frame - self.changed < SETTLE:
             return
@@ -178,7 +177,10 @@ class Conveyor(Scene):
                     self.seen[kind].add(name)
 
     def _rest(self):
-        """Record how far a crate in the world without the effect has moved since one second after it was added."""
+        """Update the greatest distance that a crate has moved in the world without the effect.
+
+        The distance of a crate counts from its position one second after it was added.
+        """
         for identity in self.kinds[1]:
             x, y = self.worlds[1].body(identity).position
             age, start = self.fallen.get(identity, (0, None))
@@ -189,7 +191,7 @@ class Conveyor(Scene):
                 self.strayed = max(self.strayed, hypot(x - start[0], y - start[1]))
 
     def _collect(self):
-        """Remove crates past the last belt."""
+        """Remove the crates that are past the end of the last belt."""
         for index, world in enumerate(self.worlds):
             for identity in list(self.kinds[index]):
                 body = world.body(identity)
@@ -285,8 +287,9 @@ class Conveyor(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the errors of speed of the last crates on each belt, and their creep without the
-        effect.
+        """Return a sentence with the greatest error of the last crates' speeds on the belts.
+
+        It also names the distance that crates have moved in the world without the effect.
         """
         if not self.last:
             return "not yet: a crate has to come to the end of a belt that runs as it does now"
@@ -302,7 +305,7 @@ class Conveyor(Scene):
         )
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: watch, then raise the speed."""
+        """Return the bot's input for the next step. The bot waits, then raises the speed."""
         return InputFrame(frozenset(("right",))) if self.frame in (420, 424) else frozenset()
 
     def state(self):
@@ -326,9 +329,10 @@ def direction(start, end):
 
 
 def on_belt(point, start, end):
-    """Return (along, aside, length): place of a point along a belt, distance from the belt, and the belt's length.
+    """Return (along, aside, length) of a point relative to a belt from `start` to `end`.
 
-    along: share of the length, 0 at `start`, 1 at `end`; aside [px]: negative above the belt; length [px].
+    along: position along the belt, 0 at `start`, 1 at `end`; aside: distance from the belt's line [px], negative above
+    it; length: of the belt [px].
     """
     tx, ty = direction(start, end)
     length = hypot(end[0] - start[0], end[1] - start[1])
@@ -339,8 +343,8 @@ def on_belt(point, start, end):
 def draw_belt(surface, view, start, end, way, running):
     """Draw a belt around two rollers, with ribs that show its motion.
 
-    `start`, `end`: middles of the rollers in the view; `way`: distance that the belt has moved [px]; `running`: False
-    draws it dim.
+    start, end: middles of the rollers in the view; way: distance that the belt has moved [px]; running: whether the
+    belt is drawn bright (True) or dim.
     """
     (ax, ay), (bx, by) = ((p[0] + view.x, p[1] + view.y) for p in (start, end))
     tx, ty = direction(start, end)

@@ -1,4 +1,4 @@
-"""Costs of a lab's runs, which are timed beside the game: in seconds, and as text for the picture."""
+"""Costs of runs: step times that the measuring process has found for a lab, as seconds and as text."""
 
 from typing import NamedTuple
 
@@ -6,7 +6,7 @@ UNKNOWN = "-"  # never a zero for an unknown cost
 
 
 class Difference(NamedTuple):
-    """How much longer [s] a step of one run takes than a step of another, and the noise [s] of this figure."""
+    """Difference of the step times of two runs [s], and the noise of this difference [s]."""
 
     seconds: float
     noise: float
@@ -17,19 +17,19 @@ class Difference(NamedTuple):
         return abs(self.seconds) > self.noise
 
     def exceeds(self, other):
-        """Return whether this difference is greater than another, beyond the noise of both."""
+        """Return whether this difference is certainly greater than `other`: by more than the noise of both."""
         return self.seconds - self.noise > other.seconds + other.noise
 
     def text(self):
-        """Return the difference as text in microseconds with its sign; "0" within the noise."""
+        """Return the difference as text in microseconds with its sign; "0" if it is within the noise."""
         return f"{1e6 * self.seconds:+,.0f}" if self.counts else "0"
 
 
 def difference_of(scene, name, other):
-    """Return the Difference between the runs `name` and `other`, or None before there are enough measurements.
+    """Return the Difference of the step times of the runs `name` and `other`, None while measurements are missing.
 
-    The least times are subtracted, because other load only ever adds time. The noise is the sum of both distances of
-    the median from the least time.
+    The least times are subtracted, because other load of the machine only adds time. Noise of one run: its median minus
+    its least time. The noise of the difference is the sum for both runs.
     """
     both = [scene.figures.get(each) for each in (name, other)]
     if any(figures is None or not figures.sure for figures in both):
@@ -45,11 +45,11 @@ def cost_of(scene, name):
 
 
 def cost_text(scene, name):
-    """Return the median time of a step of the run `name` as text in microseconds, "-" while it is unknown."""
+    """Return the median time of a step of the run `name` as text in microseconds; "-" while it is unknown."""
     seconds = cost_of(scene, name)
     return UNKNOWN if seconds is None else microseconds(seconds)
 
 
 def microseconds(seconds):
-    """Return a time [s] as text in microseconds, with one decimal below 100 us."""
+    """Return a time given in seconds as text in microseconds, with one decimal below 100 us."""
     return f"{1e6 * seconds:,.{0 if seconds >= 99.95e-6 else 1}f} us"

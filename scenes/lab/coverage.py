@@ -8,7 +8,10 @@ from scenes.lab.pieces import hull, signed_distance
 
 
 def covered(shapes, x, y):
-    """Return a bool array: whether each point (x, y) [px, body space] is inside at least one of the shapes."""
+    """Return whether each point is inside at least one of the shapes, a bool array of the shape of `x`.
+
+    x, y: arrays of coordinates in body space [px].
+    """
     found = np.zeros(np.shape(x), bool)
     for shape in shapes:
         found |= _inside(shape, x, y)

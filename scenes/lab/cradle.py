@@ -1,9 +1,9 @@
 """Five steel balls in a row, struck by one or two: do only as many leave at the other end?
 
-What to see: with a hair of air between the balls each collision is one of two, and momentum and energy allow one
-result: the last ball leaves with the whole speed. The same row in three channels, one per solver. Close the gap: then
-several balls meet in one step, and momentum and energy do not fix the result. Sequential impulse and soft step solve
-such hits together, and as many still leave as came; projection scatters its row.
+What to see: three channels with the same row, one per solver. With a small gap between the balls, each collision is one
+of two balls, and momentum and energy allow one result: the last ball leaves with the whole speed. Without the gap
+several balls meet in one step, and the result is open. Sequential impulse and soft step solve such hits together: as
+many balls leave as came. Projection scatters its row.
 
 Why it matters: A chain of hits in one step shows whether a solver passes impulses on, or mixes them.
 
@@ -45,7 +45,7 @@ SWITCH_AT = 300  # the bot's step for two strikers
 
 
 class Cradle(Scene):
-    """Three worlds, one channel each."""
+    """Scene with three worlds, one channel with a row of balls in each."""
 
     name = "lab/cradle"
     title = "Cradle"
@@ -62,7 +62,7 @@ class Cradle(Scene):
     legend_at = (4, 20)
 
     def build(self):
-        """Build the channels; fill() adds the balls."""
+        """Build the channels, and let fill() add the balls."""
         self.yard = Yard((), 90)
         self.cameras = [Camera((0, top, 480, LANE_HEIGHT), ZOOM) for top in LANES]
         self.results = {}  # (solver, strikers, gap) -> greatest error of the first pass, up to the wall
@@ -96,7 +96,7 @@ class Cradle(Scene):
         self.touched = False  # a ball is dragged: measurements end
 
     def change_slider(self, name, value):
-        """Apply a change of a slider: add the balls again."""
+        """Set a slider, then add the balls again."""
         super().change_slider(name, value)
         self.fill()
 
@@ -134,10 +134,9 @@ class Cradle(Scene):
         self.results[key] = tuple(max(pair) for pair in zip(found, self.results.get(key, found), strict=True))
 
     def measured(self):
-        """Return the runs to time beside the game.
+        """Return the runs that the measuring process times during the game, one for each channel.
 
-        A run is a step of one channel. It is timed over one trip of a ball to its wall and back, which includes every
-        chain of collisions.
+        A run steps a channel while a ball travels to its wall and back, which includes every chain of collisions.
         """
         worlds = dict(zip(SOLVERS, self.worlds, strict=True))
         return RunRequest(
@@ -146,17 +145,17 @@ class Cradle(Scene):
         )
 
     def struck(self, index):
-        """Return whether a ball of the row in channel number `index` has moved from its start."""
+        """Return whether a ball of the row in channel number `index` has left its start or has a velocity."""
         row = self.balls[index][-ROW:]
         return any(
             body.velocity[0] != 0.0 or body.position[0] != x for body, x in zip(row, self.laid[index], strict=True)
         )
 
     def others(self, index):
-        """Return the error of a channel against the ideal collision.
+        """Return the error of channel number `index` against the ideal collision, a share of the strikers' speed.
 
-        Ideally as many balls as struck leave at the strikers' speed, and all others are at rest. The error is the
-        greatest error of a ball's speed, relative to the strikers' speed; 1 if the number of fast balls is wrong.
+        Ideally as many balls as struck move at the strikers' speed, and all others are at rest. The error is the
+        greatest deviation of a ball from the nearer of these two speeds. It is 1 if the number of fast balls is wrong.
         """
         speeds = [abs(body.velocity[0]) / SPEED for body in self.balls[index]]
         fast = sum(speed > 0.5 for speed in speeds)
@@ -166,9 +165,7 @@ class Cradle(Scene):
 
     @property
     def offer(self):
-        """Text that offers a new run once balls of the row that should rest are moving, since they stay in disorder; ""
-        otherwise.
-        """
+        """Text that offers a new run once the row of a channel is in disorder, which is permanent; "" otherwise."""
         return "lays them in anew" if any(self.others(index) > SCATTERED for index in range(len(SOLVERS))) else ""
 
     def views(self):
@@ -176,7 +173,7 @@ class Cradle(Scene):
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Draw the channels, the balls, and the measurements under each."""
+        """Draw the channels, the balls, and the measurements below each channel."""
         self.yard.draw(canvas, "CRADLE", "do as many leave as came, with the same speed?")
         for index, (name, camera, cast) in enumerate(zip(SOLVERS, self.cameras, self.casts, strict=True)):
             self._draw_channel(canvas, camera.viewport)
@@ -211,7 +208,7 @@ class Cradle(Scene):
         canvas.text(words, 470, y, color, SMALL, align="right")
 
     def verdict(self, index):
-        """Return (text, colour) that describe the current state of channel number `index`."""
+        """Return (text, colour) of the judgement about channel number `index` in its current state."""
         if self.touched:
             return "dragged: nothing is promised", FOG
         if not self.struck(index):
@@ -225,7 +222,7 @@ class Cradle(Scene):
         return f"others move too, by {100 * others:.1f} %", RED
 
     def draw_on_frame(self, frame):
-        """Draw an arrow over every moving ball, in proportion to its speed."""
+        """Draw an arrow over every moving ball, with a length in proportion to its speed."""
         for index, camera in enumerate(self.cameras):
             lens = frame.lens(camera)
             for body in self.balls[index]:
@@ -245,7 +242,7 @@ class Cradle(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        As many balls leave as strike, one or two, and no momentum or energy is lost.
+        With one and with two strikers, as many balls leave as have struck, and no momentum or energy is lost.
         """
         goals = []
         for name in SOLVERS:
@@ -272,7 +269,7 @@ class Cradle(Scene):
         return goals
 
     def finding(self):
-        """Return a sentence with the error of each row until its first ball reached the wall, and the step's time."""
+        """Return a sentence with the error of each row up to its first contact with a wall, and the time of a step."""
         strikers, parts = int(self.values["strikers"]), []
         for name in SOLVERS:
             found = self.results.get((name, strikers, int(self.values["gap"])))
@@ -282,7 +279,7 @@ class Cradle(Scene):
         return f"{strikers} in, {strikers} out; speeds are off by {', '.join(parts)}"
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: one striker, then two."""
+        """Return the bot's input for the next step. The bot first uses one striker, then two."""
         return InputFrame(frozenset(("up",)) if self.frame == SWITCH_AT else frozenset())
 
     def state(self):

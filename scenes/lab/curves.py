@@ -13,7 +13,7 @@ HISTORY = 150  # default number of steps: 2.5 seconds
 
 
 class Curves:
-    """A plot of the last `kept` steps of some series. `names`: {series: colour}.
+    """A plot of several series over the last `kept` steps. names: {series: colour}.
 
     Call note() once per step, and draw() to paint the plot.
     """
@@ -24,17 +24,20 @@ class Curves:
         self.figures = {name: Typical() for name in names}
 
     def note(self, values):
-        """Add the values of a step, {series: value}. Negative values count as 0."""
+        """Append the values of a step, {series: value}. Negative values are drawn as 0."""
         for name, value in values.items():
             self.history[name].append(max(float(value), 0.0))
             self.figures[name].note(value)
 
     def typical(self, name):
-        """Return the median of a series over the last second, for the figure beside its curve."""
+        """Return the median of the series `name` over the last second, to be written beside its curve."""
         return self.figures[name].value
 
     def draw(self, frame, canvas_rect):
-        """Draw the plot into a rectangle of the canvas. Labels of the decades are written where there is room."""
+        """Draw the plot over `canvas_rect`, a rectangle of the canvas.
+
+        Powers of ten are labelled where there is room.
+        """
         rect = frame.from_canvas(canvas_rect)
         scale = frame.plot_scale
         surface = frame.surface

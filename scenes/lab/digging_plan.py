@@ -6,7 +6,7 @@ from game.input.inputs import InputFrame
 
 
 class Move(NamedTuple):
-    """A stroke of the pressed pointer from `start` to `end` [canvas px], from frame `frame` on for `steps` steps."""
+    """A stroke of the pressed pointer from `start` to `end` [canvas px], in `steps` steps from frame `frame` on."""
 
     frame: int
     steps: int
@@ -27,7 +27,7 @@ NAMES = ("blast", "dig", "box", "sprite", "hand")
 
 
 def plan(frame):
-    """Return the bot's input for the step of number `frame`."""
+    """Return the bot's InputFrame for frame number `frame`."""
     changes = ()
     if frame in SETTINGS:
         name, radius = SETTINGS[frame]

@@ -1,9 +1,9 @@
 """The shooter's own traffic, judged by nine tiers: how often does each say hit where no pixel is shared, or miss a hit?
 
-What to see: the game follows the exact pixels. Ten times a second the same moment is tested with every tier, and its
-wrong answers are counted. Choose a tier with the wheel: its wrong pairs in the last moment are lit. The curves settle
-as hits add up; the bars are 95 % intervals of the rates. You cannot die here: fly into the traffic and count what your
-box would have cost.
+What to see: the game uses the exact pixels. Ten times a second every tier tests the same moment, and its wrong answers
+are counted. Choose a tier with the wheel: its wrong pairs in the last moment are lit. The curves settle with the number
+of hits; the bars are 95 % intervals of the rates. You cannot die here: fly into the traffic and count the hits of your
+box.
 
 Why it matters: Players forgive a false hit less than any other fault; a rate says how often a tier reports one.
 
@@ -42,7 +42,7 @@ HOLDING = ("circle", "obb", "capsule", "hull")  # tiers that contain all pixels 
 
 
 class Disagreement(Shooter):
-    """The shooter, with the reference tier and eight others beside it."""
+    """The shooter game, in which eight collision tiers are compared with the reference tier, the exact pixels."""
 
     name = "lab/disagreement"
     title = "Disagreement"
@@ -64,7 +64,7 @@ class Disagreement(Shooter):
     hides_pointer = False
 
     def build(self):
-        """Build the shooter with an invincible plane, and empty counts."""
+        """Build the shooter with an invincible plane, and set all counts to zero."""
         self.assist = {"invincible": True, "hit_stop": False}
         super().build()
         self.plane.right = SIDE.x - MARGIN
@@ -77,11 +77,11 @@ class Disagreement(Shooter):
 
     @property
     def hurts(self):
-        """The hull, as in games without a small core."""
+        """Part of the plane that enemies can hit: its whole hull, instead of the shooter's small core."""
         return "hull"
 
     def update(self, inputs):
-        """Step the game, then evaluate one more tier."""
+        """Step the game, then test the current moment with one more tier."""
         super().update(inputs)
         reference = self.reference
         if inputs.wheel:
@@ -96,7 +96,7 @@ class Disagreement(Shooter):
             self.curves, self.apart = self.curves[1::2], 2 * self.apart
 
     def draw(self, canvas, alpha):
-        """Draw the game, and the figures beside it."""
+        """Draw the game, and the rates of all tiers beside it."""
         super().draw(canvas, alpha)
         for rect, color in ((HEADING, INK), (SIDE, NIGHT)):
             canvas.boxes[:] = [each for each in canvas.boxes if not rect.colliderect(each[0])]  # now hidden
@@ -113,7 +113,7 @@ class Disagreement(Shooter):
         canvas.text(f"{self.reference.moments:,} moments, {hits:,} true hits", SIDE.x + 6, 260, FOG, SMALL)
 
     def _draw_row(self, canvas, tier, y):
-        """Draw a tier's share of wrong hits, as a bar with its confidence interval, and its share of missed hits."""
+        """Draw the rates of one tier: wrong hits as a bar with its confidence interval, and missed hits as a number."""
         wrong, missed, color = self.reference.wrong[tier], self.reference.missed[tier], COLORS[tier]
         if tier == self.reference.lit:
             canvas.surface.fill(DUSK, (SIDE.x + 2, y - 3, SIDE.width - 3, ROW - 1))
@@ -129,7 +129,7 @@ class Disagreement(Shooter):
         canvas.text(f"{100 * missed.share:.0f} %", SIDE.right - 4, y, PAPER, SMALL, align="right")
 
     def _draw_curves(self, canvas):
-        """Draw the shares of wrong hits over time."""
+        """Draw each tier's share of wrong hits among its hits, over time."""
         area = CURVES
         canvas.surface.fill(INK, area)
         top = max([0.1, *(share for shares in self.curves[len(self.curves) // 8 :] for share in shares)])
@@ -149,7 +149,7 @@ class Disagreement(Shooter):
             pygame.draw.lines(canvas.surface, COLORS[tier], False, points)
 
     def draw_on_frame(self, frame):
-        """Draw the wrong hits and the misses of the chosen tier in the last moment."""
+        """Draw the wrong hits and the missed hits of the chosen tier in the last tested moment."""
         lens = frame.lens(self.camera)
         clip = frame.from_canvas(pygame.Rect(0, 0, SIDE.x, SIDE.height))
         frame.surface.set_clip(clip)
@@ -164,7 +164,7 @@ class Disagreement(Shooter):
     def check(self):
         """Return the goals of the self-check.
 
-        Simple shapes report wrong hits; tiers made of the outline hardly ever do.
+        Simple shapes report wrong hits, and tiers made of the outline hardly ever do.
         """
         wrong, missed = self.reference.wrong, self.reference.missed
         caught = [tier for tier in LIARS if wrong[tier].count]
@@ -187,17 +187,18 @@ class Disagreement(Shooter):
         return f"{sentence} (95 %: {low:.0f} to {high:.0f} %); of {missed.total:,} true hits it missed {missed.count:,}"
 
     def bot(self):
-        """Return the input of the shooter's bot for the next step."""
+        """Return the bot's input for the next step, which is that of the shooter's bot."""
         return super().bot()
 
     def state(self):
-        """Return the state of the game, and the counts of the tiers."""
+        """Return the state of the game and the counts of the tiers, for the replay digest."""
         return (*super().state(), *self.reference.state(), self.reference.lit)
 
 
 def rehearse(effects):
-    """Evaluate every tier once on two planes and a disc in a world with these effects, so that all kernels are compiled
-    before the game begins.
+    """Evaluate every tier once, so that all kernels are compiled before the game begins.
+
+    It uses two planes and a disc in a world with these effects.
     """
     world, reference = World(effects, BROADPHASES["sweep"]()), ReferenceTier(FIRST)
     masks = [load_atlas("planes").mask(name) for name in ("player", "gunship_0")]
@@ -210,6 +211,6 @@ def rehearse(effects):
 
 
 def from_then_on(stage, start):
-    """Return a copy of a stage that begins at time `start` [s], without the earlier waves."""
+    """Return a copy of a shooter stage that begins at time `start` [s]. Earlier waves of enemies are dropped."""
     kept = [each for each in stage.events if each.at >= start or each.event in ("backdrop", "pace")]
     return replace(stage, events=tuple(replace(each, at=max(0.0, each.at - start)) for each in kept))

@@ -1,8 +1,8 @@
 """Two rows of dominoes, the second four times as large: does its wave run twice as fast?
 
-What to see: both rows look alike, and so they must fall: with gravity alone as the clock, four times the size takes
-twice the time (Froude's rule). Any length hidden in the solver, a slop, a margin, a fixed speed, breaks the likeness.
-So the second row lags behind on the screen by half, and its wave runs at twice the speed over the ground.
+What to see: gravity is the only clock here, so a row of four times the size takes twice the time (Froude's rule). A
+length hidden in the solver (a slop, a margin, a fixed speed) would break this rule. So the second wave is half as fast
+on the screen, and twice as fast over the ground.
 
 Why it matters: A game that is made twice as large must play the same; hidden lengths are how engines break that.
 
@@ -44,7 +44,7 @@ STEADY = 4  # the first dominoes and the last two are not timed: the wave must r
 
 
 class Dominoes(Scene):
-    """Two worlds: the same row, small and large."""
+    """Scene with two worlds that contain the same row of dominoes, small and four times as large."""
 
     name = "lab/dominoes"
     title = "Dominoes"
@@ -64,7 +64,7 @@ class Dominoes(Scene):
     legend_at = (190, 20)
 
     def build(self):
-        """Build two tables; fill() adds the rows."""
+        """Build two tables, and let fill() add the rows."""
         self.yard = Yard(FLOORS, 50, table=True)
         if self.solver in KEEPING:  # named on the command line, or chosen before a restart
             self.values["solver"] = KEEPING.index(self.solver)
@@ -104,12 +104,12 @@ class Dominoes(Scene):
         self.passed = [[None] * count for _ in SCALES]  # [steps] time of the wave, between steps
 
     def change_slider(self, name, value):
-        """Apply a change of a slider: build the rows again."""
+        """Set a slider, then build the rows again."""
         super().change_slider(name, value)
         self.fill()
 
     def update(self, inputs):
-        """Process keys, make two steps, and record the wave's time at every domino."""
+        """Process keys, step both worlds, and record when the wave reaches each domino."""
         for name, forth, back, notch in (("spacing", "right", "left", 5), ("substeps", "up", "down", 1)):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
@@ -122,8 +122,9 @@ class Dominoes(Scene):
             self._time(index)
 
     def _push(self):
-        """Push both rows at speeds in proportion to the root of their size (Froude). A second push rebuilds the rows
-        first.
+        """Push the first domino of both rows, at speeds in proportion to the square root of their size (Froude).
+
+        If the rows have been pushed already, they are built again first.
         """
         if self.pushed is not None:
             self.fill()
@@ -148,7 +149,10 @@ class Dominoes(Scene):
             leaned[number] = now
 
     def speed(self, index):
-        """Return the wave's speed over the ground between the timed dominoes [px/s], or None before it has passed."""
+        """Return the speed of a row's wave over the ground [px/s]; None until it has passed the timed dominoes.
+
+        index: 0 the small row, 1 the large row.
+        """
         passed = self.passed[index]
         last = len(passed) - 3
         if passed[last] is None or passed[STEADY] is None:
@@ -174,7 +178,7 @@ class Dominoes(Scene):
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Draw two tables with their rows, and size and speed over each."""
+        """Draw two tables with their rows, and the size and wave speed above each."""
         self.yard.draw(canvas, "DOMINOES", "four times as large: does the wave run twice as fast?")
         for index, (camera, cast) in enumerate(zip(self.cameras, self.casts, strict=True)):
             cast.draw(canvas, camera, self.worlds[index], alpha)
@@ -204,7 +208,7 @@ class Dominoes(Scene):
         canvas.text(f"{fallen} of {len(self.rows[index])} down", 178, top + 20, FOG, SMALL, align="right")
 
     def draw_on_frame(self, frame):
-        """Draw a mark under the head of each wave."""
+        """Draw a mark under the foremost domino that each wave has reached."""
         for index, camera in enumerate(self.cameras):
             there = [body for body, at in zip(self.rows[index], self.passed[index], strict=True) if at is not None]
             if there and len(there) < len(self.rows[index]):
@@ -251,9 +255,9 @@ class Dominoes(Scene):
         return f"{sentence}, not {small / meter:.2f}; Froude's rule says {sqrt(SCALES[1] / SCALES[0]):.0f}"
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: one push."""
+        """Return the bot's input for the next step. The bot pushes once."""
         return InputFrame(frozenset(("fire",)) if self.frame == PUSHED_AT else frozenset())
 
     def state(self):
-        """Return the times, for the replay digest; the dominoes are part of the physics state."""
+        """Return the times of the waves, for the replay digest; the dominoes are part of the physics state."""
         return (self.frame, self.since, self.pushed, *self.values.values(), *(at for row in self.passed for at in row))

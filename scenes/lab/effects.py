@@ -1,13 +1,13 @@
 """Seventeen effects in one busy yard, each switched off while it runs: what would be missed, and what does it cost?
 
-What to see: choose an effect. From then on the yard runs twice, gold with it and blue without, and things that differ
-in place are outlined in both. Switch it off: the solid picture is now the blue one, and the stage that only this effect
-needs leaves the time graph. After two seconds the distance of both is shown, and the effect's time per step. Some move
-nothing: sensors and persist only report, and sleep only saves.
+What to see: choose an effect. From then on the yard runs twice, with the effect (gold) and without it (blue); a thing
+whose place differs is outlined in both colours. Switch the effect off: the solid picture is now the blue one, and
+stages that only this effect needs leave the time graph. After two seconds you see how far both yards differ, and the
+effect's time per step. Sensors and persist only report, and sleep only saves.
 
 Why it matters: A scene does not pay for effects that it does not declare, and misses needed ones at once.
 
-To try: switch off friction and watch the belt, then carve with it off; put all back on and compare what they take.
+To try: switch off friction and watch the belt, then carving; put both back on and compare their costs.
 
 Source: an ablation, one part left out at a time; the ledger of all scenes is measured alike (game/measure/ledger.py).
 """
@@ -44,7 +44,7 @@ LISTED = 2  # greatest number of effects that the finding names for one figure
 
 
 class Outcome(NamedTuple):
-    """Differences between a yard with an effect and its copy without the effect, after two seconds."""
+    """Differences between the yard with an effect and its copy without the effect, over the first two seconds."""
 
     apart: float  # [px] root mean square distance over all moving things
     events: int  # number of further events with it, of all kinds
@@ -60,7 +60,7 @@ class Outcome(NamedTuple):
 
 
 class EffectsLab(Scene):
-    """The yard. `worlds` holds the visible world: with the marked effect, or without it."""
+    """Scene with two yards, with and without the selected effect. `worlds` contains the visible yard's world only."""
 
     name = "lab/effects"
     keeps = {"substeps": "by load, as a World has them by itself: the cost of each effect is that in such a world"}
@@ -101,7 +101,7 @@ class EffectsLab(Scene):
 
     @property
     def marked(self):
-        """Name of the selected effect, which the second yard lacks."""
+        """Name of the selected effect, which is off in the copy of the yard."""
         return NAMES[int(self.values["effect"])]
 
     @property
@@ -110,7 +110,7 @@ class EffectsLab(Scene):
         return bool(self.values["it is"])
 
     def _part(self):
-        """Copy the yard. From now on, the original has the selected effect and the copy does not."""
+        """Make a new copy of the yard, and switch the selected effect off in the copy."""
         world = self._new_world()
         world.restore(self.real.world.snapshot())
         self.real.world.set_effects(world.effects)  # all wake in both
@@ -126,11 +126,11 @@ class EffectsLab(Scene):
         self.worlds = [(self.real if self.is_on else self.other).world]
 
     def solver_choices(self):
-        """Return no choices: a world without the effect `stacking` uses another solver anyway."""
+        """Return (): the player cannot switch solvers, as a world without `stacking` needs another solver anyway."""
         return ()
 
     def change(self, name, value):
-        """Apply a change to both worlds."""
+        """Apply a change from the panel, as Scene.change does, to the worlds of both yards."""
         self.worlds = [self.real.world, self.other.world]
         try:
             super().change(name, value)
@@ -138,16 +138,14 @@ class EffectsLab(Scene):
             self._show()
 
     def change_slider(self, name, value):
-        """Apply a change of a slider. If another effect is selected, copy the yard anew, and show the yard with that
-        effect.
-        """
+        """Set a slider. If another effect is selected, copy the yard anew, and show the yard with that effect."""
         super().change_slider(name, value)
         if name == "effect":
             self.values["it is"] = 1
             self._part()
 
     def update(self, inputs):
-        """Process keys and the pointer, step both yards, and after two seconds compare them."""
+        """Process keys and the pointer, and step both yards. Two seconds after a copy was made, compare both yards."""
         way = inputs.pressed("down") - inputs.pressed("up") - inputs.wheel
         row = (inputs.pointer[1] - TOP) // ROW
         points = inputs.pointer_pressed and inputs.pointer[0] < SIDE and 0 <= row < len(NAMES)
@@ -176,10 +174,10 @@ class EffectsLab(Scene):
         )
 
     def measured(self):
-        """Return the runs to time beside the game.
+        """Return the runs that the measuring process times during the game, two for each effect that was selected.
 
-        A run is a step of the yard with all bodies awake, from its state when an effect was first selected. There are
-        two for each effect: with it and without it.
+        Both start from the yard as it was when the effect was first selected, with all bodies awake. One has the
+        effect, the other does not.
         """
         return RunRequest([self._run_name(name, on) for name in self.looked for on in (True, False)], self._make)
 
@@ -193,21 +191,23 @@ class EffectsLab(Scene):
         return MeasuredRun([made], self.broadphase, WINDOW)
 
     def stages(self):
-        """Return (own, replaced). own: names of the stages that a step has only because of the selected effect.
+        """Return (own, replaced), two lists of names of stages of a step.
 
-        replaced: names of the stages that a step has only without the effect.
+        own: stages that a step has only because of the selected effect; replaced: stages that a step has only without
+        it.
         """
         real, other = self.real.world.stages, self.other.world.stages
         return [name for name in real if name not in other], [name for name in other if name not in real]
 
     def price(self, name):
-        """Return the time per step that an effect costs, a Difference, below 0 if it saves time; None: not measured."""
+        """Return how much longer a step is with an effect than without it, a Difference; None while it is not measured.
+
+        It is negative for an effect that saves time.
+        """
         return difference_of(self, *(self._run_name(name, on) for on in (True, False)))
 
     def finding(self):
-        """Return a sentence with the results of the last two seconds with and without each effect, once all were
-        compared.
-        """
+        """Return a sentence that names the effects that move, cost and save most, once all effects were compared."""
         if len(self.found) < len(self.effects.names()):
             return f"not yet: {len(self.found)} of {len(self.effects.names())} effects were looked at"
         far = max(self.found, key=lambda name: self.found[name].apart)
@@ -227,7 +227,7 @@ class EffectsLab(Scene):
         return words
 
     def draw(self, canvas, alpha):
-        """Draw the visible yard, and the list."""
+        """Draw the visible yard, and the list of effects with their results."""
         shown = self.real if self.is_on else self.other
         runs = shown.world.effects.conveyor
         self.picture.draw(canvas, shown, alpha, self.clock if runs else 0.0)
@@ -284,7 +284,7 @@ class EffectsLab(Scene):
         frame.surface.set_clip(None)
 
     def check(self):
-        """Return the goals of the self-check: each effect matters."""
+        """Return the goals of the self-check: without each effect, something is missed."""
         goals = []
         for turn, name in enumerate(self.effects.names(), 1):
             outcome = self.found.get(name)
@@ -296,8 +296,8 @@ class EffectsLab(Scene):
     def bot(self):
         """Return the bot's input for the next step.
 
-        Its plan: select one effect after the other; show the yard for two seconds with the effect, then for a moment
-        without it.
+        The bot selects one effect after the other. It shows the yard with the effect for two seconds, then without it
+        for a moment.
         """
         turn, step = divmod(self.frame, BOT_NEXT)
         if step == 0:
@@ -305,7 +305,7 @@ class EffectsLab(Scene):
         return frozenset({"fire"} if step == BOT_OFF else ())
 
     def state(self):
-        """Return both clocks, the digest of the world that is not shown, and the results."""
+        """Return both clocks, the digest of the hidden world, and the results, for the replay digest."""
         hidden = (self.other if self.is_on else self.real).world
         found = (value for name in NAMES if name in self.found for value in self.found[name])
         reported = (*self.real.reported.tolist(), *self.other.reported.tolist())
@@ -313,7 +313,7 @@ class EffectsLab(Scene):
 
 
 def short(outcome, name):
-    """Return the Outcome of an effect as short text."""
+    """Return the Outcome of the effect `name` as short text."""
     if name == "sleeping":
         return f"{-outcome.work:,} tasks saved"
     if outcome.apart > VISIBLE:

@@ -1,11 +1,10 @@
 """Six kinds of thing, all pairs of kinds: which may meet? A pair needs a yes from both sides.
 
-What to see: each cell holds two discs that swing into each other, the row's kind on the left and the
-column's on the right. A click gives or takes the row's yes to the column. Only where both say yes do the
-discs touch; the broad phase drops all others before a pair is written, so they cost nothing later.
+What to see: each cell holds two discs that swing into each other, the row's kind on the left and the column's on the
+right. A click switches whether the row's mask contains the column's kind: its yes. The discs touch only if both say
+yes. The broad phase drops all other pairs before it writes them, so they cost nothing later.
 
-Why it matters: What two kinds never do to each other should cost nothing; a filter in the broad phase is the cheapest
-test.
+Why it matters: Kinds that never meet should cost nothing; a filter in the broad phase is the cheapest test.
 
 To try: take away one yes, and then the other, and see that one no is enough.
 
@@ -43,7 +42,7 @@ BOT_CLICKS = {90: (0, 1), 130: (5, 4), 170: (0, 1)}  # frame: cell
 
 
 class Filters(Scene):
-    """A grid of pairs, one body of each kind per cell."""
+    """Scene with one world: a grid of cells, each with one disc of the row's kind and one of the column's kind."""
 
     name = "lab/filters"
     title = "Filters"
@@ -80,7 +79,7 @@ class Filters(Scene):
         self.place()
 
     def place(self):
-        """Set every disc to its place at this moment."""
+        """Move every disc to its position at the current time of the swing."""
         bodies = self.world.bodies
         for number, (row, column) in enumerate(CELLS):
             x, y = cell_center(row, column)
@@ -89,7 +88,7 @@ class Filters(Scene):
             bodies["y"][2 * number : 2 * number + 2] = y
 
     def update(self, inputs):
-        """Process clicks and keys, which toggle a cell; move the discs; compare the contacts with the table."""
+        """Process clicks and keys, which toggle cells; move the discs; check the contacts against the masks."""
         cell = cell_at(*inputs.pointer)
         if inputs.pointer_pressed and cell is not None:
             self.marked = cell
@@ -120,7 +119,7 @@ class Filters(Scene):
         return bool(self.masks[row] >> column & 1)
 
     def _judge(self):
-        """Check that overlapping discs are in contact exactly if both masks allow it."""
+        """Count wrong contacts: overlapping discs must be in contact exactly if both masks allow it."""
         self.touching[:] = False
         for a, b in zip(self.world.contacts["body_a"].tolist(), self.world.contacts["body_b"].tolist(), strict=True):
             self.wrong += self.cell_of[a] != self.cell_of[b]
@@ -231,7 +230,7 @@ class Filters(Scene):
     def bot(self):
         """Return the bot's input for the next step.
 
-        Its plan: three clicks: one removes a kind from a mask, one adds a kind, and one restores the first.
+        The bot clicks three times: it removes a kind from a mask, adds a kind to another, and restores the first.
         """
         cell = BOT_CLICKS.get(self.frame)
         if cell is None:
@@ -240,7 +239,7 @@ class Filters(Scene):
         return InputFrame(frozenset(), (round(x), round(y)), True)
 
     def state(self):
-        """Return masks and counts."""
+        """Return the masks and counts, for the replay digest."""
         return (self.frame, *self.masks, *self.marked, self.clock, self.wrong, self.met, self.filtered, self.clicks)
 
 
@@ -255,11 +254,11 @@ def cell_center(row, column):
 
 
 def cell_at(x, y):
-    """Return the (row, column) of the cell at a canvas point, or None if there is no cell."""
+    """Return the (row, column) of the cell at the canvas point (x, y), or None if there is no cell."""
     column, row = (x - LEFT) // CELL_WIDTH, (y - TOP) // CELL_HEIGHT
     return (row, column) if 0 <= row < len(KINDS) and 0 <= column < len(KINDS) else None
 
 
 def bits(word):
-    """Return the lowest six bits of a filter word, lowest first, which is the order of the grid's columns."""
+    """Return the lowest six bits of a filter word as text, lowest bit first, the order of the grid's columns."""
     return "".join("1" if word >> index & 1 else "0" for index in range(len(KINDS)))

@@ -1,8 +1,8 @@
 """A floor of boxes, a floor of tiles, a chain: all equally flat, and no seam of them is felt.
 
-What to see: a box, a disc and a capsule slide over 260 lengths of each floor, without friction. Tiles are merged and
-the links of a chain know their neighbours. Separate boxes know nothing of each other: where the surface on which a body
-lies goes on flush, a contact with the next box's side or corner is dropped. The speed stays the same on each floor.
+What to see: a box, a disc and a capsule slide over 260 tile lengths of each floor, without friction. Tiles are merged,
+and links of a chain know their neighbours. Separate boxes do not: if the surface under a body continues flush, a
+contact with the side or corner of the next box is dropped. The speed stays the same on each floor.
 
 Why it matters: Floors are built of many pieces, and a hero who trips over an invisible seam is a bug report.
 
@@ -51,7 +51,7 @@ HEIGHT_TOP = 4.0  # [px] top of the lower curve
 
 
 class GhostBumps(Scene):
-    """One world per floor, with three sliders in each."""
+    """Scene with one world per floor, with three sliders in each."""
 
     name = "lab/ghost_bumps"
     title = "Ghost bumps"
@@ -87,7 +87,7 @@ class GhostBumps(Scene):
         self.launch()
 
     def launch(self):
-        """Put all sliders at their starts, and clear the counts."""
+        """Move all sliders to their starts, and clear the counts."""
         keys = [(floor, kind) for floor in FLOORS for kind in KINDS]
         self.slowed = dict.fromkeys(keys, 0.0)  # largest speed error, as a share
         self.raised = dict.fromkeys(keys, 0.0)  # largest height off the floor [px]
@@ -108,14 +108,14 @@ class GhostBumps(Scene):
         body.angular_velocity = 0.0
 
     def change_slider(self, name, value):
-        """Start again after a change of speed."""
+        """Set a slider, and start again after a change of speed."""
         before = self.values[name]
         super().change_slider(name, value)
         if self.values[name] != before:
             self.launch()
 
     def update(self, inputs):
-        """Process keys, step each world, measure speeds and heights; start again at the end of the floors."""
+        """Process keys, step each world, and measure speeds and heights. At the end of the floors, start again."""
         turn = inputs.pressed("right") - inputs.pressed("left")
         if turn:
             self.change_slider("speed", self.values["speed"] + 20 * turn)
@@ -157,9 +157,9 @@ class GhostBumps(Scene):
         self.curves[floor].append((error_now, height_now))
 
     def measured(self):
-        """Return the runs to time beside the game.
+        """Return the runs that the measuring process times during the game, one for each floor.
 
-        A run is a step of one floor, from a state in which the sliders have at least one more second of floor ahead.
+        A run starts from a state in which the sliders have at least one more second of floor ahead.
         """
         ahead = (LENGTH - 4) * TILE - START_X["box"] - self.nominal
         if self.run == 0 or ahead < self.values["speed"]:
@@ -182,7 +182,7 @@ class GhostBumps(Scene):
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Draw the floors in three strips, and the loss of each slider beside them."""
+        """Draw the floors in three strips, with the greatest loss of speed of each slider above its floor."""
         canvas.surface.fill(NIGHT)
         canvas.text("GHOST BUMPS", 4, 4, GOLD)
         canvas.text(f"{self.run} tiles at {self.values['speed']} px/s, no friction", 474, 6, FOG, SMALL, align="right")
@@ -232,7 +232,7 @@ class GhostBumps(Scene):
         surface.set_clip(None)
 
     def draw_on_frame(self, frame):
-        """Draw the two curves at window resolution."""
+        """Draw two plots at window resolution: error of speed, and height off the floor, over time."""
         for number, (title, canvas_rect) in enumerate(PLOTS):
             rect = frame.from_canvas(canvas_rect)
             scale = frame.plot_scale
@@ -293,7 +293,7 @@ class GhostBumps(Scene):
         return f"of the speed was lost after {self.run} tiles: {', '.join(parts)}"
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: watch."""
+        """Return the bot's input for the next step, which is empty: the bot only watches."""
         return frozenset()
 
     def state(self):
@@ -309,7 +309,7 @@ class GhostBumps(Scene):
 
 
 def lay_floor(world, floor):
-    """Add the floor of a world, with its surface at FLOOR_Y."""
+    """Add a floor to a world, with its surface at FLOOR_Y. floor: its kind, one of FLOORS."""
     if floor == "boxes":
         middles = [((column + 0.5) * TILE, FLOOR_Y + TILE / 2) for column in range(LENGTH)]
         world.add_bodies(Polygon.box(TILE, TILE), middles, kind="static", filter=GROUND)
@@ -321,8 +321,9 @@ def lay_floor(world, floor):
 
 
 def share(number, value):
-    """Return the height of a value in a curve, 0 (bottom) .. 1 (top). `number`: 1 for the linear curve, else the
-    logarithmic one.
+    """Return the height at which a value is drawn in plot number `number`, 0 (bottom) .. 1 (top).
+
+    Plot 0 (error of speed) has a logarithmic scale, plot 1 (height) a linear one.
     """
     if number == 1:
         return min(max(value / HEIGHT_TOP, 0.0), 1.0)
@@ -330,7 +331,7 @@ def share(number, value):
 
 
 def amount(error):
-    """Return an error, a share, as short text: 0, 1e-12, 3 %."""
+    """Return an error, a share of 1, as short text: 0, 1e-12, 3 %."""
     if error <= 0.0:
         return "0"
     return f"{error:.0%}" if error >= 0.01 else f"{error:.0e}".replace("e-0", "e-")

@@ -19,8 +19,10 @@ UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns"))
 
 
 class Series(NamedTuple):
-    """A series of the plot. `points`: (number, cost), smallest number first; `law`: power law fitted to the last
-    `fitted` points, or None if unknown.
+    """A series of the plot.
+
+    points: (number of bodies, Cost), smallest number first; law: power law fitted to the last `fitted` points, or None
+    if it is not known yet.
     """
 
     color: Color
@@ -30,8 +32,9 @@ class Series(NamedTuple):
 
 
 def draw_growth(frame: Frame, canvas_rect: Box, title: str, series: Mapping[str, Series], here: int) -> None:
-    """Draw the plot of the series {name: Series} into a rectangle of the canvas. `here`: the current number, marked on
-    the lower axis.
+    """Draw the plot of {name: Series} into a rectangle of the canvas.
+
+    here: current number of bodies, marked on the lower axis.
     """
     rect, scale, surface = frame.from_canvas(canvas_rect), frame.plot_scale, frame.surface
     surface.fill(INK, rect)
@@ -52,7 +55,7 @@ def draw_growth(frame: Frame, canvas_rect: Box, title: str, series: Mapping[str,
 
 
 class _LogAxes:
-    """Transform of numbers and times [s] into the plot's pixels, on logarithmic scales."""
+    """Transform of (number of bodies, time [s]) into frame pixels of the plot, on logarithmic scales."""
 
     def __init__(self, plot, points):
         self.plot = plot
@@ -95,8 +98,9 @@ def _draw_series(surface, axes, series, frame):
 
 
 def _write_laws(frame, axes, series, rect, scale):
-    """Write the exponents of the power laws of {name: Series} at the ends of their lines, without overlap, and label
-    the decades.
+    """Write the exponent of each power law at the end of its line, without overlap, and label the powers of ten.
+
+    series: {name: Series}; rect: frame rectangle of the whole plot; scale: frame pixels of a text pixel.
     """
     ends = sorted((axes.y(each.points[-1][1].least), name) for name, each in series.items() if each.points)
     step, top = LINE * scale, axes.plot.top

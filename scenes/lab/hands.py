@@ -8,9 +8,9 @@ MOVE_SPEED = 70.0  # [px/s] with the keys
 
 
 class Hands:
-    """The poses of two objects under the player's control. `poses`: [x, y, angle] of both.
+    """The poses of two objects that the player moves. poses: [x [px], y [px], angle [rad]] of each.
 
-    `chosen`: index of the object that wheel and keys move; this object stays inside the Rect `room`.
+    chosen: index of the object that wheel and keys move; room: Rect in which its position is kept.
     """
 
     def __init__(self, poses, chosen, room):
@@ -19,12 +19,12 @@ class Hands:
         self.dragged, self.grip = None, (0.0, 0.0)
 
     def take(self, which, x, y):
-        """Begin to drag the object of index `which` at (x, y)."""
+        """Begin to drag object number `which`. (x, y): the pointer [px]."""
         self.chosen = self.dragged = which
         self.grip = (self.poses[which][0] - x, self.poses[which][1] - y)
 
     def move(self, inputs):
-        """Move the chosen object for one step, by pointer, wheel and keys."""
+        """Move the chosen object by the pointer, wheel and keys of one step."""
         if not inputs.pointer_down:
             self.dragged = None
         pose = self.poses[self.chosen]

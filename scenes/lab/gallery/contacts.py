@@ -1,4 +1,4 @@
-"""Gallery pages about contacts that must not add speed or energy: gate on a crate, disc in a bowl, eccentric wheel."""
+"""Gallery pages about contacts that must not add speed or energy: a gate, a bowl, an eccentric wheel."""
 
 from math import cos, hypot, pi, sin
 
@@ -23,7 +23,10 @@ SUBSTEPS, SHARE = 4, 0.2  # of the simulated wheel; the share of Box2D Lite
 
 
 def build_gates(side, speed=GATE_SPEED):
-    """Build three gates and a crate under each. `speed`: speed of the gates [px/s]."""
+    """Build three gates and a crate under each.
+
+    side: Side whose world gets the bodies, as in all functions of the pages; speed: of the gates [px/s].
+    """
     floor(side.world)
     side.kept.update(chance=np.random.default_rng(4), speed=speed, gates=[], crates=[])
     for number, (x, offset) in enumerate(zip(GATES, OFFSETS, strict=True)):
@@ -35,8 +38,10 @@ def build_gates(side, speed=GATE_SPEED):
 
 
 def move_gates(side):
-    """Lower the gates onto the crates and raise them again. In each round, they meet the crates at another time within
-    a step.
+    """Set the velocities of the gates, which sink onto the crates and rise again, once per round of ROUND steps.
+
+    At the start of a round everything returns to its place, with a random shift of the gates. So the gates meet the
+    crates at another time within a step in each round.
     """
     step, speed = side.steps % ROUND, side.kept["speed"]
     if step == 0:
@@ -54,7 +59,7 @@ def move_gates(side):
 
 
 def step_crates(side):
-    """Step the crates with a naive solver that turns the whole overlap into velocity in one step."""
+    """Step the crates with a naive solver, which removes the whole overlap in one step by a velocity that they keep."""
     step_naively(side, side.kept["crates"], 1, 1.0)
 
 
@@ -68,7 +73,10 @@ def thrown(side):
 
 
 def build_bowl(side, radius=20.0, turn=0.7):
-    """Build a bowl, a chain of 240 links, and a disc at rest on its wall. `turn`: place on the rim, 0 (right) .. 1."""
+    """Build a bowl, a chain of 240 links, and a disc at rest on its inside.
+
+    radius: of the disc [px]; turn: place of the disc on the half circle, 0 (right end) .. 1 (left end).
+    """
     corners = [(RIM * cos(at), RIM * sin(at)) for at in np.linspace(pi, 0.0, LINKS + 1)]
     side.world.add_body(Chain(corners), kind="static")
     reach = RIM - GAP - radius
@@ -87,12 +95,15 @@ def build_wheel(side, angle=1.3):
 
 
 def step_wheel(side):
-    """Step the wheel with a naive solver: four substeps, as on the other side; a step removes 1/5 of an overlap."""
+    """Step the wheel with a naive solver.
+
+    It removes a fifth of an overlap per step, and has four substeps like the other side.
+    """
     step_naively(side, [side.kept["body"]], SUBSTEPS, SHARE)
 
 
 def begin_energy(side, body, bottom):
-    """Begin to measure the energy of a body. `bottom`: greatest y [px] that its centre of mass can reach."""
+    """Select the body whose energy is measured. bottom: greatest y [px] that its centre of mass can reach."""
     side.kept.update(body=body, bottom=bottom, way=0.0, share=1.0, most=0.0)
     side.kept["start"] = energy(side)
 
@@ -106,7 +117,10 @@ def energy(side):
 
 
 def share(side):
-    """Return energy / energy at the start of the measured body, and mark the places where the body turns back."""
+    """Return the energy of the measured body divided by its energy at the start.
+
+    Also mark the place where the body turns back.
+    """
     kept = side.kept
     kept["share"] = energy(side) / kept["start"]
     kept["most"] = max(kept["most"], kept["share"])
@@ -118,7 +132,7 @@ def share(side):
 
 
 def changed(side):
-    """Return the change of the measured body's energy since the start [%], gained or lost."""
+    """Return how much the energy of the measured body differs from that at the start, up or down [%]."""
     return 100.0 * abs(share(side) - 1.0)
 
 
@@ -128,12 +142,12 @@ def gained(side):
 
 
 def energy_text(side):
-    """Return the current and the greatest energy as text, relative to the energy at the start."""
+    """Return the current energy and the greatest so far as text, as shares of the energy at the start."""
     return f"energy {100.0 * side.kept['share']:.1f} %, most {100.0 * side.kept['most']:.1f} %"
 
 
 def limit_text(side):
-    """Return the three speeds that add up to the limit of the page "gate", as text."""
+    """Return the three speeds whose sum is the limit of the page "gate", as text."""
     return f"gate {GATE_SPEED:.0f}, push-out {PUSH_OUT:.0f}, fall {FALL:.0f}"
 
 

@@ -1,4 +1,4 @@
-"""Gallery pages about extremes: all bodies at one point, an overfull room, great distance, a wrong scale; and sleep."""
+"""Gallery pages about extremes: bodies at one point, an overfull room, great distance, a wrong scale, sleep."""
 
 import numpy as np
 
@@ -27,29 +27,30 @@ def fill_point(world, count):
 
 
 def snapshot_of_thousand(settings):
-    """Return a snapshot of a world with a thousand boxes at (0, 0). `settings`: arguments of World."""
+    """Return a snapshot of a world with a thousand boxes at (0, 0). settings: keyword arguments of World."""
     world = World(POINT, **settings)
     fill_point(world, THOUSAND)
     return world.snapshot()
 
 
 def fastest_move(side):
-    """Return the greatest distance that a body moved in the last step, divided by the step's time [m/s]."""
+    """Return the greatest distance that a body moved in the last step, divided by the duration of the step [m/s]."""
     b = dynamic(side.world)
     way = np.hypot(b["x"] - b["previous_x"], b["y"] - b["previous_y"])
     return float(way.max()) / side.world.dt / METER
 
 
 def farthest_move(figures):
-    """Return the greatest distance that a body moved in a step of the run beside the game, as a speed [m/s]. figures:
-    of that run.
+    """Return the greatest distance that a body moved in a step of the page's larger case, as a speed [m/s].
+
+    figures: RunFigures of that case, which runs in the measuring process.
     """
     assert figures.farthest is not None  # set, because it was judged
     return figures.farthest * 60.0 / METER
 
 
 def build_crowd(side):
-    """Build 625 discs of 1 m diameter in a room whose area is that of only 496 discs."""
+    """Build 625 discs of 1 m diameter in a room with the area of 496 discs."""
     wide = CROWD * ROOM * METER
     for x, y, width, height in (
         (0.0, 0.5 * (wide + WALL), wide + 2.0 * WALL, WALL),
@@ -71,7 +72,7 @@ def unrest(side):
 
 
 def build_pyramid(side, origin):
-    """Build a pyramid of eight rows of crates at x = y = origin [px]."""
+    """Build a pyramid of eight rows of crates. origin: x and y of the middle of its base [px]."""
     floor_at = (origin, origin + 2.0 * METER)
     side.world.add_body(Polygon.box(100.0 * METER, 4.0 * METER), position=floor_at, kind="static")
     places = [
@@ -84,7 +85,10 @@ def build_pyramid(side, origin):
 
 
 def apart(side):
-    """Return the greatest difference between the positions of the same body in the two worlds, along x or y [mm]."""
+    """Return the greatest difference between the two worlds in the position of the same body, along x or y [mm].
+
+    Positions count from the origin of each world's pyramid.
+    """
     b, other = dynamic(side.world), dynamic(side.other.world)
     shift = side.kept["origin"] - side.other.kept["origin"]
     return MM * max(float(np.abs(b[axis] - other[axis] - shift).max()) for axis in ("x", "y"))
@@ -100,7 +104,10 @@ def build_metres(side):
 
 
 def low(side):
-    """Return the error of the height of the ball's first apex after the bounce [%]; 0 before that apex."""
+    """Return the error of the ball's first apex after the bounce, as a share of the ideal height [%].
+
+    It is 0 until the ball has come to that apex.
+    """
     ball, kept = side.kept["ball"], side.kept
     kept["fell"] |= ball.velocity[1] <= 0.0 and side.steps > 5
     if not kept["fell"]:
@@ -122,7 +129,7 @@ def build_piles(side):
 
 
 def moved(side):
-    """Return the number of bodies that the last step integrated, which sleeping bodies are not."""
+    """Return the number of bodies that the last step integrated. Sleeping bodies are not integrated."""
     return float(side.world.profile.counters["bodies_integrated"])
 
 

@@ -16,7 +16,10 @@ SEEN = Effects()
 
 
 def disc(radius, hole=0.0):
-    """Return the PixelMask of a disc, or of a ring if `hole` (radius [px]) is not 0, with its origin in the middle."""
+    """Return the PixelMask of a disc or ring with its origin in the middle.
+
+    radius [px]; hole: inner radius [px] of a ring, 0 for a full disc.
+    """
     side = int(2 * radius)
     y, x = np.mgrid[0:side, 0:side] + 0.5 - radius
     far = np.hypot(x, y)
@@ -24,7 +27,7 @@ def disc(radius, hole=0.0):
 
 
 def build_rings(side, tier):
-    """Build rings and a ball for each, at shape tier `tier`."""
+    """Build rings, and a ball for each. tier: collision tier of both, as for physics.fit; "mask" for exact pixels."""
     ring, ball = (disc(OUTER, INNER), disc(BALL))
     if tier != "mask":
         (ring,), (ball,) = fit(ring, tier), fit(ball, tier)
@@ -43,9 +46,9 @@ def swing(side):
 
 
 def wrong(side):
-    """Return the share of all verdicts so far (touching or not) that were wrong by geometry [%].
+    """Return the share of all answers so far ("touching" or "apart") that geometry contradicts [%].
 
-    Ring and ball touch if their middles are 6 to 30 px apart. Distances near these limits are not counted.
+    By geometry, ring and ball touch if their middles are 6 to 30 px apart. Distances near these limits are not counted.
     """
     met = {frozenset(pair) for pair in side.world.contacts[["body_a", "body_b"]].tolist()}
     for ring, ball in side.kept["balls"]:
@@ -67,14 +70,14 @@ def build_squares(side, snap):
 
 
 def scatter(side):
-    """Move the second square of each pair to a random place, not on whole pixels, where it overlaps the first."""
+    """Move the second square of each pair to a random position, not in whole pixels, where it overlaps the first."""
     offsets = side.kept["chance"].uniform(-SIZE, SIZE, (len(SQUARES), 2))
     for (x, y), (_, other), (dx, dy) in zip(SQUARES, side.kept["pairs"], offsets.tolist(), strict=True):
         other.move_to((x + dx, y + dy), 0.0)
 
 
 def missed(side):
-    """Return the share of overlaps that were not reported, of all so far [%]."""
+    """Return the share of all overlaps so far that the engine did not report [%]."""
     side.kept["judged"] += len(SQUARES)
     side.kept["missed"] += len(SQUARES) - len(side.world.contacts)
     return 100.0 * side.kept["missed"] / side.kept["judged"]

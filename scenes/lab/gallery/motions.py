@@ -1,4 +1,4 @@
-"""Gallery pages about motions whose result is known: bounces, glancing collisions, a slope, seams of the ground."""
+"""Gallery pages about motions with a known result: bounces, glancing collisions, a slope, seams of the ground."""
 
 from math import cos, hypot, pi, radians, sin, sqrt, tan
 
@@ -38,11 +38,10 @@ def build_ball(side):
 
 
 def apex(side):
-    """Return the error of an apex of the bouncing ball against the height of its first fall [%]; 0 in a step without an
-    apex.
+    """Return the error of the bouncing ball's apex relative to the height of its first fall [%].
 
-    The apex is that of the parabola through three steps. Only the first seventeen apexes are measured. If the ball
-    stops bouncing too early, the error is 100 %.
+    It is 0 in a step without an apex. The apex is that of the parabola through the heights of three steps. Only the
+    first seventeen apexes are measured. If apexes are missing, the error is 100 %.
     """
     kept, found = side.kept, 0.0
     kept["heights"] = [*kept["heights"][-2:], -BALL - side.kept["ball"].position[1]]
@@ -57,13 +56,17 @@ def apex(side):
 
 
 def blows():
-    """Return (offset [diameters], speed [px/s], additional distance at the start [px]) of 24 glancing collisions."""
+    """Return a list of (offset, speed, further) of 24 glancing collisions.
+
+    offset: of the resting disc, off the path of the other [diameters]; speed [px/s]; further: extra distance of the
+    flying disc at the start [px], random within one step's motion.
+    """
     chance = np.random.default_rng(5)
     return [(0.1 + 0.8 * k / 7, v, float(chance.uniform()) * v / 60) for v in SPEEDS for k in range(8)]
 
 
 def build_discs(side):
-    """Build pairs of frictionless discs: one disc flies at the other, which rests, and meets it off its middle."""
+    """Build pairs of frictionless discs. In each pair, one disc flies at a resting one and meets it off its middle."""
     side.kept["pairs"] = []
     for number, (offset, speed, further) in enumerate(blows()):
         x, y = 5.0 * METER * (number % 8), 4.0 * METER * (number // 8)
@@ -75,9 +78,9 @@ def build_discs(side):
 
 
 def glance(side):
-    """Return the greatest error of a disc's velocity after its collision [% of its initial speed].
+    """Return the greatest error of a flying disc's velocity after its collision [% of its initial speed].
 
-    The exact velocity follows from the line of centres at the touch.
+    The exact velocity follows from the line of centres at the first touch.
     """
     worst = 0.0
     for disc, offset, speed in side.kept["pairs"]:
@@ -91,7 +94,7 @@ def glance(side):
 def build_slope(side, share):
     """Build a box on a slope of 30 degrees.
 
-    `share`: friction of the box, relative to the least friction that holds it.
+    share: friction between box and slope, divided by the least friction that holds the box.
     """
     material = Material(friction=share * tan(SLOPE))
     c, s = cos(SLOPE), sin(SLOPE)
@@ -113,7 +116,7 @@ def creep(side):
 
 
 def pieces(ground):
-    """Return a list of (x [px], shape) that make level ground at y = 0, from tile grids, boxes or chains."""
+    """Return the pieces of level ground at y = 0, a list of (x [px], shape). ground: "grids", "boxes" or "chains"."""
     half, long = TILES // 2, 4
     return {
         "grids": [(TILE * half * k, TileGrid(np.ones((1, half), bool), TILE)) for k in range(2)],
@@ -123,7 +126,7 @@ def pieces(ground):
 
 
 def build_seams(side, speeds=SLIDING):
-    """Build three lanes of level ground made of pieces, with four sliders each. `speeds`: of each lane [px/s]."""
+    """Build three lanes of level ground in pieces, with four sliders on each. speeds: sliders' speed by lane [px/s]."""
     smooth = Material(friction=0.0)
     side.kept.update(chance=np.random.default_rng(6), speeds=speeds, sliders=[], lost=0.0, hop=0.0)
     for lane, ground in enumerate(GROUNDS):
@@ -137,7 +140,7 @@ def build_seams(side, speeds=SLIDING):
 
 
 def slide(side):
-    """Put the sliders at their starts every LAP steps, each time shifted at random by part of a step's motion."""
+    """Move the sliders back to their starts every LAP steps, each shifted at random by part of a step's motion."""
     if side.steps % LAP == 0:
         side.kept["tripped"] = set()
         for slider, (x, y), speed in side.kept["sliders"]:
@@ -146,9 +149,9 @@ def slide(side):
 
 
 def slowed(side):
-    """Return the greatest change of a slider's speed [%].
+    """Return the greatest change of a slider's horizontal speed [% of its speed at the start].
 
-    Mark places where a slider trips, and record the highest hop.
+    Also mark the places where a slider trips, and record the greatest height of a hop.
     """
     kept, worst = side.kept, 0.0
     for slider, (_, y), speed in kept["sliders"]:

@@ -1,7 +1,7 @@
-"""Pages of the gallery. A page is a hard case that runs in two worlds side by side: a naive method, and the engine's.
+"""Pages of the gallery. A page is a hard case that runs in two worlds, with a naive method and with the engine's.
 
 A Way is the setup of one of the two worlds, and a Side is that world while it runs. Lengths are in pixels, 32 to the
-metre. Each page has functions that build its bodies, move them and read its error, in a unit that the page names.
+metre. Each page has functions that build its bodies, move them, and read its error in a unit that the page names.
 """
 
 from collections.abc import Callable, Mapping
@@ -20,10 +20,10 @@ WORST, LAST = "worst", "last"  # error of a run that is compared with the limit
 
 @dataclass(frozen=True)
 class Way:
-    """The setup of one of a page's two worlds. `world`: arguments of World; `bodies`: arguments of the page's build();
-    `without`: effects that are off.
+    """The setup of one of a page's two worlds.
 
-    `step`: function that steps the Side instead of World.step(), for a method that the engine does not have.
+    world: keyword arguments of World; bodies: keyword arguments for the page's own functions; without: names of effects
+    that are off; step: function that steps the Side in place of World.step(), for methods that the engine lacks.
     """
 
     name: str
@@ -34,9 +34,9 @@ class Way:
 
 
 def auto(accuracy):
-    """Return the Way whose world chooses the number of substeps that limits the sag of contacts to `accuracy` [mm].
+    """Return a Way in which the world chooses its number of substeps (substeps="auto").
 
-    The limit is kept as long as 32 substeps suffice.
+    accuracy: sag of contacts [mm] that the choice must not exceed; it is kept as long as 32 substeps suffice.
     """
     name = f'substeps="auto", to {accuracy} mm'
     return Way(name, {"substeps": "auto", "accuracy": accuracy / MM})
@@ -50,10 +50,10 @@ PLAIN = Way("projection", PUSHED.world, without=("stacking",))
 
 @dataclass(frozen=True)
 class Larger:
-    """The case of a page at a size that is too large for real time, which runs beside the game.
+    """A larger case of a page, too large for real time, which the measuring process runs during the game.
 
-    `maker`: "module:function" that returns its snapshot; the argument is a Way's `world`. `steps`: how many steps from
-    the start are judged.
+    maker: "module:function", whose function makes the snapshot from a Way's `world`; steps: number of steps that are
+    judged, from the first on.
     """
 
     name: str  # "1,000 boxes"
@@ -64,10 +64,10 @@ class Larger:
 
 @dataclass(frozen=True)
 class Page:
-    """A hard case. The expected result: the error in the naive way's world exceeds `limit`, the error in the engine's
-    world does not.
+    """A hard case with its expected result.
 
-    If `alike`, both errors must stay within the limit.
+    Expected: the error in the naive world exceeds `limit`, the error in the engine's world does not. On a page with
+    `alike`, neither error may exceed the limit.
     """
 
     name: str
@@ -92,9 +92,10 @@ class Page:
 
 
 class Side:
-    """One of a page's two worlds while it runs. `other`: the Side of the other world.
+    """One of a page's two worlds while it runs, with its error so far.
 
-    `kept`: data that the page's functions keep between steps; `marks`: (x, y [px], good, step) of marks to draw.
+    other: Side of the page's other world; kept: data that the page's functions keep between steps; marks: list of (x
+    [px], y [px], good, step) that are drawn for a while.
     """
 
     def __init__(self, page: Page, way: Way, world: World):
@@ -106,12 +107,12 @@ class Side:
         self.now = self.worst = 0.0
 
     def begin(self, other: "Side"):
-        """Add the bodies of the page. `other`: the Side of the other world."""
+        """Add the page's bodies to the world. other: Side of the page's other world."""
         self.other = other
         self.page.build(self)
 
     def step(self):
-        """Make one step. The error is read later by measure(), after both worlds have moved."""
+        """Make one step. measure() reads the error later, after both worlds have been stepped."""
         if self.page.act is not None:
             self.page.act(self)
         if self.way.step is None:
@@ -126,13 +127,13 @@ class Side:
         self.marks.append((*place, good, self.steps))
 
     def measure(self):
-        """Read the page's error after a step."""
+        """Read the page's error after a step, and update the worst error."""
         self.now = float(self.page.error(self))
         self.worst = max(self.worst, self.now)
 
     @property
     def error(self):
-        """The error that is compared with the limit: the worst or the last, as the page says."""
+        """Error that is compared with the limit: the worst so far or the last one, as Page.judged says."""
         return self.worst if self.page.judged == WORST else self.now
 
     @property
@@ -142,12 +143,15 @@ class Side:
 
 
 def dynamic(world):
-    """Return the rows of all dynamic bodies of a world."""
+    """Return the rows of world.bodies that are dynamic bodies."""
     bodies = world.bodies
     return bodies[bodies["inverse_mass"] > 0.0]
 
 
 def floor(world, half=100.0 * METER, **options):
-    """Add a thick static floor whose surface is at y = 0. Return its body. `half`: half its width [px]."""
+    """Add a thick static floor with its surface at y = 0, and return its body.
+
+    half: half of its width [px]; options: further arguments of World.add_body.
+    """
     shape = Polygon.box(2.0 * half, FLOOR_DEPTH)
     return world.add_body(shape, position=(0.0, FLOOR_DEPTH / 2), kind="static", **options)

@@ -24,7 +24,7 @@ CARD = (0.02 * METER, 1.0 * METER)  # half thickness and half height
 
 
 def build_column(side):
-    """Build a column of crates, each shifted sideways at random by up to 2 cm."""
+    """Build a column of 80 crates, each shifted sideways at random by up to 2 cm."""
     floor(side.world)
     aside = np.random.default_rng(1).uniform(-ASKEW, ASKEW, CRATES)
     side.world.add_bodies(CRATE, np.column_stack([aside, -(np.arange(CRATES) + 0.5) * METER]))
@@ -32,7 +32,7 @@ def build_column(side):
 
 
 def sway(side):
-    """Return the greatest distance along x of a body from its start [mm]."""
+    """Return the greatest horizontal distance of a body from its start [mm]."""
     return MM * float(np.abs(dynamic(side.world)["x"] - side.kept["x"]).max())
 
 
@@ -44,7 +44,7 @@ def build_heavy(side):
 
 
 def build_huge(side):
-    """Build a crate of 16 m on two crates of half a metre, and another small crate on top."""
+    """Build a crate of 16 m on two crates of half a metre, and a third crate of half a metre on top of it."""
     floor(side.world)
     tiny, top = Polygon.box(TINY, TINY), -TINY - HUGE
     for x in (-0.4 * HUGE, 0.4 * HUGE):
@@ -55,17 +55,17 @@ def build_huge(side):
 
 
 def sunk(side):
-    """Return the vertical distance of the load from its place if the crates below were rigid [mm]."""
+    """Return the vertical distance of the large crate from its place on rigid crates [mm]."""
     return MM * abs(side.kept["load"].position[1] - side.kept["y"])
 
 
 def overlap(side):
-    """Return the deepest overlap of two touching bodies [mm]."""
+    """Return the depth of the deepest contact in the world [mm]."""
     return MM * deepest(side.world)
 
 
 def build_leaning(side):
-    """Build ten crates, each 8 cm further to the right than the one below. With 10 cm the tower would fall."""
+    """Build ten crates, each shifted by 8 cm to the right of the one below. With 10 cm the tower would fall."""
     floor(side.world)
     rows = np.arange(10)
     side.world.add_bodies(CRATE, np.column_stack([0.08 * METER * rows, -(rows + 0.5) * METER]))
@@ -73,7 +73,10 @@ def build_leaning(side):
 
 
 def build_struck(side):
-    """Build a pyramid of ten rows without its top, and a crate of 300 times the mass that falls three metres on it."""
+    """Build a pyramid of ten rows without its top, and above it a crate of 300 times the mass.
+
+    The heavy crate falls three metres onto the pyramid.
+    """
     floor(side.world)
     places = [
         ((column - (9 - row) / 2) * 1.01 * METER, -(row + 0.5) * METER)
@@ -93,7 +96,10 @@ def build_load(side):
 
 
 def take_away(side):
-    """Remove the load after three seconds. If this side runs FORCES_KEPT, write its x instead: it is then far away."""
+    """Remove the load in step GONE. If this side runs FORCES_KEPT, move the load far away by writing its x instead.
+
+    A body that is moved this way does not clear the impulses that the other contacts have kept.
+    """
     if side.steps != GONE:
         return
     load = side.kept["load"]
@@ -105,14 +111,14 @@ def take_away(side):
 
 
 def rise(side):
-    """Return how far the upper crate rises above its place after the load is gone [mm]."""
+    """Return how far the upper crate is above its starting place since the load was taken away [mm]."""
     return MM * max(0.0, -1.5 * METER - side.kept["top"].position[1]) if side.steps > GONE else 0.0
 
 
 def build_cards(side):
-    """Build a house of cards of 4 cm x 2 m with four storeys.
+    """Build a house of cards with four storeys. A card is 4 cm x 2 m.
 
-    Pairs of cards lean on each other at 25 degrees. A card lies across every two neighbouring pairs.
+    Two cards that lean on each other, at 25 degrees, make a pair. One card lies across every two neighbouring pairs.
     """
     floor(side.world, material=Material(friction=0.7))
     thick, high = CARD

@@ -1,9 +1,9 @@
 """Hard cases, a page each: the naive way and ours side by side, with the error and the time of both.
 
-What to see: two worlds with the same bodies. The left one takes the simple way: tested at its poses only, solved with a
-given number of substeps, without sleep, as hulls, or by a simple solver of the page itself. The right one takes the
-full way. Under each its error now, against the limit of the page, and the time of a step. Some pages ask whether both
-sides are alike: a thousand bodies at one point, ten million pixels from the origin.
+What to see: two worlds with the same bodies. The left world uses a simple method: tests at the poses only, a fixed
+number of substeps, no sleep, hulls, or a simple solver of the page itself. The right world uses the full method. Below
+each are its error, the limit of the page, and the time of a step. On some pages both sides should be alike: a thousand
+bodies at one point, ten million pixels from the origin.
 
 Why it matters: An engine is chosen for its worst case, not for its demo; here both ways are shown at each.
 
@@ -45,7 +45,7 @@ DUE = TOURED + sum(page.steps for page in PAGES) + 2400  # frames after which th
 
 
 class Gallery(Scene):
-    """The open page of the gallery: two sides with a world each, which are stepped in the same frame."""
+    """Scene that runs the open page of the gallery: two sides with a world each, stepped in the same frame."""
 
     name = "lab/gallery"
     title = "Gallery"
@@ -76,13 +76,13 @@ class Gallery(Scene):
     legend_at = (6, 20)
 
     def build(self):
-        """Build the sky, then the page."""
+        """Load the sky, and open the page."""
         self.sky = load_backdrop("sky_dusk")
         self.verdicts = {}  # page name -> (error of the naive way, of the other) when it was judged
         self.open()
 
     def open(self):
-        """Open the page from its start."""
+        """Make both worlds of the page, at the page's start."""
         page = self.page
         self.worlds, self.sides = [], []
         for way in (page.naive, page.ours):
@@ -108,11 +108,11 @@ class Gallery(Scene):
 
     @property
     def page(self):
-        """The open page."""
+        """The Page that is open."""
         return PAGES[int(self.values["page"])]
 
     def change_slider(self, name, value):
-        """Open another page from its start."""
+        """Set the slider "page", and open that page from its start."""
         super().change_slider(name, value)
         self.open()
 
@@ -132,12 +132,12 @@ class Gallery(Scene):
             self.verdicts[self.page.name] = tuple(side.error for side in self.sides)
 
     def observe(self):
-        """Record the times of the steps."""
+        """Record the duration of both sides' last step, for the figures under the pictures."""
         for cost, side in zip(self.costs, self.sides, strict=True):
             cost.note(step_seconds(side.world) * 1e6)
 
     def measured(self):
-        """Return the runs to time beside the game: the page at its full size, if that is too large for a frame."""
+        """Return the runs that the measuring process times: the page's larger case, or None if it has none."""
         if self.page.larger is None:
             return None
         return RunRequest([self._run_name(side) for side in self.sides], self._make)
@@ -152,7 +152,7 @@ class Gallery(Scene):
         return MeasuredRun([made], self.broadphase, STEPS_OF_LARGER, judged=(1, larger.steps))
 
     def larger(self, side):
-        """Return (error, RunFigures) of a way at the page's full size, or None before that has run."""
+        """Return (error, RunFigures) of a side's larger case, or None until it has run."""
         figures = self.figures.get(self._run_name(side))
         if self.page.larger is None or figures is None:
             return None
@@ -163,7 +163,7 @@ class Gallery(Scene):
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Draw both worlds, a plate under each, and the page's line."""
+        """Draw both worlds, a plate with figures under each, and the page's lines of text."""
         canvas.surface.fill(NIGHT)
         number = int(self.values["page"]) + 1
         draw_head(canvas, "GALLERY", f"{number} of {len(PAGES)}")
@@ -199,7 +199,7 @@ class Gallery(Scene):
             canvas.text(f"{page.larger.name}: {sentence}", x + 2, 229, PAPER, SMALL)
 
     def draw_on_frame(self, frame):
-        """Draw tiny shapes, and the errors against their limit."""
+        """Draw tiny shapes and marks, and the plot of both errors against the limit."""
         for index, look in enumerate(self.looks):
             look.draw_on_frame(frame)
             self._draw_marks(frame, index)
@@ -241,10 +241,10 @@ class Gallery(Scene):
         frame.fix(rect)
 
     def check(self):
-        """Return the goals of the self-check.
+        """Return the goals of the self-check, one for each page.
 
-        On each page, the error of the naive way exceeds the limit and that of the engine does not. On pages with
-        `alike`, neither does.
+        The naive world's error exceeds the limit, and that of the engine's world does not. On pages with `alike`,
+        neither exceeds it.
         """
         return [
             Goal(
@@ -263,9 +263,7 @@ class Gallery(Scene):
         return f"{amount(naive)} and {amount(ours)} {page.unit}, limit {amount(page.limit)}"
 
     def finding(self):
-        """Return a sentence with the errors of both ways on this page so far, and the number of pages with the expected
-        result.
-        """
+        """Return a sentence with both errors on this page so far, and the number of pages with the expected result."""
         naive, ours = self.sides
         if not naive.steps:
             return "not yet: the page has to be stepped"
@@ -282,7 +280,7 @@ class Gallery(Scene):
     def bot(self):
         """Return the bot's input for the next step.
 
-        Its plan: open each page for a short look; then open them again, each until it is judged.
+        The bot opens each page for a moment; then it opens them again and stays on each until the page is judged.
         """
         if self.frame < TOURED:
             number = GLANCES.get(self.frame)
@@ -300,12 +298,12 @@ class Gallery(Scene):
 
 
 def is_met(page, naive, ours):
-    """Return whether the errors of both ways, `naive` and `ours`, are as the page expects."""
+    """Return whether the errors of the naive world and of the engine's world, `naive` and `ours`, are as expected."""
     return ours <= page.limit and (naive <= page.limit) == page.alike
 
 
 def amount(value):
-    """Return an error as short text: 0, 0.002, 18.2, 50,314."""
+    """Return an error as short text, for example 0, 0.002, 18.2 or 50,314."""
     if value == 0.0:
         return "0"
     if abs(value) < 0.001:

@@ -1,4 +1,4 @@
-"""A naive contact solver for the gallery: the world only finds the contacts; this module solves them for one body."""
+"""A naive contact solver for the gallery: the world finds the contacts, and this module solves them per body."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -10,7 +10,7 @@ SEEN_ONLY = ("response", "gravity", "friction", "stacking")  # effects that the 
 
 
 class Motion(NamedTuple):
-    """The motion of a body: velocity of the centre of mass [px/s] and angular velocity [rad/s]."""
+    """The motion of a body: velocity of its centre of mass [px/s] and angular velocity [rad/s]."""
 
     vx: float
     vy: float
@@ -19,10 +19,11 @@ class Motion(NamedTuple):
 
 @dataclass
 class Push:
-    """A contact of the body. `normal`: towards the body; `arm`: from its centre of mass to the contact [px]; `other`:
-    velocity of the other body [px/s].
+    """A contact of one body, as this solver sees it.
 
-    `speed`: separation speed that the solver wants [px/s]; `along`, `across`: accumulated normal and friction impulse.
+    normal: unit vector towards the body; arm: from its centre of mass to the contact [px]; other: velocity of the other
+    body [px/s]; speed: separation speed that the solver aims at [px/s]; along, across: accumulated impulses in normal
+    and tangential direction.
     """
 
     normal: tuple[float, float]
@@ -34,11 +35,11 @@ class Push:
 
 
 def step_naively(side, bodies, substeps, share):
-    """Step a world without response by sequential impulses with Baumgarte stabilisation (Box2D Lite).
+    """Step a world by sequential impulses with Baumgarte stabilisation (Box2D Lite). Its own response is switched off.
 
-    `bodies`: the dynamic bodies, each solved by itself against static and kinematic bodies. `share`: part of the
-    overlap that a step removes, by a velocity that the body keeps afterwards. All substeps use the moment arms of the
-    start of the step. The kept velocity and the old moment arms are the two errors that the gallery shows.
+    bodies: the dynamic bodies, each solved alone against static and kinematic bodies; share: part of the overlap that a
+    step removes, by a velocity that the body keeps. All substeps use the moment arms of the start of the step. The kept
+    velocity and the old moment arms are the two errors that the gallery shows.
     """
     world, gravity = side.world, side.other.world.gravity
     ends = [solved_step(world, body, gravity, substeps, share) for body in bodies]
@@ -48,10 +49,9 @@ def step_naively(side, bodies, substeps, share):
 
 
 def solved_step(world, body, gravity, substeps, share):
-    """Solve the contacts of a body for one step, and set its velocity to the mean over the substeps; the world then
-    moves it by this velocity.
+    """Solve the contacts of a body for one step, and return its Motion at the end of the step.
 
-    Return its Motion at the end of the step. `share`: see step_naively().
+    The body gets the mean velocity over the substeps, by which the world then moves it. share: as in step_naively().
     """
     row = world.bodies[world.rows([body.id])[0]]
     pushes = pushes_on(world, body, row, share)
@@ -73,8 +73,9 @@ def solved_step(world, body, gravity, substeps, share):
 
 
 def pushes_on(world, body, row, share):
-    """Return a Push for each contact of a body at the end of the last step. `row`: the body's row in world.bodies;
-    `share`: see step_naively().
+    """Return a list with a Push for each contact of a body at the end of the last step.
+
+    row: the body's row in world.bodies; share: as in step_naively().
     """
     found, middle = [], (float(row["center_x"]), float(row["center_y"]))
     for contact in world.contacts:
@@ -96,9 +97,9 @@ def pushes_on(world, body, row, share):
 
 
 def solved(motion, push, inverse):
-    """Apply the normal and the friction impulse of the contact `push` to a body with `motion`. Return its new Motion.
+    """Apply the normal and friction impulses of the contact `push` to a body with `motion`. Return its new Motion.
 
-    `inverse`: (1 / mass, 1 / inertia).
+    inverse: (1 / mass, 1 / inertia).
     """
     (nx, ny), along = push.normal, push.along
     change, arm = impulse(motion, push, (nx, ny), push.speed, inverse)
@@ -111,10 +112,9 @@ def solved(motion, push, inverse):
 
 
 def impulse(motion, push, axis, wanted, inverse):
-    """Return (impulse, its moment arm [px]) that gives the contact `push` the relative speed `wanted` [px/s] along an
-    axis.
+    """Return (impulse, moment arm [px]) that gives the contact `push` the relative speed `wanted` [px/s] along an axis.
 
-    motion: present Motion of the body; inverse: (1 / mass, 1 / inertia).
+    motion: current Motion of the body; axis: unit vector; inverse: (1 / mass, 1 / inertia).
     """
     (rx, ry), (x, y) = push.arm, axis
     arm = rx * y - ry * x
@@ -123,8 +123,9 @@ def impulse(motion, push, axis, wanted, inverse):
 
 
 def struck(motion, axis, arm, amount, inverse):
-    """Return the Motion of a body after an impulse of size `amount` along an axis, with moment arm `arm` [px]. inverse:
-    (1 / mass, 1 / inertia).
+    """Return the Motion of a body after an impulse. amount: its size along the unit vector `axis`; arm: its arm [px].
+
+    inverse: (1 / mass, 1 / inertia).
     """
     x, y = axis
     return Motion(

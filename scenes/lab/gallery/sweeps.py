@@ -19,21 +19,21 @@ PUSHED = Effects(response=True, stacking=True, continuous=True)
 
 
 def chance(side):
-    """Return the random generator of a side. Both sides get the same random numbers."""
+    """Return the random generator of a side, seeded alike for both sides, so that both get the same numbers."""
     return side.kept.setdefault("chance", np.random.default_rng(3))
 
 
 def build_wall(side):
-    """Build one thin wall, as high as all lanes."""
+    """Reset the counts, and build one thin wall across all lanes."""
     side.kept.update(fired=0, through=0, flying={})
     height = LANES * LANE + 20.0
     side.world.add_body(Polygon.box(WALL, height), position=(0.0, 0.0), kind="static")
 
 
 def shoot(side):
-    """Shoot a ball at the wall every EVERY steps, and count the shots that have ended.
+    """Shoot a ball at the wall every EVERY steps; count and remove the balls that have been stopped or have passed.
 
-    The start varies by the path of a step, so that impacts occur at any time of a step.
+    The start varies by the path of a step, so that impacts occur at any time within a step.
     """
     for identity in list(side.kept["flying"]):
         body = side.world.body(identity)
@@ -53,7 +53,7 @@ def shoot(side):
 
 
 def count(side, place, missed):
-    """Count a shot that has ended at `place`, and whether it `missed` a body that it had to meet."""
+    """Count a shot that has ended at `place` (x, y) [px]. missed: whether it missed a body that it had to meet."""
     side.kept["fired"] += 1
     side.kept["through"] += missed
     side.mark(place, not missed)
@@ -65,7 +65,7 @@ def through(side):
 
 
 def build_rods(side):
-    """Build the pegs. The rods, which spin() adds later, must strike them with their ends."""
+    """Reset the counts, and build the pegs. The rods, which spin() adds later, must strike the pegs with their ends."""
     side.kept.update(fired=0, through=0, flying={}, met=set())
     for lane in range(6):
         x, y = rod_place(lane)
@@ -73,13 +73,14 @@ def build_rods(side):
 
 
 def rod_place(lane):
-    """Return the position (x, y) [px] of the middle of the rod in a lane."""
+    """Return the middle (x, y) [px] of the rod in lane number `lane`."""
     return (lane % 3 - 1) * 64.0, (lane // 3 - 0.5) * 64.0
 
 
 def spin(side):
-    """Add rods at random angles that rotate in place, and replace them after TURN steps. Count the rods that missed
-    their pegs.
+    """Replace all rods every TURN steps, and count those that missed their pegs.
+
+    New rods have random angles and rotate in place.
     """
     side.kept["met"] |= {int(row[name]) for row in side.world.events.begin for name in ("body_a", "body_b")}
     if side.steps % TURN == 0:
@@ -101,7 +102,7 @@ def spin(side):
 
 
 def build_bullets(side):
-    """Reset the counts. Bodies are not built here: duel() adds the bullets."""
+    """Reset the counts. duel() adds the bullets."""
     side.kept.update(fired=0, through=0, flying={})
 
 
@@ -127,14 +128,14 @@ def duel(side):
 
 
 def build_beam(side):
-    """Build a sensor one pixel wide."""
+    """Reset the counts, and build a sensor one pixel wide."""
     side.kept.update(fired=0, through=0, flying={}, met=set())
     height = LANES * LANE + 20.0
     side.world.add_body(Polygon.box(1.0, height), kind="static", sensor=True, continuous=side.way.bodies["continuous"])
 
 
 def cross(side):
-    """Shoot a ball through the sensor every EVERY steps, and count the balls that it did not report."""
+    """Shoot a ball through the sensor every EVERY steps, and count the balls whose passage was not reported."""
     side.kept["met"] |= {int(row[name]) for row in side.world.events.sensor_begin for name in ("body_a", "body_b")}
     for identity in list(side.kept["flying"]):
         x, y = side.world.body(identity).position
