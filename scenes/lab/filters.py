@@ -213,8 +213,9 @@ class Filters(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the number of box pairs that the filter dropped in the last step, and whether all
-        contacts were allowed.
+        """Return a sentence with the number of pairs that the filter dropped in the last step.
+
+        It also names the number of wrong contacts so far.
         """
         if not self.steps:
             return "not yet: the discs have to swing"

@@ -1,8 +1,8 @@
 """The accuracy ladder: one sprite at every tier, from a circle to its exact pixels. What does each rung buy?
 
-What to see: red is what a shape covers beside the sprite, blue what it leaves out. Go down the ladder: each rung lies
-closer to the pixels and takes more bytes and more time to build; the time of a test goes up and then, at the pixels,
-down again.
+What to see: red pixels are covered by the shape only, blue ones by the sprite only. Down the ladder, the shapes lie
+closer to the pixels, and take more bytes and more time to build. The time of a test goes up, and at the pixels down
+again.
 
 Why it matters: The shape that stands for a sprite decides what is unfair in a game, and what a frame costs.
 
@@ -58,7 +58,10 @@ MIX = 0.6  # of red and blue over the picture
 
 
 class Ladder(Scene):
-    """One world per tier with the sprite in it, and a cell of the picture each."""
+    """Scene that shows one sprite at every collision tier.
+
+    Each tier has its own world and its own cell of the picture.
+    """
 
     name = "lab/ladder"
     title = "Ladder"
@@ -77,7 +80,7 @@ class Ladder(Scene):
     level_suffix = ".png"
 
     def build(self):
-        """Show the first sprite: the picture file given by the player, if there is one."""
+        """Show the first sprite: the player's picture file if there is one, otherwise a sprite of the game."""
         self.choices = [self.level_file.name] if self.level_file is not None else []
         self.choices += [name for name, _, _ in SPRITES]
         self.seen: dict[str, dict[str, tuple[int, int]]] = {}  # {sprite: {tier: pixels too many, left out}}
@@ -143,7 +146,7 @@ class Ladder(Scene):
         return picture, (left + shift_x, top + shift_y)
 
     def measured(self):
-        """Return the poses to measure: the sprite against itself."""
+        """Return the request to measure the sprite against itself at every tier."""
         return SpriteRequest(self.mask, self.mask)
 
     def update(self, inputs):
@@ -210,7 +213,7 @@ class Ladder(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        Containing tiers leave no pixel out; tiers made of the pixels are exact.
+        Tiers that should contain the sprite leave no pixel out, and tiers made of the pixels have no errors.
         """
         held = [tier for counts in self.seen.values() for tier in HOLDING if counts[tier][1]]
         exact = [tier for counts in self.seen.values() for tier in ("pixels", "mask") if any(counts[tier])]
@@ -246,16 +249,16 @@ class Ladder(Scene):
         return over - missed
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: one sprite after the other."""
+        """Return the bot's input for the next step. The bot shows one sprite after the other."""
         return InputFrame(frozenset({"right"}) if self.frame % BOT_LOOKS == BOT_LOOKS - 1 else frozenset())
 
     def state(self):
-        """Return the sprite and its counts."""
+        """Return the sprite and its counts, for the replay digest."""
         return (self.frame, self.choice, *(count for pair in self.counts.values() for count in pair))
 
 
 def _times(hit, miss):
-    """Return the times of a hit and of a miss as text, in one unit."""
+    """Return the times of a hit and of a miss [s] as text, both in the same unit."""
     sentence = f"{1e9 * hit:,.0f}, {1e9 * miss:,.0f} ns"
     return sentence if len(sentence) <= ROOM else f"{1e6 * hit:.3g}, {1e6 * miss:.2f} us"
 

@@ -1,4 +1,4 @@
-"""The bodies of lab/broadphases: four layouts and motions, the same for the same seed."""
+"""The bodies of lab/broadphases: four layouts with their motions. The same seed gives the same bodies."""
 
 from random import Random
 
@@ -14,7 +14,10 @@ MOVING_SHARE = 0.05  # of the bodies in the "still" layout
 
 
 def populate(world, layout, count, seed):
-    """Add `count` bodies to a world. The bodies depend only on layout, count and seed."""
+    """Add bodies to a world: `count` small discs, and the giant disc of the layout "giant".
+
+    The bodies depend only on layout (one of LAYOUTS), count and seed.
+    """
     random = Random(f"{seed} {layout} {count}")
     positions = np.array([_place(random, layout) for _ in range(count)])
     speed = SLOW if layout == "ground" else FAST
@@ -37,8 +40,9 @@ def _place(random, layout):
 
 
 def snapshot_of(effects, seed, layout, count):
-    """Return the snapshot of a world with `count` bodies of a layout, before its first step. `effects`: names of the
-    world's effects.
+    """Return the snapshot of a world with `count` bodies of a layout, before its first step.
+
+    effects: names of the world's effects.
     """
     world = World(Effects.named(effects))
     populate(world, layout, count, seed)

@@ -1,4 +1,4 @@
-"""Drawing of a world's bodies: with shaded pictures in the game's style if large enough, else as plain shapes.
+"""Drawing of a world's bodies: shaded pictures in the game's style if they are large enough, else plain shapes.
 
 Shaded pictures are drawn on the canvas. Shapes of a few canvas pixels, and pixel masks, are drawn at window resolution.
 """
@@ -24,7 +24,7 @@ NEAR = 100  # [canvas px] around the view
 
 
 class Looks:
-    """The renderer of the bodies of one world, through one camera."""
+    """Renderer of the bodies of one world, through one camera."""
 
     def __init__(self, world, camera):
         self.world, self.camera = world, camera
@@ -41,7 +41,7 @@ class Looks:
         return self.known[identity]
 
     def draw(self, canvas, alpha):
-        """Draw static shapes and the shaded pictures, at `alpha` (0..1) between the last two steps."""
+        """Draw static shapes and the shaded pictures. alpha: position (0..1) between the last two steps."""
         bodies, zoom = self.world.bodies, self.camera.zoom
         x, y, angle = poses_between(bodies, alpha)
         x, y = self.camera.to_canvas(x, y, alpha)
@@ -88,7 +88,7 @@ class Looks:
 
 @lru_cache(maxsize=256)
 def is_piece(shape, zoom):
-    """Return whether a shape, drawn at `zoom`, has the right size on the canvas for a shaded picture."""
+    """Return whether a shape has the right size for a shaded picture on the canvas. zoom: canvas px per world px."""
     if not isinstance(shape, Convex):
         return False
     points, radius = hull(shape)
@@ -102,7 +102,10 @@ def is_round(shape):
 
 
 def draw_ground(surface, shape, zoom, pose, sensor):
-    """Draw a static shape on the canvas, scaled by `zoom`, at a pose (x, y, angle). A sensor is drawn in one colour."""
+    """Draw a static shape on the canvas; a sensor is drawn in one colour.
+
+    zoom: canvas px per world px; pose: (x, y, angle) on the canvas.
+    """
     if isinstance(shape, PixelMask):
         return
     if isinstance(shape, TileGrid):
@@ -124,7 +127,10 @@ def draw_ground(surface, shape, zoom, pose, sensor):
 
 
 def draw_tiles(surface, grid, zoom, pose):
-    """Draw the solid tiles of a grid, scaled by `zoom`, with a line around each tile."""
+    """Draw the solid tiles of a grid, with a line around each.
+
+    zoom: canvas px per world px; pose: (x, y, angle) of the grid on the canvas.
+    """
     x, y, _ = pose
     size = grid.tile_size * zoom
     for row, column in np.argwhere(grid.solid).tolist():
@@ -135,8 +141,10 @@ def draw_tiles(surface, grid, zoom, pose):
 
 
 def draw_plain(surface, shape, zoom, pose, ramp):
-    """Draw a convex shape that is too small or too large for a shaded picture, in two colours of `ramp`. It is scaled
-    by `zoom`.
+    """Draw a convex shape that is too small or too large for a shaded picture, in two colours.
+
+    zoom: surface px per world px; pose: (x, y, angle) on the surface; ramp: colours, of which the first is the rim and
+    the second the inside.
     """
     rim, inside, *_ = ramp
     points = placed(shape, zoom, pose)
@@ -159,9 +167,10 @@ def draw_plain(surface, shape, zoom, pose, ramp):
 
 
 def draw_mask(surface, mask, zoom, place, ramp):
-    """Draw the pixels of a mask that does not rotate, scaled by `zoom`, with its origin at `place`.
+    """Draw the pixels of a mask that does not rotate.
 
-    `ramp`: name of its colours; None: the mask is static and drawn darker.
+    zoom: surface px per pixel of the mask; place: (x, y) of the mask's origin on the surface; ramp: name of its colours
+    in RAMPS, or None for a static mask, which is drawn darker.
     """
     picture = mask_picture(mask, RIM if ramp is None else RAMPS[ramp][1])
     width, height = picture.get_size()

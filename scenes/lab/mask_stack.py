@@ -1,8 +1,9 @@
 """The same sprites in five worlds, pushed by their box, hull, parts, outline and by every single pixel: what is felt?
 
-What to see: boxes and hulls hold the air beside a bracket or under an arm, so what is drawn hovers. Separate parts fit,
-but their inner edges are felt. The outline is as near as half a pixel, its seams are never felt and round sprites stay
-round. With every pixel's edge kept a disc has fifty corners to roll over. Under each pile stands what it costs.
+What to see: boxes and hulls include the air beside a bracket or under an arm, so the drawn sprites hover. Separate
+parts fit, but their inner edges are felt. The outline is within half a pixel, its seams are never felt, and round
+sprites stay round. With the edge of every pixel, a disc has fifty corners to roll over. The cost is written under each
+pile.
 
 Why it matters: What is drawn and what pushes should be the same thing, or players see air under what rests.
 
@@ -58,7 +59,7 @@ FALLEN = 8.0  # [px] sag of a pile's top that counts as a fall
 
 
 class MaskStack(Scene):
-    """One world per collision shape, with the same sprites on the same floor of pixels."""
+    """Scene with one world per kind of collision shape (WAYS), with the same sprites on the same floor of pixels."""
 
     name = "lab/mask_stack"
     title = "Mask stack"
@@ -80,7 +81,7 @@ class MaskStack(Scene):
     legend_at = (4, 20)
 
     def build(self):
-        """Build the yard, then five worlds."""
+        """Make the background, and let fill() make the five worlds."""
         self.fits = {}  # (sprite, way) -> (corners, pixels of air held, pixels missed)
         self.yard = Yard(270)
         self.cameras = [
@@ -124,7 +125,10 @@ class MaskStack(Scene):
         self.tops.append(top)
 
     def _places(self):
-        """Return (kind, x, y) of each sprite, placed so that its bounding box touches that of the sprite below."""
+        """Return a list of (kind, x [px], y [px]), one for each sprite.
+
+        The bounding box of each sprite touches that of the sprite below it.
+        """
         kinds = list(self._kinds())
         heights, found = {}, []
         for kind, x in kinds:
@@ -136,7 +140,7 @@ class MaskStack(Scene):
         return found
 
     def _kinds(self):
-        """Return (kind of sprite, x of the middle of its pile) for each sprite, from the bottom up."""
+        """Return (kind, x [px] of the middle of its pile) of each sprite, from the bottom up."""
         high, choice = int(self.values["high"]), CHOICES[int(self.values["sprites"])]
         if choice != "mixed":
             return ((choice, TOWER),) * high
@@ -144,7 +148,7 @@ class MaskStack(Scene):
         return (*tower, ("discs", BESIDE), ("stars", BESIDE))
 
     def change_slider(self, name, value):
-        """Apply a change of a slider: build other piles at once."""
+        """Set a slider, then build the piles again."""
         super().change_slider(name, value)
         self.fill()
 
@@ -168,8 +172,9 @@ class MaskStack(Scene):
             self._measure(way, world, top)
 
     def _measure_one_fit(self):
-        """Measure how well the shapes of one sprite fit. Only one sprite is measured per step, because all take seconds
-        without numba.
+        """Measure the fit of one sprite's shapes that is not known yet.
+
+        One call measures only one sprite, because all of them take seconds without numba.
         """
         for way in WAYS:
             for name, mask, shapes in self.laid[way]:
@@ -179,8 +184,9 @@ class MaskStack(Scene):
                     return
 
     def share(self, way):
-        """Return (corners, pixels of air held, pixels missed) of the whole pile `way`; nan until all its sprites are
-        measured.
+        """Return (corners, pixels of air held, pixels missed), summed over the sprites of the pile `way`.
+
+        All three are nan until each of its sprites is measured.
         """
         fits = [self.fits.get((name, way), (nan, nan, nan)) for name, _, _ in self.laid[way]]
         return tuple(float(sum(column)) for column in zip(*fits, strict=True))
@@ -196,7 +202,10 @@ class MaskStack(Scene):
             self.asleep[way], self.changed[way] = asleep, self.since
 
     def measured(self):
-        """Return the runs to time beside the game: a step of each pile, kept awake, from its start."""
+        """Return the runs that the measuring process times during the game, one for each pile; None in the first steps.
+
+        A run steps a pile in a world without sleeping, from the pile's current state.
+        """
         if self.since < WARM:
             return None
         worlds = dict(zip(WAYS, self.worlds, strict=True))
@@ -211,12 +220,12 @@ class MaskStack(Scene):
         return *self.chosen, way
 
     def stands_now(self, way):
-        """Return whether the top sprite of the pile `way` is still near its start."""
+        """Return whether the top sprite of the pile `way` is less than FALLEN px lower than at its start."""
         return self.sinks[way] < FALLEN
 
     @property
     def offer(self):
-        """Text that offers a new run once no pile is left to nudge; "" otherwise."""
+        """Text that offers a new run once all piles have fallen; "" otherwise."""
         return "" if any(self.stands_now(way) for way in WAYS) else "piles them up again"
 
     def views(self):
@@ -274,7 +283,7 @@ class MaskStack(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        Outlines stand and sleep; boxes and hulls hold air that no outline holds.
+        The piles with outlines stand and fall asleep. Hulls hold more air than outlines, and boxes more than hulls.
         """
         corners, air, _ = (dict(zip(WAYS, column, strict=True)) for column in zip(*map(self.share, WAYS), strict=True))
         finite = all(np.isfinite(world.bodies[name]).all() for world in self.worlds for name in ("x", "y", "angle"))
@@ -297,7 +306,7 @@ class MaskStack(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the air that three shapes hold, their corners, and the sag of their towers."""
+        """Return a sentence with the air, the corners and the sag of the piles of boxes, outlines and exact pixels."""
         if self.since <= WARM:
             return "not yet: the piles have to settle for half a second"
         if any(isnan(corners) for corners, _, _ in map(self.share, WAYS)):
@@ -310,11 +319,11 @@ class MaskStack(Scene):
         return "; ".join(parts)
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: watch the piles come to rest, nudge once, watch again."""
+        """Return the bot's input for the next step. The bot waits until the piles are at rest, then nudges once."""
         return InputFrame(frozenset(("fire",)) if self.frame == 240 else frozenset())
 
     def state(self):
-        """Return the measurements, for the replay digest; everything else is part of the physics state."""
+        """Return the measurements for the replay digest, which contains the physics state already."""
         measured = (self.sinks, self.sways, self.asleep, self.changed)
         return (
             self.frame,
@@ -326,12 +335,12 @@ class MaskStack(Scene):
 
 
 def whole(value):
-    """Return a number as text without its fraction, UNKNOWN for nan."""
+    """Return a number as text without decimals; UNKNOWN for nan."""
     return UNKNOWN if isnan(value) else f"{value:,.0f}"
 
 
 def shapes_of(image, way):
-    """Return (the mask of a sprite, its convex collision shapes). `way`: kind of collision shape, one of WAYS."""
+    """Return (PixelMask of a sprite, its convex collision shapes). way: kind of the shapes, one of WAYS."""
     mask = PixelMask.from_surface(image, smooth=0.0 if way == "exact" else SMOOTH)
     if way == "box":
         left, top, right, bottom = bounds_of(mask)

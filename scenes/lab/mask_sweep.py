@@ -1,8 +1,9 @@
 """Bullets and spinning swords fly at walls of one pixel, swept and not: which of them come through?
 
-What to see: a step moves a shot by sixty pixels, a wall is one. Tested at their poses only, most shots pass it between
-two steps. Swept to the time of impact, none passes: each stops where its own outline first meets the wall's, turning
-included. The white mark is that place, the number the share of the step at which it was reached.
+What to see: a shot moves sixty pixels per step, and a wall is one pixel thick. If only the poses after each step are
+tested, most shots pass the wall. Swept to the time of impact, including rotation, none passes: each stops where its own
+outline first meets the wall's. The white mark is that place, and the number is the time of impact, as a share of the
+step.
 
 Why it matters: A bullet that flies through a wall is the oldest bug of collision, and pixels are the thinnest walls.
 
@@ -50,7 +51,7 @@ WORDS = "white: the sprite's outline where it met the wall; gold: at which share
 
 
 class MaskSweep(Scene):
-    """Two worlds with three lanes each: a straight wall, a slanted one, a ring."""
+    """Scene with two worlds of three lanes each, with a straight wall, a slanted wall and a ring."""
 
     name = "lab/mask_sweep"
     title = "Mask sweep"
@@ -70,7 +71,7 @@ class MaskSweep(Scene):
     legend_at = (4, 218)
 
     def build(self):
-        """Build two worlds, with three walls in each."""
+        """Build two worlds (not swept, swept), with three walls in each."""
         self.sky, atlas = load_backdrop("sky_dusk"), load_atlas("lab")
         self.masks = {kind: PixelMask.from_surface(atlas[name]) for kind, name in PICTURES.items()}
         self.pictures = {kind: RotatedPicture(atlas[name]) for kind, name in PICTURES.items()}
@@ -90,7 +91,7 @@ class MaskSweep(Scene):
                 world.add_body(self.walls[shape], position=(WALL_X, middle(lane)), kind="static")
 
     def update(self, inputs):
-        """Process keys, fire, make two steps, and count."""
+        """Process keys, fire, step both worlds, and count the shots that hit or passed."""
         way = inputs.pressed("right") - inputs.pressed("left")
         if way:
             self.change_slider("speed", self.values["speed"] + 300 * way)
@@ -137,9 +138,7 @@ class MaskSweep(Scene):
             self.fired[way, SHAPES[lane]] += 1
 
     def _count(self, column):
-        """Count, in world number `column`, the shots that met a wall in this step, and those that are beyond it without
-        a contact.
-        """
+        """Count the shots of world number `column` that hit a wall in this step, and those that are past it."""
         world, way = self.worlds[column], WAYS[column]
         begun = world.events.begin
         met = set(begun["body_a"].tolist()) | set(begun["body_b"].tolist())
@@ -165,9 +164,10 @@ class MaskSweep(Scene):
         self.shots = left
 
     def _mark(self, column, kind, body, ghost):
-        """Record where a shot of the given kind met a wall in world number `column`.
+        """Record the mark of a shot that has hit a wall, with its sound and sparks.
 
-        `ghost`: its pose without the wall, see debug.impact_ghosts, or None.
+        column: number of the world; kind: of the shot; ghost: row of debug.impact_ghosts with the shot's pose if the
+        wall were not there, or None.
         """
         world = self.worlds[column]
         rows = np.flatnonzero(world.shapes["body"] == body.id)
@@ -242,8 +242,9 @@ class MaskSweep(Scene):
             canvas.text(shape, view.x + 4, y, FOG, SMALL)
 
     def draw_on_frame(self, frame):
-        """Draw each impact: white at its time of impact, dim where the shot would have been without the wall. Write the
-        time of impact, as a share of the step, beside it.
+        """Draw the marks of impacts: each shot in white at its time of impact, dim where it would be without the wall.
+
+        The time of impact, a share of the step, is written beside the mark.
         """
         for column, kind, pose, aim, fraction, age in self.marks:
             x, y, _ = pose
@@ -263,7 +264,7 @@ class MaskSweep(Scene):
                 frame.text_if_free(f"{fraction:.2f}", *at, GOLD, SMALL, frame.plot_scale, "right", True)
 
     def check(self):
-        """Return the goals of the self-check: of the swept shots none passes a wall; of the others many do."""
+        """Return the goals of the self-check: no swept shot passes a wall, and many of the other shots do."""
         passed, fired, hit = self.passed, self.fired, self.hit
         flying = {way: sum(WAYS[of] == way for of, *_ in self.shots) for way in WAYS}
         all_accounted = all(
@@ -291,8 +292,9 @@ class MaskSweep(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the number of shots through the walls, swept and not, with the upper limit of the
-        rate.
+        """Return a sentence with the number of shots that passed the walls, without sweep and with it.
+
+        For swept shots it includes the upper end of the 95 % interval of the rate.
         """
         passed, met = ({way: sum(each[way, shape] for shape in SHAPES) for way in WAYS} for each in self._ended())
         if not all(met.values()):
@@ -303,13 +305,14 @@ class MaskSweep(Scene):
         return f"{sentence}; swept, {rates['toi'].count} of {rates['toi'].total} (95 %: at most {most:.1f} %)"
 
     def _ended(self):
-        """Return two dicts with keys (way, shape): the number of shots that passed the wall, and of shots that passed
-        or hit it.
+        """Return (passed, ended), two dicts {(way, shape of the wall): number of shots}.
+
+        passed: shots that passed the wall; ended: shots that passed or hit it.
         """
         return self.passed, {key: count + self.passed[key] for key, count in self.hit.items()}
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: watch, and later raise the speed three times."""
+        """Return the bot's input for the next step. The bot waits, and later raises the speed three times."""
         return frozenset(("right",)) if self.frame in (200, 210, 220) else frozenset()
 
     def state(self):
@@ -324,7 +327,7 @@ def middle(lane):
 
 
 def picture_of(wall):
-    """Return the picture of a wall's pixels."""
+    """Return the picture of a wall, a surface with one pixel for each pixel of the mask."""
     solid = wall.solid
     image = pygame.Surface(solid.shape[::-1], pygame.SRCALPHA, 32)
     for y, x in np.argwhere(solid).tolist():
@@ -333,5 +336,5 @@ def picture_of(wall):
 
 
 def placed(lines, pose, other):
-    """Return line segments (n, 4) that belong to a body at `pose`, moved along with the body to the pose `other`."""
+    """Return line segments (n, 4) of a body at `pose`, moved to where they are if the body is at the pose `other`."""
     return moved(("lines", lines.reshape(-1, 2)), pose, other)[1].reshape(-1, 4)

@@ -1,11 +1,10 @@
 """Two planes, nine verdicts, from circle to exact pixels. Which of them lie, how often, and what does the truth cost?
 
 What to see: it opens where the box is wrong. Drag one plane along the other: the cheap shapes say HIT while there is
-sky between the planes; the pixels say HIT when a pixel is shared. Beside each verdict are its rates of false hits and
-of missed hits, over thousands of poses, and the time of one test, of a hit and of a miss.
+sky between the planes; the pixels say HIT only when a pixel is shared. Beside each verdict are its rates of false and
+of missed hits over thousands of poses, and the times of one test that hits and one that misses.
 
-Why it matters: Simple shapes are tested first because they are said to be cheap; here is what that saves, and its
-errors.
+Why it matters: Simple shapes are tested first as they are said to be cheap; here are their savings and errors.
 
 To try: turn one plane with the wheel, and look for a pose in which only the exact pixels say no.
 
@@ -56,7 +55,7 @@ BOT_LEG = 50  # steps per leg of the bot's path
 
 
 class Masks(Scene):
-    """One world per tier with the two planes in it; costs are measured beside the game."""
+    """Scene with one world per collision tier, each with the same two planes."""
 
     name = "lab/masks"
     title = "Masks"
@@ -93,7 +92,7 @@ class Masks(Scene):
         self.wrong = self.steps = self.apart = self.hits = 0
 
     def measured(self):
-        """Return the poses to measure: those of the two planes."""
+        """Return the request to measure the two planes against each other at every tier."""
         return SpriteRequest(self.masks[0], self.masks[1])
 
     def _world(self, tier):
@@ -103,7 +102,7 @@ class Masks(Scene):
         return world
 
     def update(self, inputs):
-        """Move the planes, put them into every world, and test all tiers."""
+        """Move the planes by the input, copy their poses into every world, and test all tiers."""
         if inputs.pointer_pressed and ARENA.collidepoint(inputs.pointer):
             self._press(*inputs.pointer)
         self.hands.move(inputs)
@@ -132,7 +131,7 @@ class Masks(Scene):
         self.apart += not any(self.verdicts.values())
 
     def views(self):
-        """Return the view of the overlays: the world of the pixels."""
+        """Return (world, camera) for the overlays: the world with the exact pixels."""
         return [(self.shown["pixels"], self.camera)]
 
     def draw(self, canvas, alpha):
@@ -178,7 +177,7 @@ class Masks(Scene):
             canvas.text(text, right, y + 9, PAPER, SMALL, align="right")
 
     def _notes(self):
-        """Return the text notes: depth of the planes' overlap, and where the figures were measured."""
+        """Return two texts: the shared pixels and depth of the planes' overlap, and the extent of the measurements."""
         poses = [tuple(pose) for pose in self.hands.poses]
         found = collide(self.masks[0], poses[0], self.masks[1], poses[1])
         depth = max(0.0, -min(found.separations.tolist(), default=0.0))
@@ -203,7 +202,7 @@ class Masks(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        The pixels are right in every step, and each cheap shape was wrong once.
+        The verdict of the pixels is right in every step, and each simple shape reports a false hit at least once.
         """
         return [
             Goal(
@@ -226,9 +225,7 @@ class Masks(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the error rate of the box, and the time of the box divided by the time of the exact
-        pixels.
-        """
+        """Return a sentence with the box's share of false hits, and the time of a hit by box and by exact pixels."""
         box, exact = self.figures.get("aabb"), self.figures.get("mask")
         if box is None or exact is None:
             return f"not yet: {POSES:,} poses of the two planes have to be tested beside the game"
@@ -238,7 +235,7 @@ class Masks(Scene):
     def bot(self):
         """Return the bot's input for the next step.
 
-        Its plan: drag the first plane around and over the second, with turns.
+        The bot drags the first plane around and over the second, and turns it.
         """
         leg, step = divmod(self.frame, BOT_LEG)
         (ax, ay), (bx, by) = BOT_PATH[leg % len(BOT_PATH)], BOT_PATH[(leg + 1) % len(BOT_PATH)]
@@ -247,15 +244,15 @@ class Masks(Scene):
         return InputFrame(frozenset(), pointer, self.frame > 0, 1 if self.frame % 10 == 0 else 0)
 
     def state(self):
-        """Return the poses and the counts."""
+        """Return the poses and counts, for the replay digest."""
         poses = [value for pose in self.hands.poses for value in pose]
         return (self.frame, *poses, self.hands.chosen, self.wrong, self.hits, self.apart, *self.lies.values())
 
 
 def share_a_pixel(masks, poses):
-    """Return whether two masks, placed at poses (x, y, angle), share a solid pixel.
+    """Return whether two masks, at two poses (x, y, angle), share a solid pixel.
 
-    This is the slow reference: it draws both on one pixel grid and searches for a pixel that is solid in both.
+    This is the slow reference: it puts both on one pixel grid and searches for a pixel that is solid in both.
     """
     boxes = []
     for mask, (x, y, angle) in zip(masks, poses, strict=True):

@@ -67,7 +67,7 @@ BOT = (
 
 
 class OneWay(Scene):
-    """One world of tiles, thrown bodies, a hero, and a lift with two riders."""
+    """Scene with one world of tiles: thrown bodies, a hero, and a lift with two riders."""
 
     name = "lab/one_way"
     title = "One-way platforms"
@@ -86,7 +86,7 @@ class OneWay(Scene):
     legend_at = (8, 28)
 
     def build(self):
-        """Build level, lift, riders and the hero; bodies are thrown over time."""
+        """Build the level, the lift, its riders and the hero. Bodies are thrown over time by update()."""
         self.add_world()
         self.backdrop = Backdrop()
         self.tiles, self.things, self.heroes = load_atlas("tiles"), load_atlas("things"), load_atlas("hero")
@@ -118,8 +118,9 @@ class OneWay(Scene):
         self.disturbed = False  # a rider was dragged
 
     def change_slider(self, name, value):
-        """Apply a change of a slider. If the lift's swing has changed, its riders settle again before their slip is
-        measured.
+        """Set a slider.
+
+        After a change of the lift, the positions of its riders on it are recorded anew for the slip.
         """
         super().change_slider(name, value)
         if name == "lift":
@@ -167,7 +168,7 @@ class OneWay(Scene):
         del self.thrown[identity]
 
     def _aim_lift(self):
-        """Set the velocity that moves the lift to its next place in one step."""
+        """Set the lift's velocity to that which moves it to its next place in this step."""
         x, y = self.lift.position
         self.clock += float(self.values["lift"])
         next_x, next_y = lift_at(self.clock)
@@ -251,7 +252,7 @@ class OneWay(Scene):
             self.slip = {name: max(self.slip[name], self.aside[name]) for name in self.slip}
 
     def draw(self, canvas, alpha):
-        """Draw dusk, the level, moving things, and the counts."""
+        """Draw the sky, the level, everything that moves, and the counts."""
         self.backdrop.draw(canvas, 40.0, dim=14)
         surface = canvas.surface
         for column in range(COLUMNS):
@@ -343,13 +344,16 @@ class OneWay(Scene):
         )
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: up the left planks, down through two, and up again."""
+        """Return the bot's input for the next step.
+
+        The bot jumps up the left planks, drops through two, and jumps up again.
+        """
         frame = self.frame % 400
         held = {action for start, end, actions in BOT if start <= frame < end for action in actions.split()}
         return InputFrame(frozenset(held))
 
     def state(self):
-        """Return the hero and the counts, for the replay digest; everything else is part of the physics state."""
+        """Return the hero and the counts for the replay digest, which contains the physics state already."""
         return (
             self.frame,
             *self.values.values(),
@@ -366,7 +370,7 @@ class OneWay(Scene):
 
 
 def level(effects):
-    """Return a TileGrid with the floor, the walls beside it, and, if `effects` has one_way, the planks."""
+    """Return the TileGrid with the floor and the walls beside it. With the effect `one_way` it also has the planks."""
     solid = [[row >= FLOOR for _ in range(COLUMNS)] for row in range(ROWS)]
     one_way = [[False] * COLUMNS for _ in range(ROWS)]
     for row, first, last in PLANKS.values() if effects.one_way else ():
@@ -375,6 +379,6 @@ def level(effects):
 
 
 def lift_at(clock):
-    """Return the position of the lift's middle [px] in step `clock` of its clock."""
+    """Return the middle (x, y) [px] of the lift at time `clock` of its path [steps]; one round takes 240 steps."""
     turn = 2.0 * pi * clock / 240.0
     return LIFT_AT[0] + LIFT_WAY[0] * cos(turn), LIFT_AT[1] + LIFT_WAY[1] * sin(2.0 * turn + 0.5 * pi) * 0.5

@@ -28,8 +28,9 @@ RAMPS = {
 
 @lru_cache(maxsize=128)
 def turning(shape, ramp):
-    """Return the cached picture of a shape in the colours of `ramp`, a RotatedPicture, which draws it at any angle
-    about the shape's origin.
+    """Return the RotatedPicture of a shape, which draws it at any angle about its origin. Results are cached.
+
+    ramp: name of its colours in RAMPS.
     """
     return RotatedPicture(piece(shape, ramp))
 
@@ -37,7 +38,7 @@ def turning(shape, ramp):
 def piece(shape, ramp, marked=True):
     """Return the picture of a shape, a surface with the shape's origin in its middle.
 
-    `ramp`: name of its colours in RAMPS; `marked`: draw a mark that makes rotation visible.
+    ramp: name of its colours in RAMPS; marked: whether a mark makes rotation visible.
     """
     points, radius = hull(shape)
     reach = ceil(float(np.hypot(points[:, 0], points[:, 1]).max()) + radius) + 1
@@ -64,33 +65,37 @@ def piece(shape, ramp, marked=True):
 
 
 class Scaled(NamedTuple):
-    """A convex shape for drawing: corners clockwise on the screen, and a rounding radius [px]."""
+    """A convex shape for drawing: its corners clockwise on the screen [px], and the rounding radius [px]."""
 
     points: tuple
     radius: float
 
 
 def hull(shape):
-    """Return a convex shape as corners (k, 2) clockwise on the screen and a rounding radius."""
+    """Return (corners, radius) of a convex shape: an array (k, 2), clockwise on the screen, and the rounding radius."""
     return np.array(shape.points, float), float(shape.radius)
 
 
 @lru_cache(maxsize=256)
 def scaled(shape, zoom):
-    """Return the corners and rounding radius of a convex shape, multiplied by `zoom`."""
+    """Return a convex shape, multiplied by `zoom`, as a Scaled."""
     return Scaled(tuple((x * zoom, y * zoom) for x, y in shape.points), shape.radius * zoom)
 
 
 def placed(shape, zoom, pose):
-    """Return the corners of a convex shape or chain, scaled by `zoom`, at a pose (x, y, angle) on a surface."""
+    """Return the corners of a convex shape or chain on a surface, a list of (x, y).
+
+    zoom: surface px per world px; pose: (x, y, angle) of the shape on the surface.
+    """
     x, y, angle = pose
     c, s = cos(angle) * zoom, sin(angle) * zoom
     return [(x + c * px - s * py, y + s * px + c * py) for px, py in shape.points]
 
 
 def signed_distance(points, radius, x, y):
-    """Return the distance [px] from (x, y) to the edge of a hull with corners `points`, rounded by `radius`; negative
-    inside. x, y: numbers or arrays.
+    """Return the distance of points (x, y) from the edge of a rounded hull [px], negative inside; an array.
+
+    points: corners (k, 2) of the hull; radius: its rounding radius; x, y: numbers or arrays of one shape.
     """
     x, y = np.asarray(x, float), np.asarray(y, float)
     nearest = np.full(x.shape, np.inf)

@@ -1,4 +1,4 @@
-"""Measurements of a pile of bodies: overlap, speed, energy."""
+"""Measurements of a pile of bodies: overlap, speed, energy, time of a step."""
 
 import numpy as np
 
@@ -8,14 +8,14 @@ SOLVERS = ("projection", "sequential_impulse", "soft_step")
 
 
 def with_effects(world, effects):
-    """Return a snapshot of the current state of a world, with other effects. All bodies are awake in it."""
+    """Return a snapshot of a world's current state with other effects. All its bodies are awake."""
     other = _like(world)
     other.set_effects(effects)
     return other.snapshot()
 
 
 def with_substeps(world, substeps):
-    """Return a snapshot of the current state of a world, with `substeps` substeps; None keeps the world's number."""
+    """Return a snapshot of a world's current state with another number of substeps; None keeps the number."""
     other = _like(world)
     if substeps is not None:
         other.substeps = substeps
@@ -35,7 +35,7 @@ def deepest(world):
 
 
 def kinetic_energy(world, without=()):
-    """Return the kinetic energy of all moving bodies except the ids in `without`, with rotation [mass px2/s2]."""
+    """Return the kinetic energy of all bodies except the ids in `without`, including rotation [mass px2/s2]."""
     bodies = _but(world.bodies, without)
     inertia = bodies["inertia"] if world.effects.rotation else 0.0
     return 0.5 * float(
@@ -61,5 +61,8 @@ def fastest(world):
 
 
 def step_seconds(world):
-    """Return the time of the last step, all stages [s]. It is never part of a scene's state."""
+    """Return the duration of the world's last step, summed over all stages [s].
+
+    Timings are never part of a scene's state.
+    """
     return sum(world.profile.stages.values())

@@ -1,4 +1,4 @@
-"""Pictures of carved masks: the remaining pixels of each mask are cut out of the picture of the whole mask."""
+"""Pictures of carved masks: the pixels that remain of a mask are cut out of the picture of the whole mask."""
 
 from functools import lru_cache
 from math import cos, pi, sin
@@ -16,7 +16,7 @@ EDGE = (24, 18, 30)  # colour of a new edge
 
 
 class Print(NamedTuple):
-    """The source of a mask's picture. `image`: picture of the whole; `left`, `top`: place of the mask in it [px]."""
+    """Where a mask's picture is taken from. image: picture of the whole; left, top: place of the mask in it [px]."""
 
     image: pygame.Surface
     left: int
@@ -24,21 +24,21 @@ class Print(NamedTuple):
 
 
 class Prints:
-    """The renderer of carved bodies. `of`: Print by body id. Pictures are cached until the body's mask changes."""
+    """Renderer of carved bodies. of: {body id: Print}. A body's picture is cached until its mask changes."""
 
     def __init__(self):
         self.of = {}
         self.kept = {}  # body id -> (mask, Piece)
 
     def add(self, body, image):
-        """Add a body whose mask covers a whole picture. Return the body."""
+        """Add a body whose mask covers the whole of `image`. Return the body."""
         self.of[body.id] = Print(image, 0, 0)
         return body
 
     def add_piece(self, piece, parent):
-        """Add a fragment that has just been carved off a body, before it moves.
+        """Add a fragment that has just been carved off a body. Call this function before the fragment moves.
 
-        `parent`: (Print, mask, pose) of that body before it was carved.
+        parent: (Print, mask, (x, y, angle)) of that body before it was carved.
         """
         (image, left, top), mask, (x, y, angle) = parent
         (own,) = piece.shapes
@@ -49,12 +49,12 @@ class Prints:
         self.of[piece.id] = Print(image, left + shift[0], top + shift[1])
 
     def forget(self, identity):
-        """Remove a body."""
+        """Remove the body with the id `identity`; an unknown id is ignored."""
         self.of.pop(identity, None)
         self.kept.pop(identity, None)
 
     def draw(self, canvas, camera, world, alpha):
-        """Draw all added bodies, at `alpha` (0..1) between the last two steps."""
+        """Draw all added bodies. alpha: position (0..1) between the last two steps."""
         bodies = world.bodies
         rows = world.rows(np.array(sorted(self.of), np.int64))
         x, y, angle = (each[rows] for each in poses_between(bodies, alpha))
@@ -86,11 +86,11 @@ class Piece:
         self.turned = lru_cache(maxsize=ANGLES)(self._turned)
 
     def __deepcopy__(self, memo):
-        """Return itself: a copy of a scene draws with the same pictures."""
+        """Return itself, so that a copy of a scene shares the cached pictures."""
         return self
 
     def at(self, angle):
-        """Return the picture, rotated clockwise by `angle` [rad], rounded to one of ANGLES steps."""
+        """Return the picture, rotated clockwise by `angle` [rad]. The angle is rounded to one of ANGLES per turn."""
         return self.turned(round(angle / (2.0 * pi) * ANGLES) % ANGLES)
 
     def _turned(self, number):
@@ -98,7 +98,10 @@ class Piece:
 
 
 def cut_out(part, solid):
-    """Return the picture of the pixels `solid`, cut out of the Print `part`, dark along the edges of holes."""
+    """Return the picture of the pixels `solid`, cut out of the Print `part`. Edges made by carving are dark.
+
+    solid: bool array (height, width), relative to the place of the mask in the whole.
+    """
     height, width = solid.shape
     out = pygame.Surface((width, height), pygame.SRCALPHA, 32)
     out.blit(part.image, (0, 0), (part.left, part.top, width, height))

@@ -1,7 +1,7 @@
 """A pyramid of crates: does it stand still, and what does standing cost per step?
 
-What to see: the number of crates grows with the square of the rows, and the weight on the lowest ones with it. With
-fewer substeps or another solver the overlap grows and the top starts to wander.
+What to see: the number of crates grows with the square of the rows, and so does the weight on the lowest ones. With
+fewer substeps or another solver, the overlap grows and the top starts to wander.
 
 Why it matters: A still pile costs solver time; the plot shows what each setting gives for it.
 
@@ -47,7 +47,7 @@ COLORS = {"projection": ORANGE, "sequential_impulse": SKY, "soft_step": GREEN}
 
 
 class Pyramid(Scene):
-    """One world, one pyramid, one ball."""
+    """Scene with one world: a pyramid of crates, and a ball to throw at it."""
 
     name = "lab/pyramid"
     title = "Pyramid"
@@ -68,7 +68,7 @@ class Pyramid(Scene):
     legend_at = (4, 212)
 
     def build(self):
-        """Build the yard and the curves; fill() builds the pyramid."""
+        """Build the background and the curves, and let fill() build the pyramid."""
         self.yard = Yard(FLOOR)
         self.overlap = Curves(OVERLAP, {OVERLAP: GOLD})
         self.tried = set()  # names of the runs made here, for drawing only
@@ -99,7 +99,7 @@ class Pyramid(Scene):
         self.most_energy = self.energy
 
     def change_slider(self, name, value):
-        """Apply a change of a slider. Another solver continues with the same crates; other changes rebuild them."""
+        """Set a slider. A change of the solver keeps the crates as they are; other changes rebuild the pyramid."""
         super().change_slider(name, value)
         if name == "solver":
             self.solver = self.world.solver = SOLVERS[int(self.values["solver"])]
@@ -107,7 +107,7 @@ class Pyramid(Scene):
             self.fill()
 
     def update(self, inputs):
-        """Process keys, step all worlds, and update the measurements."""
+        """Process keys, make one step, and update the measurements."""
         for name, forth, back in (("rows", "right", "left"), ("substeps", "up", "down")):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
@@ -129,17 +129,17 @@ class Pyramid(Scene):
 
     @property
     def run_name(self):
-        """Name of the current run: rows, solver, substeps (None if it has none), broad phase."""
+        """Name of the run with the current setting: (rows, solver, substeps or None, broad phase)."""
         return self._run_name(self.world.solver, self.world.substeps)
 
     def _run_name(self, solver, substeps):
         return int(self.values["rows"]), solver, substeps if solver in SUBSTEPPED else None, self.broadphase
 
     def measured(self):
-        """Return the runs to time beside the game.
+        """Return the runs that the measuring process times during the game, one for each setting of this pyramid.
 
-        A run is a step of this pyramid from its start, under one solver and number of substeps. Its time and its errors
-        are measured.
+        A setting is a solver and a number of substeps. A run begins with the new pyramid; its step time and errors are
+        measured.
         """
         names = [self._run_name(solver, substeps) for substeps in SUBSTEPS for solver in SOLVERS]
         return RunRequest(
@@ -157,9 +157,7 @@ class Pyramid(Scene):
         return MeasuredRun([world.snapshot()], self.broadphase, judged=(JUDGED_AT - 60, JUDGED_AT))
 
     def dots(self):
-        """Return {run: Dot} of the measured runs of this pyramid, with costs in microseconds and errors in thousandths
-        of a crate.
-        """
+        """Return {run name: Dot} of this pyramid's measured runs. Cost [us]; error: overlap [1/1000 of a crate]."""
         found = {}
         for name, figures in self.figures.items():
             rows, solver, substeps, broadphase = name
@@ -170,8 +168,9 @@ class Pyramid(Scene):
         return found
 
     def finding(self):
-        """Return a sentence with the cost and error of the current setting, and with the cheapest setting of the same
-        accuracy.
+        """Return a sentence with the cost and error of the current setting.
+
+        It also names the cheapest setting with no greater error, once all are measured.
         """
         dots = self.dots()
         if self.run_name not in dots:
@@ -186,7 +185,7 @@ class Pyramid(Scene):
         return f"{sentence}; {plain_name(best[1])}{substeps}: no more for {dots[best].cost:,.0f} us"
 
     def _energy(self):
-        """Return the energy of the crates [mass px2/s2]."""
+        """Return the kinetic and potential energy of the crates, without the ball [mass px2/s2]."""
         ball = () if self.thrown is None else (self.thrown.id,)
         return kinetic_energy(self.world, ball) + height_energy(self.world, ball)
 
@@ -197,11 +196,11 @@ class Pyramid(Scene):
         return "piles them up again" if down else ""
 
     def _built_at(self):
-        """Return the starting position of the top crate [px]."""
+        """Return the position (x, y) [px] at which the top crate was built."""
         return 0.0, -(int(self.values["rows"]) - 0.5) * SIZE
 
     def _drop(self):
-        """Throw a new ball from the upper left; the previous ball is removed."""
+        """Throw a new ball from the upper left, and remove the previous ball."""
         if self.thrown is not None:
             self.world.remove_body(self.thrown)
         radius = BALL / self.camera.zoom
@@ -223,11 +222,11 @@ class Pyramid(Scene):
                 self.camera.shake(0.25)
 
     def observe(self):
-        """Update the curve."""
+        """Append the overlap of this step to its curve."""
         self.overlap.note({OVERLAP: 1000.0 * deepest(self.world) / SIZE})
 
     def draw(self, canvas, alpha):
-        """Draw the pile over the dusk, and the numbers on a plate."""
+        """Draw the background, the pile, and a plate with the figures."""
         self.yard.draw(canvas, "PYRAMID", "does it stand still, and what does standing cost?")
         self.cast.draw(canvas, self.camera, self.world, alpha)
         plate(canvas, (4, 22, 130, 80))
@@ -248,7 +247,7 @@ class Pyramid(Scene):
             canvas.text(value, 128, 38 + number * 9, PAPER, SMALL, align="right")
 
     def draw_on_frame(self, frame):
-        """Draw the curve of the overlap, and error against time of all measured settings."""
+        """Draw the curve of the overlap, and the plot of error against time of all measured settings."""
         self.overlap.draw(frame, OVERLAP_AT)
         draw_scatter(frame, SCATTER_AT, "overlap over a step's time [log]", self.dots(), self.run_name)
         if self.thrown is None:
@@ -298,11 +297,11 @@ class Pyramid(Scene):
         ]
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: watch the pyramid stand, then drop the ball."""
+        """Return the bot's input for the next step. The bot waits while the pyramid stands, then throws the ball."""
         return InputFrame(frozenset(("fire",)) if self.frame == DROP_AT else frozenset())
 
     def state(self):
-        """Return the measurements, for the replay digest; everything else is part of the physics state."""
+        """Return the measurements for the replay digest, which contains the physics state already."""
         x, y = self.still or (0.0, 0.0)
         return (
             self.frame,
@@ -319,7 +318,10 @@ class Pyramid(Scene):
 
 
 def pile_up(world, rows):
-    """Add the ground and a pyramid of `rows` rows to a world. Return a list of (crate, row + column)."""
+    """Add the ground and a pyramid of `rows` rows to a world.
+
+    Return a list of (crate, row + column), from the bottom up.
+    """
     world.add_body(Polygon.box(200 * SIZE, 2 * SIZE), position=(0.0, SIZE), kind="static")
     shape, width, crates = Polygon.box(SIZE, SIZE), SIZE * (1.0 + GAP), []
     for row in range(rows):

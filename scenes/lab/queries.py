@@ -1,9 +1,9 @@
 """Rays, casts, overlaps, areas, the closest point among hundreds of shapes: what do four broad phases look at for it?
 
 What to see: the same query runs in four worlds in every step, one per strategy. All give the same answer: hits with
-their normals and fractions. What each one visits is drawn: boxes of the tree that were entered or rejected; cells of
-the hash; the stretch of the sweep; every box there is. A long slanted ray queries several boxes along its path, the
-closest point larger and larger ones around it.
+their normals and fractions. The places that each one visits are drawn: boxes of the tree that were entered or rejected;
+cells of the hash; the stretch of the sweep; all boxes of brute force. A long slanted ray is split into several query
+boxes; the closest point uses larger and larger ones.
 
 Why it matters: Sight, aim and steering query the world many times a step, so each query must visit little.
 
@@ -67,7 +67,7 @@ PLACES = 200  # places per timed run: five runs make a thousand
 
 
 class Queries(Scene):
-    """Four worlds with the same bodies, and one query."""
+    """Scene with four worlds of the same bodies, one per broad phase. The same query runs in each."""
 
     name = "lab/queries"
     title = "Queries"
@@ -99,7 +99,7 @@ class Queries(Scene):
     legend_at = (8, 22)
 
     def build(self):
-        """Build the sky, the curves, the counts; fill() makes the four worlds."""
+        """Make the sky, the curves and the counts, and let fill() make the four worlds."""
         self.sky = load_backdrop("sky_dusk")
         self.camera = Camera(VIEW, ZOOM)
         self.curves = Curves("boxes and nodes [log]", {name: BROADPHASE_COLORS[name] for name in STRATEGIES})
@@ -150,18 +150,18 @@ class Queries(Scene):
 
     @property
     def query(self):
-        """Name of the query, one of QUERIES."""
+        """Name of the current kind of query, one of QUERIES."""
         return QUERIES[int(self.values["query"])]
 
     def change_slider(self, name, value):
-        """Change the query, or fill the worlds again with another number of bodies."""
+        """Set a slider. A change of the number of bodies fills the worlds again."""
         super().change_slider(name, value)
         self._forget()
         if name == "bodies":
             self.fill()
 
     def update(self, inputs):
-        """Process keys and the pointer; step each world, then run the query in each."""
+        """Process keys and the pointer; step each world, run the query in it, and compare the four answers."""
         turn = inputs.pressed("right") - inputs.pressed("left")
         if turn:
             self.change_slider("query", (self.values["query"] + turn) % len(QUERIES))
@@ -190,13 +190,13 @@ class Queries(Scene):
             self.kinds.add(self.query)
 
     def observe(self):
-        """Update the curves."""
+        """Append the number of boxes and nodes that each broad phase visited in this step to the curves."""
         self.curves.note({name: sum(looked) for name, looked in self.work.items()})
 
     def measured(self):
-        """Return the runs to time beside the game.
+        """Return the runs that the measuring process times during the game, one for each broad phase.
 
-        A run makes the current kind of query at two hundred places of the picture, with one broad phase.
+        A run makes the current kind of query at two hundred places of the picture.
         """
         made = []  # one snapshot for all unknown ones
 
@@ -213,7 +213,7 @@ class Queries(Scene):
         return self.query, float(self.values["size"]), int(self.values["bodies"]), strategy
 
     def views(self):
-        """Return the picture of the world whose structure is shown."""
+        """Return (world, camera) of the selected broad phase, whose structure the overlays show."""
         return [(self.worlds[self.shown], self.camera)]
 
     def draw(self, canvas, alpha):
@@ -240,7 +240,7 @@ class Queries(Scene):
                 canvas.text(f"{value:,}", 473, y + 12 + 10 * row, PAPER, SMALL, align="right")
 
     def _said(self):
-        """Return the answer to the query as short text."""
+        """Return the answer to the query as short text, as it is written beside the counts."""
         if self.query == "closest":
             return f"{self.answer[0][5]:.1f} px away" if self.answer else "none"
         if self.query in ("ray", "cast"):
@@ -248,7 +248,7 @@ class Queries(Scene):
         return f"{len(self.answer)} found"
 
     def draw_on_frame(self, frame):
-        """Draw tiny shapes, visited boxes, the query, the hits with normal and fraction, and the curve."""
+        """Draw tiny shapes, visited boxes, the query itself, its hits with normal and fraction, and the curves."""
         world, lens = self.worlds[self.shown], frame.lens(self.camera)
         self.looks[self.shown].draw_on_frame(frame)
         frame.surface.set_clip(lens.clip)
@@ -260,7 +260,10 @@ class Queries(Scene):
         self.curves.draw(frame, PLOT)
 
     def _draw_visited(self, frame, lens, world):
-        """Draw the boxes that the query visited, in the colour of the broad phase; rejected boxes are darker."""
+        """Draw the boxes that the query visited in the colour of the broad phase; boxes without overlap are darker.
+
+        The query's own boxes are drawn in grey.
+        """
         found, color = debug.visited(world), BROADPHASE_COLORS[STRATEGIES[self.shown]]
         left, top = lens.points(found.rects[:, 0], found.rects[:, 1])
         right, bottom = lens.points(found.rects[:, 2], found.rects[:, 3])
@@ -283,7 +286,7 @@ class Queries(Scene):
                 draw_outline(frame.surface, lens, outline, WHITE, max(1, frame.scale - 1), frame.scale)
 
     def _draw_question(self, frame, lens):
-        """Draw the ray, the cast, the box or the point."""
+        """Draw the query itself: its ray, cast, box or point."""
         surface, size, thick = frame.surface, float(self.values["size"]), max(1, frame.scale - 1)
         start, end = lens.points(*self.origin), lens.points(*self.target)
         if self.query in ("ray", "all", "cast"):
@@ -317,7 +320,7 @@ class Queries(Scene):
         return angle_of(self.origin, self.target)
 
     def _draw_hits(self, frame, lens):
-        """Draw points, normals and fractions of the first hits, as far as there is room."""
+        """Draw the points, normals and fractions (or distances) of the first hits; text only where there is room."""
         if self.query in ("overlap", "area", "point"):
             return
         for _, x, y, nx, ny, fraction in self.answer[:SHOWN]:
@@ -332,8 +335,8 @@ class Queries(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        All four broad phases give the same answers to every query, and three of them visit fewer boxes and nodes than
-        brute force.
+        All four broad phases give the same answers to every query, and tree, hash and sweep visit less than brute
+        force.
         """
         cheaper = all(self.looked[name] < self.looked["brute"] for name in STRATEGIES[:-1])
         return [
@@ -354,7 +357,10 @@ class Queries(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the counts of each strategy for this query, and the number of different answers."""
+        """Return a sentence with the boxes and nodes that each strategy visits for this query.
+
+        It also names the number of answers that differed.
+        """
         if not self.usual["tree"].last:
             return "not yet: something has to be asked"
         looks = ", ".join(f"the {name} at {self.usual[name].value:,.0f}" for name in STRATEGIES[:-1])
@@ -365,7 +371,8 @@ class Queries(Scene):
     def bot(self):
         """Return the bot's input for the next step.
 
-        Its plan: point along a slow curve; change the query now and then, the strategy more often.
+        The bot moves the pointer along a slow curve. It changes the query now and then, and the shown strategy more
+        often.
         """
         at = self.frame / 40.0
         pointer = (
@@ -380,7 +387,7 @@ class Queries(Scene):
         return InputFrame(frozenset(taps), pointer)
 
     def state(self):
-        """Return the query and its result for the replay digest. The result must not depend on the broad phase."""
+        """Return the query and its answer for the replay digest. The answer must not depend on the broad phase."""
         return (
             self.frame,
             *self.values.values(),
@@ -398,7 +405,7 @@ PARTS = {"tree": "nodes visited", "hash": "cells visited", "sweep": "halvings", 
 
 
 def bounce(world):
-    """Reverse the velocities at the edges of the world, all at once."""
+    """Reverse the velocity of all bodies that leave the world at one of its edges."""
     bodies = world.bodies
     for place, speed, high in (("x", "vx", WIDTH), ("y", "vy", HEIGHT)):
         outwards = ((bodies[place] < 0.0) & (bodies[speed] < 0.0)) | ((bodies[place] > high) & (bodies[speed] > 0.0))

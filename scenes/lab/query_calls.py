@@ -11,9 +11,10 @@ ALONG, ACROSS = 0.7548776662466927, 0.5698402909980532
 
 
 def ask(world, query, origin, target, size):
-    """Run a query of the given name in a world. Return its results as a list.
+    """Run a query in a world, and return its results as a list, in which None stands for "nothing found".
 
-    Rays and casts go from `origin` to `target`; the other queries are at `target`. `size` [px] scales the shapes.
+    query: its name; origin, target: (x, y) [px], start and end of a ray or cast, while other queries are at `target`;
+    size: of the shapes [px].
     """
     way = target[0] - origin[0], target[1] - origin[1]
     if query == "ray":
@@ -32,8 +33,10 @@ def ask(world, query, origin, target, size):
 
 
 def asking(world, query, origin, area, size):
-    """Return a function that runs the query once per call. Rays and casts start at `origin`; the target is elsewhere in
-    `area` (width, height) [px] each time.
+    """Return a function that runs the query once per call, each time at another target.
+
+    origin: start of rays and casts; area: (width, height) [px] in which the targets are spread evenly; size: as in
+    ask().
     """
     numbers = count()
 
@@ -45,8 +48,9 @@ def asking(world, query, origin, area, size):
 
 
 def rows_of(found):
-    """Return the results of ask() as rows (body id, x, y, normal x, normal y, fraction or distance); missing values are
-    0.
+    """Return the results of ask() as tuples that can be compared, without the None.
+
+    A tuple is (body id, x, y, normal x, normal y, fraction or distance). Values that a kind of query lacks are 0.
     """
     rows = []
     for each in found:
@@ -63,6 +67,9 @@ def rows_of(found):
 
 
 def angle_of(origin, target):
-    """Return the angle [rad] of the line from `origin` to `target`. Overlap queries rotate their box by this angle."""
+    """Return the angle [rad] of the line from `origin` to `target`.
+
+    The box of an overlap query is rotated by this angle.
+    """
     dx, dy = target[0] - origin[0], target[1] - origin[1]
     return atan2(dy, dx) if hypot(dx, dy) > 0.0 else 0.0

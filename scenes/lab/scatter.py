@@ -1,4 +1,4 @@
-"""Error against time: a dot for every setting, on logarithmic scales, at window resolution."""
+"""Scatter plot of error against time: a dot for every setting, on logarithmic scales, at window resolution."""
 
 from collections.abc import Mapping
 from math import ceil, floor, log10
@@ -15,7 +15,10 @@ LEAST_SPAN = 0.3  # [decades] least span of a scale
 
 
 class Dot(NamedTuple):
-    """A dot of the plot, for one setting. `cost` [us]; `name`: label; `tried`: whether it has run in the scene."""
+    """A dot of the plot: one setting with its cost [us] and error.
+
+    name: label beside the dot; tried: whether the setting has run in the scene.
+    """
 
     cost: float
     error: float  # 0 lies on the bottom line
@@ -25,7 +28,7 @@ class Dot(NamedTuple):
 
 
 def draw_scatter(frame: Frame, canvas_rect: Box, title: str, dots: Mapping[object, Dot], here: object) -> None:
-    """Draw the plot into a rectangle of the canvas, with a ring around the current setting, dots[here].
+    """Draw the plot of {key: Dot} into a rectangle of the canvas. here: key of the current setting, which gets a ring.
 
     Settings that have not run in the scene are hollow dots.
     """
@@ -51,7 +54,7 @@ def draw_scatter(frame: Frame, canvas_rect: Box, title: str, dots: Mapping[objec
 
 
 def _span(values):
-    """Return the decimal logarithms of both ends of a scale that contains the values."""
+    """Return (low, high), the decimal logarithms of both ends of a scale that contains all values."""
     low, high = log10(min(values)), log10(max(values))
     wider = max(LEAST_SPAN - (high - low), 0.0) / 2
     return low - wider, high + wider
@@ -63,7 +66,7 @@ def _spans(dots):
 
 
 def _place(plot, dots):
-    """Return {key of a dot: its place (x, y) in the frame}. plot: the frame rect between the axes."""
+    """Return {key of a dot: its (x, y) in the frame}. plot: rectangle of the frame between the axes."""
     (left, right), (low, high) = _spans(dots)
     places = {}
     for key, dot in dots.items():
@@ -74,8 +77,9 @@ def _place(plot, dots):
 
 
 def _draw_scale(frame, plot, dots, scale):
-    """Draw grid lines at the powers of ten of the error, and label both ends of the cost axis. plot: the frame rect
-    between the axes.
+    """Draw grid lines at the powers of ten of the error, and write the cost at both ends of the cost axis.
+
+    plot: rectangle of the frame between the axes; scale: frame pixels of a text pixel.
     """
     (left, right), (low, high) = _spans(dots)
     for power in range(ceil(low), floor(high) + 1):

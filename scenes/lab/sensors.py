@@ -1,12 +1,12 @@
 """Zones that only watch: standing, moving, thin and sweeping. Is every entry seen, with one exit, at any speed?
 
 What to see: saucers cross a field, a drifting field and a beam of one pixel, some of them faster than the zones are
-wide; below, a fast scanner runs over resting mines. Beside each zone are its entries, its exits, and the entries that
-geometry demands.
+wide. Below, a fast scanner runs over resting mines. Beside each zone are its entries and exits, and the number of
+entries that geometry demands.
 
 Why it matters: Goals, alarms and pick-ups hang on one event each; one that is missed or doubled breaks a level.
 
-To try: watch the beam while the fastest saucer passes: between two steps it was never in it.
+To try: watch the beam while the fastest saucer passes: after no step is the saucer inside it.
 
 Source: Box2D's sensor events; swept as in Catto, Continuous Collision, GDC 2013.
 """
@@ -48,7 +48,7 @@ SHIP, ZONE = 1, 2  # filter bits
 
 
 class Sensors(Scene):
-    """One world: sensor bodies, and bodies that cross them."""
+    """Scene with one world: zones, which are sensor bodies, and bodies that cross them."""
 
     name = "lab/sensors"
     title = "Sensors"
@@ -65,7 +65,7 @@ class Sensors(Scene):
     draggable = True
 
     def build(self):
-        """Build the zones and the mines; saucers come with time."""
+        """Build the zones and the mines. Saucers are added over time by update()."""
         self.add_world()
         self.sky = load_backdrop("sky_dusk")
         planes, effects = load_atlas("planes"), load_atlas("effects")
@@ -99,7 +99,7 @@ class Sensors(Scene):
         self.way, self.rest = 1, 0
 
     def update(self, inputs):
-        """Process keys, move ships and zones, make one step; then compare events with geometry."""
+        """Process keys, add saucers, move the zones, make one step, and compare the events with geometry."""
         for slider, back, forth, notch in (("speed", "left", "right", 300), ("scanner", "down", "up", 300)):
             turn = inputs.pressed(forth) - inputs.pressed(back)
             if turn:
@@ -124,7 +124,7 @@ class Sensors(Scene):
         self.flying[body.id] = speed
 
     def _steer(self):
-        """Set the velocities that move the zones to their places of the next step."""
+        """Set the velocities that move the zones to their next places in this step."""
         (_, middle, _), body = ZONES["drifter"], self.zones["drifter"]
         y = middle[1] + DRIFT[0] * sin(2.0 * pi * (self.frame + 1) / DRIFT[1])
         body.velocity = (0.0, (y - body.position[1]) * 60)
@@ -144,7 +144,10 @@ class Sensors(Scene):
         )
 
     def _take_events(self):
-        """Count entries and exits in pairs. Exits come first: a body may leave and return within a step."""
+        """Count the sensor events of the step, and check that each entry is followed by one exit.
+
+        Exits are counted first, because a body may leave a zone and return within a step.
+        """
         for events, tally, change in (
             (self.world.events.sensor_end, self.left, -1),
             (self.world.events.sensor_begin, self.entered, 1),
@@ -167,10 +170,10 @@ class Sensors(Scene):
                     self.play("blip", 60.0, 0.12)
 
     def _compare(self, before, after):
-        """Compute by geometry which bodies met which zones in this step. After each crossing, compare with the sensor
-        events.
+        """Compute by geometry which bodies met which zones in this step.
 
-        `before`, `after`: {body id: position} at the start and at the end of the step.
+        After a crossing has ended, compare it with the sensor events. before, after: {body id: (x, y) [px]} at the
+        start and at the end of the step.
         """
         for name, zone in self.zones.items():
             half = np.array(ZONES[name][0]) / 2.0
@@ -210,7 +213,7 @@ class Sensors(Scene):
             self.trails.append([before.get(identity, (x, y))[0], x, y, 0])
 
     def draw(self, canvas, alpha):
-        """Draw both halls with their zones, and the counts at the side."""
+        """Draw both halls with their zones and bodies, and the counts at the side."""
         canvas.surface.fill(NIGHT)
         canvas.text("SENSORS", 4, 4, GOLD)
         words = f"saucers up to {self.values['speed'] / 60:.0f} px a step, scanner {self.values['scanner'] / 60:.0f} px"
@@ -311,9 +314,7 @@ class Sensors(Scene):
         canvas.text(f"{self.unpaired}", 474, y, GREEN if self.unpaired == 0 else RED, SMALL, align="right")
 
     def check(self):
-        """Return the goals of the self-check: every entry is reported once, with one exit, and no false entry is
-        reported.
-        """
+        """Return the goals of the self-check: every entry is reported once, with one exit, and no false entry."""
         missed, false = sum(self.missed.values()), sum(self.false.values())
         balance = all(
             self.entered[name] - self.left[name] == sum(1 for zone, _ in self.inside if zone == name) for name in ZONES
@@ -350,8 +351,9 @@ class Sensors(Scene):
         return f"{sentence}, with {self.fastest:.0f} px in a step through zones down to 1 px"
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: watch, then raise the speeds of the saucers and of the
-        scanner.
+        """Return the bot's input for the next step.
+
+        The bot waits, then raises the speeds of the saucers and of the scanner.
         """
         faster = 200 <= self.frame < 250 and self.frame % 4 == 0
         tap = "right" if faster else "up" if self.frame in (320, 330) else ""
@@ -372,10 +374,10 @@ class Sensors(Scene):
 
 
 def least_gap(start, end, zone_start, zone_end, half):
-    """Return the least distance [px] between a point and a box, while both move on straight lines in the step.
+    """Return the least distance [px] between a moving point and a moving box during a step.
 
-    `start`, `end`: places of the point; `zone_start`, `zone_end`: places of the box's middle; `half`: half its width
-    and half its height [px]. The motion is sampled finely.
+    start, end: places of the point; zone_start, zone_end: places of the box's middle; half: half its width and half its
+    height [px]. Both move on straight lines. The motion is sampled finely.
     """
     x = np.array([start[0] - zone_start[0], end[0] - zone_end[0]])
     y = np.array([start[1] - zone_start[1], end[1] - zone_end[1]])

@@ -1,4 +1,4 @@
-"""The pictures of lab/shapes: projections of two shapes on the best axis of SAT, and their Minkowski difference."""
+"""Drawing for lab/shapes: projections of two shapes on SAT's best axis, and their Minkowski difference."""
 
 from math import cos, sin
 
@@ -18,7 +18,8 @@ MARGIN = 12  # [canvas px] around the picture of the differences
 def draw_shadows(frame, lens, placed, axes, colors):
     """Draw the tested axes as short strokes on their edges, and both projections on a ruler along the best axis.
 
-    `placed`: (corners, radius) of both shapes; `axes`: AXIS rows, the best first; `colors`: of both shapes.
+    placed: (corners, radius) of both shapes, as of placed_hull(); axes: AXIS rows of physics.sat_axes, the best first;
+    colors: of both shapes.
     """
     for row in axes[::-1]:
         points, radius = placed[int(row["owner"])]
@@ -78,8 +79,8 @@ def draw_shadows(frame, lens, placed, axes, colors):
 def draw_differences(frame, rect, placed, meets, step):
     """Draw the Minkowski difference of two shapes, without and with their rounding radii, and the origin.
 
-    `placed`: (corners, radius) of both; `meets`: whether they overlap; `step`: iteration of GJK or EPA whose simplex
-    or polytope is drawn, or None.
+    rect: area of the frame; placed: (corners, radius) of both shapes; meets: whether they overlap; step: iteration of
+    GJK or EPA whose simplex or polytope is drawn, or None.
     """
     core = difference(placed[0][0], placed[1][0])
     radius = placed[0][1] + placed[1][1]
@@ -120,7 +121,10 @@ def draw_differences(frame, rect, placed, meets, step):
 
 
 def placed_hull(shape, pose):
-    """Return (corners, radius) of a shape at a pose (x, y, angle), corners as a list clockwise on the screen."""
+    """Return (corners, radius) of a shape at a pose (x, y, angle).
+
+    corners: list of (x, y), clockwise on the screen; radius: rounding radius [px].
+    """
     points, radius = hull(shape)
     c, s = cos(pose[2]), sin(pose[2])
     placed = points @ np.array([[c, s], [-s, c]]) + pose[:2]
@@ -128,7 +132,7 @@ def placed_hull(shape, pose):
 
 
 def difference(a, b):
-    """Return the corners of the Minkowski difference A - B of two point sets, clockwise on the screen."""
+    """Return the corners of the Minkowski difference A - B of two lists of points, clockwise on the screen."""
     points = sorted({(round(ax - bx, 9), round(ay - by, 9)) for ax, ay in a for bx, by in b})
     if len(points) < 3:
         return [list(point) for point in points]

@@ -1,8 +1,8 @@
 """Any two convex shapes: how far apart are they, or how deep in each other, and do three methods agree?
 
-What to see: drag and turn the shapes. Below them the best axis of SAT with both shadows on it; at the right the same
-two shapes as one, the set of all differences A - B: they meet when it holds the origin. GJK walks to the origin with a
-simplex, EPA grows a polygon from inside to its edge; Enter shows the next step.
+What to see: drag and turn the shapes. Below them is the best axis of SAT, with both projections. At the right is the
+set of all differences A - B of their points: the shapes overlap if it contains the origin. GJK moves towards the origin
+with a simplex; EPA grows a polygon from inside to the edge. Enter shows the next iteration.
 
 Why it matters: Everything that pushes needs a distance or a depth; where methods disagree, one of them is wrong.
 
@@ -57,7 +57,7 @@ MOST_STEPS = 24
 
 
 class Shapes(Scene):
-    """One world with two kinematic bodies; all results follow from their shapes and poses."""
+    """Scene with two kinematic bodies in one world. All results follow from their shapes and poses."""
 
     name = "lab/shapes"
     title = "Shapes"
@@ -87,7 +87,7 @@ class Shapes(Scene):
     hides_pointer = False
 
     def build(self):
-        """Build two bodies and the counts."""
+        """Build both bodies, and set the counts to zero."""
         self.add_world()
         self.hands = Hands(START, 1, ARENA.inflate(-2 * MARGIN, -2 * MARGIN))
         self.bodies = [
@@ -103,16 +103,16 @@ class Shapes(Scene):
 
     @property
     def shapes(self):
-        """The two chosen shapes."""
+        """The two chosen shapes, [A, B]."""
         return [CHOICES[NAMES[int(self.values[side])]] for side in "AB"]
 
     @property
     def step_shown(self):
-        """The drawn iteration of GJK or EPA, or None."""
+        """Iteration of GJK or EPA that is drawn, a row of physics.gjk_steps; None if there is none."""
         return self.steps[min(int(self.values["step"]), len(self.steps) - 1)] if self.steps else None
 
     def change_slider(self, name, value):
-        """Apply a change of a slider: put another shape at the same place."""
+        """Set a slider. If it selects a shape, exchange that body's shape at its place."""
         super().change_slider(name, value)
         if name in "AB":
             which = "AB".index(name)
@@ -120,7 +120,7 @@ class Shapes(Scene):
             self.values["step"] = MOST_STEPS
 
     def update(self, inputs):
-        """Move the shapes, make one step for the overlays, and compute all results."""
+        """Process the input, move both shapes, make one step for the overlays, and compute all results."""
         if inputs.pointer_pressed:
             self._press(*inputs.pointer)
         self.hands.move(inputs)
@@ -156,7 +156,10 @@ class Shapes(Scene):
         self.steps = gjk_steps(a, pose_a, b, pose_b)
 
     def _compare(self):
-        """Compare overlap, distance and depth of the two shapes by three methods, in both orders of the shapes."""
+        """Compare the overlap, distance and depth of the two shapes by three methods, and update the greatest errors.
+
+        The distance is also computed in the opposite order of the shapes.
+        """
         a, b = self.shapes
         pose_a, pose_b = (tuple(pose) for pose in self.hands.poses)
         gap, other = self.gap, distance(b, pose_b, a, pose_a)
@@ -176,7 +179,7 @@ class Shapes(Scene):
         self.worst["axis"] = max(self.worst["axis"], abs(float(self.axes[0]["separation"]) - gap.distance))
 
     def draw(self, canvas, alpha):
-        """Draw the backgrounds, icons and numbers; the geometry is drawn at window resolution."""
+        """Draw backgrounds, icons and numbers. draw_on_frame() draws the geometry."""
         canvas.surface.fill(NIGHT)
         canvas.text("SHAPES", 4, 4, GOLD)
         canvas.text("distance, depth and how they are found", 302, 6, FOG, SMALL, align="right")
@@ -242,7 +245,7 @@ class Shapes(Scene):
         canvas.text(f"{wrong}", 474, y + 36, RED if wrong else GREEN, SMALL, align="right")
 
     def draw_on_frame(self, frame):
-        """Draw shapes, projections, witness points and the picture of the differences."""
+        """Draw the shapes, their projections and witness points, and the Minkowski difference, at window resolution."""
         lens = frame.lens(self.camera)
         width = max(1, frame.scale - 1)
         surface = frame.surface
@@ -272,7 +275,7 @@ class Shapes(Scene):
             )
 
     def _draw_witness(self, frame, lens):
-        """Draw the nearest points of both shapes, and the witness points of the shown iteration."""
+        """Draw the nearest points of both shapes, and the witness points of the iteration that is shown."""
         a, b = lens.points(*self.gap.point_a), lens.points(*self.gap.point_b)
         pygame.draw.line(frame.surface, GOLD, a, b, max(1, frame.scale - 1))
         for place in (a, b):
@@ -287,7 +290,7 @@ class Shapes(Scene):
                 pygame.draw.circle(frame.surface, color, place, 2 * frame.scale, 1)
 
     def check(self):
-        """Return the goals of the self-check: the methods agree along the whole tour."""
+        """Return the goals of the self-check: the methods agree for all shapes and poses of the bot."""
         return [
             Goal(
                 "shapes seen apart and in each other",
@@ -329,7 +332,7 @@ class Shapes(Scene):
     def bot(self):
         """Return the bot's input for the next step.
 
-        Its plan: another pair every 25 steps; B is dragged into A and out again, with rotation.
+        Every 25 steps the bot takes another pair of shapes. It drags B into A and out again, with rotation.
         """
         leg, step = divmod(self.frame, LEG)
         changes = ()
@@ -349,7 +352,7 @@ class Shapes(Scene):
         return round(self.hands.poses[which][0]), round(self.hands.poses[which][1])
 
     def state(self):
-        """Return the poses and the counts."""
+        """Return the poses and counts, for the replay digest."""
         poses = [value for pose in self.hands.poses for value in pose]
         return (
             self.frame,

@@ -1,4 +1,4 @@
-"""The shots of lab/tunnelling: their start, their obstacle, and whether they must meet by geometry.
+"""The shots of lab/tunnelling: their starts, the plate, and whether they must hit it by geometry.
 
 In this module the middle of a lane is at y = 0.
 """
@@ -24,11 +24,12 @@ SAMPLE = 0.1  # [px] between two samples of the slow reference for rods
 
 
 def aim(kind, speed, plate, random):
-    """Choose a shot of a kind at random. Return (shots, gap). `speed`: of the shot [px/s]; `plate`: width of the plate
-    [px].
+    """Choose a random shot. Return (shots, gap).
 
-    `shots`: list of (shape, place, velocity, angle, spin), two for bullets that fly at each other. The start varies by
-    the path of a step, so that impacts occur at any time of a step. `gap`: least distance of the shot from its target
+    kind: one of SHOTS; speed: of the shot [px/s]; plate: width of the plate [px]; random: random.Random.
+
+    shots: list of (shape, place, velocity, angle, spin), two for bullets that fly at each other. The start varies by
+    the path of a step, so that impacts occur at any time within a step. gap: least distance of the shot from its target
     by geometry [px], negative if they must meet.
     """
     start = GUN_X + random.uniform(0.0, speed / 60)
@@ -53,8 +54,9 @@ def _aside(kind, random):
 
 
 def shoot(world, shots, kind, lane, middle=0.0):
-    """Add shots of a kind to a world. Return their bodies. `lane`: their `continuous` mode; `middle`: y of the lane
-    [px].
+    """Add the shots of aim() to a world, and return their bodies.
+
+    kind: one of SHOTS; lane: argument `continuous` of the bodies; middle: y of the lane [px].
     """
     return [
         world.add_body(
@@ -71,17 +73,17 @@ def shoot(world, shots, kind, lane, middle=0.0):
 
 
 def raise_plate(world, width, middle=0.0):
-    """Add the plate that shots fly at, `width` px wide, with its middle at y = middle. Return its body."""
+    """Add the static plate that shots fly at, `width` px wide, with its middle at y = `middle`. Return its body."""
     return world.add_body(Polygon.box(width, 2 * PLATE_HALF), position=(PLATE_X, middle), kind="static")
 
 
 def steps_of_flight(speed):
-    """Return how many steps of 1/60 s a shot of `speed` [px/s] flies from the gun to the end of a lane."""
+    """Return the number of steps of 1/60 s in which a shot of `speed` [px/s] flies from the gun to the lane's end."""
     return ceil(60.0 * (END_X - GUN_X) / speed)
 
 
 def flights(world, kind, lane, speed, plate, count, random):
-    """Return a list of `count` snapshots, each of a world with the plate and one random shot that leaves the gun.
+    """Return a list of `count` snapshots, each of a world with the plate and one random shot at the gun.
 
     kind, speed, plate, random: as for aim(); lane: as for shoot().
     """
@@ -98,8 +100,8 @@ def flights(world, kind, lane, speed, plate, count, random):
 def rod_gap(start, offset, speed, angle, spin, plate):
     """Return the least distance of a flying, spinning rod from the plate by geometry [px], negative if they meet.
 
-    (start, offset): first place of its middle; speed [px/s], angle [rad] and spin [rad/s] of the rod; plate: width of
-    the plate [px].
+    (start, offset): first place of its middle [px]; speed [px/s], angle [rad] and spin [rad/s] of the rod; plate: width
+    of the plate [px].
     """
     reach = ROD_HALF + ROD_RADIUS + plate
     first, last = max((PLATE_X - reach - start) / speed, 0.0), (PLATE_X + reach - start) / speed

@@ -1,8 +1,8 @@
 """Heaps that fall asleep, and a ball that wakes one of them: who wakes whom, and what does lying still cost?
 
-What to see: half a second after it came to rest a heap sleeps, darker, with its contacts and forces kept, and a step
-costs next to nothing. A knock wakes the island that it meets and no other; a falling column wakes the next one, and so
-a wave of waking, lit up, runs along the columns. Then all fall asleep again where they lie.
+What to see: a heap that has been at rest for half a second falls asleep and is drawn darker. It keeps its contacts and
+forces, and a step costs next to nothing. A knock wakes the island that it meets and no other. A falling column wakes
+the next one, and so a wave of waking, lit up, runs along the columns. Then all fall asleep again.
 
 Why it matters: Most of a level lies still most of the time; a world that sleeps can be a hundred times as large.
 
@@ -57,7 +57,7 @@ HISTORY = 600  # steps in the curves
 
 
 class Sleeping(Scene):
-    """One world: a pyramid, columns, a bowl of stones, balls."""
+    """Scene with one world: a pyramid, columns, a bowl of stones, and balls to throw at them."""
 
     name = "lab/sleeping"
     title = "Sleeping"
@@ -82,7 +82,7 @@ class Sleeping(Scene):
     legend_at = (4, 20)
 
     def build(self):
-        """Build the yard and the curves; fill() adds the heaps."""
+        """Make the background and the curves, and let fill() add the heaps."""
         self.yard = Yard(FLOOR)
         self.curves = [
             Curves(PLOTS[0][0], {"awake": GOLD, "asleep": FOG}, HISTORY),
@@ -91,7 +91,7 @@ class Sleeping(Scene):
         self.fill()
 
     def fill(self):
-        """Make a new world with its heaps."""
+        """Make a new world with all heaps."""
         self.worlds = []
         self.camera = Camera(((0, HEAD), (480, 254)), ZOOM, y=-(FLOOR - HEAD) / ZOOM)
         effects = self.effects.with_(sleeping=self.effects.sleeping and bool(self.values["sleep"]))
@@ -136,12 +136,12 @@ class Sleeping(Scene):
             world.add_body(STONES[number % 3], position=(x, -(0.6 + 0.9 * row) * METER), angle=0.4 * (number % 4))
 
     def change_slider(self, name, value):
-        """Apply a change of a slider: build the heaps again."""
+        """Set a slider, then build the heaps again."""
         super().change_slider(name, value)
         self.fill()
 
     def update(self, inputs):
-        """Process keys and the pointer, make one step, then record the woken islands."""
+        """Process keys and the pointer, make one step, and record the islands that woke."""
         turn = inputs.pressed("up") - inputs.pressed("down")
         if turn:
             self.change_slider("high", self.values["high"] + turn)
@@ -164,7 +164,10 @@ class Sleeping(Scene):
             self.slept_again = self.since
 
     def _throw(self, x, y):
-        """Throw a heavy ball from the upper left towards a point of the yard."""
+        """Throw a heavy ball from the upper left towards the point (x, y) [px].
+
+        If there are BALLS balls, the oldest is removed.
+        """
         if len(self.balls) == BALLS:
             gone = self.balls.pop(0)
             self.world.remove_body(gone)
@@ -185,10 +188,9 @@ class Sleeping(Scene):
         self.play("land")
 
     def measured(self):
-        """Return the runs to time beside the game.
+        """Return the two runs that the measuring process times during the game, or None before all bodies sleep.
 
-        There are two: a step of these heaps while all bodies sleep, and a step of the same heaps in a world without
-        sleeping.
+        One run steps the heaps while all bodies sleep; the other steps the same heaps in a world without sleeping.
         """
         if self.awake or not self.asleep or self.thrown:
             return None
@@ -203,7 +205,10 @@ class Sleeping(Scene):
         return MeasuredRun([made], self.broadphase)
 
     def _count(self, islands):
-        """Count the bodies awake and asleep, and the islands. `islands`: the island of each body."""
+        """Return (awake, asleep, islands): the numbers of dynamic bodies awake and asleep, and of islands.
+
+        islands: lowest body id in the island of each body, -1 for none, as of debug.islands().
+        """
         bodies = self.world.bodies
         moves = bodies["inverse_mass"] > 0.0
         awake = int(np.count_nonzero(bodies["awake"] & moves))
@@ -228,12 +233,12 @@ class Sleeping(Scene):
             self.waves.append((self.since, len(woken)))
 
     def observe(self):
-        """Update the curves."""
+        """Append the numbers of this step to the curves."""
         self.curves[0].note({"awake": self.awake, "asleep": self.asleep})
         self.curves[1].note({"step": step_seconds(self.world) * 1e6})
 
     def draw(self, canvas, alpha):
-        """Draw the heaps by island, dark while asleep, and the figures on a plate."""
+        """Draw the heaps in the colours of their islands, dark while they sleep, and a plate with the figures."""
         self.yard.draw(canvas, "SLEEPING", "what lies still costs nothing: who wakes whom?")
         surface, camera = canvas.surface, self.camera
         for x in BOWL:
@@ -256,7 +261,7 @@ class Sleeping(Scene):
         self._draw_figures(canvas)
 
     def _draw_aim(self, surface):
-        """Draw the point from which the balls start, and the path of the next ball."""
+        """Draw the point from which balls are thrown, the start of the next ball's path, and its target."""
         (x, y), (to_x, to_y) = (
             self.camera.to_canvas(*place) for place in (MOUTH, (self.aim, -self.values["high"] * 0.8 * METER))
         )
@@ -281,7 +286,7 @@ class Sleeping(Scene):
             canvas.text(value, 120, 210 + number * 9, color, SMALL, align="right")
 
     def draw_on_frame(self, frame):
-        """Draw lights on woken bodies, and the curves."""
+        """Draw bright outlines around bodies that have just woken, and the curves."""
         lens, bodies = frame.lens(self.camera), self.world.bodies
         frame.surface.set_clip(lens.clip)
         for identity, left in self.lit.items():
@@ -301,7 +306,8 @@ class Sleeping(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        All bodies fall asleep and cost nothing; a knock wakes first one island, then others; at last all sleep again.
+        All bodies fall asleep, and sleeping bodies are not integrated. A knock wakes first one island, then others. At
+        last all sleep again.
         """
         woken = sum(count for _, count in self.waves)
         slept = f"after {self.slept_at} steps" if self.slept_at >= 0 else f"{self.awake} awake"
@@ -319,9 +325,7 @@ class Sleeping(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the cost of a step with and without sleep, and with the number of islands that a knock
-        woke.
-        """
+        """Return a sentence with the time of a step asleep and without sleep, and the number of woken islands."""
         parts = [f"{self.awake} of {self.awake + self.asleep} bodies are awake"]
         awake, asleep = (cost_of(self, self._run_name(how)) for how in SLEPT)
         if awake is not None and asleep is not None:
@@ -336,12 +340,12 @@ class Sleeping(Scene):
     def bot(self):
         """Return the bot's input for the next step.
 
-        Its plan: wait until all sleep, then throw a ball at the top of the first column.
+        The bot waits until all bodies sleep, then throws a ball at the top of the first column.
         """
         return InputFrame(frozenset(("fire",)) if self.frame == KNOCK else frozenset())
 
     def state(self):
-        """Return the counts, for the replay digest; everything else is part of the physics state."""
+        """Return the counts for the replay digest, which contains the physics state already."""
         return (
             self.frame,
             *self.values.values(),
@@ -362,7 +366,7 @@ class Sleeping(Scene):
 
 @lru_cache(maxsize=64)
 def dimmed(shape, ramp):
-    """Return the picture of a sleeping shape, in dimmed colours of `ramp`."""
+    """Return the RotatedPicture of a sleeping body's shape, in dimmed colours. ramp: name of the colours in RAMPS."""
     image = piece(shape, ramp)
     image.fill((*DIM, 255), special_flags=pygame.BLEND_RGBA_MULT)
     return RotatedPicture(image)

@@ -1,12 +1,12 @@
 """The same column of crates in three worlds, one per solver: which of them stands straight?
 
-What to see: projection pushes each overlap out by itself and forgets the weight above: the column jitters apart.
+What to see: projection pushes each overlap out by itself and forgets the weight above, so the column jitters apart.
 Sequential impulse keeps its impulses from step to step. Soft step does too, and its contacts give like stiff springs:
 its column stands a third of a percent lower, and comes to rest after a nudge.
 
-Why it matters: Whatever lies on something asks this of a solver; a column is where its errors add up.
+Why it matters: Everything that lies on something needs this; a column is where a solver's errors add up.
 
-To try: take substeps away, make the crate on top heavy, drag one out: what falls first?
+To try: lower the substeps, make the top crate heavy, drag one crate out: which column falls first?
 
 Source: Catto, Iterative Dynamics with Temporal Coherence, 2005; Macklin and others, Small Steps, 2019.
 """
@@ -41,7 +41,7 @@ SETTLED = 120  # steps after which the sway is measured
 
 
 class Stacks(Scene):
-    """Three worlds with the same column."""
+    """Scene with three worlds, each with the same column and another solver."""
 
     name = "lab/stacks"
     title = "Stacks"
@@ -58,13 +58,13 @@ class Stacks(Scene):
     legend_at = (4, 20)
 
     def build(self):
-        """Make the picture of the yard, then three worlds."""
+        """Make the background, and let fill() make the three worlds."""
         self.yard = Yard(FLOOR)
         self.cameras = [Camera(view, ZOOM) for view in VIEWS]
         self.fill()
 
     def fill(self):
-        """Make three new worlds with the same crates."""
+        """Make three new worlds with the same column of crates."""
         self.worlds, self.casts, self.tops = [], [], []
         self.since = self.nudged = 0
         self.touched = False
@@ -90,7 +90,7 @@ class Stacks(Scene):
         self.tops.append(body)
 
     def change_slider(self, name, value):
-        """Apply a change of a slider: build another column at once."""
+        """Set a slider, then build the columns again."""
         super().change_slider(name, value)
         self.fill()
 
@@ -125,7 +125,10 @@ class Stacks(Scene):
         self.standing[name] += hypot(x - MIDDLE, self.sag[name]) < SIZE
 
     def measured(self):
-        """Return the runs to time beside the game: a step of each column, once it has settled."""
+        """Return the runs that the measuring process times during the game; None until the columns have settled.
+
+        There is one run for each column, from its current state.
+        """
         if self.since < SETTLED:
             return None
         worlds = dict(zip(SOLVERS, self.worlds, strict=True))
@@ -135,17 +138,17 @@ class Stacks(Scene):
         )
 
     def stands(self, name):
-        """Return whether the top crate under the solver `name` was always within a crate's size of its place."""
+        """Return whether the top crate under the solver `name` has always been within a crate's size of its place."""
         return self.standing[name] == self.since
 
     def stands_now(self, index):
-        """Return whether the top crate of a column is within a crate's size of its place."""
+        """Return whether the top crate of column number `index` is within a crate's size of its place."""
         x, y = self.tops[index].position
         return hypot(x - MIDDLE, y - (GROUND - (int(self.values["crates"]) - 0.5) * SIZE)) < SIZE
 
     @property
     def offer(self):
-        """Text that offers a new run once no column is left to nudge; "" otherwise."""
+        """Text that offers a new run once all columns have fallen; "" otherwise."""
         fallen = not any(self.stands_now(index) for index in range(len(SOLVERS)))
         return "piles them up again" if fallen else ""
 
@@ -154,7 +157,7 @@ class Stacks(Scene):
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Draw the columns, and under each its numbers."""
+        """Draw the columns, and the figures below each."""
         self.yard.draw(canvas, "STACKS", "which solver lets a column of crates stand straight?")
         for index, (name, camera, cast) in enumerate(zip(SOLVERS, self.cameras, self.casts, strict=True)):
             cast.draw(canvas, camera, self.worlds[index], alpha)
@@ -188,7 +191,7 @@ class Stacks(Scene):
         canvas.text(cost_text(self, (*self.chosen, name)), box.right - 4, box.y + 37, PAPER, SMALL, align="right")
 
     def draw_on_frame(self, frame):
-        """Draw a thin line at the top of an ideal column."""
+        """Draw a thin line at the height of an ideal column."""
         top = GROUND - self.values["crates"] * SIZE
         for camera in self.cameras:
             lens = frame.lens(camera)
@@ -199,7 +202,7 @@ class Stacks(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        With warm starting the column stands, even after a nudge; with projection it does not.
+        The columns of the solvers with warm starting stand, even after a nudge; that of projection does not.
         """
         pushed, kept, soft = SOLVERS
         tall = self.values["crates"] * SIZE
@@ -254,11 +257,11 @@ class Stacks(Scene):
         return "; ".join(parts)
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: watch, and nudge once."""
+        """Return the bot's input for the next step. The bot nudges the columns once."""
         return InputFrame(frozenset(("fire",)) if self.frame == 240 else frozenset())
 
     def state(self):
-        """Return the measurements, for the replay digest; everything else is part of the physics state."""
+        """Return the measurements for the replay digest, which contains the physics state already."""
         measured = (self.sag, self.sway, self.calm_sway, self.depth, self.standing)
         values = (row[name] for row in measured for name in SOLVERS)
         return (self.frame, self.since, self.nudged, *self.values.values(), *values)

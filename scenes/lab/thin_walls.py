@@ -1,4 +1,4 @@
-"""Walls of one pixel for lab/mask_sweep: straight, slanted, a ring; and the test for shots beyond them."""
+"""The walls of lab/mask_sweep, one pixel thick (straight, slanted, a ring), and the test for shots beyond them."""
 
 from math import hypot
 
@@ -12,7 +12,7 @@ RADIUS = 27.0  # [px] of the ring's middle line
 
 
 def wall_of(shape):
-    """Return the pixel mask of a wall, with its origin in the middle."""
+    """Return the PixelMask of a wall, with its origin in the middle. shape: one of SHAPES."""
     size = 2 * HALF + 1
     if shape == "straight":
         return PixelMask.from_array(np.ones((size, 1), bool))
@@ -28,7 +28,10 @@ def wall_of(shape):
 
 
 def is_beyond(shape, x, y):
-    """Return whether a shot at (x, y), relative to the wall's middle, must have passed through the wall."""
+    """Return whether a shot has passed the wall. x, y: place of the shot relative to the wall's middle [px].
+
+    shape: of the wall, one of SHAPES.
+    """
     if shape == "straight":
         return x > 0.5
     if shape == "aslant":

@@ -1,4 +1,4 @@
-"""The tools of lab/carving: round, square or star-shaped, of the player's size."""
+"""The tools of lab/carving: a disc, a square or a star, of a size that the player sets."""
 
 from itertools import count
 from math import cos, hypot, pi, sin
@@ -15,7 +15,7 @@ GOLDEN = 0.6180339887498949  # its multiples, modulo 1, are never near one anoth
 
 
 class Tool:
-    """The tool in use. `name`: one of TOOLS; `radius` [px]. cut() returns the shape to carve in each step."""
+    """The tool in use. name: one of TOOLS; radius [px]. cut() returns the shape to carve in each step."""
 
     def __init__(self):
         self.name, self.radius = TOOLS[0], 0
@@ -24,7 +24,7 @@ class Tool:
         self.reach = ((0.0, 0.0), (0.0, 0.0))  # box of the last cut
 
     def choose(self, name, radius):
-        """Change the tool, or its size."""
+        """Set the tool and its radius [px]."""
         if (name, radius) != (self.name, self.radius):
             self.name, self.radius = name, radius
             self.last, self.stamp = None, self._make()
@@ -38,8 +38,9 @@ class Tool:
         return Circle(self.radius)
 
     def cut(self, inputs):
-        """Return (shape, pose) to carve in this step, or None. A blast comes once per press; digging follows the
-        pointer.
+        """Return (shape, position) to carve in this step, or None.
+
+        A blast is carved once per press of the pointer. The other tools carve along its path while it is pressed.
         """
         if not inputs.pointer_down:
             self.last = None
@@ -62,7 +63,7 @@ class Tool:
         return self.stamp, now
 
     def ring(self):
-        """Return the points of the tool's outline around (0, 0) [px]."""
+        """Return the corners of the tool's outline relative to the pointer, a list of (x, y) [px]."""
         if self.name == "box":
             return list(self.stamp.points)
         angles = [2.0 * pi * k / 40 for k in range(40)]
@@ -73,9 +74,9 @@ class Tool:
 
 
 def carving(world, name, radius, ground, crumb):
-    """Return a function that carves the body `ground` once per call, each time at another solid pixel.
+    """Return a function that carves the body with id `ground` once per call, each time at another solid pixel.
 
-    `name`, `radius`: the tool; `crumb`: as for Body.carve. Successive places are far apart.
+    name, radius: the tool; crumb: as for Body.carve. Successive places are far apart.
     """
     tool = Tool()
     tool.choose(name, radius)

@@ -1,8 +1,7 @@
 """A turning drum full of shapes that are carried up and fall: does any of them ever get out?
 
-What to see: the drum is one kinematic body of many boxes. Its walls move into what lies on them in every step, from
-every side and at the same time, with the weight of the whole load above. A leak, a jitter or energy out of nothing
-would show at once.
+What to see: the drum is one kinematic body of many boxes. In every step its walls move into the shapes that lie on
+them, from every side, with the weight of the whole load above. A leak, a jitter or a gain of energy would show at once.
 
 Why it matters: Bodies that are squeezed from all sides for minutes find every hole that a solver leaves.
 
@@ -46,8 +45,9 @@ STEEL = ((58, 60, 82), (92, 96, 124), (138, 144, 172), (190, 196, 216))
 
 
 def ring(count, size, start):
-    """Return the corners of a regular polygon with `count` corners that fills size x size about its middle. start:
-    angle of the first corner [rad].
+    """Return the corners of a regular polygon around (0, 0), a list of (x, y) [px].
+
+    count: number of corners; size: diameter of its circumscribed circle [px]; start: angle of the first corner [rad].
     """
     angles = start + np.arange(count) * 2 * pi / count
     return [(size / 2 * cos(a), size / 2 * sin(a)) for a in angles]
@@ -65,7 +65,7 @@ THINNEST = 12.0  # [px] bricks and pills
 
 
 class Tumbler(Scene):
-    """One world: a drum, and shapes in it."""
+    """Scene with one world: a drum with shapes in it, the load."""
 
     name = "lab/tumbler"
     title = "Tumbler"
@@ -81,7 +81,7 @@ class Tumbler(Scene):
     legend_at = (4, 138)
 
     def build(self):
-        """Build the yard; fill() makes drum and load."""
+        """Make the background, and let fill() make the drum and its load."""
         self.yard = Yard(262, 70)
         self.camera = Camera(VIEW, ZOOM)
         self.fill()
@@ -106,7 +106,7 @@ class Tumbler(Scene):
         self.since = 0
 
     def change_slider(self, name, value):
-        """Apply a change of a slider: fill the drum again for another number; another speed only turns it."""
+        """Set a slider. A new number of bodies fills the drum again; a new speed is set as its angular velocity."""
         super().change_slider(name, value)
         if name == "bodies":
             self.fill()
@@ -114,7 +114,7 @@ class Tumbler(Scene):
             self.drum.angular_velocity = float(self.values["speed"])
 
     def update(self, inputs):
-        """Process keys, make one step, and check all places."""
+        """Process keys, make one step, and check that no shape has left the drum."""
         for name, forth, back, notch in (("speed", "right", "left", 0.1), ("bodies", "up", "down", 10)):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
@@ -138,7 +138,10 @@ class Tumbler(Scene):
             self.pressed += (deep - self.pressed) / (self.since - SETTLED)
 
     def ways(self):
-        """Return {name: run} for two runs to time: with the current number of substeps, and with another number."""
+        """Return {label: name of the run} for two numbers of substeps: the current one, and another for comparison.
+
+        A solver without substeps has one run only.
+        """
         now, solver = self.world.substeps, self.world.solver
         asked = (now, SUBSTEPS if now == "auto" else "auto") if solver in SUBSTEPPED else (None,)
         name = (int(self.values["bodies"]), round(float(self.values["speed"]), 1), solver, self.broadphase)
@@ -146,18 +149,14 @@ class Tumbler(Scene):
         return {words.get(substeps, f"{substeps} substeps"): (*name, substeps) for substeps in asked}
 
     def measured(self):
-        """Return the runs to time beside the game.
-
-        There are two: a step of this drum once the load has settled, with the current number of substeps and with
-        another number.
-        """
+        """Return the runs of ways(), which the measuring process times; None until the load has settled."""
         return RunRequest(list(self.ways().values()), self._make) if self.since > SETTLED else None
 
     def _make(self, name):
         return MeasuredRun([with_substeps(self.world, name[-1])], self.broadphase)
 
     def draw(self, canvas, alpha):
-        """Draw the drum, its load, the numbers."""
+        """Draw the drum, its load, and the figures."""
         self.yard.draw(canvas, "TUMBLER", "does any of them ever get out of the turning drum?")
         angle = self.drum.angle - self.drum.angular_velocity / 60 * (1.0 - alpha)
         draw_drum(canvas.surface, self.camera, angle)
@@ -179,12 +178,15 @@ class Tumbler(Scene):
             canvas.text(value, 110, 40 + number * 10, GOLD if word == "turns" else PAPER, SMALL, align="right")
 
     def _rms_speed(self):
-        """Return the root mean square speed of the load [px/s]."""
+        """Return the root mean square speed of the load, weighted by mass [px/s]."""
         mass = float(self.world.bodies["mass"][1:].sum())
         return (2.0 * self.energy / mass) ** 0.5 if mass else 0.0
 
     def check(self):
-        """Return the goals of the self-check: no shape gets out, the load is carried up, and it is not thrown about."""
+        """Return the goals of the self-check.
+
+        No shape gets out; the load is carried up, and it is not thrown about.
+        """
         fall = 2.0 * 9.8 * 32.0 * 2.0 * INSIDE  # [px2/s2] energy of a fall through the whole drum
         mass = float(self.world.bodies["mass"][1:].sum())
         return [
@@ -211,9 +213,7 @@ class Tumbler(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the number of shapes that got out, the turns of the drum so far, and the overlap in
-        the load.
-        """
+        """Return a sentence with the number of shapes that got out, the drum's turns, and the overlap in the load."""
         if self.since < SETTLED + 60:
             return "not yet: the load has to settle for two seconds, and to be looked at for one"
         turns = abs(self.drum.angle) / (2 * pi)
@@ -226,11 +226,11 @@ class Tumbler(Scene):
         return f"{sentence}; a step takes {', '.join(f'{microseconds(cost)} ({word})' for word, cost in costs.items())}"
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: watch."""
+        """Return the bot's input for the next step, which is empty: the bot only watches."""
         return InputFrame()
 
     def state(self):
-        """Return the measurements, for the replay digest; everything else is part of the physics state."""
+        """Return the measurements for the replay digest, which contains the physics state already."""
         return (
             self.frame,
             self.since,
@@ -245,7 +245,10 @@ class Tumbler(Scene):
 
 
 def drum_boxes():
-    """Return the boxes of the drum: its walls, slightly longer than a side to close the corners, and its blades."""
+    """Return the boxes of the drum, a list of Polygon: its walls and its blades.
+
+    The walls are slightly longer than a side, which closes the corners.
+    """
     side = 2.0 * (INSIDE + WALL) * np.tan(pi / SIDES)
     boxes = []
     for number in range(SIDES):
@@ -257,12 +260,12 @@ def drum_boxes():
 
 
 def radial(distance, angle):
-    """Return the point (x, y) at a distance from the drum's middle in the direction `angle` [rad]."""
+    """Return the point (x, y) [px] at a distance from the drum's middle in the direction `angle` [rad]."""
     return distance * cos(angle), distance * sin(angle)
 
 
 def places(count):
-    """Return `count` places inside the drum, in rows from the bottom up."""
+    """Return the positions of `count` shapes inside the drum, in rows from the bottom up, a list of (x, y) [px]."""
     step, room = 24.0, INSIDE - 20.0
     across = [step * column for column in range(-int(room / step), int(room / step) + 1)]
     found = [(x, y) for y in reversed(across) for x in across if hypot(x, y) < room and not in_blade(x, y)]
@@ -270,7 +273,7 @@ def places(count):
 
 
 def in_blade(x, y):
-    """Return whether a shape at (x, y) would overlap a blade of the drum in its starting position."""
+    """Return whether a shape at (x, y), relative to the drum's middle, would overlap a blade at the start."""
     for number in range(0, SIDES, 2):
         c, s = radial(1.0, 2 * pi * number / SIDES)
         if c * x + s * y > INSIDE - FIN - 14.0 and abs(c * y - s * x) < WALL / 4 + 14.0:
@@ -279,7 +282,7 @@ def in_blade(x, y):
 
 
 def draw_drum(surface, camera, angle):
-    """Draw walls, blades and rivets at an angle, lit from the upper left."""
+    """Draw the drum's walls, blades and rivets, lit from the upper left. angle: of the drum [rad]."""
     x, y = camera.to_canvas(*MIDDLE)
 
     def at(distance, turn):

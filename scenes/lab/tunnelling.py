@@ -1,13 +1,13 @@
 """The same shots in four lanes: tested where they stand, along a ray, swept, and at their time of impact. Which miss?
 
-What to see: a fast ball is on one side of a thin plate in one step and beyond it in the next. The ray through its
-centre finds the plate, but passes a ball that would only graze the edge. The sweep finds both, as long as nothing
-turns: a spinning rod reaches the plate with an end that was elsewhere when the step began. Bullets that fly at each
-other are each other's plate.
+What to see: a fast ball is on one side of a thin plate in one step and beyond it in the next. The ray of its centre
+finds the plate, but misses it if the ball only grazes the edge. The sweep finds both, as long as nothing rotates: a
+spinning rod reaches the plate with an end that was elsewhere when the step began. Bullets that fly at each other are
+each other's plate.
 
-Why it matters: The cheaper the sweep, the more it misses; the lanes show what each kind of shot needs, and its price.
+Why it matters: A cheaper sweep misses more; the lanes show the price, and what each kind of shot needs.
 
-To try: turn up the speed or thin the plate, then Space for rods: see who misses first.
+To try: turn up the speed or thin the plate, then Space for rods: see which lane misses first.
 
 Source: Mirtich 1996 (conservative advancement); Catto, Continuous Collision, GDC 2013.
 """
@@ -61,7 +61,10 @@ COUNT_X = 392
 
 
 class Tunnelling(Scene):
-    """One world with four lanes. In each lane, a gun fires at a plate, or two guns fire at each other."""
+    """Scene with one world of four lanes. In each lane a gun fires at a plate, or two guns fire at each other.
+
+    The lanes differ in the argument `continuous` of the shots.
+    """
 
     name = "lab/tunnelling"
     title = "Tunnelling"
@@ -85,7 +88,7 @@ class Tunnelling(Scene):
     legend_at = (392, 226)
 
     def build(self):
-        """Build four plates."""
+        """Build the four lanes with their plates."""
         self.add_world()
         self.sky = load_backdrop("sky_dusk")
         self.gun = pygame.transform.rotate(load_atlas("planes")["player"], -90)
@@ -115,7 +118,7 @@ class Tunnelling(Scene):
             self.plates = {lane: raise_plate(self.world, self.values["plate"], middle(lane)) for lane in LANES}
 
     def change_slider(self, name, value):
-        """Apply a change of a slider: build other plates at once; shots in flight are no longer counted."""
+        """Set a slider, and build the plates again. Shots in flight are no longer counted."""
         super().change_slider(name, value)
         if name != "speed":
             self.world.remove_bodies([*self.of_body, *self.spent])
@@ -125,7 +128,7 @@ class Tunnelling(Scene):
             self._raise_plates()
 
     def update(self, inputs):
-        """Process keys, fire, make one step, then count."""
+        """Process keys, fire, make one step, and count the shots that hit or missed."""
         for slider, back, forth, notch in (("speed", "left", "right", 300), ("plate", "down", "up", 1)):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
@@ -159,10 +162,9 @@ class Tunnelling(Scene):
             self.due[kind, lane] += trial["must"]
 
     def measured(self):
-        """Return the runs to time beside the game.
+        """Return the runs that the measuring process times during the game, one for each lane.
 
-        A run is one lane, with one shot at a time from the gun to the end of the lane, over as many shots as make 60
-        steps.
+        A run contains one shot at a time from the gun to the end of the lane, and as many shots as make 60 steps.
         """
         speed, plate = float(self.values["speed"]), float(self.values["plate"])
         steps = steps_of_flight(speed)
@@ -219,7 +221,7 @@ class Tunnelling(Scene):
                 self._end(trial)
 
     def draw(self, canvas, alpha):
-        """Draw the lanes, the plates, each shot at its positions after every step so far, and the counts."""
+        """Draw the lanes, the plates, the shots with their earlier positions, and the counts."""
         canvas.surface.fill(NIGHT)
         canvas.text("TUNNELLING", 4, 4, GOLD)
         step = self.values["speed"] / 60
@@ -295,7 +297,7 @@ class Tunnelling(Scene):
     def check(self):
         """Return the goals of the self-check.
 
-        The lane with times of impact misses nothing; each other lane has the misses that its method must have.
+        The lane with times of impact misses nothing. Each other lane misses the shots that its method cannot find.
         """
         missed, due = self.missed, self.due
         made_up = sum(count for (kind, lane), count in self.false.items() if kind != "rods" or lane == "toi")
@@ -341,7 +343,7 @@ class Tunnelling(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the misses of each lane among its due hits, and the time of a step."""
+        """Return a sentence with the misses of each lane, out of the shots that had to hit, and the time of a step."""
         kind = self.kind
         ended = {lane: self.hit[kind, lane] + self.missed[kind, lane] for lane in LANES}
         if not all(ended.values()):
@@ -353,18 +355,21 @@ class Tunnelling(Scene):
         return f"{kind}: {', '.join(parts)}"
 
     def bot(self):
-        """Return the bot's input for the next step. Its plan: watch balls, rods and bullets; raise the speed once."""
+        """Return the bot's input for the next step.
+
+        The bot shows balls, rods and bullets, and raises the speed once.
+        """
         tap = {100: "right", 220: "fire", 420: "fire"}.get(self.frame)
         return InputFrame(frozenset((tap,)) if tap else frozenset())
 
     def state(self):
-        """Return the counts, for the replay digest; the shots are part of the physics state."""
+        """Return the counts for the replay digest, which contains the physics state already."""
         counts = (self.fired, self.due, self.hit, self.missed, self.false)
         return (self.frame, *self.values.values(), *(value for count in counts for value in count.values()))
 
 
 def middle(lane):
-    """Return the canvas y of a lane's middle."""
+    """Return the y of a lane's middle [canvas px]."""
     return LANE_TOP + LANES.index(lane) * LANE_HEIGHT + 9 + (LANE_HEIGHT - 12) / 2
 
 
@@ -374,7 +379,7 @@ def inside(lane):
 
 
 def rod_ends(pose):
-    """Return the two ends of a rod's core, in whole pixels."""
+    """Return both ends of a rod's core, each as whole pixels (x, y). pose: (x, y, angle) of the rod."""
     x, y, angle = pose
     dx, dy = ROD_HALF * cos(angle), ROD_HALF * sin(angle)
     return (round(x - dx), round(y - dy)), (round(x + dx), round(y + dy))

@@ -1,4 +1,4 @@
-"""The background of the labs with piles (dusk sky, grass or a wooden table), and the head line of all labs."""
+"""The background of the labs with piles (dusk sky, grass or a wooden table), and the title line of all labs."""
 
 import pygame
 
@@ -12,9 +12,10 @@ HEAD = 16  # [canvas px] of the dark head line
 
 
 class Yard:
-    """A background picture of the canvas's size, drawn once.
+    """A background picture of the canvas's size, drawn once when the object is made.
 
-    `ground`: canvas y of the floor, or a tuple of several; `dim`: darkening of the sky; `table`: boards, not grass.
+    ground: canvas y of the floor, or a tuple of several; dim: darkening of the sky (0..255); table: whether the floor
+    is of boards instead of grass.
     """
 
     def __init__(self, ground, dim=40, table=False):
@@ -25,26 +26,26 @@ class Yard:
         self.picture = canvas.surface
 
     def draw(self, canvas, title, question):
-        """Draw the background, and the head line with the title and the question."""
+        """Draw the background, and the title line with the scene's title and question."""
         canvas.surface.blit(self.picture, (0, 0))
         draw_head(canvas, title, question)
 
 
 def draw_head(canvas, title, question):
-    """Draw the dark head line at the top, with the scene's title and its question."""
+    """Draw the dark title line at the top of the canvas, with the scene's title and question."""
     canvas.surface.fill(INK, (0, 0, CANVAS_SIZE[0], HEAD))
     canvas.text(title, 4, 4, GOLD)
     canvas.text(question, CANVAS_SIZE[0] - 6, 6, FOG, SMALL, align="right")
 
 
 def plate(canvas, rect, ground=(20, 16, 32, 205)):
-    """Draw a dark transparent plate of the colour `ground` for text; overlays do not cover it."""
+    """Draw a dark, transparent plate for text, which overlays do not cover. ground: its colour (r, g, b, alpha)."""
     darken(canvas, rect, ground)
     canvas.fix(rect)
 
 
 def darken(canvas, rect, ground=(20, 16, 32, 205)):
-    """Darken a rectangle of the canvas with the transparent colour `ground`."""
+    """Darken a rectangle of the canvas. ground: the transparent colour laid over it (r, g, b, alpha)."""
     shade = pygame.Surface(pygame.Rect(rect).size, pygame.SRCALPHA)
     shade.fill(ground)
     canvas.surface.blit(shade, rect[:2])

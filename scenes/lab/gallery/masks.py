@@ -61,7 +61,7 @@ def wrong(side):
 
 
 def build_squares(side, snap):
-    """Build pairs of square pixel masks of 32 px. `snap`: whether masks are tested at whole pixels."""
+    """Build pairs of square pixel masks of 32 px. snap: whether masks are tested at whole pixels (see PixelMask)."""
     square = PixelMask.from_array(np.ones((SIZE, SIZE), bool), snap=snap)
     side.kept.update(judged=0, missed=0, chance=np.random.default_rng(7), pairs=[])
     for place in SQUARES:

@@ -98,7 +98,7 @@ def build_load(side):
 def take_away(side):
     """Remove the load in step GONE. If this side runs FORCES_KEPT, move the load far away by writing its x instead.
 
-    A body that is moved this way does not clear the impulses that the other contacts have kept.
+    In that case the other contacts keep their impulses of the last step ("forces kept").
     """
     if side.steps != GONE:
         return
