@@ -1,1 +1,1 @@
-"""Measurements outside the frame: times of named work, errors against references, and the settings that follow."""
+"""Measurements made apart from the game: times of named work, errors against references, and advice on settings."""

@@ -1,8 +1,8 @@
 """Advice on the settings of a scene: the fastest setting whose error is within a limit.
 
-First, settings that differ from the present one by a single change are measured. Then the changes that save time are
-measured together. Advice is given only if it is certain: over all moments, the intervals of the two times do not
-overlap, and the times differ by more than 10 % (pareto_front.TIE).
+First, settings that differ from the current one by a single change are measured. Then the changes that save time are
+combined, and the combination is measured. A faster setting is advised only if it is certainly faster: over all moments,
+the intervals of the two times do not overlap, and the times differ by more than 10 % (pareto_front.TIE).
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -23,7 +23,7 @@ PARTS = (("broadphase",), ("tier",), ("solver", "substeps"), ("narrowphase",))
 class Advice(NamedTuple):
     """The result of `advise`.
 
-    here: the present setting. best: the setting to use; equal to `here` if no setting is certainly faster; None if no
+    here: the current setting. best: the advised setting; equal to `here` if no setting is certainly faster; None if no
     setting is within the error.
     """
 
@@ -38,9 +38,10 @@ Report = Callable[[int, int], object]  # called with (runs done, runs in all)
 def measure_settings(
     survey: Survey, moments: Sequence[Moment], settings: Iterable[Setting], report: Report, seed: int
 ) -> None:
-    """Measure the errors and times of these settings at every moment, and add them to the survey.
+    """Measure the errors and times of `settings` at every moment, and add them to the survey.
 
-    moments: snapshots of a world. report(number of runs done, number of all runs) is called after each run.
+    moments: snapshots of a world; seed: for the random order of the runs. report(number of runs done, number of all
+    runs) is called after each run.
     """
     settings, chance, done = list(settings), Random(seed), 0
     survey.planned, of = survey.planned + len(settings), len(moments) * len(settings) * (RUNS + 1)
@@ -65,9 +66,10 @@ def measure_settings(
 def advise(
     moments: Sequence[Moment], error: float, report: Report = lambda done, of: None, seed: int = 0
 ) -> tuple[Advice, Survey]:
-    """Measure the settings around the present one, at some moments. Return the advice and the survey of measurements.
+    """Measure the settings around the current one at some moments. Return the advice and the measurements.
 
-    error: largest error [px] of an advised setting. Raises ValueError for no moments.
+    error: largest error [px] of an advised setting; report, seed: as in measure_settings(). Raises ValueError if there
+    is no moment.
     """
     if not moments:
         raise ValueError("moments must be one at least (got none)")
@@ -88,7 +90,7 @@ def advise(
 def advised(survey: Survey, here: Setting, error: float = VISIBLE) -> Setting | None:
     """Return the fastest measured setting whose error of every kind is at most `error` [px].
 
-    Return None if no setting is certainly faster than the present one (`here`), or if `here` is the only one within the
+    Return None if no setting is certainly faster than the current one (`here`), or if `here` is the only one within the
     error. Only settings with enough runs at every moment are compared.
     """
     within = [each for each in settings_within(survey, error) if survey.dots[each].sure]
@@ -143,10 +145,10 @@ def is_cheaper(survey: Survey, one: Setting, other: Setting) -> bool:
 
 
 def _together(survey, here, error):
-    """Return `here` with several changes combined: for each group of fields in PARTS, those of the fastest setting that
-    differs in this group alone.
+    """Return `here` with several changes combined, one for each group of fields in PARTS.
 
-    A group is changed only if that is certainly faster by itself, or if `here` is not within the error.
+    A group gets the values of the fastest setting that differs from `here` in this group alone. It is changed only if
+    that setting is certainly faster, or if `here` is not within the error.
     """
     together = here
     for part in PARTS:

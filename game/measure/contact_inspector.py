@@ -1,7 +1,7 @@
 """Inspector of a contact: the result of each stage of the last step for one pair of shapes, with numbers and times.
 
-The time of a stage is for all pairs of the step. The narrow-phase time of the pair alone is measured on request: a
-thousand copies of the pair, warmed up, in five runs.
+The time of a stage is that of all pairs in the step. The narrow-phase time of the pair alone is measured on request, as
+the time of a thousand copies of the pair in five runs after a warm-up.
 """
 
 from math import atan2, degrees
@@ -51,13 +51,16 @@ def nearest(world: World, x: float, y: float, reach: float) -> Touch | None:
 
 
 def still_there(world: World, touch: Touch) -> bool:
-    """Return whether the two shapes of `touch` have a contact in the last step."""
+    """Return whether the two shapes of `touch` have a contact after the last step."""
     found = world.contacts
     return bool(((found["shape_a"] == touch.shape_a) & (found["shape_b"] == touch.shape_b)).any())
 
 
 def explain(world: World, touch: Touch) -> list[Part]:
-    """Return the result of each stage of the last step for a pair. Raises ValueError if the pair does not touch."""
+    """Return the results of all stages of the last step for the shapes of `touch`, a list of Part.
+
+    Raises ValueError if the shapes do not touch.
+    """
     rows, _ = by_parent(world.reported_rows())
     # contacts of the child shapes of both shapes
     mine = rows[(rows["parent_a"] == touch.shape_a) & (rows["parent_b"] == touch.shape_b)]
@@ -72,7 +75,7 @@ def explain(world: World, touch: Touch) -> list[Part]:
 
 
 def cost_of(world: World, touch: Touch) -> Cost:
-    """Return the narrow-phase time [s] of one pair: the two bodies of `touch` at their present poses."""
+    """Return the narrow-phase time [s] of one pair: the two bodies of `touch` at their current poses."""
     bodies = world.body(touch.body_a), world.body(touch.body_b)
     poses = [np.tile((*body.position, body.angle), (LEAST_PAIRS, 1)) for body in bodies]
     batch = PairBatch(bodies[0].shapes, poses[0], bodies[1].shapes, poses[1])

@@ -1,8 +1,8 @@
-"""The cost of each effect: worlds in the same state are stepped with and without the effect, outside the game's frame.
+"""The cost of each effect: copies of a world are stepped with and without the effect, outside the game's frame.
 
 A declared effect is removed together with all effects that need it. An undeclared effect is added together with the
-effects that it needs, at neutral settings such as friction 0 (NEUTRAL in game/measure/ledger.py). Its cost is then the
-price of declaring the effect.
+effects that it needs, at neutral settings such as friction 0 (NEUTRAL in game/measure/ledger.py). So the cost of an
+undeclared effect is the price of declaring it without using it.
 """
 
 from collections.abc import Callable
@@ -16,7 +16,10 @@ from physics import Effects, World
 
 
 class Side(NamedTuple):
-    """One of the two compared worlds, by its effects. idle: the effect whose settings are made neutral; "" for none."""
+    """The effects of one of the two worlds that are compared.
+
+    idle: the effect whose settings are made neutral, so that it has nothing to do; "" for none.
+    """
 
     effects: Effects
     idle: str = ""
@@ -63,7 +66,7 @@ def sides_of(effects: Effects) -> dict[str, tuple[Side, Side]]:
 
 
 def world_under(moment: Moment, side: Side) -> World:
-    """Return a world in the state of the moment, with the effects of `side` and all bodies awake."""
+    """Return a world in the state of `moment`, with the effects of `side` and all bodies awake."""
     world = moment.world(moment.here)
     world.set_effects(side.effects)
     if side.idle:
@@ -72,7 +75,7 @@ def world_under(moment: Moment, side: Side) -> World:
 
 
 def can_be(moment: Moment, side: Side) -> bool:
-    """Return whether a world in the state of the moment is valid with the effects of `side`."""
+    """Return whether a world in the state of `moment` is valid with the effects of `side`."""
     try:
         world_under(moment, side)
     except ValueError:
@@ -81,7 +84,10 @@ def can_be(moment: Moment, side: Side) -> bool:
 
 
 def time_side(moment: Moment, side: Side, steps: int = STEPS) -> float:
-    """Return the mean time of a step [s] in one run from the moment. The first run also compiles: do not count it."""
+    """Return the mean time of a step [s] over `steps` steps from `moment`, with the effects of `side`.
+
+    The first run also compiles kernels: do not count it.
+    """
     return seconds_a_step(world_under(moment, side).step, steps)
 
 
@@ -90,8 +96,8 @@ def measure_effects(
 ) -> None:
     """Time a step from `moment` with and without every effect, in several rounds of random order.
 
-    report(effect, cost with the effect, cost without it) is called after each round. Nothing is reported for an effect
-    that the world cannot be without (characters need response). Ends early when goes_on() is False.
+    report(effect, cost with the effect, cost without it) is called after each round. An effect that the world cannot be
+    without is left out (characters need response). The function returns early when goes_on() is False.
     """
     sides = {
         name: pair for name, pair in sides_of(moment.effects).items() if all(can_be(moment, each) for each in pair)

@@ -60,8 +60,8 @@ class Verdicts(NamedTuple):
 class Error:
     """One kind of error of a setting: in pixels, or in wrong answers per 100 encounters if it has `verdicts`.
 
-    floor: errors below it are within the uncertainty of the reference. steps: number of steps after which the error was
-    read. failures: counts of failures during the run.
+    floor: errors below it are within the uncertainty of the reference [px]. steps: number of steps after which the
+    error was read. failures: counts of failures during the run, by kind.
     """
 
     value: float
@@ -111,7 +111,7 @@ class Reference(NamedTuple):
 
 
 class References:
-    """Reference run of a moment, computed at first use, and the errors of settings against this run."""
+    """The reference run from one moment, computed at first use, and the errors of settings against this run."""
 
     def __init__(self, moment: Moment) -> None:
         self.moment = moment
@@ -123,12 +123,12 @@ class References:
 
     @property
     def kinds(self) -> tuple[str, ...]:
-        """The kinds of error of this moment; the most important first."""
+        """The kinds of error that are measured at this moment, the most important first."""
         return ("overlap", "way") if self.moment.effects.response else ("verdict",)
 
     @cached_property
     def reference(self) -> Reference:
-        """Run with the finest steps, the number of steps for which it is a valid reference, and the floor [px]."""
+        """The reference run: that with the finest steps, its horizon in steps, and the floor [px]."""
         if self.moment.effects.stacking:
             fine = self.moment.way(self.truth)
             coarse = self.moment.way(self.truth._replace(substeps=COARSE * PLAIN))
@@ -142,7 +142,7 @@ class References:
         return Reference(fine, last, float(max(unsure[last - 1] / AGREED, softness[last - 1])))
 
     def errors(self, setting: Setting) -> dict[str, Error]:
-        """Return {kind: Error} of a setting."""
+        """Return {kind: Error} of a setting at this moment."""
         if not self.moment.effects.response:
             return {"verdict": self._verdict(setting)}
         (fine, last, floor), way = self.reference, self.moment.way(setting)
@@ -152,10 +152,10 @@ class References:
         }
 
     def _verdict(self, setting) -> Error:
-        """Return the "verdict" error of a setting: in LOOKS of the steps, the touching pairs are compared with those of
-        an exact world.
+        """Return the "verdict" error of a setting, the mean over all reported and missed hits [px].
 
-        Bodies move alike in both worlds, because there is no collision response.
+        At LOOKS steps of the run, the touching pairs are compared with those of an exact world. Bodies move alike in
+        both worlds, because there is no collision response.
         """
         world, true = self.moment.world(setting), self.moment.world(self.truth)
         reported, hits, failures = set(), set(), Counter()
@@ -180,10 +180,9 @@ def exact_tier(tier: str) -> str:
 
 
 def pairs_of(world: World) -> set[tuple[int, int]]:
-    """Return the pairs of ids of touching bodies, the smaller id first.
+    """Return the touching pairs of bodies, a set of (id, id) with the smaller id first.
 
-    With this order, pairs of worlds at different tiers can be compared: which body of a contact is A depends on the
-    shapes.
+    The order allows worlds at different tiers to be compared: which body of a contact is body A depends on the shapes.
     """
     contacts = world.contacts[world.contacts["separation"] <= 0.0]  # contacts include pairs about to meet
     ids = np.sort(np.stack([contacts["body_a"], contacts["body_b"]], axis=1), axis=1)

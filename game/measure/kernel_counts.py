@@ -4,7 +4,7 @@ Kernels run as plain Python and record the types of their arguments; nothing is 
 
 Standard input takes one line: {"effects": names, "broadphase": name, "pieces": shape pairs and queries as in
 physics.warmup}. Standard output gets one line per effect: [name, number of kernels that are called only with this
-effect]. Without a compiler there is no output.
+effect]. Without a compiler (numba) there is no output.
 """
 
 import json
@@ -20,8 +20,9 @@ from physics.warmup import run_warmup
 
 
 def called(effects: Effects, broadphase: str, pieces: tuple[str, ...] | None) -> frozenset:
-    """Return the (kernel, argument types) of all kernel calls that a world with these effects and this broad phase can
-    make. pieces: as in physics.warmup.
+    """Return the set of (kernel, argument types) of all kernel calls that a world can make.
+
+    effects, broadphase: of the world; pieces: shape pairs and queries that it uses, as in physics.warmup.
     """
     with tiers.collecting(all_calls=True) as found:
         run_warmup(effects, broadphase, pieces=pieces)
@@ -29,8 +30,9 @@ def called(effects: Effects, broadphase: str, pieces: tuple[str, ...] | None) ->
 
 
 def counts(effects: Effects, broadphase: str, pieces: Iterable[str] | None) -> Iterable[tuple[str, int]]:
-    """Yield (effect, number of kernels that are compiled for this effect alone) for every effect. broadphase, pieces:
-    as for called().
+    """Yield (effect, number of kernels that are compiled for this effect alone) for every effect.
+
+    effects, broadphase, pieces: of the world, as for called().
     """
     wanted = None if pieces is None else tuple(pieces)
     known = cache(lambda each: called(each, broadphase, wanted))

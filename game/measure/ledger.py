@@ -29,8 +29,10 @@ NEVER_NEUTRAL = ("narrowphase", "response", "stacking", "rotation", "sleeping")
 
 
 class Entry(NamedTuple):
-    """Result for one effect of one scene. Frames count from 1. A frame is None if the two copies never differ in that
-    respect.
+    """Result for one effect of one scene.
+
+    A field with a frame is the first one in which the two copies differ in that respect (counted from 1), or None if
+    they never do.
     """
 
     effect: str
@@ -61,10 +63,10 @@ class Entry(NamedTuple):
 
 
 def entry(scene_class: type[Scene], effect: str, frames: int, after: int = AFTER, seed: int = 1) -> Entry:
-    """Run a scene with and without an effect, for `frames` frames at most, and return the differences.
+    """Run a scene with and without an effect, for at most `frames` frames, and return the differences.
 
-    after: number of frames to continue once the two copies differ. Raises ValueError for a scene that cannot be built
-    with all its declared effects.
+    after: number of further frames once the two copies differ; seed: of the scene. Raises ValueError for a scene that
+    cannot be built with all its declared effects.
     """
     declared = getattr(scene_class.effects, effect)
     if declared:
@@ -84,10 +86,10 @@ def entry(scene_class: type[Scene], effect: str, frames: int, after: int = AFTER
 
 
 def _compared(one, other_class, found, frames, after):
-    """Run both copies frame by frame. Return `found`, an Entry, with the measured fields filled in.
+    """Run both copies frame by frame. Return the Entry `found` with the measured fields filled in.
 
-    one: the first copy, already built; other_class: scene class of the second copy; after: frames to continue once they
-    differ.
+    one: Side of the first copy; other_class: scene class of the second copy; frames: greatest number of frames; after:
+    number of further frames once the two copies differ.
     """
     try:
         other = Side(other_class, one.scene.seed)
@@ -119,7 +121,7 @@ def _compared(one, other_class, found, frames, after):
 
 
 class Side:
-    """Running copy of the scene. `seconds`: time of the last step; `worked`: total of the WORK counters so far."""
+    """Running copy of the scene. seconds: time of its last step; worked: sum of the counters WORK of all steps."""
 
     def __init__(self, scene_class: type[Scene], seed: int) -> None:
         self.scene = scene_class(seed)
@@ -127,7 +129,7 @@ class Side:
         self.seconds, self.worked = 0.0, 0
 
     def bot(self) -> InputFrame:
-        """Return the next input of the scene's bot."""
+        """Return the bot's input for the next step."""
         played = self.scene.bot()
         return played if isinstance(played, InputFrame) else InputFrame(frozenset(played))
 
@@ -147,7 +149,7 @@ class Side:
         ]
 
     def reported(self) -> list[Any]:
-        """Return the events of the last step."""
+        """Return the events of the last step, each table as bytes to compare."""
         return [
             np.ascontiguousarray(getattr(world.events, name)).tobytes()
             for world in self.scene.worlds
@@ -155,17 +157,18 @@ class Side:
         ]
 
     def ruled(self) -> tuple[Any, ...]:
-        """Return the scene's state outside its worlds."""
+        """Return the scene's own state, without that of its worlds."""
         return self.scene.state()
 
     def parted(self) -> list[Any]:
-        """Return the digests of the worlds, the scene's state, and the state of its random numbers."""
+        """Return the whole state to compare: digests of the worlds, the scene's own state, and its random numbers."""
         return [*(world.digest() for world in self.scene.worlds), self.scene.state(), self.scene.random.getstate()]
 
 
 def root_mean_square(one: Scene, other: Scene) -> float:
-    """Return the root mean square distance [px] of the bodies that both scenes have (same world and id); 0 if there are
-    none.
+    """Return the root mean square distance [px] between the bodies of two copies of a scene.
+
+    Only bodies that exist in both count (same world and id); 0 if there are none.
     """
     squares = []
     for ours, theirs in zip(one.worlds, other.worlds, strict=False):

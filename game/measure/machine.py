@@ -1,4 +1,4 @@
-"""Facts about the machine that figures come from, without its name."""
+"""Facts about the machine on which figures were measured, without the machine's name."""
 
 import os
 import platform
@@ -9,7 +9,7 @@ PACKAGES = ("numpy", "numba", "pygame-ce", "pygame", "pymunk")
 
 
 def machine() -> dict[str, Any]:
-    """Return the facts about this machine, without its name."""
+    """Return {fact: value} about this machine: processor, cores, system, and the versions of Python and packages."""
     return {
         "cpu": cpu_model(),
         "cores": os.cpu_count(),

@@ -1,4 +1,4 @@
-"""Times of several measured runs: each is warmed up, then timed five times over 60 steps or more, in random order."""
+"""Timing of several measured runs: each is warmed up, then timed five times over 60 steps or more, in random order."""
 
 from collections.abc import Callable, Sequence
 from random import Random
@@ -15,10 +15,10 @@ WARM_STEPS = 2  # steps before the first run, which compile
 
 
 class RunFigures(NamedTuple):
-    """The figures of one measured run.
+    """The figures of one measured run so far.
 
-    cost: seconds per step over the repetitions so far. overlap: the deepest overlap in the judged steps [px]. farthest:
-    the farthest that a body moved in one step [px]. `overlap` and `farthest` are None if not requested.
+    cost: seconds per step over the repetitions. overlap: deepest overlap in the judged steps [px]. farthest: greatest
+    distance that a body moved in one step [px]. `overlap` and `farthest` are None if not requested.
     """
 
     cost: Cost
@@ -39,7 +39,7 @@ def measure_runs(
     """Time the runs in RUNS rounds, each in another order, while goes_on() is True.
 
     report(index of the run, seconds per step, overlap, farthest) is called after each run. The first round keeps the
-    given order. Overlaps and distances are measured before the first timed run.
+    given order. Overlap and greatest motion are measured before the first timed run.
     """
     made: dict[str, Snapshot] = {}  # by recipe: several runs start from the same world
     moments = [
@@ -70,9 +70,9 @@ def _snapshot(given, made):
 
 
 def _judge(moment, judged):
-    """Return (deepest overlap, farthest motion of a body in one step) [px] over the steps `judged`, (first, last).
+    """Return (deepest overlap, greatest motion of a body in one step) [px] over the judged steps.
 
-    Return (None, None) if `judged` is None.
+    judged: (first, last) step; if it is None, (None, None) is returned.
     """
     if judged is None:
         return None, None

@@ -1,7 +1,7 @@
 """One moment of a world, stepped under other settings: the cost of a step and the resulting motion.
 
-The scene's rules do not run: bodies keep their velocities. So every setting does the same work, and only the physics is
-timed. Times and motions are always taken in separate runs.
+The scene's rules do not run, so that only the physics is timed, and every setting does the same work. Times and motions
+are always taken in separate runs.
 """
 
 from collections import Counter
@@ -17,7 +17,10 @@ from physics import BROADPHASES, DYNAMIC, Effects, Snapshot, World
 
 
 class Moment:
-    """Snapshot of a world, with its setting at that moment (`here`). broadphase: name of its broad phase."""
+    """Snapshot of a world, with its setting at that moment (`here`).
+
+    broadphase: name of the world's broad phase.
+    """
 
     def __init__(self, snapshot: Snapshot, broadphase: str) -> None:
         facts = snapshot.facts
@@ -28,7 +31,7 @@ class Moment:
         self.here = setting_of(self.effects, broadphase, facts["solver"], facts["substeps"], tier)
 
     def world(self, setting: Setting) -> World:
-        """Return a new world in the state of the snapshot, under a setting."""
+        """Return a new world in the state of the snapshot, with the given setting."""
         facts = self.snapshot.facts
         strategy = BROADPHASES[setting.broadphase]()
         world = World(self.effects, strategy, pixels_per_meter=facts["pixels_per_meter"])
@@ -46,12 +49,13 @@ class Moment:
         return world
 
     def time_run(self, setting: Setting, steps: int = STEPS, stage: str | None = None, act: Act | None = None) -> float:
-        """Return the seconds per step of one run from this moment. The first run of a setting also compiles: do not
-        count it.
+        """Return the mean time of a step [s] in one run from this moment.
 
-        stage: time this stage only, 0 if the step has no stage of that name; None: time the whole step. act: time this
-        action instead of steps; before it, one step is made, which fills the broad phase, and the action is called once
-        untimed.
+        The first run of a setting also compiles kernels: do not count it.
+
+        stage: name of the only stage to time, 0 is returned if the step has no such stage; None: the whole step. act:
+        operation that is timed in place of the steps; before it, one step is made, which fills the broad phase, and the
+        operation is called once untimed.
         """
         world = self.world(setting)
         if stage is not None:
@@ -64,8 +68,9 @@ class Moment:
         return seconds_a_step(do, steps)
 
     def way(self, setting: Setting, steps: int = STEPS, divided: int = 1) -> "Way":
-        """Return the motion of the bodies from this moment under a setting. divided: number of shorter steps that
-        replace each step.
+        """Return the motion of the bodies from this moment under a setting.
+
+        divided: number of shorter steps that replace each step.
         """
         world = self.world(setting)
         return follow(world, steps, divided)
@@ -88,7 +93,10 @@ class Way(NamedTuple):
 
 
 def follow(world: World, steps: int, divided: int = 1) -> Way:
-    """Step a world and return the motion of its bodies. divided: number of shorter steps that replace each step."""
+    """Make `steps` steps of a world, and return the motion of its bodies.
+
+    divided: number of shorter steps that replace each step.
+    """
     places, overlap = [], []
     failures = Counter()
     dt = world.dt / divided
@@ -109,12 +117,12 @@ def follow(world: World, steps: int, divided: int = 1) -> Way:
 
 
 def failures_of(world: World) -> Counter[str]:
-    """Return the counts of failures in the last step; absent keys are 0."""
+    """Return the counts of failures in the last step, a Counter: cap hits and disabled bodies."""
     return +Counter(cap_hits=world.profile.counters["cap_hits"], disable_body=len(world.events.quarantined))
 
 
 def here_of(world: World, tier: str | None) -> Setting:
-    """Return the setting of a running world. tier: collision tier of the sprites, None if there are none."""
+    """Return the Setting of a running world. tier: collision tier of its sprites, None if there are none."""
     return setting_of(world.effects, world.broadphase.name, world.solver, world.substeps, tier)
 
 

@@ -21,7 +21,7 @@ from physics.tables.shape import SHAPE
 
 
 class PairBatch:
-    """Batch of n pairs of a body A and a body B. poses_a, poses_b: (n, 3) rows x, y [px], angle [rad].
+    """Batch of n pairs of a body A and a body B. poses_a, poses_b: (n, 3) rows of x [px], y [px], angle [rad].
 
     The rows of the bodies are in a random order drawn from `seed`, as in a world after some play. Raises TypeError or
     ValueError for invalid shapes or poses.
@@ -69,9 +69,10 @@ class PairBatch:
         self.bodies["id"][who] = who
 
     def _near(self, rows_a, rows_b, rng):
-        """Return the pairs of shapes whose AABBs overlap, in random order: (m, 2) SHAPE rows, and (m,) pairs of bodies.
+        """Return the pairs of shapes whose AABBs overlap, in random order.
 
-        rows_a, rows_b: for each shape of A and of B, its SHAPE rows in all pairs of bodies.
+        They are (m, 2) SHAPE rows, and (m,) numbers of the pairs of bodies that they belong to. rows_a, rows_b: for
+        each shape of A and of B, its SHAPE rows in all pairs of bodies; rng: generator of the order.
         """
         candidates, pairs = [], []
         for a in rows_a:
@@ -88,7 +89,7 @@ class PairBatch:
         return np.ascontiguousarray(both[turn]), owner[turn]
 
     def test(self) -> int:
-        """Test all pairs with the narrow phase, and nothing else. Return the number of manifolds."""
+        """Run the narrow phase for all pairs, and nothing else. Return the number of manifolds."""
         candidates, work = self.candidates, no_work()
         self.found = self.narrow_phase.collide(self.library, self.bodies, self.shapes, candidates, 0.0, work)
         return len(self.found)

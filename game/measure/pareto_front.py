@@ -8,8 +8,9 @@ TIE = 0.1  # costs that differ by less than this share count as equal, whatever 
 
 
 def pareto_front(points: Mapping[Name, tuple[float, float]]) -> list[Name]:
-    """Return the names of the points on the Pareto front (no other point has less cost and less error), the cheapest
-    first.
+    """Return the names of the points on the Pareto front, the cheapest first. points: {name: (cost, error)}.
+
+    No other point has both less cost and less error than a point on the front.
     """
     found, least = [], float("inf")
     for name in sorted(points, key=lambda each: points[each]):

@@ -5,7 +5,10 @@ from typing import NamedTuple
 
 
 class PowerLaw(NamedTuple):
-    """Fitted power law. error: standard error of the exponent; factor: cost at size 1 [unit of the costs]."""
+    """Fitted power law, cost = factor * size ** exponent.
+
+    error: standard error of the exponent; factor: cost at size 1 [unit of the costs].
+    """
 
     exponent: float
     error: float
@@ -17,9 +20,9 @@ class PowerLaw(NamedTuple):
 
 
 def fit_power_law(points: list[tuple[float, float]]) -> PowerLaw:
-    """Return the power law through (size, cost) points.
+    """Return the power law fitted to (size, cost) points.
 
-    Raises ValueError for fewer than three sizes (two leave no error), or for a value <= 0.
+    Raises ValueError for fewer than three sizes (the standard error needs three), or for a value <= 0.
     """
     if len({size for size, _ in points}) < 3 or min(map(min, points)) <= 0.0:
         raise ValueError(f"a power law needs three sizes and costs above 0 (got {points})")

@@ -7,19 +7,19 @@ SURE = 1.96  # standard deviations: 95 %
 
 
 class Rate(NamedTuple):
-    """A rate of `count` out of `total`."""
+    """A rate: `count` cases out of `total`."""
 
     count: int
     total: int
 
     @property
     def share(self) -> float:
-        """The rate, 0..1; 0 if nothing was counted."""
+        """The rate as a number 0..1; 0 if `total` is 0."""
         return self.count / self.total if self.total else 0.0
 
     @property
     def interval(self) -> tuple[float, float]:
-        """The 95 % confidence interval of the rate (Wilson 1927); (0, 1) if nothing was counted."""
+        """The 95 % confidence interval of the rate (Wilson 1927), (low, high); (0, 1) if `total` is 0."""
         if not self.total:
             return 0.0, 1.0
         n, p, z = self.total, self.share, SURE

@@ -1,7 +1,7 @@
 """Comparison of all collision tiers of sprites with the exact pixels, in a running world.
 
 ask() tests one tier per call, which keeps each call short. All tiers are tested at one snapshot, then a new one is
-taken. The tests run in a separate world, so they do not affect the scene.
+taken. The tests run in a separate world, so that they do not affect the scene.
 """
 
 from collections.abc import Sequence
@@ -19,7 +19,7 @@ Pairs = set[tuple[int, int]]  # ids of bodies
 
 
 class ReferenceTier:
-    """Comparison of all tiers with the tier "mask"; call ask(world) once per step.
+    """Comparison of all tiers with the tier "mask". Call ask(world) once per step.
 
     `wrong`, `missed`: rates of false hits among the reported hits, and of missed hits among the true hits, by tier.
     They count encounters over all snapshots at which every tier was tested: a pair of bodies counts once. lit: the tier
@@ -38,10 +38,10 @@ class ReferenceTier:
         self._hits: dict[str, Pairs] = {}
 
     def ask(self, world: World) -> bool:
-        """Find the colliding pairs of one more tier, all tiers by turns at the same snapshot of the world.
+        """Find the colliding pairs with the next tier. All tiers take their turn at the same snapshot of the world.
 
-        The first call takes the snapshot. Return whether this was the last tier; then the next call takes a new
-        snapshot.
+        The call for the first tier takes the snapshot. Return whether this was the last tier; then the next call takes
+        a new snapshot.
         """
         if self._moment is None:
             self._moment, self._hits = Moment(world.snapshot(), world.broadphase.name), {}

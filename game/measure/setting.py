@@ -1,4 +1,4 @@
-"""Setting of a world, and the list of settings to measure, which differ from the present one by one change each."""
+"""Setting of a world, and the list of settings to measure, each of which differs from the current one by one change."""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -11,7 +11,7 @@ SUBSTEPPED = ("soft_step", "sequential_impulse")  # solvers that use substeps, o
 
 
 class Setting(NamedTuple):
-    """The settings of a world that trade accuracy for time. None: the world does not use this setting."""
+    """The settings of a world that trade accuracy for time. A field is None if the world does not use it."""
 
     broadphase: str
     narrowphase: bool
@@ -20,11 +20,11 @@ class Setting(NamedTuple):
     tier: str | None = None
 
     def differs(self, other: "Setting") -> tuple[str, ...]:
-        """Return the names of the fields that differ from another setting."""
+        """Return the names of the fields whose values differ from those of another setting."""
         return tuple(name for name in self._fields if getattr(self, name) != getattr(other, name))
 
     def label(self, other: "Setting") -> str:
-        """Return the differences from another setting in a few words; "as it is" if there are none."""
+        """Return the differences from another setting as short text; "as it is" if there are none."""
         names = self.differs(other)
         words = [_WORDS[name](value) for name in names if (value := getattr(self, name)) is not None]
         if "solver" in names and self.substeps is not None:  # the number follows the solver's name without a unit
@@ -43,10 +43,10 @@ _WORDS = {
 
 
 def settings_around(here: Setting, effects: Effects) -> list[Setting]:
-    """Return the settings to measure: `here`, then those that differ from it by one change.
+    """Return the settings to measure: `here`, then all that differ from it by one change.
 
     A change is another broad phase, narrow phase or tier, or another solver with each number of substeps. The kinds of
-    change alternate.
+    change take turns in the list.
     """
     rows = [list(_solvers(here, effects)), list(_tiers(here)), list(_broadphases(here)), list(_narrow(here))]
     found = [here]

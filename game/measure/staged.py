@@ -1,4 +1,4 @@
-"""Step of a world that is run stage by stage: a stage can be replaced, and the processor time of each is measured.
+"""A step of a world, run stage by stage: stages can be replaced, and the processor time of each is measured.
 
 `world.profile` uses wall-clock time, which includes the time of other processes.
 """
@@ -13,8 +13,9 @@ from physics.tables.step_state import Stage
 
 
 def stages_of(world: World, *instead: Stage) -> tuple[Stage, ...]:
-    """Return the stages of a step of the world, which has no characters. A stage in `instead` replaces the stage of the
-    same name.
+    """Return the stages of a step of a world without characters.
+
+    A stage in `instead` replaces the stage of the same name.
     """
     others = {stage.stage: stage for stage in instead}
     own = plan(world.effects, world.solver, characters=False).stages
@@ -22,8 +23,9 @@ def stages_of(world: World, *instead: Stage) -> tuple[Stage, ...]:
 
 
 def advance(world: World, stages: Sequence[Stage], dt: float, spent: dict[str, Any] | None = None) -> None:
-    """Run one step with these stages, as `world.step(dt)` does. spent: {name of a stage: seconds}; the times of this
-    step are added.
+    """Run one step with these stages, as `world.step(dt)` does.
+
+    spent: {name of a stage: seconds}, to which the times of this step are added, or None.
     """
     world.profile.begin([stage.stage for stage in stages])
     state = begin(world, dt)
@@ -36,7 +38,10 @@ def advance(world: World, stages: Sequence[Stage], dt: float, spent: dict[str, A
 
 
 def seconds_of_stage(world: World, name: str, steps: int) -> float:
-    """Return the mean time of a stage [s] over `steps` steps. Raises KeyError if the world has no such stage."""
+    """Return the mean time of the stage `name` [s] over `steps` steps.
+
+    Raises KeyError if the world has no such stage.
+    """
     stages, spent = stages_of(world), {}
     with undisturbed():
         for _ in range(steps):

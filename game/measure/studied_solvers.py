@@ -15,7 +15,10 @@ from physics.tables.step_state import Stage, StepState, stage
 
 
 def sequential_impulse(passes: int, warm: bool = True) -> Stage:
-    """Return the solver's stage with `passes` passes per step. warm=False: each step starts from zero impulses."""
+    """Return a variant of sequential impulse with `passes` passes per step.
+
+    warm: if False, each step starts from zero impulses.
+    """
     solve = partial(solve_in_passes, passes=passes, warm=warm)
 
     @stage("sequential_impulse", reads=READS, writes=WRITES)
@@ -26,10 +29,10 @@ def sequential_impulse(passes: int, warm: bool = True) -> Stage:
 
 
 def soft_step(iterations: int = 1, warm: bool = True, relaxed: bool = True) -> Stage:
-    """Return the solver's stage with `iterations` solve passes per substep.
+    """Return a variant of soft step with `iterations` solve passes per substep.
 
-    warm=False: each substep starts from zero impulses. relaxed=False: without the relax pass, so the velocity that
-    separates overlaps is kept, and friction is solved in the solve pass. Raises ValueError for relaxed=False with
+    warm: if False, each substep starts from zero impulses. relaxed: if False, there is no relax pass, so the velocity
+    that separates overlaps is kept, and friction is solved in the solve pass. Raises ValueError for relaxed=False with
     several iterations.
     """
     if iterations > 1 and not relaxed:

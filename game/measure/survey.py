@@ -1,5 +1,6 @@
-"""Survey: the measured costs and errors of a scene's settings, collected run by run. Each setting is one dot of the
-plot.
+"""Survey of a scene's settings: their measured costs and errors, collected run by run.
+
+Each setting is a dot of a plot.
 """
 
 from collections import Counter
@@ -29,24 +30,24 @@ class Dot:
     _known: dict[Any, Any] = field(default_factory=dict)  # cached results: "cost", and ("error", kind)
 
     def took(self, moment: int, seconds: float) -> None:
-        """Add the seconds per step of one run from a moment."""
+        """Add the result of one timed run. moment: number of its moment; seconds: mean time of its steps [s]."""
         self.spent.setdefault(moment, []).append(seconds)
         self._known.clear()
 
     def erred(self, moment: int, errors: dict[str, Error]) -> None:
-        """Set the errors at a moment, by kind."""
+        """Set the errors at moment number `moment`, {kind: Error}."""
         self.errors[moment] = errors
         self._known.clear()
 
     @property
     def cost(self) -> Cost | None:
-        """Seconds per step: the mean over the moments; None before the first run."""
+        """Seconds per step, the mean over the moments, a Cost; None before the first run."""
         if "cost" not in self._known:
             self._known["cost"] = self._pooled_cost()
         return self._known["cost"]
 
     def error(self, kind: str) -> Error | None:
-        """Return the error of a kind, pooled over all moments; None before the first moment."""
+        """Return the Error of a kind, pooled over all moments; None while there is none."""
         if ("error", kind) not in self._known:
             self._known["error", kind] = self._pooled_error(kind)
         return self._known["error", kind]
@@ -79,7 +80,7 @@ class Dot:
 
 
 class Survey:
-    """Measurements of one scene, a Dot for each setting in order of arrival, and the conclusions from them."""
+    """Measurements of one scene: a Dot for each setting in order of arrival, and conclusions from them."""
 
     def __init__(self) -> None:
         self.dots: dict[Setting, Dot] = {}
@@ -95,7 +96,7 @@ class Survey:
         return next(iter(self.dots))
 
     def dot(self, setting: Setting) -> Dot:
-        """Return the dot of a setting; a new one if there is none."""
+        """Return the dot of a setting; it is added if there is none."""
         return self.dots.setdefault(setting, Dot(setting))
 
     def error(self, setting: Setting, kind: str) -> Error | None:
@@ -107,7 +108,7 @@ class Survey:
         return Error.of(verdicts, error.steps, error.failures)
 
     def known(self, kind: str) -> dict[Setting, tuple[Cost, Error]]:
-        """Return {setting: (cost, error)} of the settings with a cost and an error of this kind."""
+        """Return {setting: (Cost, Error)} of the settings that have a cost and an error of this kind."""
         found = {}
         for setting, dot in self.dots.items():
             cost, error = dot.cost, self.error(setting, kind)
@@ -116,8 +117,9 @@ class Survey:
         return found
 
     def pareto_front(self, kind: str) -> list[Setting]:
-        """Return the Pareto front of the settings by cost and error, the cheapest first. Errors below their floor count
-        as 0.
+        """Return the settings on the Pareto front of cost and error, the cheapest first.
+
+        Errors below their floor count as 0.
         """
         return pareto_front({s: (cost.median, reported_error(error)) for s, (cost, error) in self.known(kind).items()})
 
@@ -193,5 +195,5 @@ def shown(error: Error) -> str:
 
 
 def is_sound(error: Error) -> bool:
-    """Return whether no failures occurred in the runs that gave this error."""
+    """Return whether the runs that gave this error had no failures."""
     return not any(error.failures.values())

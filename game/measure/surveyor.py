@@ -1,4 +1,4 @@
-"""Client of the measuring process: the game orders measurements and receives the results in a Survey."""
+"""Client of the measuring process: the game sends orders for measurements and receives the results."""
 
 import contextlib
 import json
@@ -89,7 +89,10 @@ class Surveyor:
         self._hand_on_beside(order, partial(_save_run, order["run"], run))
 
     def measure_sprites(self, first: PixelMask, second: PixelMask) -> None:
-        """Order measurements of every tier for a pair of sprites, `first` and `second`; the results go to `figures`."""
+        """Order measurements of every tier for the pair of sprites `first` and `second`.
+
+        The results go to `figures`.
+        """
         if not self._started():
             return
         self.figures, self.latest = {}, "sprites"
@@ -99,7 +102,7 @@ class Surveyor:
         _hand_on(self.process, order, partial(np.savez, order["sprites"], **arrays), self.found)
 
     def measure_runs(self, request: RunRequest) -> None:
-        """Order the runs of a request that have no figures yet; the results go to `figures`.
+        """Order those runs of a request that are not measured often enough yet. The results go to `figures`.
 
         The order replaces an unfinished earlier one.
         """
@@ -122,11 +125,10 @@ class Surveyor:
         self._hand_on_beside(order, lambda: [each.save(paths[id(each)]) for each in snapshots])
 
     def measure_effects(self, snapshot: Snapshot, broadphase: str, pieces: tuple[str, ...] | None) -> None:
-        """Order measurements of the cost of each effect from `snapshot`, and of the number of its compiled kernels; the
-        results go to `effects`.
+        """Order measurements of each effect: its cost, and the number of kernels compiled for it.
 
-        broadphase: name of the broad phase of the snapshot's world. pieces: the parts of the physics that the scene
-        uses, as physics.warmup takes them.
+        The results go to `effects`. snapshot: state from which the steps are timed. broadphase: name of the broad phase
+        of its world. pieces: shape pairs and queries that the scene uses, as in physics.warmup.
         """
         if not self._started():
             return
@@ -166,7 +168,7 @@ class Surveyor:
     def _hand_on_beside(self, order, save):
         """Start a thread that calls save() and then sends the order. save() writes the files that the order names.
 
-        This takes a thread because compressing the pixels of a level takes longer than a frame.
+        A thread is used because compressing the pixels of a level takes longer than a frame.
         """
         args = self.process, order, save, self.found
         threading.Thread(target=_hand_on, args=args, name="hand on", daemon=True).start()
@@ -176,13 +178,13 @@ class Surveyor:
         return str(Path(self.folder.name) / name)
 
     def turn(self) -> None:
-        """Store the results that arrived since the last call. Call it once per frame."""
+        """Store the results that have arrived since the last call. Call it once per frame."""
         with contextlib.suppress(queue.Empty):
             while True:
                 self._take(self.found.get_nowait())
 
     def wait(self, seconds: float) -> None:
-        """Store results until the last order is done, for at most `seconds`."""
+        """Store results as they arrive until the last order is done, for at most `seconds`."""
         end = monotonic() + seconds
         with contextlib.suppress(queue.Empty):
             while self.busy:
@@ -232,7 +234,7 @@ class Surveyor:
         self.figures[name] = RunFigures(Cost.of(seconds, steps), overlap, farthest)
 
     def stop(self) -> None:
-        """End the measuring process. The results are kept."""
+        """End the measuring process. The results so far are kept."""
         process, self.process = self.process, None
         folder, self.folder = self.folder, None
         self.busy = False
@@ -245,8 +247,8 @@ class Surveyor:
 def _hand_on(process, order, save, found):
     """Call save(), which writes the files that `order` names, then send the order to the measuring process `process`.
 
-    If save() fails while the process runs, the failure is put into the queue `found`, as a result. If the process has
-    ended, nothing is reported here: the thread that reads its results reports that.
+    If save() fails while the process runs, the failure is put into the queue `found` like a result. If the process has
+    ended, nothing is done here, because the thread that reads its results reports that.
     """
     try:
         save()
@@ -268,7 +270,7 @@ def _listen(process, found):
 
 
 def figures_of(values: list[Any]) -> TierFigures:
-    """Return a TierFigures from its JSON form."""
+    """Return the TierFigures that the measuring process sent as JSON. values: its fields in order."""
     tier, shapes, hit, miss, wrong, missed, build, fit = values
     costs, rates = (Cost(*hit), Cost(*miss)), (Rate(*wrong), Rate(*missed))
     return TierFigures(tier, shapes, *costs, *rates, Cost(*build), Fit(*fit))

@@ -1,4 +1,4 @@
-"""Synchronous measurement of a scene's requests, for runs without a player."""
+"""Measurement of a scene's requests in this process, which waits for the results; for runs without a player."""
 
 from game.measure.measured_runs import RunFigures, measure_runs
 from game.measure.tiers import measure_tiers

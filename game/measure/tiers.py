@@ -23,7 +23,10 @@ REPEATS = 3  # tests of a batch per run: 40 us alone would be short for a clock
 
 
 class TierFigures(NamedTuple):
-    """Figures of one collision tier against the exact mask. Costs are seconds per pair."""
+    """Figures of one collision tier for a pair of sprites, against the exact masks.
+
+    Costs of tests are seconds per pair.
+    """
 
     tier: str
     shapes: int  # number of shapes that represent the first sprite
@@ -36,9 +39,9 @@ class TierFigures(NamedTuple):
 
 
 class Poses(NamedTuple):
-    """Poses of pairs of two sprites. `first`, `second`: (n, 3) rows of x, y [px], angle [rad] for each sprite.
+    """Poses of n pairs of two sprites. first, second: (n, 3) rows of x [px], y [px], angle [rad] of each sprite.
 
-    `met`: (n,) bool, whether the pixels of the two sprites touch.
+    met: (n,) bool, whether the pixels of the two sprites touch.
     """
 
     first: np.ndarray
@@ -47,8 +50,9 @@ class Poses(NamedTuple):
 
 
 def poses_around(first: PixelMask, second: PixelMask, count: int = POSES, seed: int = 0) -> Poses:
-    """Return `count` random poses of two sprites, of which about half are hits. Raises ValueError for a sprite without
-    pixels.
+    """Return `count` random poses of two sprites, of which about half are hits.
+
+    Raises ValueError for a sprite without solid pixels.
     """
     exact = [fit(mask, "mask") for mask in (first, second)]
     for name, mask in (("first", first), ("second", second)):
@@ -83,9 +87,9 @@ def measure_tiers(
     tiers: Sequence[str] = TIERS,
     seed: int = 0,
 ) -> None:
-    """Measure the tiers for two sprites over random relative poses, and call report(figures) for each tier.
+    """Measure the tiers for two sprites over random relative poses, and call report(TierFigures) for each tier.
 
-    Raises ValueError for a sprite without pixels.
+    seed: for the poses and the order of the runs. Raises ValueError for a sprite without solid pixels.
     """
     measure_at(first, second, poses_around(first, second, seed=seed), report, tiers, seed)
 
@@ -98,8 +102,9 @@ def measure_at(
     tiers: Sequence[str] = TIERS,
     seed: int = 0,
 ) -> None:
-    """Measure the tiers for two sprites at given poses, which must include hits and misses. report(figures) is called
-    for each tier.
+    """Measure the tiers for two sprites at given poses, and call report(TierFigures) for each tier.
+
+    The poses must include hits and misses.
     """
     shapes = {tier: (fit(first, tier), fit(second, tier)) for tier in tiers}
     verdicts, batches = {tier: np.zeros(len(poses.met), bool) for tier in tiers}, {}
@@ -123,7 +128,7 @@ def measure_at(
 
 
 def _build(mask, tier):
-    """Fit the shapes of a tier once more. A new PixelMask is made for this, because each mask caches its fits."""
+    """Fit the shapes of a tier without the cache. A new PixelMask is made, because each mask caches its fits."""
     return fit(PixelMask(mask.solid, mask.origin), tier)
 
 

@@ -22,7 +22,7 @@ clock = time.thread_time if time.get_clock_info("thread_time").resolution <= FIN
 
 
 class Cost(NamedTuple):
-    """Seconds per piece of work (a step, a pair) over several runs, with their spread."""
+    """Seconds per piece of work (a step, a pair) over several runs: least, median and upper quartile."""
 
     least: float
     median: float
@@ -32,7 +32,10 @@ class Cost(NamedTuple):
 
     @classmethod
     def of(cls, seconds: list[float], pieces: int) -> "Cost":
-        """Return the cost from the seconds per piece of each run. Raises ValueError without runs or pieces."""
+        """Return the Cost of several runs. seconds: seconds per piece of each run; pieces: pieces of work in a run.
+
+        Raises ValueError without runs or pieces.
+        """
         if not seconds or pieces < 1:
             raise ValueError(f"a cost needs runs and pieces (got {len(seconds)} runs of {pieces} pieces)")
         ordered = sorted(seconds)
@@ -41,13 +44,13 @@ class Cost(NamedTuple):
 
     @property
     def noise(self) -> float:
-        """Distance of the median run from the least, as a share of the least."""
+        """Median minus least time, as a share of the least time."""
         return self.median / self.least - 1.0 if self.least > 0.0 else 0.0
 
 
 @contextmanager
 def undisturbed() -> Iterator[None]:
-    """Disable garbage collection in the block, so that its time is not counted."""
+    """Disable garbage collection within the `with` block, so that its time is not counted."""
     was_on = gc.isenabled()
     gc.disable()
     try:
@@ -83,9 +86,9 @@ def timed_steps(steps: Mapping[Name, Callable[[], object]], count: int = 60, run
 def timed_in_turns(
     works: Mapping[str, Callable[[], object]], pieces: Mapping[str, int], runs: int = RUNS, seed: int = 0
 ) -> dict[str, Cost]:
-    """Return {name: Cost} of functions, each called `runs` times in random order.
+    """Return {name: Cost} of the functions `works`, each called `runs` times in random order.
 
-    A call of works[name] does pieces[name] pieces of work. The first call is not counted.
+    A call of works[name] does pieces[name] pieces of work. The first call is not counted. seed: for the order.
     """
     order, spent = list(works), {name: [] for name in works}
     chance = Random(seed)

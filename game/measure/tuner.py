@@ -23,7 +23,7 @@ class Decision(NamedTuple):
 
 
 class Tuner:
-    """Automatic use of the advice of a survey. `on`: whether it is in use; False at first.
+    """Automatic use of a survey's advice on settings. on: whether it is in use, False at first.
 
     apply(setting) applies a setting. It returns the reason for a refusal, or "" if the setting was applied.
     prove(setting) tries a setting on the recorded run. It returns the time as a share of the present time, a text with

@@ -1,4 +1,4 @@
-"""`python -m game.measure.worker`: measures moments, sprites, runs and effects in a separate process.
+"""`python -m game.measure.worker`: the measuring process, which measures moments, sprites, runs and effects.
 
 Each line of JSON on standard input is an order that replaces the one before. Lines of JSON on standard output are
 results. The process ends when its standard input closes, so it never outlives the program that started it.
@@ -43,7 +43,7 @@ def sent_verdicts(verdicts: Verdicts) -> tuple[list, list, bool]:
 
 
 class Orders:
-    """Latest order, which a thread reads from standard input."""
+    """The latest order. A thread reads the orders from standard input."""
 
     def __init__(self) -> None:
         self.latest: dict[str, Any] | None = None
@@ -58,7 +58,7 @@ class Orders:
         os._exit(0)
 
     def next(self, after: dict[str, Any] | None) -> dict[str, Any]:
-        """Return the latest order as soon as it differs from `after`; block until then."""
+        """Wait until the latest order is not `after`, and return it."""
         with self.changed:
             self.changed.wait_for(lambda: self.latest is not after)
             assert self.latest is not None
@@ -70,10 +70,10 @@ class Orders:
 
 
 def measure(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure every setting at the moment of an order, which names a snapshot of a world.
+    """Measure every setting at the moment of an order, which names a snapshot file of a world.
 
     First, the errors and one timed run of each setting are reported, then further timed runs in random order while
-    goes_on() is True.
+    goes_on() is True. report(line of JSON) is called for each result.
     """
     number = order["moment"]
     moment = Moment(Snapshot.load(order["snapshot"]), order["broadphase"])
@@ -101,7 +101,10 @@ def measure(order: dict[str, Any], report: Callable[[str], object], goes_on: Cal
 
 
 def measure_sprites(order: dict[str, Any], report: Callable[[str], object]) -> None:
-    """Measure every tier of two sprites, stored in an .npz file: solid_0, origin_0, solid_1, origin_1."""
+    """Measure every tier of the two sprites of an order, which names an .npz file.
+
+    The file contains solid_0, origin_0, solid_1, origin_1. report(line of JSON) is called for each tier.
+    """
     with np.load(order["sprites"], allow_pickle=False) as stored:
         masks = [PixelMask(stored[f"solid_{k}"], tuple(stored[f"origin_{k}"].tolist())) for k in (0, 1)]
     measure_tiers(masks[0], masks[1], lambda figures: report(json.dumps({"moment": order["moment"], "tier": figures})))
@@ -109,7 +112,7 @@ def measure_sprites(order: dict[str, Any], report: Callable[[str], object]) -> N
 
 
 def measure_stored_runs(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure the runs of an order.
+    """Measure the runs of an order, and call report(line of JSON) after each run, while goes_on() is True.
 
     order["runs"]: a dict of the fields of MeasuredRun for each run, with file names in place of snapshots, and lists in
     place of Recipe and Act.
@@ -137,7 +140,10 @@ def measure_stored_runs(order: dict[str, Any], report: Callable[[str], object], 
 
 
 def measure_costs(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure the cost of each effect at a moment, and count the kernels that are compiled for this effect."""
+    """Measure the cost of each effect at the moment of an order, and count the kernels compiled for each effect.
+
+    report(line of JSON) is called for each result. The timing ends when goes_on() is False.
+    """
     moment = Moment(Snapshot.load(order["snapshot"]), order["broadphase"])
 
     def send(**found):
@@ -153,7 +159,7 @@ def measure_costs(order: dict[str, Any], report: Callable[[str], object], goes_o
         threading.Thread(target=_listen, args=(counting.stdout, counted), daemon=True).start()
 
         def send_counts(wait):
-            """Report the kernel counts that have arrived. wait: wait for all of them."""
+            """Report the kernel counts that have arrived. wait: whether to wait for all of them."""
             while wait or not counted.empty():
                 line = counted.get()
                 if line is None:

@@ -10,7 +10,7 @@ LegendLine = tuple[Color, str]
 
 
 class Layer:
-    """Overlay layer. `key`: the key that switches it; `color`: colour of its check box and first legend line."""
+    """Overlay layer. key: the key that switches it; color: colour of its check box and of its first legend line."""
 
     name: str
     title: str
@@ -21,19 +21,20 @@ class Layer:
     under: bool = False  # drawn before the other layers, since it fills areas
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture in which the layer is drawn in `views` views. The views share the layer's budget of drawn
-        objects evenly.
+        """Start a new picture, in which the layer is drawn once in each of `views` views.
+
+        The views share the layer's limit of drawn objects evenly.
         """
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw a world at the window's resolution; lens: maps world to frame coordinates. Called for `on_frame`."""
+        """Draw the layer for a world at window resolution, if the layer has `on_frame`. lens: maps world to frame."""
 
     def draw_on_canvas(self, canvas: Canvas, camera: Camera, world: World) -> None:
-        """Draw a world on the canvas, as the camera shows it. Called if `on_canvas` is True."""
+        """Draw the layer for a world on the canvas, as the camera shows it, if the layer has `on_canvas`."""
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write the labels of drawn objects where there is room."""
+        """Write the labels of the drawn objects where there is room. Called after all layers have been drawn."""
 
     def notes(self) -> list[LegendLine]:
-        """Return (color, text) lines for the legend."""
+        """Return the layer's lines for the legend, a list of (color, text)."""
         return []

@@ -1,4 +1,7 @@
-"""AABBs and swept AABBs (bounding motion rectangles) of shapes and bodies: the input of the broad phase."""
+"""Bounding boxes, the input of the broad phase: AABBs of shapes, and swept AABBs of bodies.
+
+A swept AABB, or bounding motion rectangle, covers a body's motion in one step.
+"""
 
 from collections.abc import Sequence
 from functools import lru_cache
@@ -19,9 +22,10 @@ BOX_BUDGET = 3000  # boxes drawn per picture; the note says how many there are
 
 
 def draw_boxes(frame: Frame, lens: Lens, rows: np.ndarray, palette: Sequence[Color], colors: np.ndarray) -> None:
-    """Draw the outlines of (n, 4) world boxes, small ones on top.
+    """Draw the outlines of boxes at window resolution, small ones over large ones.
 
-    palette: colours; colors: (n,) index into the palette for each box.
+    rows: (n, 4) world boxes (min x, min y, max x, max y); palette: colours; colors: (n,) index into the palette for
+    each box.
     """
     x0, y0 = lens.points(rows[:, 0], rows[:, 1])
     x1, y1 = lens.points(rows[:, 2], rows[:, 3])
@@ -46,7 +50,10 @@ def draw_boxes(frame: Frame, lens: Lens, rows: np.ndarray, palette: Sequence[Col
 
 @lru_cache(maxsize=2048)
 def outline(color: Color, width: int, height: int) -> pygame.Surface:
-    """Return an image of a box's outline. Images are cached, so that many equal boxes are drawn by one blit call."""
+    """Return an image of a box's outline. width, height [frame px].
+
+    Images are cached, so that many equal boxes are drawn by one blit call.
+    """
     image = pygame.Surface((width, height))
     clear = (0, 0, 0) if color[:3] != (0, 0, 0) else (255, 255, 255)
     image.fill(clear)
@@ -56,19 +63,20 @@ def outline(color: Color, width: int, height: int) -> pygame.Surface:
 
 
 class Bounds(Layer):
-    """The tight AABB of every shape: green alone, orange in candidate pairs, red in contact, grey static, pink
-    sensor.
+    """The tight AABB of every shape: orange if it is in a candidate pair, red if it is in contact, otherwise green.
+
+    Static shapes are grey, sensors pink.
     """
 
     name, title, key, color = "bounds", "Bounding boxes", "1", GREEN
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture whose `views` views share the budget of drawn objects evenly."""
+        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
         self.drawn = self.total = 0
         self.room = BOX_BUDGET // views
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the AABBs of a world; lens: maps world to frame coordinates."""
+        """Draw the AABBs of all shapes of a world. lens: maps world to frame coordinates."""
         rows = debug.bounds(world)
         self.total += len(rows)
         seen = np.flatnonzero(lens.seen(rows))[: self.room] if len(rows) else []
@@ -102,7 +110,7 @@ class Motion(Layer):
     name, title, key, color = "motion", "Motion rectangles", "2", SKY
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture whose `views` views share the budget of drawn objects evenly."""
+        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
         self.drawn = self.total = 0
         self.room = BOX_BUDGET // views
 

@@ -1,4 +1,4 @@
-"""Centres of mass: for each body the point that it rotates about, its velocity, and its origin if elsewhere."""
+"""Centres of mass: for each body the point about which it rotates, its velocity, and its origin if elsewhere."""
 
 import numpy as np
 import pygame
@@ -17,14 +17,15 @@ APART = 1.0  # [px] minimum distance of a drawn origin from the centre of mass
 
 
 class Centers(Layer):
-    """A mark, as on a crash-test dummy, at the centre of mass of each dynamic body, with an arrow of its motion in 0.1
-    s and a line to the body's origin.
+    """A mark at the centre of mass of each dynamic body, as on a crash-test dummy.
+
+    An arrow shows the motion in 0.1 s, and a line leads to the body's origin if it is elsewhere.
     """
 
     name, title, key, color = "centers", "Centres of mass", "c", GOLD
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture whose `views` views share the budget of drawn objects evenly."""
+        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
         self.drawn = self.total = 0
         self.room = CENTER_BUDGET // views
 
@@ -55,7 +56,10 @@ class Centers(Layer):
 
 
 def mark(surface: pygame.Surface, x: float, y: float, angle: float, radius: float) -> None:
-    """Draw a crash-test mark: a disc of two dark and two light quarters, rotated by the body's angle."""
+    """Draw a crash-test mark: a disc of two dark and two light quarters, rotated by the body's angle [rad].
+
+    x, y, radius: of the disc [surface px].
+    """
     pygame.draw.circle(surface, PAPER, (x, y), radius)
     cosine, sine = np.cos(angle) * radius, np.sin(angle) * radius
     for way in (1.0, -1.0):

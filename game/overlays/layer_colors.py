@@ -17,14 +17,15 @@ LISTED = 8  # colours with their own line in the legend
 
 
 class Colors(Layer):
-    """Lines from each contact to the centres of its dynamic bodies, in the contact's graph colour. White: contacts
-    without a colour, which are solved first.
+    """Lines from each contact to the centres of its dynamic bodies, in the display colour of its graph colour.
+
+    Contacts without a graph colour, which are solved first, are white.
     """
 
     name, title, key, color = "colors", "Graph colours", "g", PINK
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture whose `views` views share the budget of drawn objects evenly."""
+        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
         self.drawn = self.total = 0
         self.counts = np.zeros(0, int)
         self.overflow = 0

@@ -19,14 +19,12 @@ COLORS = (FOG, GREEN, SKY, PINK, SLATE)
 
 
 class Contacts(Layer):
-    """A dot for each contact point, in the colour of its state, with its normal from shape A to B and its depth
-    [px].
-    """
+    """A dot for each contact point in the colour of its state, with its normal from shape A to B and its depth [px]."""
 
     name, title, key, color = "contacts", "Contacts and normals", "6", ORANGE
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture whose `views` views share the budget of drawn objects evenly."""
+        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
         self.drawn = self.total = 0
         self.states = np.zeros(len(STATES), int)
         self.room = CONTACT_BUDGET // views
@@ -72,7 +70,7 @@ class Contacts(Layer):
             self.labels.append((f"{depth:.1f}", end_x, end_y, "left" if nx >= 0 else "right", GOLD))
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write the depths, and the distances of speculative contacts, where there is room."""
+        """Write the depths of contacts, and the distances of speculative contacts, where there is room."""
         for text, x, y, align, color in self.labels:
             frame.text_if_free(text, x, y, color, SMALL, frame.text_scale, align, True)
 

@@ -21,11 +21,10 @@ OWN = "your box would have died here"
 
 
 def false_hits(world: World) -> tuple[np.ndarray, np.ndarray]:
-    """Return (hits, lies): the candidate pairs with a sprite whose bounding boxes overlap, and those of them without a
-    contact.
+    """Return (hits, lies), two (n, 2) arrays of SHAPE rows: pairs whose bounding boxes overlap.
 
-    Both are (n, 2) arrays of SHAPE rows. Candidates are the pairs that the broad phase found in the last step. Pairs
-    with a sensor are left out.
+    hits: candidate pairs of the last step with a sprite in them; lies: those of them without a contact. Pairs with a
+    sensor are left out.
     """
     ids, pairs = np.ascontiguousarray(world.shapes["id"]), world.candidates.astype(np.int64)
     none = np.zeros((0, 2), np.int64)
@@ -46,8 +45,9 @@ def false_hits(world: World) -> tuple[np.ndarray, np.ndarray]:
 
 
 class Disagreement(Layer):
-    """The boxes of false hits, in red. Call note(scene) after each step while the layer is on. A false hit on the
-    player's body is marked with a text.
+    """The boxes of false hits, in red. Call note(scene) after each step while the layer is on.
+
+    A false hit on the player's body is also marked with a text.
     """
 
     name, title, key, color = "disagreement", "Boxes that lie", "j", RED
@@ -64,7 +64,7 @@ class Disagreement(Layer):
         self.frame = 0
 
     def note(self, scene: Scene) -> None:
-        """Count the box hits and false hits of the last step."""
+        """Count the box hits and the false hits of the last step."""
         if scene.frame < self.frame:
             self.clear()
         self.frame = scene.frame
@@ -75,9 +75,9 @@ class Disagreement(Layer):
             self._mark_own(scene, *reported[0])
 
     def _mark_own(self, scene, hits, lies):
-        """Add a mark at the player's box when the box of another body, which overlapped it without a hit, no longer
-        overlaps it.
+        """Add a mark for each false hit on the player's body that has ended in this step.
 
+        It has ended if the other body's box no longer overlaps the player's, and there was no contact while it did.
         hits, lies: results of false_hits().
         """
         own, world = scene.own_body, scene.world
@@ -98,7 +98,7 @@ class Disagreement(Layer):
         self.inside = now
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture whose `views` views share the budget of drawn objects evenly."""
+        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
         self.drawn = self.total = 0
         self.room = LIE_BUDGET // views
         self.labels: list[tuple[int, float, float]] = []

@@ -14,15 +14,12 @@ PER_LINK = 4096  # feature id on a chain or grid: PER_LINK times the number of t
 
 
 class Features(Layer):
-    """The feature id of each contact point, with a colour for each id.
-
-    Id and colour stay the same while a body slides.
-    """
+    """The feature id of each contact point, with a colour for each id. Both stay the same while a body slides."""
 
     name, title, key, color = "features", "Feature ids", "f", PAPER
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture whose `views` views share the budget of drawn objects evenly."""
+        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
         self.drawn = self.total = 0
         self.room = FEATURE_BUDGET // views
         self.labels = []
@@ -42,7 +39,7 @@ class Features(Layer):
             self.labels.append((text_of(feature), x, y, color))
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write each id beside its point, at one of four places where there is room."""
+        """Write each id beside its point, at the first free one of four places."""
         scale = frame.text_scale
         for text, x, y, color in self.labels:
             for dx, dy, align in ((3, -7, "left"), (-3, -7, "right"), (3, 3, "left"), (-3, 3, "right")):
@@ -51,13 +48,14 @@ class Features(Layer):
                     break
 
     def notes(self) -> list[LegendLine]:
-        """Return (color, text) lines for the legend. The lines count points, because the ids are written after the
-        legend.
+        """Return (color, text) lines for the legend.
+
+        They count points, because the ids are written after the legend.
         """
         return [(self.color, f"feature ids {len(self.labels)} of {self.total}, where room")]
 
 
 def text_of(feature: int) -> str:
-    """Return a feature id as text; "link:corner" on chains and tiles."""
+    """Return a feature id as text: a number, or "link:corner" on chains and tiles."""
     link, corner = divmod(int(feature), PER_LINK)
     return f"{link}:{corner}" if link else f"{corner}"

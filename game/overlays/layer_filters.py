@@ -1,4 +1,7 @@
-"""Collision filters: shapes with equal membership and mask have the same colour; the legend says which may collide."""
+"""Collision filters: shapes with the same membership and mask have the same colour.
+
+The legend says which may collide.
+"""
 
 import numpy as np
 
@@ -14,8 +17,9 @@ EVERYBODY = (0xFFFFFFFF, 0xFFFF)  # masks that include every kind
 
 
 class Filters(Layer):
-    """The box of each shape, drawn slightly smaller, in the colour of its filter. Two shapes may collide if each one's
-    membership is in the other's mask.
+    """The box of each shape, drawn slightly smaller, in the colour of its filter.
+
+    Two shapes may collide if the membership of each is in the other's mask.
     """
 
     name, title, key, color = "filters", "Filters by colour", "7", PINK
@@ -25,7 +29,7 @@ class Filters(Layer):
         self.begin()
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture whose `views` views share the budget of drawn objects evenly."""
+        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
         self.kinds = {}  # (membership, mask) -> [colour, count]
         self.drawn = self.total = self.filtered = 0
         self.room = BOX_BUDGET // views
@@ -52,8 +56,9 @@ class Filters(Layer):
         draw_boxes(frame, lens, inner, colors, which[seen])
 
     def _who(self, word, written=32):
-        """Return the names of the bits set in `word`, a filter mask: at most `written` of them, as "a, b", or "all but
-        c" where that is shorter.
+        """Return the names of the kinds whose bits are set in `word`, a filter mask, as text.
+
+        written: greatest number of names in "a, b"; the others are counted. "all but c" is used where that is shorter.
         """
         if word in EVERYBODY:
             return "all"

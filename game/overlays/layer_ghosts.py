@@ -1,4 +1,4 @@
-"""Times of impact: the poses at which fast bodies hit during a step, and the poses they would have reached."""
+"""Times of impact: the poses of fast bodies at their impacts during a step, and the poses without the impacts."""
 
 import numpy as np
 import pygame
@@ -18,8 +18,9 @@ KEPT = 45  # steps for which an impact stays visible, fading
 
 
 class Ghosts(Layer):
-    """Each body at its time of impact, in white, with the time as a share of the step; in blue, the pose that the body
-    would have reached without the impact.
+    """Recent impacts of fast bodies, each with its time as a share of the step.
+
+    White: the body at its time of impact. Blue: the pose at which it would have ended the step without the impact.
     """
 
     name, title, key, color = "ghosts", "Times of impact", "h", WHITE
@@ -29,7 +30,7 @@ class Ghosts(Layer):
         self.begin()
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture whose `views` views share the budget of drawn objects evenly."""
+        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
         self.drawn = self.total = 0
         self.room = GHOST_BUDGET // views
         self.labels = []
@@ -54,8 +55,9 @@ class Ghosts(Layer):
                 self.labels.append((f"{fraction:.2f}", place[0], place[1], faded(WHITE, fading)))
 
     def _note(self, world):
-        """Return the kept impacts of a world. If the world has stepped since the last picture, first add one to their
-        ages, drop the old ones, and add the impacts of that step.
+        """Return the recent impacts of a world, and update them if the world has been stepped since the last picture.
+
+        An update adds one to their ages, drops the old ones, and adds the impacts of the last step.
         """
         kept, step, last = self.kept.get(id(world), ([], None, None))
         now = world.events  # a new object in every step
@@ -70,8 +72,10 @@ class Ghosts(Layer):
         return kept
 
     def _fresh(self, world):
-        """Return the impacts of the last step, with the body's outlines at its time of impact and at the pose that it
-        would have reached without the impact.
+        """Return the impacts of the last step.
+
+        Each has the outlines of its body at two poses: at the time of impact, and at the end of the step without the
+        impact.
         """
         ghosts = debug.impact_ghosts(world)[:GHOST_BUDGET]
         bodies, shapes = world.bodies, world.shapes

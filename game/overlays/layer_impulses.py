@@ -19,8 +19,9 @@ FADE = 0.95  # factor per picture by which the scale decays after a peak
 
 
 class Impulses(Layer):
-    """Normal impulse in red, as it acts on body B, or on A if B cannot move; friction impulse in yellow. The legend
-    names the scale.
+    """Arrows for the impulses of each contact: normal impulse in red, friction impulse in yellow.
+
+    They are drawn as they act on body B, or on A if B cannot move. The legend names the scale.
     """
 
     name, title, key, color = "impulses", "Impulses", "9", RED
@@ -30,7 +31,7 @@ class Impulses(Layer):
         self.begin()
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture whose `views` views share the budget of drawn objects evenly."""
+        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
         self.drawn = self.total = 0
         self.room = IMPULSE_BUDGET // views
         self.unit = step_of(self.level)
@@ -64,15 +65,16 @@ class Impulses(Layer):
 
 
 def can_move(bodies: np.ndarray, ids: np.ndarray) -> np.ndarray:
-    """Return a bool array: for each of these body ids, whether the body exists and has a finite mass."""
+    """Return (n,) bool: whether each body exists and has a finite mass. bodies: BODY rows; ids: (n,) body ids."""
     known = np.ascontiguousarray(bodies["id"])
     rows = np.minimum(np.searchsorted(known, ids), len(known) - 1)
     return (known[rows] == ids) & (bodies["inverse_mass"][rows] > 0.0)
 
 
 def arrow(frame: Frame, x: float, y: float, dx: float, dy: float, color: Color) -> None:
-    """Draw an arrow from (x, y) by (dx, dy) [frame px], at most LONGEST long. An arrow shorter than a canvas pixel is
-    not drawn.
+    """Draw an arrow from (x, y) by (dx, dy) [frame px], shortened to at most LONGEST.
+
+    An arrow shorter than a canvas pixel is not drawn.
     """
     length = hypot(dx, dy)
     if length < frame.scale:
@@ -90,8 +92,9 @@ def arrow(frame: Frame, x: float, y: float, dx: float, dy: float, color: Color) 
 
 
 def step_of(value: float) -> float:
-    """Return the smallest of ..., 1, 2, 5, 10, ... that is not below a positive value; 0 for 0. Used as a scale,
-    because it changes seldom.
+    """Return the smallest of ..., 1, 2, 5, 10, 20, ... that is not below a positive value; 0 for 0.
+
+    It is used as a scale that changes seldom.
     """
     if not 0.0 < value < float("inf"):
         return 0.0

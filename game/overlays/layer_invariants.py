@@ -1,4 +1,4 @@
-"""Invariants of the simulation: eleven indicators, U1 to U11: green (holds), red (broken), grey (off)."""
+"""Invariants of the simulation: eleven indicators, U1 to U11. Green: holds; red: broken; grey: off."""
 
 from collections.abc import Iterator
 
@@ -19,9 +19,9 @@ COUNTED = 999  # greatest number of breaks that is written
 
 
 class Invariants(Layer):
-    """Strip of indicators, each with its id, a word, and how often its invariant was broken.
+    """Strip of indicators, each with its id, a word, and the number of times its invariant was broken.
 
-    Below them is a message about the indicator under the pointer, or about the invariant that was broken last.
+    Below them is a message about the indicator under the pointer, or else about the invariant that was broken last.
     """
 
     name, title, key, color = "invariants", "Invariants", "u", GREEN
@@ -32,8 +32,9 @@ class Invariants(Layer):
         self.places: list[tuple[pygame.Rect, InvariantStatus]] = []  # of the last picture
 
     def note(self, monitor: InvariantMonitor | None) -> None:
-        """Record the time that checking the invariants took; call it in every step. monitor: the scene's, None while
-        invariants are off.
+        """Record the time that checking the invariants took in the last step. Call it after every step.
+
+        monitor: that of the scene; None while the invariants are not checked.
         """
         if monitor is not None:
             self.cost.note(monitor.seconds)
@@ -46,13 +47,13 @@ class Invariants(Layer):
             yield columns * self._width(frame) + 2 * MARGIN * scale, ((rows + 1) * LINE + 2 * MARGIN) * scale
 
     def _width(self, frame):
-        """Return the width [frame px] of an indicator with its gap; all are as wide as the widest."""
+        """Return the width [frame px] of an indicator with the gap beside it. All are as wide as the widest."""
         scale = frame.text_scale
         widest = max(frame.measure(label_of(status), SMALL, scale)[0] for status in self.monitor.statuses)
         return widest + (LAMP + 2 + GAP) * scale
 
     def draw_strip(self, frame: Frame, rect: pygame.Rect, pointer: tuple[int, int] = (-1, -1)) -> None:
-        """Draw the strip into a frame rect of one of the sizes(). pointer: position of the mouse [frame px]."""
+        """Draw the strip into a frame rectangle of one of the sizes(). pointer: position of the mouse [frame px]."""
         scale = frame.text_scale
         frame.surface.fill(faded(NIGHT, 0.3), rect)
         pygame.draw.rect(frame.surface, SLATE, rect, 1)
@@ -81,8 +82,10 @@ class Invariants(Layer):
         frame.text(label_of(status), lamp.right + 2 * scale, top, tone, SMALL, scale)
 
     def message_at(self, pointer: tuple[int, int]) -> tuple[Color, str]:
-        """Return (colour, text) of the message: about the indicator under the pointer; else about the invariant broken
-        last; else a summary.
+        """Return (colour, text) of the message below the indicators.
+
+        It is about the indicator under the pointer, or else about the invariant that was broken last, or else a
+        summary.
         """
         for place, status in self.places:
             if place.collidepoint(pointer):
@@ -97,7 +100,7 @@ class Invariants(Layer):
         return FOG, self.summary()
 
     def summary(self) -> str:
-        """Return a text: how many invariants hold, are broken or are off, and the time of checking them per frame."""
+        """Return a text: how many invariants hold, are broken and are off, and the time of checking them per frame."""
         count = [status.state for status in self.monitor.statuses].count
         return (
             f"{count(states.GREEN)} hold, {count(states.RED)} broken, {count(states.GREY)} not asked, "
@@ -114,5 +117,5 @@ class Invariants(Layer):
 
 
 def label_of(status: InvariantStatus) -> str:
-    """Return the label of an indicator: id, word, and how often its invariant was broken."""
+    """Return the label of an indicator: id, word, and the number of times its invariant was broken."""
     return f"{status.id} {status.word}" + (f" {min(status.breaks, COUNTED)}" if status.breaks else "")

@@ -1,4 +1,7 @@
-"""Islands: groups of bodies connected by contacts, which are solved together and sleep when all are at rest."""
+"""Islands: groups of bodies connected by contacts.
+
+An island is solved together, and sleeps when all its bodies rest.
+"""
 
 from collections.abc import Sequence
 from math import ceil, floor
@@ -20,13 +23,16 @@ FILL, ASLEEP_FILL, EDGE = 46, 120, 200  # opacity of 255
 
 
 class Islands(Layer):
-    """Convex hull and shapes of each island in its own colour; a sleeping island is grey, with a z on each body."""
+    """Convex hull and shapes of each island in the island's colour.
+
+    Sleeping islands are grey, with a z on each body.
+    """
 
     name, title, key, color = "islands", "Islands, sleeping", "i", SERIES[1]
     under = True  # drawn before the other layers, since it fills areas
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture whose `views` views share the budgets of drawn objects evenly."""
+        """Start a new picture. Its `views` views share the limits of drawn objects evenly."""
         self.drawn = self.total = self.asleep = self.islands = 0
         self.found = False  # whether any world has the effect sleeping
         self.room, self.hulls = BODY_BUDGET // views, ISLAND_BUDGET // views
@@ -59,10 +65,10 @@ class Islands(Layer):
             self.labels.append(("z", x, y - 2 * frame.text_scale, FOG))
 
     def _draw_hulls(self, frame, lens, boxes, islands, asleep):
-        """Draw the translucent hulls of the islands, each on a surface of its own size. A surface as large as the
-        picture would cost 2 ms.
+        """Draw the translucent hulls of the islands, each on a surface of its own size.
 
-        boxes, islands, asleep: AABB, number of the island (-1: none) and sleep flag of each shape.
+        A surface as large as the picture would cost 2 ms. boxes, islands, asleep: AABB (4,), number of the island (-1:
+        none) and sleep flag of each shape.
         """
         members = np.flatnonzero(islands >= 0)
         if len(members) == 0:
@@ -92,7 +98,7 @@ class Islands(Layer):
 
 
 def hull_of(points: np.ndarray) -> list[list[float]]:
-    """Return corners of the approximate hull of (n, 2) points: the farthest one in each of DIRECTIONS directions."""
+    """Return an approximate convex hull of (n, 2) points: the farthest point in each of DIRECTIONS directions."""
     angles = np.arange(DIRECTIONS) * (2 * np.pi / DIRECTIONS)
     ways = np.column_stack((np.cos(angles), np.sin(angles)))
     return points[np.argmax(points @ ways.T, axis=0)].tolist()
@@ -103,7 +109,7 @@ def draw_hull(
 ) -> None:
     """Draw the polygon `hull`, filled with opacity `fill` (0..255), and its edge.
 
-    The part outside `clip` costs no time.
+    hull: corners (k, 2) on the surface; width: of the edge [px]. The part outside `clip` costs no time.
     """
     x, y = zip(*hull, strict=True)
     left, top = floor(min(x)) - width, floor(min(y)) - width
@@ -118,5 +124,5 @@ def draw_hull(
 
 
 def color_of(island: int) -> Color:
-    """Return the colour of an island's number. Neighbouring numbers have different colours."""
+    """Return the colour of an island. island: its number; neighbouring numbers have different colours."""
     return SERIES[int(island) * 5 % (len(SERIES) - 1)]

@@ -1,8 +1,7 @@
-"""Pixel masks as they are tested, the pixels in which two masks overlap, and the mask outlines used for collision
-response.
+"""Pixel masks as they are tested, the pixels in which two masks overlap, and the outlines used for collision response.
 
 Masks are drawn on the canvas before it is scaled: a mask pixel is a canvas pixel, so that the overlay lies exactly on
-the sprite. Outlines are drawn over it at the window's resolution, at the exact pose.
+the sprite. Outlines are drawn over it at window resolution, at the exact pose.
 """
 
 from collections import OrderedDict
@@ -31,7 +30,7 @@ CACHE_SIZE = 512  # number of cached images; a rotating sprite has one for each 
 
 
 class Masks(Layer):
-    """Masks in blue with a light edge; pixels in which two masks overlap in yellow.
+    """Masks in blue with a light edge; pixels in which two masks overlap, in yellow.
 
     With collision response, the outline of each mask is drawn in white, with orange seams between its convex parts.
     """
@@ -44,7 +43,7 @@ class Masks(Layer):
         self.begin()
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture whose `views` views share the budget of outline parts evenly."""
+        """Start a new picture. Its `views` views share the layer's limit of outline parts evenly."""
         self.drawn = self.total = self.lit = self.parts = self.parts_in_all = 0
         self.room = PART_BUDGET // views
 
@@ -95,8 +94,9 @@ class Masks(Layer):
         del pixels  # unlocks the surface
 
     def _images(self, solid, place, view, palette):
-        """Yield the (image, place) pairs that show the mask `solid` at a place on the canvas: one pair, or for a large
-        mask one per visible block.
+        """Yield (image, place) for the visible parts of the mask `solid`: one image, or one per block of a large mask.
+
+        place: (x, y) of the mask on the canvas; view: visible rectangle of the canvas; palette: name of the colours.
         """
         (height, width), (x, y) = solid.shape, place
         if height <= BLOCK and width <= BLOCK:
@@ -109,10 +109,10 @@ class Masks(Layer):
                     yield image, (x + left, y + top)
 
     def _block(self, solid, left, top, palette):
-        """Return the image of the block of a large mask whose first pixel is solid[top, left]; None if the block is
-        empty.
+        """Return the image of a block of a large mask; None if the block is empty.
 
-        Images are cached by place and pixels, since carving changes few blocks.
+        left, top: first column and row of the block in `solid`. Images are cached by place and pixels, since carving
+        changes few blocks.
         """
         # With a margin of one pixel, so that no edge is drawn at the border of the block.
         part = solid[max(top - 1, 0) : top + BLOCK + 1, max(left - 1, 0) : left + BLOCK + 1]
@@ -127,8 +127,9 @@ class Masks(Layer):
         return image
 
     def _tinted(self, solid, palette):
-        """Return the image of a mask. Images are cached by the id of the array `solid`; the cache also holds the array
-        itself, so that no other array gets the same id.
+        """Return the image of a mask, cached by the id of the array `solid`.
+
+        The cache also holds the array itself, so that no other array gets the same id.
         """
         kept, image = self.tinted.get((id(solid), palette), (None, None))
         if kept is not solid:
@@ -153,7 +154,7 @@ class Masks(Layer):
 
 
 def mask_image(solid: np.ndarray, palette: str = "standard") -> pygame.Surface:
-    """Return a translucent image of a mask, an (h, w) bool array, with light edge pixels."""
+    """Return a translucent image of a mask with light edge pixels. solid: (height, width) bool."""
     fill = (*toned(BLUE, palette), FILL)
     padded = np.pad(solid, 1)
     inner = padded[:-2, 1:-1] & padded[2:, 1:-1] & padded[1:-1, :-2] & padded[1:-1, 2:]

@@ -1,4 +1,4 @@
-"""Outlines of the collision shapes, independent of the sprites. Pixels of masks have a layer of their own."""
+"""Outlines of the collision shapes, independent of the sprites. The pixels of masks are drawn by layer_masks.py."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -21,16 +21,16 @@ Edge = tuple[tuple[float, float], tuple[float, float], bool]  # start, end, whet
 
 
 class Outlines(Layer):
-    """The outline of every shape: green dynamic, blue kinematic, grey static (chains hatched on the solid side), pink
-    sensor.
+    """The outline of every shape: green dynamic, blue kinematic, grey static, pink sensor.
 
-    A mask is drawn as the outline used for collision, with darker seams between its convex parts.
+    Chains are hatched on their solid side. A mask is drawn as the outline used for collision, with darker seams between
+    its convex parts.
     """
 
     name, title, key, color = "outlines", "Shapes", "l", GREEN
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture whose `views` views share the budget of drawn objects evenly."""
+        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
         self.drawn = self.total = 0
         self.room = OUTLINE_BUDGET // views
 
@@ -64,15 +64,16 @@ class Outlines(Layer):
                 draw_outline(frame.surface, lens, outline, color, width, frame.scale)
 
     def _draw_parts(self, frame, lens, world, rows, color, width):
-        """Draw the convex parts of mask outlines, rows of world.shapes, in one colour."""
+        """Draw the convex parts of mask outlines. rows: rows of world.shapes; width: of the lines [frame px]."""
         if len(rows):
             edges = mask_edges(world, rows, lens.scale)
             draw_lines(frame.surface, lens, edges.inner, faded(color, 0.6))
             draw_lines(frame.surface, lens, edges.outer, color, width)
 
     def _draw_tiles(self, frame, lens, world, shape_id, color, width):
-        """Draw the edges of the solid cells of a tile grid, the shape `shape_id`, and in orange the tops of its one-way
-        cells.
+        """Draw the edges of a tile grid's solid cells in `color`, and the tops of its one-way cells in orange.
+
+        shape_id: id of the grid's shape; width: of the lines [frame px].
         """
         row = world.shapes[np.searchsorted(world.shapes["id"], shape_id)]
         body = world.body(int(row["body"]))
@@ -92,8 +93,9 @@ class Outlines(Layer):
 
 
 def edges_of(grid: Any, lens: Lens, x: float, y: float) -> Iterator[Edge]:
-    """Yield the edges of the visible cells of a TileGrid whose body is at (x, y): (start, end, whether it is one-way),
-    in frame coordinates.
+    """Yield (start, end, one-way) for each edge of the visible cells of a TileGrid, in frame coordinates.
+
+    x, y: position of its body [px]; one-way: whether the edge belongs to a one-way cell.
     """
     size, (rows, columns) = grid.tile_size, grid.solid.shape
     clip = lens.clip

@@ -1,4 +1,4 @@
-"""Candidate pairs: the pairs of shapes that the broad phase and the filter pass on to the narrow phase."""
+"""Candidate pairs: the pairs of shapes that the broad phase and the filter pass to the narrow phase."""
 
 import numpy as np
 import pygame
@@ -18,7 +18,7 @@ class Pairs(Layer):
     name, title, key, color = "pairs", "Candidate pairs", "4", RED
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture whose `views` views share the budget of drawn objects evenly."""
+        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
         self.drawn = self.total = self.hits = 0
         self.room = PAIR_BUDGET // views
 

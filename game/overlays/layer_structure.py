@@ -1,4 +1,4 @@
-"""Structure of the broad phase: cells of the grid, boxes of the tree coloured by depth, or intervals of the sweep."""
+"""Structure of the broad phase: cells of the grid, boxes of the tree (coloured by depth), or intervals of the sweep."""
 
 from collections.abc import Iterable
 
@@ -17,12 +17,12 @@ DEPTHS = tuple(faded(color, amount) for color in (PINK, YELLOW, GREEN, SKY, BLUE
 
 
 class Structure(Layer):
-    """The data structure of the world's broad phase. Brute force has none, which the legend says."""
+    """The data structure of the world's broad phase. For brute force, which has none, the legend says so."""
 
     name, title, key, color = "structure", "Structure", "3", YELLOW
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture whose `views` views share the budgets of drawn objects evenly."""
+        """Start a new picture. Its `views` views share the layer's limits of drawn objects evenly."""
         self.drawn = self.total = 0
         self.views = views
         self.kinds = []
@@ -47,7 +47,7 @@ class Structure(Layer):
         draw_boxes(frame, lens, rows[seen], DEPTHS, found.depth[seen] % len(DEPTHS))
 
     def _intervals(self, frame, lens, rows):
-        """Draw the sweep's intervals as bars along the top of the view (x axis) and its left side (y axis)."""
+        """Draw the sweep's intervals as bars along the top of the view (x axis) and along its left side (y axis)."""
         self.total += len(rows)
         if len(rows) == 0:
             return
@@ -81,10 +81,9 @@ class Structure(Layer):
 def covered(
     low: np.ndarray, high: np.ndarray, lanes: np.ndarray, count: int, length: int
 ) -> Iterable[tuple[int, int, int]]:
-    """Return (lane, first, last) bars that cover the same places as the intervals, with overlapping intervals of a lane
-    merged.
+    """Return (lane, first, last) bars that cover the same places as the intervals. Overlapping intervals are merged.
 
-    low, high: ends of each interval, whole numbers 0..length; lanes: row in which each interval is drawn, below
+    low, high: (n,) ends of the intervals, whole numbers 0..length; lanes: (n,) lane in which each is drawn, below
     `count`.
     """
     edges = np.zeros((count, length + 1), int)
@@ -96,7 +95,7 @@ def covered(
 
 
 def thinned(rows: np.ndarray, room: int) -> np.ndarray:
-    """Return at most `room` of the rows, chosen at even distances."""
+    """Return `rows`, or at most `room` of them at even distances."""
     if len(rows) <= room:
         return rows
     return rows[np.linspace(0, len(rows) - 1, room).astype(int)]

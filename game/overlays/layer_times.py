@@ -45,7 +45,7 @@ class Table(NamedTuple):
 
 
 class Times(Layer):
-    """Stage times of a scene. Call note(scene) once per step; draw_graph() draws graph and tables into a rect."""
+    """Stage times of a scene. Call note(scene) once per step; draw_graph() draws graph and tables into a rectangle."""
 
     name, title, key, color = "times", "Stage times", "8", GOLD
 
@@ -53,7 +53,7 @@ class Times(Layer):
         self.clear()
 
     def clear(self) -> None:
-        """Clear the history, because the scene changed."""
+        """Clear the history. Called when the scene has changed."""
         self.steps = []  # per step: {stage: ms}
         self.totals = []  # [ms] sum over the stages of each of these steps
         self.total = Typical()  # [ms]
@@ -82,8 +82,9 @@ class Times(Layer):
             self.stages[name].note(spent)
 
     def sizes(self, frame: Frame) -> Iterator[tuple[int, int]]:
-        """Yield useful sizes (width, height) [frame px] of the graph with its tables, the largest first. All sizes show
-        every stage.
+        """Yield useful sizes (width, height) [frame px] of the graph with its tables, the largest first.
+
+        All sizes show every stage.
         """
         stages, counters = self._tables()
         wide = [_column_width(frame, table, 1) + GAP for table in (stages, counters)]
@@ -97,10 +98,10 @@ class Times(Layer):
             yield (width + 2 * MARGIN) * scale, (height + 2 * MARGIN) * scale
 
     def draw_graph(self, frame: Frame, rect: pygame.Rect) -> None:
-        """Draw into a frame rect: the graph at the left, the table of stages in the middle, the counters at the right.
+        """Draw the graph at the left of a frame rectangle, the table of stages beside it, the counters at the right.
 
-        If there is no room for both tables, the counters are left out; in a narrow rect the stages are drawn below the
-        graph.
+        If there is no room for both tables, the counters are left out. In a narrow rectangle the stages are drawn below
+        the graph.
         """
         scale, self.rect = frame.text_scale, pygame.Rect(rect)
         frame.surface.fill(faded(NIGHT, 0.3), rect)
@@ -140,7 +141,7 @@ class Times(Layer):
         return SERIES[names.index(name) % len(SERIES)] if name in self.stages else FOG
 
     def _graph(self, frame, rect, scale):
-        """Draw up to three lines of text, and below them the bars."""
+        """Draw up to three lines of text, and the bars of the stage times below them."""
         totals = sorted(self.totals) or [0.0]
         # A single slow step (compilation, garbage collection) must not flatten the others: it is cut, with a white cap.
         top = round_up(max(LEAST_TOP, totals[int(len(totals) * SCALED_TO)] * 1.1))
@@ -159,8 +160,10 @@ class Times(Layer):
             pygame.draw.line(frame.surface, SLATE, (plot.left, y), (plot.right - 1, y))
 
     def _scroll(self, size, top, palette):
-        """Update the image of the bars, of `size` and with `top` [ms] at its upper edge: scroll it and paint the new
-        steps. If size, top or palette have changed, paint all.
+        """Update the image of the bars: scroll it, and paint the new steps at its right side.
+
+        size: of the image [frame px]; top: time at its upper edge [ms]; palette: name of the colours. If one of these
+        has changed, everything is painted.
         """
         column = max(1, size[0] // HISTORY)
         new = self.noted - self.painted
@@ -190,13 +193,13 @@ class Times(Layer):
 
 
 def _split(table, lines):
-    """Return a table split into tables of at most `lines` lines, each with the heading."""
+    """Return tables of at most `lines` lines, each with the heading of `table`, that together contain its lines."""
     rows = max(1, lines - 1)
     return [Table(table.head, table.rows[first : first + rows]) for first in range(0, max(len(table.rows), 1), rows)]
 
 
 def _cut(table, lines):
-    """Return a table cut to `lines` lines, of which the last one says how many are left out."""
+    """Return a table cut to `lines` lines. The last line of a cut table says how many are left out."""
     if len(table.rows) < lines:
         return table
     kept = table.rows[: max(lines - 2, 0)]
@@ -213,8 +216,9 @@ def _draw_table(frame, table, x, y, width, scale):
 
 
 def round_up(value: float) -> float:
-    """Return the smallest of 0.1, 0.2, 0.5, 1, 2, 5, 10, ... that is not below a value, so that the scale is readable
-    and changes seldom.
+    """Return the smallest of 0.1, 0.2, 0.5, 1, 2, 5, 10, ... that is not below a value.
+
+    Such a scale is readable and changes seldom.
     """
     power = 0.1
     while True:
@@ -225,7 +229,7 @@ def round_up(value: float) -> float:
 
 
 def _column_width(frame, table, scale):
-    """Return the width [px at this scale] of a table with its longest name and the longest expected number."""
+    """Return the width [frame px] of a table at a text scale, with its longest name and longest expected number."""
     longest = max((frame.measure(plain_name(name), SMALL, scale)[0] for _, name, _ in table.rows), default=0)
     digits = " 999999" if table.head.startswith("stage") else " 9999999"
     return longest + frame.measure(digits, SMALL, scale)[0] + 6 * scale

@@ -18,10 +18,11 @@ class MaskEdges(NamedTuple):
 
 
 def mask_edges(world: World, rows: np.ndarray, scale: float = 1.0) -> MaskEdges:
-    """Return the lines of mask outlines. rows: rows of world.shapes; rows that are no part of an outline are ignored.
+    """Return the lines of mask outlines, a MaskEdges.
 
-    The edges of a rounded part lie `radius` outside its polygon, with arcs around the corners. scale: [frame px per
-    px], sets the fineness of the arcs.
+    rows: rows of world.shapes; rows that are no part of a mask's outline are ignored. The edges of a rounded part lie
+    `radius` outside its polygon, with arcs around the corners. scale: frame px per world px, which sets the fineness of
+    the arcs.
     """
     edges = debug.part_edges(world, rows)
     outer, inner = [], []
@@ -45,8 +46,10 @@ def mask_edges(world: World, rows: np.ndarray, scale: float = 1.0) -> MaskEdges:
 
 
 def _arcs(edges, facing, scale):
-    """Yield (lines, whether they lie inside the outline) for the arc around each corner of a rounded part. facing: (n,)
-    angle of each edge's outward normal [rad].
+    """Yield (lines, hidden) for the arc around each corner of a rounded part. hidden: whether it is inside the outline.
+
+    edges: rows of debug.part_edges(); facing: (n,) angle of each edge's outward normal [rad]; scale: as in
+    mask_edges().
     """
     rounded = np.flatnonzero(edges["radius"] > 0.0)
     if not len(rounded):

@@ -1,4 +1,4 @@
-"""Thin lines around shapes of every kind, from the outlines that physics.debug returns; used by overlays and labs."""
+"""Thin lines around shapes of every kind, made from the outlines of physics.debug; used by overlays and labs."""
 
 from collections.abc import Sequence
 from itertools import pairwise
@@ -20,8 +20,10 @@ TICK_BUDGET = 400  # most ticks drawn for one chain
 
 
 def ring(points: Sequence[Sequence[float]], radius: float, scale: float) -> list[Point]:
-    """Return the outline of a convex shape rounded by `radius`, as a list of corners. points: (k, 2) corners, clockwise
-    on the screen; scale: [frame px per px], sets the fineness of the arcs.
+    """Return the outline of a convex shape rounded by `radius`, as a list of corners (x, y).
+
+    points: (k, 2) corners of the shape, clockwise on the screen; scale: frame px per world px, which sets the fineness
+    of the arcs.
     """
     count = len(points)
     if count == 1:
@@ -51,7 +53,10 @@ def _steps(turn, radius, scale):
 
 
 def corners_of(outline: tuple, scale: float = 1.0) -> tuple[list[Point], bool] | None:
-    """Return (corners [(x, y), ...] in world coordinates, whether the outline is closed); None for masks and tiles."""
+    """Return (corners [(x, y), ...] in the world, whether the outline is closed); None for masks and tiles.
+
+    outline: of physics.debug; scale: as in ring().
+    """
     kind = outline[0]
     if kind == "circle":
         return ring([outline[1:3]], outline[3], scale), True
@@ -76,8 +81,9 @@ def clockwise(points: ArrayLike) -> list[list[float]]:
 
 
 def moved(outline: tuple, start: Pose, end: Pose) -> tuple:
-    """Return an outline, or ("lines", (2n, 2) points), as it is after its body has moved from pose `start` to pose
-    `end`; a pose is (x, y, angle).
+    """Return an outline of physics.debug, or ("lines", (2n, 2) points), moved along with its body.
+
+    start, end: poses (x, y, angle) of the body before and after.
     """
     turn = end[2] - start[2]
     cosine, sine = cos(turn), sin(turn)
@@ -100,8 +106,9 @@ def moved(outline: tuple, start: Pose, end: Pose) -> tuple:
 def draw_outline(
     surface: pygame.Surface, lens: Lens, outline: tuple, color: Color, width: int = 1, scale: int = 1
 ) -> None:
-    """Draw an outline from physics.debug; a chain gets hatching on its solid side. lens: maps world to frame
-    coordinates; scale: frame px per canvas px.
+    """Draw an outline of physics.debug; a chain gets hatching on its solid side.
+
+    lens: maps world to frame; width: of the lines [frame px]; scale: frame px per canvas px.
     """
     kind = outline[0]
     if kind == "lines":
@@ -123,7 +130,7 @@ def draw_outline(
 
 
 def draw_lines(surface: pygame.Surface, lens: Lens, lines: np.ndarray, color: Color, width: int = 1) -> None:
-    """Draw (n, 4) separate lines, given in world coordinates with columns ax, ay, bx, by."""
+    """Draw separate lines. lines: (n, 4) in world coordinates, with columns ax, ay, bx, by."""
     ax, ay = lens.points(lines[:, 0], lines[:, 1])
     bx, by = lens.points(lines[:, 2], lines[:, 3])
     draw = pygame.draw.line
@@ -132,8 +139,9 @@ def draw_lines(surface: pygame.Surface, lens: Lens, lines: np.ndarray, color: Co
 
 
 def _draw_ticks(surface, clip, points, color, scale):
-    """Draw hatching on the solid side of a chain, which is opposite to its normals. points: corners of the chain [frame
-    px].
+    """Draw hatching on the solid side of a chain, which is opposite to its normals.
+
+    points: corners of the chain [frame px]; scale: frame px per canvas px.
     """
     room = clip.inflate(8 * scale, 8 * scale)
     left = TICK_BUDGET

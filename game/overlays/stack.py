@@ -53,12 +53,12 @@ SHORTER = (24, 16, 10, 5)  # numbers of lines to try if the whole legend does no
 
 
 def layer_names() -> tuple[str, ...]:
-    """Return the names of all layers, which --overlay accepts, in the order of the panel."""
+    """Return the names of all layers in the order of the panel. The option --overlay accepts these names."""
     return tuple(each.name for each in LAYERS)
 
 
 class Overlays:
-    """The overlay layers of a scene. `on`: the set of names of the layers that are on."""
+    """The overlay layers of a scene. on: set of the names of the layers that are on."""
 
     def __init__(self, on: Iterable[str] = ()) -> None:
         self.layers: tuple[Layer, ...] = tuple(each() for each in LAYERS)
@@ -69,7 +69,7 @@ class Overlays:
         self.on = set(on)
 
     def _only(self, kind: type[Kind]) -> Kind:
-        """Return the only layer of the class `kind`."""
+        """Return the layer of the class `kind`, of which there is exactly one."""
         return next(each for each in self.layers if isinstance(each, kind))
 
     def toggle(self, name: str) -> None:
@@ -81,8 +81,9 @@ class Overlays:
         self.on = set() if self.on else {layer.name for layer in self.layers}
 
     def note(self, scene: Scene) -> None:
-        """Record a step; call it after every step. Monitoring of the invariants begins one step after their layer is
-        shown.
+        """Record a step in the layers that need every step. Call it after every step.
+
+        Monitoring of the invariants begins one step after their layer is shown.
         """
         self.times.note(scene)
         self.invariants.note(scene.monitor)
@@ -91,8 +92,9 @@ class Overlays:
         self.watch(scene)
 
     def watch(self, scene: Scene) -> None:
-        """Start monitoring the invariants of the scene if their layer is on. If the layer is off, stop monitoring,
-        unless the run is strict.
+        """Start monitoring the scene's invariants if their layer is on, and stop it if the layer is off.
+
+        A strict monitor keeps running.
         """
         shown = "invariants" in self.on
         if shown and scene.monitor is None:
@@ -101,18 +103,18 @@ class Overlays:
             scene.watch_invariants(False)
 
     def shows_geometry(self) -> bool:
-        """Return whether a layer that draws on the world is on. Sprites are then drawn at exact poses."""
+        """Return whether a layer is on that draws things of the world. Sprites are then drawn at exact poses."""
         return bool(self.on - {"times", "invariants"})
 
     def draw_on_canvas(self, canvas: Canvas, scene: Scene) -> None:
-        """Draw the layers that must match canvas pixels exactly, before the canvas is scaled."""
+        """Draw the layers that must match canvas pixels exactly. Call it before the canvas is scaled."""
         for layer in self._active("on_canvas"):
             layer.begin(len(scene.views()))
             for world, camera in scene.views():
                 layer.draw_on_canvas(canvas, camera, world)
 
     def draw_on_frame(self, frame: Frame, scene: Scene) -> None:
-        """Draw the layers at the window's resolution. Each view is clipped to its part of the picture."""
+        """Draw the layers at window resolution. Each view is clipped to its part of the picture."""
         surface = frame.surface
         self.filters.names = scene.filter_names
         self.invariants.monitor = scene.monitor or InvariantMonitor()
@@ -126,7 +128,7 @@ class Overlays:
             surface.set_clip(None)
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write the labels of drawn objects. Call it last, because labels take only free places."""
+        """Write the labels of drawn objects. Call it last, because labels are only written at free places."""
         for layer in self._active("on_frame"):
             layer.draw_labels(frame)
 
@@ -135,8 +137,9 @@ class Overlays:
         return [line for layer in self.layers if layer.name in self.on for line in layer.notes()]
 
     def draw_floating(self, frame: Frame, legend_at: tuple[int, int] | None = None) -> None:
-        """Draw the legend, the stage times and the invariants over the game, at places without text. legend_at: place
-        for the legend to try first [canvas px].
+        """Draw the legend, the stage times and the invariants over the game, at places without text.
+
+        legend_at: place to try first for the legend [canvas px], or None.
         """
         area = frame.area.clip(frame.rect)
         scale = frame.text_scale
@@ -153,7 +156,7 @@ class Overlays:
         self._draw_legend(frame, area, legend_at, scale)
 
     def _draw_invariants(self, frame, area, scale):
-        """Draw the strip of invariants, centred, close to the bottom or top, in as few rows as fit."""
+        """Draw the strip of invariants, centred, close to the bottom or the top, in as few rows as fit."""
         for size in self.invariants.sizes(frame):
             margin = 4 * scale
             top, bottom = area.top + margin, area.bottom - size[1] - margin
@@ -165,13 +168,13 @@ class Overlays:
                 return
 
     def put_invariants(self, frame: Frame, rect: pygame.Rect) -> None:
-        """Draw the strip of invariants into a rect, and reserve the rect so that no other text is placed there."""
+        """Draw the strip of invariants into a rectangle, and reserve it so that no other text is placed there."""
         there = pygame.display.get_init() and pygame.mouse.get_focused()
         self.invariants.draw_strip(frame, rect, pygame.mouse.get_pos() if there else (-1, -1))
         frame.reserve(rect)
 
     def _draw_legend(self, frame, area, legend_at, scale):
-        """Draw the legend at a free place. If shortened to fit, its last line counts the lines left out."""
+        """Draw the legend at a free place. If lines are left out to make it fit, its last line counts them."""
         lines = self.legend()
         for room in (len(lines), *(count for count in SHORTER if count < len(lines))):
             if not lines:
@@ -192,8 +195,9 @@ class Overlays:
                 return
 
     def _active(self, where):
-        """Return the layers that are on and that are drawn there, in drawing order: layers that fill areas first.
-        where: "on_canvas" or "on_frame".
+        """Return the layers that are on and have the attribute `where`, in drawing order.
+
+        where: "on_canvas" or "on_frame". Layers that fill areas are drawn first.
         """
         active = [layer for layer in self.layers if layer.name in self.on and getattr(layer, where)]
         return sorted(active, key=lambda layer: not layer.under)
@@ -208,8 +212,9 @@ def legend_size(frame: Frame, lines: Sequence[LegendLine], scale: int) -> tuple[
 def legend_columns(
     frame: Frame, lines: list[LegendLine], width: int, height: int, scale: int
 ) -> list[list[LegendLine]]:
-    """Return the legend's lines in columns that fit into width x height [frame px]; an empty list if none fits. If
-    lines are left out, the last line counts them.
+    """Return the legend's lines as columns that fit into width x height [frame px]; an empty list if nothing fits.
+
+    If lines are left out, the last line counts them. scale: frame pixels of a text pixel.
     """
     rows = max(1, (height - 5 * scale) // (7 * scale))
     for shown in range(len(lines), 0, -1):
@@ -229,8 +234,9 @@ def draw_legend(frame: Frame, lines: Sequence[LegendLine], x: int, y: int, scale
 
 
 def _corners(area, size, margin):
-    """Return the places to try for a box of `size` in an area, `margin` from its border: corners, middles of the sides,
-    then down the left and right edges.
+    """Return the places (x, y) to try for a box of `size` in an area, at least `margin` from its border.
+
+    Their order: corners and middles of the sides, then places down the left and right edges.
     """
     left, right = area.left + margin, area.right - size[0] - margin
     top, bottom = area.top + margin, area.bottom - size[1] - margin

@@ -233,7 +233,7 @@ class Ladder(Scene):
         ]
 
     def finding(self):
-        """Return a sentence with the empty share of three shapes around this sprite, and the time of a hit."""
+        """Return a sentence with the empty share of box, hull and outline around the sprite, and their hit times."""
         empty = [100 * self.counts[tier][0] / (self.mask.area + self._balance(tier)) for tier in IN_FINDING]
         names = [NAMES.get(tier, tier) for tier in IN_FINDING]
         shares = ", ".join(f"{share:.0f} % of its {name}" for name, share in zip(names, empty, strict=True))
