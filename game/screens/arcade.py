@@ -15,8 +15,9 @@ from game.startup import say
 
 
 class Arcade:
-    """State shared by all screens. `running` turns False to end the program. `message`: warning about settings or
-    records that could not be read, or "".
+    """State shared by all screens. running: set to False to end the program.
+
+    message: warning about settings or records that could not be read, or "".
     """
 
     def __init__(
@@ -34,7 +35,7 @@ class Arcade:
         self.running = True
 
     def apply_settings(self) -> None:
-        """Apply changed settings."""
+        """Apply the settings after a change: window mode, keys, buttons and volumes."""
         if mode_of(self.settings) != self.mode:
             self.mode = mode_of(self.settings)
             try:

@@ -1,4 +1,4 @@
-"""The title's idle demonstration: the games and two labs, played by their bots. Any key ends it."""
+"""The demonstration that starts when the title is idle: bots play the games and two labs. Any key ends it."""
 
 from collections.abc import Callable, Sequence
 
@@ -24,7 +24,7 @@ ENDS_IT = (pygame.KEYDOWN, pygame.MOUSEBUTTONDOWN, pygame.CONTROLLERBUTTONDOWN, 
 
 
 class Attract(SceneScreen):
-    """Demonstration of one scene after the other. `make(name)` builds a scene.
+    """Demonstration of one scene after the other. make(name) builds a scene; names: the scenes that exist.
 
     `outcome` becomes ("back",) when it ends. `quiet`: the music is played low.
     """
@@ -43,7 +43,7 @@ class Attract(SceneScreen):
 
     @property
     def running_clock(self) -> FixedStep | None:
-        """Clock that schedules the scene's steps."""
+        """Clock that schedules the scene's steps; None before a scene is built."""
         return self.demo.clock if self.demo else None
 
     @property
@@ -52,14 +52,14 @@ class Attract(SceneScreen):
         return self.demo.scene.music if self.demo else "title"
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """End on any key, button or click."""
+        """End the demonstration on any key, button or click. Return whether the event was one of these."""
         if event.type in ENDS_IT:
             self.outcome = ("back",)
             return True
         return False
 
     def advance(self, now: float) -> None:
-        """Make the steps due at `now` [s]; change to the next scene after SECONDS."""
+        """Make the steps due at `now` [s]. After SECONDS of a scene, change to the next one."""
         if self.demo is None:
             self._begin()
         if self.demo is not None:
@@ -71,7 +71,7 @@ class Attract(SceneScreen):
                 self.demo = None
 
     def _begin(self):
-        """Start the next scene. A scene with damaged files is skipped; the menu shows its error."""
+        """Start the next scene. A scene with damaged files is skipped, because the menu shows its error."""
         if self.at >= len(self.names):
             self.outcome = ("back",)
             return

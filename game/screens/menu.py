@@ -23,7 +23,7 @@ FOOT = "\u2191 \u2193 choose   Enter plays   Esc back"
 
 
 class Menu(CanvasScreen):
-    """Menu in which the player chooses a scene. `outcome` becomes ("play", name, level file or None) or ("back",)."""
+    """Menu of scenes. `outcome` becomes ("play", name, level file or None) or ("back",)."""
 
     tune = "title"
 
@@ -42,7 +42,7 @@ class Menu(CanvasScreen):
         self.time = 0.0
 
     def _entries(self):
-        """Rebuild self.rows, and return an entry (scene class or None, level file or None) for each row."""
+        """Rebuild self.rows, and return a list of (scene class or None, level file or None), one for each row."""
         entries, self.rows, group = [], [], None
         for scene_class in self.registry.all_classes():
             own = scene_class.name.split("/")[0] if "/" in scene_class.name else ""
@@ -67,7 +67,7 @@ class Menu(CanvasScreen):
         self.outcome = ("back",)
 
     def resume(self) -> None:
-        """Refresh the list when the screen is shown again, because the level folder may have new files."""
+        """Read the list again when the screen is shown again, because the level folder may have new files."""
         mark = self.list.mark
         self.tables.clear()
         self.entries = self._entries()
@@ -75,7 +75,7 @@ class Menu(CanvasScreen):
         self.list.show_marked()
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """Make one fixed step."""
+        """Make one fixed step of `dt` [s] with the player's input."""
         self.time += dt
         if inputs.pressed("cancel"):
             self.cues.append("back")
@@ -113,8 +113,9 @@ class Menu(CanvasScreen):
             y += height
 
     def _table(self, scene_class, level):
-        """Return the key of a scene's high-score table. None if the level file is unreadable; the error is shown when
-        the player starts the level.
+        """Return the key of the high-score table of a scene, or of a level file if `level` is given.
+
+        It is None for an unreadable level file, whose error is shown when the player starts the level.
         """
         if (scene_class, level) not in self.tables:
             try:

@@ -15,7 +15,7 @@ MOST_LINES = 6  # of one part; longer text is cut
 
 
 class MessageScreen(CanvasScreen):
-    """Screen that shows `parts`, (label, text) pairs, under a title. `outcome` becomes ("back",)."""
+    """Screen that shows a title and `parts`, a list of (label, text). `outcome` becomes ("back",)."""
 
     def __init__(self, title: str, parts: Sequence[tuple[str, str]], ground: Background | None = None) -> None:
         super().__init__()
@@ -24,7 +24,7 @@ class MessageScreen(CanvasScreen):
         self.time = 0.0
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """Make one fixed step."""
+        """Make one fixed step of `dt` [s] with the player's input."""
         self.time += dt
         if confirmed(inputs) or inputs.pressed("cancel") or inputs.pointer_pressed:
             self.cues.append("back")
@@ -50,7 +50,10 @@ class MessageScreen(CanvasScreen):
 
 
 def _broken(canvas, line, width):
-    """Yield the pieces of a line that has no spaces (such as a path) and is too wide; each piece fits into `width`."""
+    """Yield the parts of a line that is too wide and has no spaces, such as a path.
+
+    Each part fits into `width` [px].
+    """
     while canvas.measure(line)[0] > width:
         end = len(line)
         while canvas.measure(line[:end])[0] > width:
@@ -61,5 +64,5 @@ def _broken(canvas, line, width):
 
 
 def error_message(error: UsageError, ground: Background | None = None) -> MessageScreen:
-    """Return a screen that shows a UsageError. A FileError is shown in three parts."""
+    """Return a MessageScreen about a UsageError; a FileError is shown in three parts. ground: its background."""
     return MessageScreen(error.headline, error.parts, ground)

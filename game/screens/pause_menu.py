@@ -17,8 +17,8 @@ WIDTH = 192
 class PauseMenu(CanvasScreen):
     """The pause menu. `outcome`: ("back",), ("restart",), ("settings", page), ("save_replay",), ("tour",) or ("menu",).
 
-    can_save: whether a replay of this run can be saved. message: reason if the game paused by itself, or "". pairs:
-    (key, function) of the game's keys.
+    can_save: whether a replay of this run can be saved. message: the reason if the game paused by itself, otherwise "".
+    pairs: (key, function) of the game's keys, shown under the menu.
     """
 
     holds_music = True
@@ -60,7 +60,7 @@ class PauseMenu(CanvasScreen):
         self.message = message
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """Make one fixed step."""
+        """Make one fixed step of `dt` [s] with the player's input."""
         self.time += dt
         if inputs.pressed("cancel") or inputs.pressed("pause"):
             self.cues.append("back")

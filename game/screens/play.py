@@ -42,8 +42,8 @@ EASIER = ("tier", "narrowphase", "slider:")  # changes that make a score an assi
 class Play(SceneScreen):
     """Screen on which a scene is played. `outcome`: ("pause", message), ("result",), or ("menu",) for a bot's game.
 
-    settings: the player's settings, or None in a test. A person's run is recorded in `recorder`, from the last restart
-    on.
+    settings: the player's settings, or None in a test. A run of the player (no bot, no recording) is recorded in
+    `recorder`, from its last restart on.
     """
 
     takes_game_input = True
@@ -98,7 +98,7 @@ class Play(SceneScreen):
         return self.clock
 
     def note_busy(self, seconds: float) -> None:
-        """Record the time [s] that the steps and the picture of this frame took."""
+        """Record the time [s] that this frame took for its steps and its picture."""
         super().note_busy(seconds)
         if self.lighter is not None:
             self.lighter.note(seconds)
@@ -115,13 +115,14 @@ class Play(SceneScreen):
 
     @property
     def shows_pointer(self) -> bool:
-        """True while the mouse has a function."""
+        """True while the mouse has a function on this screen."""
         working = self.open_panel is not None or self.clock.paused or self.hint is not None
         return working or self.scene.draggable or not self.scene.hides_pointer
 
     def apply_settings(self) -> None:
-        """Apply the player's settings. Settings that change the game become input of the next step, so that a recording
-        contains them.
+        """Apply the player's settings.
+
+        Settings that change the game become input of the next step, as recordings need.
         """
         if self.settings is None:
             return
@@ -143,7 +144,7 @@ class Play(SceneScreen):
 
     @property
     def finished(self) -> bool:
-        """True after the last step, if the command line limits the number of steps."""
+        """True after the last step of a run whose number of steps the command line limits."""
         return self.last_frame is not None and self.session.report.steps >= self.last_frame
 
     def lose_focus(self) -> None:
@@ -177,7 +178,7 @@ class Play(SceneScreen):
                 return
 
     def _went(self):
-        """Update after the timeline has moved the scene to another step."""
+        """Update this screen after the timeline has moved the scene to another step."""
         assert self.timeline is not None
         self.assisted = True
         self.measuring.end_race()
@@ -186,8 +187,9 @@ class Play(SceneScreen):
             self.scene.set_accessibility(self.settings.accessibility())
 
     def drop_future(self) -> None:
-        """Continue the game and its recording from the step to which it was rewound, with the current settings. Later
-        steps are lost.
+        """Continue the game and its recording from the step to which it was rewound, with the current settings.
+
+        The later steps are lost.
         """
         self.step_inspector.leave()
         if self.timeline is not None and not self.timeline.rewind.live:
@@ -211,7 +213,10 @@ class Play(SceneScreen):
             self._note_result()
 
     def _note_help(self):
-        """Mark the score as assisted if this step had help: slow motion, an easier setting, invincibility, dragging."""
+        """Mark the score as assisted if the player had help in this step.
+
+        Help is slow motion, an easier setting, invincibility, or dragging bodies.
+        """
         slow = self.clock.speed < 1.0 or self.clock.game_speed < 1.0 or self.clock.paused
         changed = any(name.startswith(EASIER) for name, _ in self.session.inputs.now.changes)
         if slow or changed or self.scene.assist.get("invincible") or self.scene.drag.holds:
@@ -232,14 +237,14 @@ class Play(SceneScreen):
             self.outcome = ("result",)
 
     def end_run(self) -> None:
-        """Pass the recording of the ended run to run_ended(), once."""
+        """Pass the recording of the ended run to run_ended(). A second call does nothing."""
         self.drop_future()
         if self.renews and self.recorder is not None:
             self.run_ended(self.recorder, self.scene.result)
             self.recorder = self.session.recorder = None
 
     def restart(self) -> None:
-        """Restart the scene from its first frame. A person's attempt becomes a run with its own recording.
+        """Restart the scene from its first frame. Each attempt of the player is a run with its own recording.
 
         The first input of that recording contains the settings chosen before, so that the recording does not depend on
         earlier runs.
@@ -268,23 +273,20 @@ class Play(SceneScreen):
 
     @property
     def news(self) -> str:
-        """Line of text about the setting switched last, "" once it is old."""
+        """Line of text about the last change of a setting; "" once it is old."""
         return self.switches.news
 
     def toggle_pause(self) -> None:
-        """Pause or continue."""
+        """Pause the game, or continue it."""
         self.clock.paused = not self.clock.paused
 
     def single_step(self) -> None:
-        """Pause, and make one step."""
+        """Pause the game, and make one step."""
         self.clock.paused = True
         self.clock.request_step()
 
     def toggle_step_inspector(self) -> None:
-        """Freeze the game and inspect its next step stage by stage.
-
-        If a step is inspected already, end the inspection.
-        """
+        """Freeze the game and inspect its next step stage by stage; during an inspection, end it."""
         if self.step_inspector.open:
             self.step_inspector.leave()
         else:
@@ -293,7 +295,7 @@ class Play(SceneScreen):
             self.switches.report(self.step_inspector.enter())
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Process an event before the game does; return whether it was used."""
+        """Process an event that has a function on this screen, before the game gets it. Return whether it was used."""
         hint = None if self.open_panel is not None else self.hint
         if hint is not None and hint.dismissed_by(event, self.devices.pressed_button(event)):
             if self.settings is not None:
@@ -324,7 +326,7 @@ class Play(SceneScreen):
         return event.type == pygame.KEYDOWN and press(self, event.key)
 
     def stop(self) -> None:
-        """Go to the pause menu; to the result if the game has ended; to the scene menu from a bot's game."""
+        """Open the pause menu; the result if the game has ended; or the scene menu from a bot's game."""
         if not self.person:
             self.outcome = ("menu",)
         else:
@@ -362,7 +364,7 @@ class Play(SceneScreen):
             self.restart()
 
     def close(self) -> None:
-        """Clean up when the screen is left for good."""
+        """End inspections and measurements when the screen is left for good."""
         super().close()
         self.step_inspector.leave()
         self.close_costs()
@@ -374,9 +376,7 @@ class Play(SceneScreen):
             self.switches.report(news)
 
     def _below(self) -> StepInspectorView | Timeline | None:
-        """Return the element at the bottom of the picture while the game is paused: step inspector or timeline; None
-        for none.
-        """
+        """Return the element at the bottom of the picture: step inspector, timeline, or None while the game runs."""
         if self.step_inspector.open:
             return self.step_inspector
         return self.timeline if self.timeline is not None and (self.clock.paused or self.timeline.runs) else None

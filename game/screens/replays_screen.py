@@ -1,4 +1,4 @@
-"""The screen of the user's replays. It lists, describes, plays and keeps replays, and shows where their files are."""
+"""The screen of the user's replays. It lists, describes, plays and keeps them, and shows where their files are."""
 
 from collections.abc import Callable
 from functools import partial
@@ -26,7 +26,7 @@ MISSING = object()  # not read yet
 class ReplaysScreen(CanvasScreen):
     """List of replays. `outcome` becomes ("watch", path) or ("back",).
 
-    `copy(text)` copies a text to the clipboard and returns whether that worked.
+    copy(text) copies a text to the clipboard, and returns whether that worked.
     """
 
     tune = "title"
@@ -49,7 +49,7 @@ class ReplaysScreen(CanvasScreen):
 
     @property
     def chosen(self) -> tuple[Path, bool] | None:
-        """(path, whether the player keeps it) of the marked replay; None while Back is marked."""
+        """(path, whether the player has chosen to keep it) of the marked replay; None while Back is marked."""
         return self.entries[self.list.mark] if self.list.mark < len(self.entries) else None
 
     def _rows(self):
@@ -107,7 +107,7 @@ class ReplaysScreen(CanvasScreen):
         self.message = "The path is on the clipboard: send the file to a friend." if copied else f"The file: {path}"
 
     def resume(self) -> None:
-        """Refresh the list when the screen is shown again, because the files may have changed."""
+        """Read the list again when the screen is shown again, because the files may have changed."""
         before = self.chosen
         self.entries = shelf()
         if before in self.entries:
@@ -116,7 +116,7 @@ class ReplaysScreen(CanvasScreen):
         self.inside = False
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """Make one fixed step."""
+        """Make one fixed step of `dt` [s] with the player's input."""
         self.time += dt
         unread = next((path for path, _ in self.entries if path not in self.read), None)
         if unread is not None:
@@ -165,7 +165,10 @@ class ReplaysScreen(CanvasScreen):
         self.card.draw(canvas, self.inside)
 
     def _about(self, chosen, width):
-        """Return (text, color, font, height) lines about the chosen replay."""
+        """Return the lines about the chosen replay, a list of (text, color, font, height [px]).
+
+        chosen: value of the property `chosen`; width: of a line [px].
+        """
         path, kept = chosen
         replay, reason = self.read.get(path, (MISSING, ""))
         if replay is MISSING:
@@ -193,7 +196,7 @@ class ReplaysScreen(CanvasScreen):
 
 
 def _path_lines(text, width):
-    """Return the lines of a text wrapped at spaces and, in paths, at slashes."""
+    """Return a text as lines of at most `width` [px]. It is wrapped at spaces and, in paths, at slashes."""
     return [
         line.replace("/ ", "/").replace("\\ ", "\\")
         for line in wrap(text.replace("/", "/ ").replace("\\", "\\ "), width, SMALL)

@@ -20,10 +20,10 @@ COUNT_SECONDS = 0.8  # the numbers count up this long
 
 
 class ResultScreen(CanvasScreen):
-    """The result of a game. `place`: 1..10 in the high scores, or None. `enter(initials)` is called once, when the
-    initials are accepted.
+    """The result of a game. `place`: 1..10 in the high scores, or None if it has no place there.
 
-    `outcome`: ("again",), ("save_replay",), ("scores",) or ("menu",).
+    enter(initials) is called once, when the initials are accepted. `outcome`: ("again",), ("save_replay",), ("scores",)
+    or ("menu",).
     """
 
     shows_result = True
@@ -51,12 +51,12 @@ class ResultScreen(CanvasScreen):
 
     @property
     def asked(self) -> Initials | None:
-        """The initials while they are entered, else None."""
+        """The Initials while the player enters them, else None."""
         return self.initials if self.initials is not None and not self.initials.done else None
 
     @property
     def entering(self) -> bool:
-        """True while initials are entered."""
+        """True while the player enters initials."""
         return self.asked is not None
 
     def _rows(self):
@@ -75,7 +75,7 @@ class ResultScreen(CanvasScreen):
         return self.asked is not None and self.asked.feed(event)
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """Make one fixed step."""
+        """Make one fixed step of `dt` [s] with the player's input."""
         self.time += dt
         asked = self.asked
         if asked is not None:
@@ -95,8 +95,9 @@ class ResultScreen(CanvasScreen):
         self.notes[:] = [message]
 
     def accept(self) -> None:
-        """Accept the initials as they are, so that a hasty Esc or closing the window does not lose the place in the
-        high scores.
+        """Accept the initials as they are.
+
+        Called on Esc and when the window closes, so that the place in the high scores is not lost.
         """
         asked = self.asked
         if asked is not None:

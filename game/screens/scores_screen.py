@@ -1,5 +1,6 @@
-"""High scores: a page for each ranked scene, and for each level of the player's own that was played. Left and right
-turn pages.
+"""High scores: a page for each ranked scene, and for each of the player's own levels that was played.
+
+Left and right turn the pages.
 """
 
 from pathlib import Path
@@ -26,7 +27,7 @@ HEADS = ("", "NAME", "POINTS", "TIME", "DATE", "")
 
 
 class Page(NamedTuple):
-    """A page of high scores: its heading, the key of its table in the records, its order ("points" or "seconds")."""
+    """A page of high scores: heading, key of its table in the records, and order ("points" or "seconds")."""
 
     title: str
     table: str
@@ -34,8 +35,9 @@ class Page(NamedTuple):
 
 
 def pages_of(registry: Registry, records: Records, played: tuple[str, Path | None] | None = None) -> list[Page]:
-    """Return the pages in menu order. played: (scene name, level file) of the current game, or None. Its level gets a
-    page even if the file is not in the level folder.
+    """Return the pages in the order of the menu. played: (scene name, level file) of the current game, or None.
+
+    The level of that game gets a page even if its file is not in the level folder.
     """
     found = []
     for scene_class in registry.all_classes():
@@ -56,8 +58,9 @@ def pages_of(registry: Registry, records: Records, played: tuple[str, Path | Non
 
 
 class ScoresScreen(CanvasScreen):
-    """Pages of high scores. `outcome`: ("back",). pages: from pages_of(). shown: key of the table to show first.
-    newest: (table, place) of the entry to mark.
+    """Pages of high scores. `outcome`: ("back",).
+
+    pages: result of pages_of(). shown: key of the table to show first. newest: (table, place) of the entry to mark.
     """
 
     def __init__(
@@ -84,11 +87,11 @@ class ScoresScreen(CanvasScreen):
 
     @property
     def arrows(self) -> tuple[pygame.Rect, pygame.Rect]:
-        """Rects of the (left, right) arrows; a click on one turns the page."""
+        """Rectangles of the left and the right arrow. A click on an arrow turns the page."""
         return pygame.Rect(PAGE.x + 8, PAGE.y + 36, 24, 16), pygame.Rect(PAGE.right - 32, PAGE.y + 36, 24, 16)
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """Make one fixed step."""
+        """Make one fixed step of `dt` [s] with the player's input."""
         self.time += dt
         way = self.sideways.move(inputs, dt) - (inputs.wheel > 0) + (inputs.wheel < 0)
         if inputs.pointer_pressed:

@@ -1,7 +1,7 @@
 """Interface between the program and the screen on top of the stack.
 
-A CanvasScreen (a menu or message) is drawn on the canvas and moved in fixed steps by the program. A SceneScreen shows a
-scene, makes the scene's steps itself, and draws at the window's resolution.
+A CanvasScreen (a menu or message) is drawn on the canvas and stepped by the program. A SceneScreen shows a scene, makes
+the scene's steps itself, and draws at window resolution.
 """
 
 from abc import ABC, abstractmethod
@@ -21,9 +21,10 @@ Outcome = tuple[str, *tuple[Any, ...]]  # a name in the table of game/screens/st
 
 
 class Screen:
-    """The interface, with defaults.
+    """The interface of a screen, with default behaviour.
 
-    `outcome`: where to go next; None while the screen stays. `cues`: sounds of the screen's menus to play next.
+    outcome: (name, *arguments) of the next screen or action, see Screens.follow; None while the screen stays. cues:
+    sounds of the screen's menus to play next.
     """
 
     shows_pointer: bool = True
@@ -46,7 +47,7 @@ class Screen:
         return None
 
     def note_busy(self, seconds: float) -> None:
-        """Record the time [s] that the steps and the picture of this frame took."""
+        """Record the time [s] that this frame took for its steps and its picture."""
         if self.running_clock is not None:
             self.running_clock.note(seconds)
 
@@ -56,20 +57,20 @@ class Screen:
         return False
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Process an event before it becomes game or menu input; return whether it was used."""
+        """Process an event before it becomes input of a game or menu. Return whether it was used."""
         return False
 
     def resume(self) -> None:
-        """Update when the screen is shown again."""
+        """Update the screen when it is shown again."""
 
     def lose_focus(self) -> None:
-        """React to the loss of the window's focus."""
+        """React to the window's loss of focus."""
 
     def close(self) -> None:
-        """Clean up when the player leaves this screen for the one below."""
+        """Release what the screen uses when the player leaves it for the screen below."""
 
     def accept(self) -> None:
-        """Accept a pending entry, such as initials, because the window closes."""
+        """Accept a pending entry, such as initials. Called when the window closes."""
 
     def report(self, message: str) -> None:
         """Show one line of text about the result of an action of this screen."""
@@ -87,8 +88,9 @@ class CanvasScreen(Screen, ABC):
         """Draw the screen. alpha: interpolation between the last two steps, 0..1."""
 
     def turn(self, now: float, steps: Iterable[InputState], picture: Picture) -> Frame | None:
-        """Make the due steps, each with its input from `steps`; then draw the screen. Stop early if a step leaves the
-        screen.
+        """Make the due steps, each with its input from `steps`; then draw the screen.
+
+        The remaining steps are dropped if a step leaves the screen.
         """
         for inputs in steps:
             self.step(inputs, STEP_SECONDS)
@@ -112,8 +114,9 @@ class SceneScreen(Screen, ABC):
         """Draw the scene and the elements over it; return the frame."""
 
     def turn(self, now: float, steps: Iterable[InputState], picture: Picture) -> Frame | None:
-        """Make the steps due at `now` [s], and draw the scene. Return the frame, so that the program can write the
-        frame time on it. Called once per picture.
+        """Make the steps due at `now` [s], draw the scene, and return the frame. Called once per picture.
+
+        The program writes the frame time on the returned frame.
         """
         self.advance(now)
         return self.draw(picture)

@@ -1,4 +1,4 @@
-"""The settings: a list of pages at the left, the rows of the marked page at the right. Every change applies at once."""
+"""The settings: a list of pages at the left, the rows of the marked page at the right. Changes apply at once."""
 
 from collections.abc import Callable
 
@@ -26,11 +26,10 @@ BINDING_FOOT = "Enter or click, then press the new one   Esc keeps the old"
 
 
 class SettingsScreen(CanvasScreen):
-    """Editor of a Settings object. `changed()` is called to apply each change; `saved()` is called when the screen is
-    left.
+    """Editor of a Settings object. `outcome` becomes ("back",).
 
-    `outcome` becomes ("back",). page: name of the page to open first, with the keys on its rows; None: the list of
-    pages.
+    changed() is called after each change, saved() when the screen is left. page: name of the page to open first, with
+    the keys on its rows; None: the list of pages.
     """
 
     def __init__(
@@ -59,7 +58,7 @@ class SettingsScreen(CanvasScreen):
 
     @property
     def page(self) -> str | None:
-        """The current page, or None while Back is marked."""
+        """The marked page, or None while Back is marked."""
         return PAGES[self.pages.mark] if self.pages.mark < len(PAGES) else None
 
     def _page_rows(self):
@@ -89,7 +88,10 @@ class SettingsScreen(CanvasScreen):
         self.saved()
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Bind the key or button of this event, if the screen waits for one. Return whether the event was used."""
+        """Bind the key or button of this event to an action, if the screen waits for one.
+
+        Return whether it was used.
+        """
         if self.waiting_for is None:
             return False
         device, action = self.waiting_for
@@ -113,7 +115,7 @@ class SettingsScreen(CanvasScreen):
         return True
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """Make one fixed step."""
+        """Make one fixed step of `dt` [s] with the player's input."""
         self.time += dt
         if self.waiting_for is not None:
             return

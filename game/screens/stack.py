@@ -1,4 +1,4 @@
-"""The stack of screens, and the effect of each outcome. For the interface of a screen see game/screens/screen.py."""
+"""The stack of screens, and the effect of each outcome. game/screens/screen.py is the interface of a screen."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -37,7 +37,7 @@ AnyScreen = CanvasScreen | SceneScreen
 
 
 class Screens:
-    """The stack of screens; only the top screen is visible and audible. `played`: the game on the stack, or None."""
+    """The stack of screens. Only the top screen is visible and audible. `played`: the game on the stack, or None."""
 
     def __init__(self, arcade: Arcade) -> None:
         self.arcade = arcade
@@ -81,8 +81,9 @@ class Screens:
         return self.stack[-1]
 
     def follow(self, outcome: Outcome) -> None:
-        """Carry out an outcome of the top screen, (name, *arguments): call the method that `table` has for the name. An
-        unusable file leads to a message.
+        """Carry out an outcome of the top screen, (name, *arguments): call the function in `table` for that name.
+
+        A UsageError, such as an unusable file, is shown as a message.
         """
         name, *rest = outcome
         self.top.outcome = None
@@ -92,7 +93,7 @@ class Screens:
             self.complain(error, name not in ("watch", "file"))
 
     def complain(self, error: UsageError, ends_scene: bool = True) -> None:
-        """Show a message about an unusable file, the `error`, over the screen to return to.
+        """Show a message about an error, such as an unusable file, over the screen to return to.
 
         ends_scene: whether the file belongs to the scene on top, which is then closed.
         """
@@ -121,7 +122,7 @@ class Screens:
         self.stack = [Title(), self._scene_menu()]
 
     def back(self) -> None:
-        """Go back to the screen below; to the title if there is none."""
+        """Return to the screen below, or to the title if there is none."""
         self.stack.pop().close()
         if not self.stack:
             self.stack = [Title()]
@@ -139,7 +140,7 @@ class Screens:
             self.played.apply_settings()
 
     def scores(self) -> None:
-        """Open the high scores; from a game at the table of its scene or level."""
+        """Open the high scores. Over a game, its own table is shown first."""
         arcade, play = self.arcade, self.played
         pages = pages_of(arcade.registry, arcade.records, play and (play.scene.name, play.scene.level_file))
         self.stack.append(ScoresScreen(pages, arcade.records, play and play.table, self.newest, self._ground()))
@@ -149,10 +150,10 @@ class Screens:
         self.stack.append(ReplaysScreen(self.arcade.registry, copy_text))
 
     def open_file(self, path: str | Path) -> None:
-        """Open a file dropped on the window: a PNG picture starts the scene that takes pictures as levels; any other
-        file is played as a recording.
+        """Open a file that was dropped on the window. Raises UsageError for an unusable file.
 
-        Raises UsageError for an unusable file; the current game then continues.
+        A PNG picture starts the scene that takes pictures as levels; any other file is played as a recording. After an
+        error the current game continues.
         """
         classes = self.arcade.registry.all_classes() if Path(path).suffix.lower() == ".png" else []
         taker = next((each for each in classes if each.takes_level and each.level_suffix == ".png"), None)
@@ -185,14 +186,14 @@ class Screens:
         self.stack.append(Tour(self._make_shown, arcade.registry.names, arcade.devices, accessibility))
 
     def attract(self) -> None:
-        """Start the demonstration, which any input ends."""
+        """Start the demonstration. Any input ends it."""
         self.stack.append(Attract(self._make_shown, self.arcade.registry.names, self.arcade.settings.accessibility()))
 
     def _make_shown(self, name):
         return self.arcade.registry.scene_class(name)(0)
 
     def play(self, name: str, level: Path | None = None) -> None:
-        """Play a scene chosen in the menu."""
+        """Play a scene chosen in the menu. level: level file of the player, or None."""
         arcade = self.arcade
         scene = arcade.registry.scene_class(name)(arcade.options.seed or 0, level=level)
         self._begin(Play(scene, arcade.devices, arcade.sounds, settings=arcade.settings))
@@ -226,9 +227,7 @@ class Screens:
         self.played = play
 
     def _bring_best(self, play):
-        """Pass the best run so far to the scene of `play`: its points and, in scenes ranked by time, its path as a
-        ghost.
-        """
+        """Pass the best run so far to the scene of `play`: its points and, if ranked by time, its path as a ghost."""
         scene = play.scene
         best = self.arcade.records.best(play.table)
         if best is not None:
@@ -251,13 +250,14 @@ class Screens:
             self.played = None
 
     def _game(self) -> Play:
-        """Return the game on the stack. Pause menu and result, which call this, are open only over a game."""
+        """Return the game on the stack. Pause menu and result, whose outcomes call this, are open only over a game."""
         assert self.played is not None
         return self.played
 
     def pause(self, message: str = "") -> None:
-        """Open the pause menu, with a message or "". If the game has ended, open its result instead, so that its place
-        in the high scores is not lost.
+        """Open the pause menu. message: a line to show in it, or "".
+
+        If the game has ended, its result is opened instead, so that its place in the high scores is not lost.
         """
         play = self._game()
         if play.scene.result is not None:
@@ -267,7 +267,7 @@ class Screens:
         self.stack.append(PauseMenu(play.scene, play.renews, message, pairs))
 
     def restart(self) -> None:
-        """Restart the game from the pause menu or the result, which are closed."""
+        """Restart the game, and close the pause menu or the result over it."""
         play = self._game()
         while self.top is not play:
             self.stack.pop()
@@ -310,7 +310,7 @@ class Screens:
         self.stack.append(screen)
 
     def enter_results(self) -> None:
-        """Enter an ended game in the high scores with the initials used last, because the window closes."""
+        """Enter an ended game in the high scores with the last used initials. Called when the window closes."""
         play = self.played
         if play is not None and play.since_result and not any(screen.shows_result for screen in self.stack):
             self.result()

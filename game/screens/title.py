@@ -1,5 +1,6 @@
-"""The title: two planes pass, and HIT appears only where their pixels overlap, not their boxes alone. After IDLE
-seconds without input the demonstration starts.
+"""The title: two planes pass each other, and HIT appears only where their pixels overlap, not only their boxes.
+
+After IDLE seconds without input the demonstration starts.
 """
 
 from math import pi, sin
@@ -30,9 +31,7 @@ ENTRIES = (
 
 
 class Title(CanvasScreen):
-    """The first screen. `outcome` becomes the outcome of the chosen entry in ENTRIES, or ("attract",) after IDLE
-    seconds without input.
-    """
+    """The first screen. `outcome` becomes that of the chosen entry in ENTRIES, or ("attract",) after IDLE seconds."""
 
     tune = "title"
 
@@ -54,11 +53,11 @@ class Title(CanvasScreen):
         self.outcome = outcome
 
     def resume(self) -> None:
-        """Start the idle time anew when the screen is shown again."""
+        """Restart the idle time when the screen is shown again."""
         self.idle = 0.0
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """Make one fixed step."""
+        """Make one fixed step of `dt` [s] with the player's input."""
         self.time += dt
         busy = (
             inputs.now.actions or inputs.now.pointer_down or inputs.now.wheel or inputs.pointer != inputs.before.pointer
@@ -88,7 +87,7 @@ class Title(CanvasScreen):
         canvas.text(foot, canvas.rect.centerx, FOOT_Y, FOG, SMALL, 1, "center", True)
 
     def _draw_planes(self, canvas):
-        """Draw both planes; the colour of their boxes shows whether boxes and pixels (pygame masks) overlap."""
+        """Draw both planes. The colour of their boxes shows whether boxes and pixels overlap (by pygame masks)."""
         phase = self.time % LOOP / LOOP
         sway = sin(phase * 2 * pi)
         a = self.left.get_rect(center=(round(262 + 40 * sway), round(180 + 4 * sin(phase * 4 * pi))))

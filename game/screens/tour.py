@@ -1,7 +1,7 @@
-"""One-minute tour of the overlays: bots play, one layer after the other is shown, and a card describes it in two lines.
+"""One-minute tour of the overlays. Bots play, one layer after the other is shown, and a card describes it.
 
 Each stop of the tour waits for an example of its layer, freezes that step with a ring around the example, and then lets
-the scene run on.
+the scene continue.
 """
 
 from collections.abc import Callable, Sequence
@@ -129,9 +129,9 @@ BUTTONS = {
 
 
 class Tour(SceneScreen):
-    """The tour. `make(name)` builds a scene; a stop whose scene is missing uses the first scene in `names`.
+    """The tour. make(name) builds a scene. `outcome` becomes ("back",) at the end.
 
-    `outcome` becomes ("back",) at the end.
+    names: the scenes that exist; a stop whose scene is missing uses the first of them.
     """
 
     tune = "title"
@@ -163,7 +163,7 @@ class Tour(SceneScreen):
 
     @property
     def begins_in(self) -> int:
-        """Number of steps that the bot still has to play, fast, before this stop begins."""
+        """Number of steps that the bot still has to play, at high speed, before this stop begins."""
         return self.stops[self.at][0][1] - self.demo.session.report.steps
 
     def _panel_rows(self):
@@ -180,11 +180,11 @@ class Tour(SceneScreen):
 
     @property
     def waits(self) -> bool:
-        """True while the bot plays fast, until an example of this stop's layer appears."""
+        """True while the bot plays at high speed until an example of this stop's layer appears."""
         return not self.shown and self.subject is None and (self.begins_in > 0 or self.waited < PATIENCE)
 
     def advance(self, now: float) -> None:
-        """Make the steps due at `now` [s]; go to the next stop after SECONDS."""
+        """Make the steps due at `now` [s]. After SECONDS of a stop, go to the next one."""
         try:
             due = self.demo.clock.advance(now)
             if self.waits:
@@ -204,7 +204,7 @@ class Tour(SceneScreen):
             self._go(NEXT)
 
     def _play_ahead(self):
-        """Make steps for at most AHEAD seconds, until an example of this stop's layer appears."""
+        """Make steps until an example of this stop's layer appears, for at most AHEAD seconds of real time."""
         layer, started = self.stops[self.at][1], perf_counter()
         while self.waits and perf_counter() - started < AHEAD:
             if self.begins_in <= 0:
@@ -219,7 +219,7 @@ class Tour(SceneScreen):
                     self._play_again()
 
     def _play_again(self):
-        """Restart the scene when its game has ended, so that the bot always plays."""
+        """Restart the scene if its game has ended, so that the bot always has a game to play."""
         self.demo.scene.restart()
 
     def _go(self, what):
@@ -269,13 +269,13 @@ class Tour(SceneScreen):
         return frame
 
     def _ring_on(self, frame):
-        """Return the ring's rect around the example [frame px]; None without an example."""
+        """Return the rectangle of the ring around the example [frame px]; None without an example."""
         if self.subject is None:
             return None
         return frame.from_canvas(self.subject.inflate(2 * MARGIN, 2 * MARGIN))
 
     def _reserve(self, frame):
-        """Place the card beside the ring, where the card covers the least text, and reserve the places of both."""
+        """Place the card beside the ring, where it covers the least text, and reserve the places of both."""
         ring = self._ring_on(frame)
         beside_panel = self.stops[self.at][1] == "panel"
         self.card = docked(frame, frame.area.clip(frame.rect) if beside_panel else frame.rect, ring)
@@ -304,7 +304,10 @@ class Tour(SceneScreen):
         self._draw_foot(frame, rect, scale)
 
     def _draw_foot(self, frame, rect, scale):
-        """Draw a dot for each stop, the progress of this stop, and the functions of the keys, which can be clicked."""
+        """Draw a dot for each stop, the progress of this stop, and the names of the keys, which can be clicked.
+
+        rect: of the card; scale: frame px per text px.
+        """
         self.places = []
         y = rect.bottom - 11 * scale
         for number in range(len(self.stops)):
@@ -322,9 +325,9 @@ class Tour(SceneScreen):
 
 
 def docked(frame: Frame, area: pygame.Rect, ring: pygame.Rect | None) -> pygame.Rect:
-    """Return the card's place in an area: at a corner or at the middle of the top or bottom border.
+    """Return the card's place in an area: at a corner, or at the middle of the top or bottom border.
 
-    Of the places that are clear of the ring, if there are any, the one is chosen where the card covers the least text.
+    Places that do not cover the ring are preferred; of these, the place where the card covers the least text is chosen.
     """
     scale = frame.scale_for(CARD[0])
     size = (min(CARD[0] * scale, area.width), CARD[1] * scale)
@@ -338,7 +341,7 @@ def docked(frame: Frame, area: pygame.Rect, ring: pygame.Rect | None) -> pygame.
 
 
 def draw_ring(frame: Frame, ring: pygame.Rect) -> None:
-    """Draw a golden rectangle around `ring` between two dark lines, so that it is visible on any background."""
+    """Draw a golden rectangle between two dark ones, visible on any background. ring: its rectangle [frame px]."""
     thick = max(2, frame.scale)
     outer = ring.inflate(2 * thick, 2 * thick).clip(frame.rect)
     corner = 5 * frame.scale

@@ -1,5 +1,6 @@
-"""The screen that plays a recording: freeze, slow motion, single steps, seek; overlays and panel as in a game, but the
-recorded game cannot be changed.
+"""The screen that plays a recording: freeze, slow motion, single steps, seek.
+
+Overlays and panel work as in a game, but the recorded game cannot be changed.
 """
 
 import pygame
@@ -47,7 +48,7 @@ BUTTON_KEYS = {
 
 
 class Watch(SceneScreen):
-    """Player of a recording (a Tape). `outcome` becomes ("back",). name: the recording's file."""
+    """Player of a recording (a Tape). `outcome` becomes ("back",). name: name of the recording's file."""
 
     def __init__(
         self, tape: Tape, devices: DeviceSource, sounds: Sounds, accessibility: Accessibility, name: str = ""
@@ -81,14 +82,15 @@ class Watch(SceneScreen):
 
     @property
     def failure(self) -> str:
-        """Message if the game differs from the recording, otherwise "". A recording of another version of physics may
-        differ: that is no failure.
+        """Message if the game differs from the recording, otherwise "".
+
+        For a recording of another version of the physics it is "", because such a recording may differ.
         """
         return "" if self.tape.recording.outdated else self.tape.diverged
 
     @property
     def diverged(self) -> bool:
-        """True from the frame on at which the game first differed from the recording."""
+        """True at and after the frame at which the game first differed from the recording."""
         return self.tape.diverged_at is not None and self.tape.position >= self.tape.diverged_at
 
     def advance(self, now: float) -> None:
@@ -128,17 +130,16 @@ class Watch(SceneScreen):
         self.clock.game_speed = SPEEDS[self.speed]
 
     def leap(self, frames: int) -> None:
-        """Seek to a frame `frames` later (earlier if negative), counted from the current frame or, during a seek, from
-        its goal.
+        """Seek to a frame `frames` later, or earlier if negative.
+
+        The frames count from the current frame or, during a seek, from its goal.
         """
         start = self.tape.position if self.tape.goal is None else self.tape.goal
         self.tape.begin_seek(start + frames)
 
     @property
     def shows_controls(self) -> bool:
-        """True while the controls are visible. During undisturbed playback they are hidden, so that they do not cover
-        the game.
-        """
+        """True while the controls are visible. They are hidden during undisturbed playback, as they cover the game."""
         return self.clock.paused or self.alone < HIDE_SECONDS or self.tape.goal is not None or self.dragging
 
     def feed(self, event: pygame.event.Event) -> bool:
@@ -252,7 +253,7 @@ class Watch(SceneScreen):
             frame.text(KEYS_LINE, rect.centerx, rect.bottom - 9 * scale, FOG, SMALL, scale, "center")
 
     def _draw_bar(self, frame, scale):
-        """Draw the bar: the current frame, the key frames, and the frame at which game and recording diverged."""
+        """Draw the bar with the current frame, the key frames, and the frame of the first difference, if any."""
         surface, tape, bar = frame.surface, self.tape, self.bar
         line = pygame.Rect(bar.x, bar.centery - scale, bar.width, 2 * scale)
         surface.fill(DUSK, line)
@@ -293,7 +294,7 @@ def _draw_button(surface, rect, paused, scale):
 
 
 def watch_rows(watch: Watch) -> list[Row]:
-    """Return the rows of the panel. They change the view, but not the recorded game."""
+    """Return the panel's rows. They change the view, not the recorded game."""
     scene, tape = watch.tape.scene, watch.tape
     spacing = tape.spacing // 60
     solver = plain_name(solver_name(scene) or "no solver")

@@ -1,1 +1,1 @@
-"""Parts of screens: lists of rows, the panel, lines, cards and backgrounds."""
+"""Parts of screens: lists of rows, the panel, lines of text, cards and backgrounds."""

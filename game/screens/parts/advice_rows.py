@@ -1,5 +1,6 @@
-"""Two lines below the finding of the cost panel: the recommended setting, and the tuner, which applies recommendations
-by itself.
+"""Two lines in the cost panel, below the finding: the advised setting, and the state of the tuner.
+
+The tuner applies the advice automatically.
 """
 
 from collections.abc import Callable
@@ -28,8 +29,9 @@ class AdviceRows:
         return self.tuner.on, len(self.tuner.decisions), self.measuring.advice
 
     def key(self, key: int) -> bool:
-        """Process a key: Page Up applies the advice, Page Down switches the tuner. Return whether the key was Page Up
-        or Page Down.
+        """Process a key: Page Up applies the advice, Page Down switches the tuner.
+
+        Return whether it was one of them.
         """
         if key == TAKE:
             self.take()
@@ -38,7 +40,7 @@ class AdviceRows:
         return key in (TAKE, TUNE)
 
     def click(self, position: tuple[int, int]) -> bool:
-        """Process a click: a click on a line has the effect of that line's key. Return whether a line was hit."""
+        """Process a click at a window position. A click on a line acts like its key. Return whether a line was hit."""
         for rect, key in zip(self.rects, (TAKE, TUNE), strict=True):
             if rect.collidepoint(position):
                 return self.key(key)
@@ -51,7 +53,7 @@ class AdviceRows:
             self.apply(advice[0])
 
     def draw(self, frame: Frame, left: int, y: int, width: int, scale: int) -> int:
-        """Draw the lines from (left, y) down, `width` wide. Return the y below them."""
+        """Draw both lines from (left, y) down, `width` wide [frame px]. Return the y below them."""
         texts = ((self._advice(), GREEN), (self._tuning(), SKY if self.tuner.on else FOG))
         for row, (text, color) in enumerate(texts):
             self.rects[row] = rect = pygame.Rect(left, y + row * ROW * scale, width, (ROW - 1) * scale)

@@ -1,4 +1,4 @@
-"""Backgrounds of menus: the moving mountains of the title, or the paused game, darkened; and the box around a menu."""
+"""Backgrounds of menus: the moving mountains of the title, or the darkened paused game; and the box around a menu."""
 
 import pygame
 
@@ -25,17 +25,16 @@ class DuskBackground:
 
 
 class SceneBackground:
-    """Background that shows the paused scene, darkened. The scene is drawn anew for each picture, so that a changed
-    setting shows at once.
+    """Background that shows the paused scene, darkened.
+
+    The scene is drawn anew for each picture, so that a changed setting is visible at once.
     """
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
 
     def draw(self, canvas: Canvas, time: float) -> None:
-        """Draw the scene darkened; `time` is not used. The areas reserved for its text are released, so that a menu may
-        cover them.
-        """
+        """Draw the scene darkened. `time` is not used. A menu may cover the scene's text and plots."""
         self.scene.draw(canvas, 1.0)
         canvas.surface.fill((DIMMED,) * 3, special_flags=pygame.BLEND_RGB_MULT)
         canvas.boxes.clear()
@@ -46,8 +45,9 @@ Background = DuskBackground | SceneBackground
 
 
 def draw_page(canvas: Canvas, rect: Box, title: str, foot: str = "") -> pygame.Rect:
-    """Draw a box with a title and a line under the title; return the rect inside the box. foot: text of the box's last
-    line, which names the keys.
+    """Draw a box with a title and a line under the title. Return the rectangle inside the box.
+
+    foot: last line of text in the box, which names the keys; "" for none.
     """
     rect = pygame.Rect(rect)
     draw_box(canvas, rect)

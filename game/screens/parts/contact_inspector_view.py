@@ -1,4 +1,7 @@
-"""Contact inspector: a click on a contact of the frozen scene opens a card on that pair in each stage of the step."""
+"""Contact inspector: a click on a contact of the frozen scene opens a card about its two shapes.
+
+The card describes the result of each stage of the step for this pair.
+"""
 
 import pygame
 
@@ -15,8 +18,9 @@ WIDTH, ROW, EDGE = 150, 7, 4  # [text px] of the card
 
 
 class ContactInspectorView:
-    """View of the contact inspector: feed() takes clicks, draw() shows the card of the chosen contact. The card closes
-    when the scene moves on.
+    """View of the contact inspector: feed() takes clicks, draw() shows the card of the chosen contact.
+
+    The card closes when the scene is no longer frozen.
     """
 
     def __init__(self, scene: Scene) -> None:
@@ -27,10 +31,9 @@ class ContactInspectorView:
         self.reach = REACH  # [frame px]
 
     def feed(self, event: pygame.event.Event, frozen: bool) -> bool:
-        """Process a click while the scene is frozen: near a contact it opens that contact's card, elsewhere it closes
-        the open card.
+        """Process a click while the scene is frozen. Return whether it was used.
 
-        Return whether the click was used.
+        Near a contact it opens that contact's card; elsewhere it closes the open card.
         """
         if not frozen or event.type != pygame.MOUSEBUTTONDOWN or event.button != 1:
             return False

@@ -1,4 +1,4 @@
-"""Panel that plots accuracy against cost in the running scene: each setting is a dot of its error over its time."""
+"""Panel that plots error against time for the running scene. Each setting of the scene is a dot."""
 
 from collections.abc import Callable
 
@@ -75,7 +75,7 @@ class CostPanel:
         return self.kind if self.kind in kinds else kinds[0] if kinds else ""
 
     def ranking(self) -> list[Setting]:
-        """Return the settings whose cost and error are known, the cheapest first."""
+        """Return the settings with a known cost and a known error of the plotted kind, the cheapest first."""
         known = self.survey.known(self.shown_kind())
         return sorted(known, key=lambda setting: known[setting][0].median)
 
@@ -98,8 +98,10 @@ class CostPanel:
         return False
 
     def key(self, key: int, shift: bool = False) -> bool:
-        """Process a key: up and down choose a setting, Enter applies it, Shift+Enter races it; left and right change
-        the kind of error. Return whether the key was used.
+        """Process a key. Return whether it was used.
+
+        Up and down choose a setting, Enter applies it, and Shift+Enter races it. Left and right change the kind of
+        error.
         """
         ranking = self.ranking()
         if key in (pygame.K_UP, pygame.K_DOWN) and ranking:
@@ -114,7 +116,7 @@ class CostPanel:
         return True
 
     def turn_kind(self, way: int) -> None:
-        """Plot the next kind of error (`way` 1) or the previous one (-1), if there are several."""
+        """Plot the next kind of error (`way` 1) or the previous one (-1). Nothing changes if there is only one."""
         kinds = self.survey.kinds
         if kinds:
             self.kind = following(kinds, self.shown_kind(), way)
@@ -129,8 +131,10 @@ class CostPanel:
         return setting if distance < reach else None
 
     def draw(self, frame: Frame, rect: pygame.Rect) -> None:
-        """Draw the panel into a frame rect. Painting takes a tenth of a frame, so the painted panel is kept: a change
-        of what is shown repaints it at once, new results only after LASTS pictures.
+        """Draw the panel into a frame rectangle.
+
+        Painting takes a tenth of a frame, so the painted panel is kept and drawn again. It is repainted at once after a
+        change by the player, and at most every LASTS pictures after new results.
         """
         now = self.now()
         if not self.trail or self.trail[-1] != now:
@@ -148,7 +152,7 @@ class CostPanel:
         frame.fix(rect)
 
     def _paint(self, frame, rect, now):
-        """Paint the heading, the plot, the legend of the dots' forms, the finding, the advice and the list."""
+        """Paint the heading, the plot, its legend, the finding, the advice and the list. now: the current setting."""
         self.rect, scale = rect, frame.text_scale
         frame.surface.fill(faded(NIGHT, 0.2), rect)
         pygame.draw.line(frame.surface, SLATE, rect.topleft, rect.bottomleft, scale)
@@ -235,9 +239,9 @@ class CostPanel:
             pygame.draw.circle(frame.surface, PAPER, place, 4 * scale, 1)
 
     def _draw_name(self, frame, rect, places, known, now, scale):
-        """Draw the name of the hovered setting beside its dot; without one, the name of the current setting, `now`.
+        """Draw the name of the setting under the pointer, or else of the current setting `now`, beside its dot.
 
-        places: {setting: place of its dot}; known: {setting: (cost, error)}.
+        rect: the plot; places: {setting: (x, y) of its dot}; known: {setting: (cost, error)}; scale: of the text.
         """
         setting = self.hovered if self.hovered in places else now if now in places else None
         if setting is None:
@@ -255,7 +259,8 @@ class CostPanel:
 
     def _draw_forms(self, frame, left, y, width, known, now, scale):
         """Draw the legend from (left, y) on: name and form of each kind of dot in the plot. Return the y below it.
-        known: {setting: (cost, error)}.
+
+        known: {setting: (cost, error)}; now: the current setting; scale: of the text.
         """
         base = self.surveyor.here or now
         names = dict.fromkeys(kind_of(setting, base) for setting in known if setting != base)
@@ -277,8 +282,9 @@ class CostPanel:
         return self._draw_sentence(frame, left, y, width, finding or "the finding comes when enough is measured", scale)
 
     def _draw_list(self, frame, rect, known, now, scale):
-        """Draw the settings, the cheapest first, and how many do not fit above and below. known: {setting: (cost,
-        error)}.
+        """Draw the list of settings, the cheapest first, and the numbers of those that do not fit above and below.
+
+        known: {setting: (cost, error)}; now: the current setting; scale: of the text.
         """
         base, pareto_front = self.surveyor.here or now, set(self.survey.pareto_front(self.shown_kind()))
         ranking = self.ranking()
@@ -312,22 +318,25 @@ class CostPanel:
 
 
 def kind_of(setting: Setting, base: Setting) -> str:
-    """Return the first part of `setting` that differs from `base`, as a key of LOOKS."""
+    """Return the name of the first field in which `setting` differs from `base`, in the order of LOOKS."""
     differs = setting.differs(base)
     return next(name for name in LOOKS if name in differs)
 
 
 def look_of(setting: Setting, base: Setting) -> tuple[Color, str]:
-    """Return (colour, form) of a setting's dot; a white circle for `base`, the setting of the measured state."""
+    """Return (colour, form) of a setting's dot: a white circle for `base`, else by the field that differs from it.
+
+    base: the setting of the state from which the measurements start.
+    """
     return (PAPER, "circle") if setting == base else LOOKS[kind_of(setting, base)][1:]
 
 
 def draw_form(
     surface: pygame.Surface, form: str, place: tuple[float, float], size: float, color: Color, full: bool
 ) -> None:
-    """Draw a dot of the given form at a place.
+    """Draw a dot of a setting at a place [frame px]. form: circle, square, diamond, triangle, or else a cross.
 
-    full: filled; otherwise hollow, because the error is only an upper bound.
+    full: whether it is filled. A hollow dot means that the error is only an upper bound.
     """
     x, y = place
     width = 0 if full else 1
@@ -348,7 +357,10 @@ def draw_form(
 
 
 def _stairs(pareto_front):
-    """Return the points of the stepped line along the Pareto front: right from each point, then down to the next."""
+    """Return the points of the stepped line along the Pareto front: right from each point, then down to the next.
+
+    pareto_front: list of points (x, y), from left to right.
+    """
     points = []
     for (x, y), (next_x, _) in zip(pareto_front, pareto_front[1:], strict=False):
         points += [(x, y), (next_x, y)]
@@ -360,5 +372,5 @@ def _short(cost: Cost) -> str:
 
 
 def _failed(error: Error) -> str:
-    """Return the numbers of failures as text. They are shown beside the error and are not part of it."""
+    """Return the numbers of failures as text, to be written after the error; "" if there are none."""
     return "".join(f", {count} {name.replace('_', ' ')}" for name, count in error.failures.items())

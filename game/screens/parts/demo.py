@@ -1,4 +1,4 @@
-"""A scene that its bot plays: for the title's demonstration and for the tour."""
+"""A scene played by its bot, for the title's demonstration and for the tour."""
 
 from collections.abc import Callable
 
@@ -23,19 +23,22 @@ class Demo:
         self.overlays = Overlays(())
 
     def advance(self, now: float) -> int:
-        """Make the steps due at `now` [s]; return their number."""
+        """Make the steps due at `now` [s]. Return their number."""
         due = self.clock.advance(now)
         for _ in range(due):
             self.step()
         return due
 
     def step(self) -> None:
-        """Make one fixed step."""
+        """Make one fixed step with the bot's input."""
         self.session.step()
         self.overlays.note(self.scene)
 
     def draw(
         self, picture: Picture, panel: Docked | None = None, reserve: Callable[[Frame], None] | None = None
     ) -> Frame:
-        """Draw the scene, with an optional panel; return the frame. For panel and reserve see Picture.draw_scene."""
+        """Draw the scene and return the frame. panel: panel to draw beside it, or None.
+
+        reserve: see Picture.draw_scene.
+        """
         return picture.draw_scene(self.scene, self.overlays, self.clock.alpha, panel, reserve)

@@ -26,8 +26,9 @@ def effect_rows(measuring: Measuring) -> list[Row]:
 
 
 def price_text(known: EffectCost, busy: bool) -> str:
-    """Return the time per step [us] of an effect as text: "0" if it is not greater than the scatter of the runs, "-" if
-    it is unknown, "..." while it is measured (`busy`).
+    """Return the time per step that an effect costs, as text [us].
+
+    "0": not greater than the scatter of the runs; "-": unknown; "...": being measured (`busy`).
     """
     price = known.price
     if price is None:
@@ -36,16 +37,14 @@ def price_text(known: EffectCost, busy: bool) -> str:
 
 
 def kernels_text(known: EffectCost, busy: bool) -> str:
-    """Return the number of kernels compiled for an effect as text: "-" if it is unknown, "..." while it is counted
-    (`busy`).
-    """
+    """Return the number of kernels compiled for an effect as text; "-" if unknown, "..." while counted (`busy`)."""
     if known.kernels is None:
         return WAITS if busy else UNKNOWN
     return f"{known.kernels}"
 
 
 def hint_of(known: EffectCost) -> str:
-    """Return a short text about the effect: whether the scene declares it, and its measured time with the scatter."""
+    """Return a short text about an effect: whether the scene declares it, and its measured time with the scatter."""
     price, noise = known.price, known.noise
     if price is None:
         return "declared" if known.declared else "absent"

@@ -1,4 +1,4 @@
-"""The card shown in the player's first game: which keys show the overlays."""
+"""The card shown in the player's first game, which names the keys of the overlays."""
 
 import pygame
 
@@ -15,7 +15,7 @@ SIZE = (224, 74)  # [text px]
 
 
 class HintCard:
-    """Card that stays until one of the keys on it, Enter, or a click on it closes it."""
+    """Card that closes after one of the keys named on it, after Enter, or after a click on it."""
 
     keeps_keys = False  # the keys on the card keep their function
 

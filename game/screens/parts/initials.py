@@ -14,7 +14,10 @@ GAP = 8
 
 
 class Initials:
-    """Three letters. `done`: the player accepted them. `at`: the selected letter 0..2, or 3 for the OK button."""
+    """Three letters that the player enters. `done`: whether they were accepted.
+
+    `at`: the selected letter, 0..2, or 3 for the OK button.
+    """
 
     def __init__(self, text: str, x: int, y: int, cues: list[str]) -> None:
         self.letters = list(text)
@@ -48,7 +51,7 @@ class Initials:
         return True
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """Make one fixed step."""
+        """Make one fixed step of `dt` [s] with the player's input."""
         turn, way = self.vertical.move(inputs, dt), self.sideways.move(inputs, dt)
         if turn and self.at < 3:
             self._turn(self.at, turn)
@@ -77,8 +80,9 @@ class Initials:
                     self._turn(number, -1 if pointer[1] < cell.centery else 1)
 
     def _turn(self, number, way):
-        """Change letter `number` by `way` places in LETTERS, cyclically: a press of Up (-1) goes back, as usual in
-        arcades.
+        """Change letter number `number` to the letter `way` places later in LETTERS, cyclically.
+
+        Up is -1, so that it goes back in the alphabet, as usual in arcades.
         """
         index = (LETTERS.index(self.letters[number]) + way) % len(LETTERS)
         self.letters[number] = LETTERS[index]

@@ -1,4 +1,4 @@
-"""A lab's card: observations, their importance, things to try, the source of the method, and the lab's findings."""
+"""A lab's card: its question, what to see, why it matters, things to try, the source, and the lab's findings."""
 
 import sys
 from collections.abc import Iterable
@@ -26,8 +26,9 @@ EVERY = 30  # pictures between two checks of the goals
 
 
 class LabCard:
-    """Card about a lab, shown at the first visit and on demand, until it is closed. Raises ValueError for a scene whose
-    module docstring has no "What to see:".
+    """Card about a lab, shown at the first visit and on demand, until it is closed.
+
+    Raises ValueError for a scene whose module docstring has no "What to see:".
     """
 
     keeps_keys = True
@@ -86,7 +87,7 @@ class LabCard:
         frame.fix(self.rect)
 
     def _lines(self, width, scale, room):
-        """Return the card's lines from top to bottom. width: of a line [frame px]; room: their height [text px]."""
+        """Return the card's lines from top to bottom. width: of a line [frame px]; room: for all lines [text px]."""
         lines = [Line(text, GOLD, TEXT) for text in wrap(self.text.question, width, TEXT, scale)]
         for section, words, ink in zip(SECTIONS, self.text[1:], INKS, strict=True):
             words = words if section == SECTIONS[0] else f"{section}: {words}"
@@ -99,8 +100,9 @@ class LabCard:
         return [*lines, *end]
 
     def _goal_lines(self, width, scale, room):
-        """Return the lines of the lab's goals, those with a result first. Goals that do not fit into `room` [text px]
-        are only counted.
+        """Return the lines about the lab's goals, those with a result first.
+
+        Goals that do not fit into `room` [text px] are only counted. width: of a line [frame px].
         """
         lines, left = [], sorted(self.goals, key=self._waits)
         while left:
@@ -130,8 +132,10 @@ class CardText(NamedTuple):
 
 
 class Line(NamedTuple):
-    """A line of the card. gap: space above it [text px]. mark: colour of a square before the text; None: no square;
-    FOLLOWS: no square, but its space, for the rest of wrapped text.
+    """A line of the card. gap: space above it [text px].
+
+    mark: colour of a square before the text; None: no square; FOLLOWS: space for a square, as in the further lines of a
+    wrapped text.
     """
 
     text: str
@@ -142,7 +146,7 @@ class Line(NamedTuple):
 
     @property
     def height(self) -> int:
-        """Height of the line without the gap [text px]."""
+        """Height of the line without the gap above it [text px]."""
         return 10 if self.font == TEXT else 7
 
 
@@ -152,12 +156,12 @@ def paragraph(text: str, width: int, scale: int, ink: Color) -> list[Line]:
 
 
 def height_of(lines: Iterable[Line]) -> int:
-    """Return the height of lines and their gaps [text px]."""
+    """Return the total height of lines with their gaps [text px]."""
     return sum(line.gap + line.height for line in lines)
 
 
 def least_covering(frame: Frame, area: pygame.Rect, size: tuple[int, int]) -> pygame.Rect:
-    """Return the rect of this size in an area, out of a grid of places, that covers the least text."""
+    """Return the rectangle of a given size in an area that covers the least text. A grid of places is tried."""
     spare = area.width - size[0], area.height - size[1]
     places = [
         pygame.Rect(area.x + spare[0] * column // GRID, area.y + spare[1] * row // GRID, *size)
@@ -172,8 +176,9 @@ def least_covering(frame: Frame, area: pygame.Rect, size: tuple[int, int]) -> py
 
 
 def first_card(scene: Scene, settings: Settings) -> "HintCard | LabCard | None":
-    """Return the card to show when a scene opens: a lab's own card at the first visit; the card of keys in the very
-    first game; otherwise None.
+    """Return the card to show when a scene opens, or None.
+
+    It is the lab's own card at the first visit to a lab, and the card of keys in the player's very first game.
     """
     if what_to_see(type(scene)) is not None:
         return LabCard(scene) if scene.name not in settings.labs_seen else None
@@ -181,10 +186,10 @@ def first_card(scene: Scene, settings: Settings) -> "HintCard | LabCard | None":
 
 
 def what_to_see(scene_class: type[Scene]) -> CardText | None:
-    """Return a lab's question and sections, read from its module docstring; None if the docstring has no "What to
-    see:".
+    """Return a lab's question and sections, read from its module docstring.
 
-    A section is a paragraph that begins with its name and a colon; a missing section is "".
+    A section is a paragraph that begins with its name and a colon; a missing section is "". Return None if the
+    docstring has no "What to see:".
     """
     question, *paragraphs = (sys.modules[scene_class.__module__].__doc__ or "").split("\n\n")
     found = dict.fromkeys(SECTIONS, "")

@@ -1,4 +1,7 @@
-"""Reduced load while physics is not yet compiled, for scenes that would run below ten pictures a second uncompiled."""
+"""Reduced load while kernels are not compiled yet, for scenes that would otherwise be too slow.
+
+Too slow means fewer than ten pictures a second.
+"""
 
 from typing import Any
 
@@ -12,12 +15,11 @@ FRAMES = 2  # slow frames in a row before the load is reduced
 
 
 class Lighter:
-    """Temporary reduction of a scene's load: applies the changes in Scene.lighter, and undoes them once all called
-    kernels run compiled.
+    """Temporary reduction of a scene's load by the changes in Scene.lighter, until all called kernels are compiled.
 
-    The changes are applied before the first step if no compiled kernel is on disk; otherwise once frames are slow after
+    The changes are applied before the first step if no compiled kernel is on disk; otherwise when frames are slow after
     loading. They are part of the next step's input, so that a recording contains them. Values that the player has
-    changed since are not undone.
+    changed since are not restored.
     """
 
     def __init__(self, scene: Scene, devices: DeviceSource) -> None:
@@ -39,9 +41,7 @@ class Lighter:
         return f"{' and '.join(less)} until the physics is compiled"
 
     def note(self, busy: float) -> None:
-        """Record that a frame took `busy` [s]. Reduce the load if frames are slow; restore it once all kernels are
-        compiled.
-        """
+        """Record that a frame took `busy` [s]. Reduce the load if frames are slow; restore it once all is compiled."""
         if self.over or not self.scene.lighter:
             return
         if self.changed:

@@ -1,4 +1,4 @@
-"""Measurements of a scene while it is played, made in background processes, and changes of its setting."""
+"""Measurements of a scene while it is played, made in other processes, and changes of the scene's setting."""
 
 from collections.abc import Callable, Hashable, Sequence
 from operator import is_
@@ -61,7 +61,7 @@ class Measuring:
 
     @property
     def world(self) -> World:
-        """The measured world: the world of the scene's first view, which the overlays show."""
+        """The world whose settings are measured: that of the scene's first view, which the overlays show."""
         return self.scene.views()[0][0]
 
     def now(self) -> Setting:
@@ -69,15 +69,17 @@ class Measuring:
         return here_of(self.world, self.scene.tier)
 
     def beside(self, now: float, panel_open: bool) -> None:
-        """Measure the requests of the scene and, while the panel is open, the cost of its effects. Call it once per
-        picture, at `now` [s].
+        """Continue the measurements that the scene requests and, while the panel is open, those of its effects.
+
+        Call it once per picture, at `now` [s].
         """
         self._measure_request()
         self._measure_effects(now if panel_open else None)
 
     def _measure_effects(self, now):
-        """Measure the cost of each effect, from a state taken soon after the panel was opened. now: time [s]; None: the
-        panel is closed.
+        """Measure the cost of each effect, from the world's state shortly after the panel was opened.
+
+        now: current time [s]; None while the panel is closed.
         """
         if now is None:
             if self.opened_at is not None:
@@ -95,7 +97,7 @@ class Measuring:
                 self.ledger.stop()
 
     def _measure_request(self) -> None:
-        """Measure the scene's request if it is new, and pass the results to the scene."""
+        """Order the measurements that the scene requests if the request is new, and pass the results to the scene."""
         request = self.scene.measured()
         if isinstance(request, SpriteRequest) and not (self.benched and all(map(is_, request, self.benched))):
             self.bench.stop()
@@ -113,7 +115,7 @@ class Measuring:
     def turn(self, now: float) -> str:
         """Collect results, and take a new state of the world to measure when the previous one is done.
 
-        Return a line about a decision of the tuner, or "" if there is none. Call it once per picture, at `now` [s].
+        Call it once per picture, at `now` [s]. Return a line about a decision of the tuner, or "" if there is none.
         """
         self.surveyor.turn()
         best = advised(self.surveyor.survey, self.now())
@@ -168,7 +170,10 @@ class Measuring:
         self.surveyor.measure(self.world.snapshot(), self.world.broadphase.name, run)
 
     def close(self) -> None:
-        """Stop measuring settings, unless the tuner is on. Results are kept, and extended when the panel reopens."""
+        """Stop measuring settings, unless the tuner is on.
+
+        The results are kept, and extended when the panel opens again.
+        """
         if self.tuner.on:
             return
         self.surveyor.stop()
@@ -191,8 +196,9 @@ class Measuring:
         return f"{setting.label(now)}, was {now.label(setting)}" if changes else "that is what runs"
 
     def start_race(self, setting: Setting) -> str:
-        """Start a race against a copy of the scene under this setting. The caller must restart the scene in the next
-        step. Return a line to show.
+        """Start a race against a copy of the scene under this setting. Return a line to show.
+
+        The caller must restart the scene in the next step.
         """
         now, changes = self.now(), changes_to(setting, self.scene)
         if isinstance(changes, str):
@@ -203,7 +209,7 @@ class Measuring:
         return f"the race: {now.label(setting)} against {setting.label(now)}"
 
     def end_race(self) -> None:
-        """End the race between the scene and its rival with other settings, and drop both of its pictures."""
+        """End the race between the scene and its rival, and drop the split screen."""
         self.race = self.split = None
 
     def toggle_split(self) -> str:
@@ -217,6 +223,6 @@ class Measuring:
         return ""
 
     def rivals(self) -> list[Setting]:
-        """Return the settings under which the scene can be raced: all that differ from the current one by one field."""
+        """Return the settings against which the scene can be raced: each differs from the current one by one change."""
         found = settings_around(self.now(), self.world.effects)[1:]
         return [setting for setting in found if not isinstance(changes_to(setting, self.scene), str)]

@@ -23,8 +23,10 @@ WHEEL_ROWS = 3
 
 @dataclass(frozen=True)
 class Row:
-    """One line of the panel. `turn(direction)`: change the value, by -1 or 1; `press()`: Enter or a click;
-    `put(share)`: set a slider to a share 0..1 of its range.
+    """One line of the panel.
+
+    turn(direction) changes its value, by -1 or 1. press() is called by Enter or a click. put(share) sets a slider to a
+    share 0..1 of its range.
     """
 
     kind: str
@@ -42,7 +44,10 @@ class Row:
 
 
 class Panel:
-    """Panel of rows. `rows()` returns the current rows. `focused`: the keyboard operates the panel, not the game."""
+    """Panel of rows. rows() returns the current rows.
+
+    focused: whether keys operate the panel, and not the game.
+    """
 
     def __init__(self, rows: Callable[[], list[Row]]) -> None:
         self.rows = rows
@@ -123,7 +128,7 @@ class Panel:
         return self.rect.collidepoint(position)
 
     def draw(self, frame: Frame, rect: pygame.Rect) -> None:
-        """Draw the panel into a frame rect."""
+        """Draw the panel into a rectangle of the frame."""
         self.rect = rect
         scale = frame.text_scale
         surface = frame.surface
@@ -194,7 +199,10 @@ class Panel:
             surface.fill(PAPER, (bar.x + int(bar.width * row.share) - scale, bar.y - scale, 2 * scale, 4 * scale))
 
     def _draw_foot(self, frame, rect, rows, scale):
-        """Draw the marked row's hint and the line on how to close the panel. Return the y at which this foot begins."""
+        """Draw the marked row's hint, and the line that says how to close the panel.
+
+        Return the y at which this foot begins.
+        """
         hint = rows[self.mark].hint if self.mark < len(rows) else ""
         way_out = "Tab closes, click the game to play on" if self.focused else "Tab closes, click here to change things"
         lines = ([hint] if hint else []) + [way_out]
@@ -207,7 +215,10 @@ class Panel:
 
 
 def _draw_line(frame, rect, row, scale):
-    """Draw a line of a table: a square (filled if the row is on), the name, and the cells."""
+    """Draw a line of a table: a square (filled if the row is on), the name, and the cells.
+
+    rect: of the row; scale: frame px per text px.
+    """
     square = pygame.Rect(rect.x + 2 * scale, rect.y + 2 * scale, 5 * scale, 5 * scale)
     color = frame.tone(row.color) if row.on else FOG
     pygame.draw.rect(frame.surface, color, square, 0 if row.on else scale)
@@ -217,9 +228,7 @@ def _draw_line(frame, rect, row, scale):
 
 
 def _draw_cells(frame, rect, cells, y, color, scale):
-    """Draw a table row's cells at the right of `rect`, the last cell outermost. Return the x at which the cells begin
-    [frame px].
-    """
+    """Draw a table row's cells at the right of `rect`, the last cell outermost. Return the x at which they begin."""
     right = rect.right - 2 * scale
     for text in reversed(cells):
         if text:
@@ -238,17 +247,20 @@ def _draw_check(surface, x, rect, row, color, scale):
 
 
 def slider_bar(rect: pygame.Rect, scale: int) -> pygame.Rect:
-    """Return the rect of a slider's bar in its row."""
+    """Return the rectangle of a slider's bar. rect: of its row; scale: frame px per text px."""
     return pygame.Rect(rect.x + 2 * scale, rect.bottom - 5 * scale, rect.width - 4 * scale, 2 * scale)
 
 
 def _share(rect, position):
-    """Return how far right in a rect a click is, 0..1."""
+    """Return the place of a click along the width of a rectangle, 0 (left) .. 1 (right)."""
     return max(0.0, min(1.0, (position[0] - rect.x) / max(rect.width, 1)))
 
 
 def act(row: Row, direction: int = 0) -> None:
-    """Turn a row by `direction` (-1 or 1); for 0 press it. A row without press() is turned forward instead."""
+    """Change a row's value by `direction` (-1 or 1), or press the row for direction 0.
+
+    A row without press() is changed by 1 instead.
+    """
     if direction and row.turn is not None:
         row.turn(direction)
     elif row.press is not None:

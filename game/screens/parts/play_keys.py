@@ -15,7 +15,7 @@ PANEL_BUTTONS = {
 
 
 def press(play: Played, key: int) -> bool:
-    """Apply a key that does not control the game. Return False if the key has no function or controls the game."""
+    """Process a key of a played scene that does not control the game. Return False if it has no such function."""
     if set(play.devices.keys.get(key, ())) - KEPT_ACTIONS:
         return False  # the player bound it to a move, which it stays
     layers = {getattr(pygame, f"K_{layer.key}"): layer.name for layer in play.overlays.layers}
@@ -59,7 +59,7 @@ def press(play: Played, key: int) -> bool:
 
 
 def press_button(play: Played, button: str) -> bool:
-    """Apply a pad button that does not control the game. Return False if the button controls the game."""
+    """Process a pad button of a played scene that does not control the game. Return False if it controls the game."""
     panel = play.open_panel
     if button == "start":
         play.stop()

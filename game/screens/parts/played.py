@@ -1,4 +1,4 @@
-"""Interface of the screen that plays a scene, as used by the panel, the keys and the status line."""
+"""Interface of the screen that plays a scene, as the panel, the keys and the status line use it."""
 
 from typing import Protocol
 
@@ -20,7 +20,7 @@ from game.screens.parts.timeline import Timeline
 
 
 class Played(Protocol):
-    """Screen with a scene, its clock and its overlays. `since_result`: steps since the game ended."""
+    """Screen with a scene, its clock and its overlays. `since_result`: number of steps since the game ended."""
 
     scene: Scene
     session: Session
@@ -40,20 +40,20 @@ class Played(Protocol):
 
     @property
     def open_panel(self) -> Panel | CostPanel | None:
-        """The open panel, else None."""
+        """The open panel; None if none is open."""
         ...
 
     @property
     def news(self) -> str:
-        """Line of text about the setting switched last, "" if there is none."""
+        """Line of text about the last change of a setting; "" if there is none."""
         ...
 
     def toggle_pause(self) -> None:
-        """Pause or continue."""
+        """Pause the scene, or continue it."""
         ...
 
     def single_step(self) -> None:
-        """Pause, and make one step."""
+        """Pause the scene, and make one step."""
         ...
 
     def toggle_step_inspector(self) -> None:

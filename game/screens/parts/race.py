@@ -30,7 +30,7 @@ KEPT = 600  # steps for which the distance of the two scenes is kept
 
 
 class Race:
-    """A race between `scene`, which is played, and `rival`, another instance of the same scene with different settings.
+    """A race between the played `scene` and its `rival`, another instance of the same scene with different settings.
 
     changes: (name, value) pairs for Scene.change(), which are applied to the rival alone. Raises ValueError for an
     invalid change. The rival begins at its first frame, so the caller must restart `scene` with its next input. Call
@@ -51,10 +51,9 @@ class Race:
         self.apart: deque[float] = deque(maxlen=KEPT)  # [px] RMS distance over the common bodies, of the last steps
 
     def step(self, session: Session) -> None:
-        """Step the rival with the input of the scene's last step, and record how far the bodies of the two scenes are
-        apart.
+        """Step the rival with the input of the scene's last step, and record the distance between both scenes' bodies.
 
-        `session`: the session of the played scene. Changes of settings named in OWN are not passed on to the rival.
+        session: that of the played scene. Changes of settings named in OWN are not passed on to the rival.
         """
         frame = session.inputs.now
         self.inputs.set(replace(frame, changes=tuple(each for each in frame.changes if each[0] not in OWN)))
@@ -71,8 +70,8 @@ class Race:
     def _pair(self, frame):
         """Update `same`, the ids of the bodies that both scenes have. frame: input of this step.
 
-        Ids follow the order of creation: once the scenes differ, one id may denote two different bodies. Two bodies
-        with one id are therefore paired only if they appear in the same step at the same place.
+        Ids follow the order of creation: once the scenes differ, one id may denote two different bodies. Therefore two
+        bodies with one id count as the same only if they appeared in the same step at the same place.
         """
         if any(name == "restart" for name, _ in frame.changes):
             self.same = self.seen = np.zeros(0, np.int64)
@@ -84,21 +83,19 @@ class Race:
         self.seen = np.union1d(self.seen, np.union1d(ours["id"], theirs["id"]))
 
     def gaps(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the positions [px] of the bodies that both scenes have: their positions in the scene, (n, 2), and in
-        the rival, (n, 2).
-        """
+        """Return the positions of the bodies that both scenes have: (n, 2) in the scene, (n, 2) in the rival [px]."""
         ours, theirs = self.scene.world.bodies, self.rival.world.bodies
         mine, other = (np.flatnonzero(np.isin(rows["id"], self.same)) for rows in (ours, theirs))
         mine, other = mine[np.argsort(ours["id"][mine])], other[np.argsort(theirs["id"][other])]
         return np.column_stack([ours["x"], ours["y"]])[mine], np.column_stack([theirs["x"], theirs["y"]])[other]
 
     def distances(self) -> np.ndarray:
-        """Return (n,) distances [px]: how far each body that both scenes have is from its counterpart in the rival."""
+        """Return (n,) distances [px] between the two positions of each body that both scenes have."""
         ours, theirs = self.gaps()
         return np.hypot(*(ours - theirs).T)
 
     def report_lines(self) -> list[str]:
-        """Return three lines: setting and time of the scene, setting and time of the rival, and distance of both."""
+        """Return three lines: setting and time of the scene, setting and time of the rival, and their distance."""
         now, other = (here_of(each.world, each.tier) for each in (self.scene, self.rival))
         apart = self.distances()
         rms = self.apart[-1] if self.apart else 0.0
@@ -112,7 +109,7 @@ class Race:
         ]
 
     def draw(self, frame: Frame) -> None:
-        """Draw the rival's outlines, a line from each displaced body to its counterpart, and the figures."""
+        """Draw the rival's outlines, lines from displaced bodies to their counterparts, and the figures."""
         world, camera = self.scene.views()[0]
         lens = frame.lens(camera)
         frame.surface.set_clip(lens.clip)
@@ -122,8 +119,9 @@ class Race:
         self._draw_figures(frame)
 
     def draw_gaps(self, frame: Frame, scene: Scene) -> None:
-        """Draw a line from each body to the position of its counterpart, if they are visibly apart. scene: the scene or
-        the rival, whichever this frame shows.
+        """Draw a line from each body to the position of its counterpart, if they are visibly apart.
+
+        scene: the scene or the rival, whichever this frame shows.
         """
         world, camera = scene.views()[0]
         if world is scene.world:

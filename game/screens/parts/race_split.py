@@ -1,6 +1,4 @@
-"""The race on a split screen: the scene at the left and its rival at the right, with setting and time, and below them
-the distance between the two.
-"""
+"""The race on a split screen: the scene at the left, its rival at the right, and a plot of their distance below."""
 
 from collections import deque
 from math import log10
@@ -30,8 +28,9 @@ class SplitScreen:
         self.pictures: list[Picture] = []  # of the two
 
     def draw(self, frame: Frame, overlays: Overlays, alpha: float) -> None:
-        """Draw both scenes in their current state, with these overlays. alpha: interpolation between the last two
-        steps, 0..1.
+        """Draw both scenes in their current state, with the same overlays.
+
+        alpha: interpolation between the last two steps, 0..1.
         """
         area = frame.area.clip(frame.rect)
         size = area.width // 2, area.width // 2 * CANVAS_SIZE[1] // CANVAS_SIZE[0]
@@ -52,8 +51,9 @@ class SplitScreen:
         self._draw_below(frame, pygame.Rect(area.x, area.y + size[1], area.width, area.height - size[1]))
 
     def _make_pictures(self, width):
-        """Make the pictures of both scenes at the smallest whole scale at which they fill their parts of the frame, of
-        this width.
+        """Make the pictures of both scenes, unless they have the right size already.
+
+        Their scale is the smallest whole number at which a picture is at least `width` frame px wide.
         """
         scale = -(-width // CANVAS_SIZE[0])
         wanted = CANVAS_SIZE[0] * scale, CANVAS_SIZE[1] * scale
@@ -104,8 +104,9 @@ class SplitScreen:
 
 
 def _curve(apart: deque[float], rect: pygame.Rect) -> list[tuple[float, float]]:
-    """Return the points of the curve of the distances `apart` [px], with the newest distance at the right border of the
-    rect.
+    """Return the points of the curve of distances in a plot, from old (left) to new (right border).
+
+    apart: distances [px], the newest last; rect: of the plot.
     """
     width = rect.width / (apart.maxlen or len(apart))
     first = rect.right - width * len(apart)
@@ -113,6 +114,9 @@ def _curve(apart: deque[float], rect: pygame.Rect) -> list[tuple[float, float]]:
 
 
 def _height(value, rect):
-    """Return the frame y of a distance [px] on the logarithmic scale; LEAST and less lie at the bottom."""
+    """Return the y in the plot `rect` of a distance [px], on the logarithmic scale.
+
+    LEAST and less are at the bottom.
+    """
     share = log10(min(max(value, LEAST), MOST) / LEAST) / log10(MOST / LEAST)
     return rect.bottom - 2 - share * (rect.height - 4)

@@ -1,7 +1,7 @@
 """The list of rows that every menu uses: a mark, values to change, bars to drag, scrolling.
 
 Keyboard, controller and mouse work alike. A Row carries its text and the functions that it calls; the list is
-independent of screens. All measures are canvas pixels on a grid of 8.
+independent of screens. All sizes are canvas pixels, multiples of 8.
 """
 
 from collections.abc import Callable
@@ -22,8 +22,10 @@ BAR_WIDTH = 64  # of a slider
 
 @dataclass(frozen=True)
 class Row:
-    """One line of a list. `turn(-1 or 1)` changes the value, `press()` is called on Enter or a click, `put(share)` sets
-    a slider to 0..1. `head`: the line is a heading, which cannot be marked.
+    """One line of a list. `head`: whether it is a heading, which cannot be marked.
+
+    turn(direction) changes its value, by -1 or 1. press() is called by Enter or a click. put(share) sets a slider to a
+    share 0..1.
     """
 
     label: str
@@ -38,14 +40,14 @@ class Row:
 
 
 class Repeat:
-    """Conversion of a held direction into single moves: one at once, and then repeated ones."""
+    """Conversion of a held direction into single moves: one at once, then one after another at fixed intervals."""
 
     def __init__(self, names: tuple[str, str]) -> None:
         self.names = names  # (action for -1, action for +1)
         self.wait = 0.0
 
     def move(self, inputs: InputState, dt: float) -> int:
-        """Return the move of this step: -1, 0 or +1. Call move() in each step; dt: length of the step [s]."""
+        """Return the move of this step: -1, 0 or 1. Call it in each step. dt: length of the step [s]."""
         back, forth = self.names
         for action, way in ((back, -1), (forth, 1)):
             if inputs.pressed(action):
@@ -67,8 +69,9 @@ def confirmed(inputs: InputState) -> bool:
 
 
 class RowList:
-    """A list of rows. `rows()` returns the current rows; `rect`: place of the list; `cues`: the screen's list of sounds
-    to play.
+    """A list of rows. rows() returns the current rows; rect: place of the list [canvas px].
+
+    cues: the screen's list of sounds to play, to which the list appends.
     """
 
     def __init__(self, rows: Callable[[], list[Row]], rect: Box, cues: list[str], mark: int = 0) -> None:
@@ -82,7 +85,7 @@ class RowList:
 
     @property
     def room(self) -> int:
-        """Number of rows that fit."""
+        """Number of rows that fit into the list's rectangle."""
         return max(1, self.rect.height // LINE)
 
     @property
@@ -98,8 +101,9 @@ class RowList:
         return pygame.Rect(self.rect.x, self.rect.y + (number - self.first) * LINE, self.rect.width, LINE - 2)
 
     def show_marked(self) -> None:
-        """Move the mark to the nearest row that is no heading, and scroll until the marked row, with a heading above
-        it, is visible.
+        """Move the mark to the nearest row that is no heading, and scroll until that row is visible.
+
+        A heading directly above it is kept visible, too.
         """
         rows = self.rows()
         live = [number for number, row in enumerate(rows) if not row.head]
@@ -110,7 +114,7 @@ class RowList:
         self.first = max(0, min(self.first, len(rows) - self.room))
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """Make one fixed step."""
+        """Make one fixed step of `dt` [s] with the player's input."""
         self._step_mark(self.vertical.move(inputs, dt))
         rows = self.rows()
         self.first = max(0, min(self.first - inputs.wheel, len(rows) - self.room))
@@ -183,12 +187,12 @@ class RowList:
             self.cues.append("blip")
 
     def value_place(self, place: pygame.Rect) -> pygame.Rect:
-        """Return the part of a row that shows its value. place: rect of the row."""
+        """Return the part of a row that shows its value. place: rectangle of the row."""
         wide = min(VALUE_WIDTH, place.width // 2)
         return pygame.Rect(place.right - wide, place.y, wide, place.height)
 
     def bar_place(self, place: pygame.Rect) -> pygame.Rect:
-        """Return the rect of a slider's bar in its row. place: rect of the row."""
+        """Return the rectangle of a slider's bar. place: rectangle of its row."""
         value = self.value_place(place)
         return pygame.Rect(value.x, value.centery - 2, BAR_WIDTH, 4)
 
@@ -226,7 +230,7 @@ class RowList:
         canvas.text(row.value, place.right - GRID // 2, place.y + 3, SKY, TEXT, 1, "right")
 
     def _draw_scroll_bar(self, surface, count):
-        """Draw the scroll bar, if not all rows fit. count: number of rows."""
+        """Draw the scroll bar if not all rows fit. count: number of rows."""
         if count > self.room:
             track = pygame.Rect(self.rect.right + 2, self.rect.y, 2, self.room * LINE - 2)
             surface.fill(DUSK, track)

@@ -1,4 +1,4 @@
-"""Rumble: which sound cues of a scene shake the controller."""
+"""Rumble: vibration of the controllers at some of a scene's sounds."""
 
 from game.files.settings import Settings
 from game.input.pads import Pads
@@ -8,7 +8,7 @@ RUMBLES = {"hurt": (0.5, 0.8, 200), "big_explosion": (0.4, 0.4, 150), "bomb": (0
 
 
 def rumble(scene: Scene, pads: Pads | None, settings: Settings | None) -> None:
-    """Shake the controllers if a sound cue of the last step has an entry in RUMBLES and the settings allow it."""
+    """Let the controllers vibrate if a sound cue of the last step has an entry in RUMBLES and the settings allow it."""
     if pads is None or settings is None or not settings.rumble:
         return
     for name, _, _ in scene.cues:

@@ -1,4 +1,4 @@
-"""The rows of each page of the settings, and their effect on the Settings."""
+"""The rows of each page of the settings. They show and change the values of a Settings object."""
 
 from collections.abc import Callable
 from functools import partial
@@ -24,8 +24,9 @@ PALETTE_HINTS = {
 def rows_of(
     page: str, settings: Settings, changed: Callable[[], None], wait_for: Callable[[str, str], None]
 ) -> list[Row]:
-    """Return the rows of a page. changed() is called after each change; wait_for(device, action) asks the screen to
-    wait for a new key or button for an action.
+    """Return the rows of a settings page. changed() is called after each change.
+
+    wait_for(device, action) asks the screen to bind the next key or button to an action.
     """
     if page in ("Keyboard", "Controller"):
         return _binding_rows("keys" if page == "Keyboard" else "buttons", settings, changed, wait_for)

@@ -1,4 +1,4 @@
-"""The status line over a played scene: whether it is frozen, slow or ended; otherwise the keys."""
+"""The status line over a played scene. It says whether the scene is frozen, slow or ended, or else names the keys."""
 
 import pygame
 
@@ -47,7 +47,7 @@ def status_of(play: Played) -> tuple[str, Color]:
 
 
 def draw_in_a_corner(frame: Frame, text: str) -> None:
-    """Draw a small line in the first free corner; draw nothing if there is none."""
+    """Draw a small line of text in the first free corner; draw nothing if there is none."""
     scale = frame.text_scale
     width, height = frame.measure(text, SMALL, scale)
     area = frame.area.clip(frame.rect)
@@ -64,8 +64,9 @@ def draw_in_a_corner(frame: Frame, text: str) -> None:
 
 
 def draw_line(frame: Frame, text: str, color: Color, head: int = 0) -> None:
-    """Draw a line of text beside the scene's title, in the top `head` canvas pixels. For head 0, or if it does not fit,
-    draw it near the bottom or at another free place.
+    """Draw a line of text beside the scene's title, in the top `head` canvas pixels.
+
+    For head 0, or if it does not fit there, draw it near the bottom or at another free place.
     """
     if head and _draw_in_head(frame, text, color, head):
         return
@@ -84,10 +85,9 @@ def draw_line(frame: Frame, text: str, color: Color, head: int = 0) -> None:
 
 
 def _draw_in_head(frame, text, color, head):
-    """Draw a line of text in the top `head` canvas pixels, in one row or more and as large as fits; hide other text
-    there except the title.
+    """Draw a line of text in the top `head` canvas pixels, in one row or more, as large as fits.
 
-    Return whether it fits.
+    Other text there, except the title, is hidden. Return False, and draw nothing, if it does not fit.
     """
     band = frame.from_canvas((0, 0, frame.area.width // frame.scale, head)).clip(frame.rect)
     titles = [box for box, _ in frame.boxes if band.contains(box) and box.left < band.left + HEAD_TITLE * frame.scale]
@@ -108,7 +108,10 @@ def _draw_in_head(frame, text, color, head):
 
 
 def _rows(frame, text, width, scale):
-    """Return the parts of a line in as few rows as possible; an empty list if a part is wider than a row."""
+    """Return a text as a list of rows of at most `width` [frame px]. It is broken at GAP only.
+
+    The list is empty if a part between two gaps is too wide.
+    """
     rows = []
     for part in text.split(GAP):
         longer = f"{rows[-1]}{GAP}{part}" if rows else part

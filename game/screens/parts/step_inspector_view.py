@@ -56,10 +56,10 @@ SHOWN = {
 
 
 class StepInspectorView:
-    """View of the step inspector: enter() starts the inspection, leave() ends it; in between feed() takes events, and
-    draw() shows the strip of stages and a card.
+    """View of the step inspector. enter() starts an inspection, leave() ends it.
 
-    rewind: source of the next step's input if that step was made before; None: steps cannot be inspected.
+    In between, feed() takes events, and draw() shows the strip of stages and a card. rewind: source of the next step's
+    input if that step was made before; None: steps cannot be inspected.
     """
 
     def __init__(self, session: Session, rewind: Rewind | None, overlays: Overlays) -> None:
@@ -76,11 +76,11 @@ class StepInspectorView:
         return self.step is not None
 
     def worlds(self) -> list[WatchedWorld]:
-        """Return the visible worlds, each once."""
+        """Return the worlds of the scene's views, each once."""
         return list({id(world): world for world, _ in self.session.scene.views()}.values())
 
     def enter(self, world: int = 0) -> str:
-        """Start to inspect the next step of a world (an index in worlds()). Return "", or why that is impossible."""
+        """Start to inspect the next step of a world, an index in worlds(). Return "", or why that is impossible."""
         self.leave()
         if self.rewind is None:
             return "a recording is only watched"
@@ -102,8 +102,9 @@ class StepInspectorView:
             self.overlays.watch(self.session.scene)
 
     def feed(self, event: pygame.event.Event, button: str | None) -> bool:
-        """Process an event; return whether it was used. A key without function here or in the overlays ends the
-        inspection.
+        """Process an event. Return whether it was used.
+
+        A key without a function here or in the overlays ends the inspection.
         """
         step = self.step
         if step is None:
@@ -128,9 +129,7 @@ class StepInspectorView:
         return True
 
     def _turn_world(self, way):
-        """Inspect the next visible world that makes a step in this frame. way: 1 for the next world, -1 for the
-        previous one.
-        """
+        """Inspect the next world in worlds() that makes a step in this frame. way: 1 forwards, -1 backwards."""
         here, count = self.world, len(self.worlds())
         for number in range(1, count + 1):
             if not self.enter(here + way * number):
@@ -138,7 +137,7 @@ class StepInspectorView:
 
     @contextmanager
     def showing(self) -> Iterator[None]:
-        """Turn on, within the context, the overlays that show the results of the last stage."""
+        """Turn on the overlays that show the results of the last stage, within the `with` block."""
         overlays, chosen = self.overlays, self.overlays.on
         if self.step is not None and self.step.done is not None:
             overlays.on = chosen | set(SHOWN.get(self.step.done.stage.stage, ()))
@@ -154,8 +153,9 @@ class StepInspectorView:
         frame.reserve(self._layout(frame)[0])
 
     def _layout(self, frame):
-        """Return the strip's rect at the bottom of the picture, and (text, rect, stage number from 1) of each stage in
-        the strip.
+        """Return the layout of the strip: its rectangle at the bottom of the picture, and a list of the stages in it.
+
+        Each stage is (text, rectangle, number of the stage from 1).
         """
         assert self.step is not None
         scale, area = frame.text_scale, frame.area.clip(frame.rect)
@@ -178,7 +178,7 @@ class StepInspectorView:
         ]
 
     def draw(self, frame: Frame) -> None:
-        """Draw the strip of stages, and the card of the stage that was run last."""
+        """Draw the strip of stages, and the card of the last stage that was run."""
         if self.step is None:
             return
         rect, names = self._layout(frame)
@@ -224,7 +224,10 @@ class StepInspectorView:
         frame.fix(rect)
 
     def _place(self, frame, area, size):
-        """Return the card's place: a top corner of the area, chosen once per step, that covers the least text."""
+        """Return the card's place in an area: the top corner where it covers less text.
+
+        The corner is kept for the step.
+        """
         corners = area.left, area.right - size[0]
         if self.corner is None:
             narrow = pygame.Rect(area.x, area.y, area.width, min(area.height, size[1]))
@@ -261,7 +264,7 @@ class StepInspectorView:
 
 
 def described(done: Done) -> list[tuple[str, str]]:
-    """Return (heading, text) pairs about a stage: what it changed and counted, and its declared fields."""
+    """Return (heading, text) pairs about a stage: its changes, its counters, and its declared fields."""
     changes = [f"{name} {new}, were {old}" for name, old, new in done.rows]
     for name, rows, columns in done.changed:
         of = f" ({' '.join(columns)}) of" if columns else ""
@@ -276,7 +279,7 @@ def described(done: Done) -> list[tuple[str, str]]:
 
 
 def grouped(fields: Iterable[str]) -> str:
-    """Return the names of fields as text, the columns of a table in one group: "dt, library, bodies (x y)"."""
+    """Return names of fields as text, with the columns of each table in parentheses: "dt, library, bodies (x y)"."""
     whole: dict[str, list[str]] = {}
     for field in fields:
         name, _, column = field.partition(".")

@@ -1,4 +1,7 @@
-"""Examples of what each overlay layer shows, found in the current step of a scene: boxes, the best example first."""
+"""Examples for the overlay layers: places in the current step of a scene that show best what a layer draws.
+
+Functions that take a world return boxes (min x, min y, max x, max y) [px], the best example first.
+"""
 
 from collections.abc import Callable, Iterable
 
@@ -15,7 +18,10 @@ LARGEST = (220, 84)  # [canvas px] greatest size of an example; a taller one lea
 
 
 def subject_of(scene: Scene, layer: str) -> pygame.Rect | None:
-    """Return the best example of a layer as a completely visible canvas rect; None if this step has none."""
+    """Return the best example for the layer named `layer`, a canvas rectangle; None if there is none in this step.
+
+    The example is completely visible.
+    """
     for world, camera in scene.views():
         for rect in _on_canvas(SUBJECTS[layer](world), camera):
             return rect
@@ -23,8 +29,9 @@ def subject_of(scene: Scene, layer: str) -> pygame.Rect | None:
 
 
 def _on_canvas(rows: np.ndarray, camera: Camera) -> Iterable[pygame.Rect]:
-    """Yield, as canvas rects, those of the (n, 4) world boxes that fit completely into the camera's view, with room for
-    a ring.
+    """Yield the canvas rectangles of those boxes that fit into the camera's view with room for a ring around them.
+
+    rows: (n, 4) boxes in the world.
     """
     inside = camera.viewport.inflate(-2 * BORDER, -2 * BORDER)
     left, top = camera.to_canvas(rows[:, 0], rows[:, 1])
@@ -37,8 +44,10 @@ def _on_canvas(rows: np.ndarray, camera: Camera) -> Iterable[pygame.Rect]:
 
 
 def _around(boxes, ids, pairs):
-    """Return an (n, 4) array with a box around the two shapes of each pair. ids: ascending shape ids; boxes: one per
-    id; pairs: (n, 2) shape ids. Pairs of removed shapes are left out.
+    """Return an (n, 4) array with a box around the two shapes of each pair.
+
+    boxes: (m, 4) boxes of the shapes; ids: (m,) their ids, ascending; pairs: (n, 2) shape ids. Pairs of removed shapes
+    are left out.
     """
     rows = np.minimum(np.searchsorted(ids, pairs), len(ids) - 1)
     there = (ids[rows] == pairs).all(axis=1)  # a shape removed since the step has no row
@@ -70,7 +79,7 @@ def moving(world: World) -> np.ndarray:
 
 
 def kept(world: World) -> np.ndarray:
-    """Return (n, 4) cells or boxes of the broad phase's structure that hold shapes, the fullest first."""
+    """Return (n, 4) cells or boxes of the broad phase's structure that contain shapes, the fullest first."""
     rows, boxes = debug.structure(world).rects, debug.bounds(world)
     x, y = (boxes[:, 0] + boxes[:, 2]) / 2, (boxes[:, 1] + boxes[:, 3]) / 2
     inside = (rows[:, :1] <= x) & (x <= rows[:, 2:3]) & (rows[:, 1:2] <= y) & (y <= rows[:, 3:])
@@ -96,7 +105,7 @@ def piled_up(world: World) -> np.ndarray:
 
 
 def contacts(world: World) -> np.ndarray:
-    """Return (n, 4) boxes around active contact points, those with the greatest impulse first."""
+    """Return (n, 4) boxes around active contact points, that with the greatest impulse first."""
     points = debug.contact_points(world)
     points = points[np.isin(points["state"], (debug.NEW, debug.PERSISTED, debug.ASLEEP))]
     points = points[np.argsort(-points["normal_impulse"], kind="stable")]
@@ -105,14 +114,15 @@ def contacts(world: World) -> np.ndarray:
 
 
 def shapes_that_move(world: World) -> np.ndarray:
-    """Return (n, 4) boxes of the shapes of bodies that are not static, the largest first."""
+    """Return (n, 4) boxes of the shapes of dynamic and kinematic bodies, the largest first."""
     boxes = debug.bounds(world)[debug.shape_rows(world)["kind"] != 0]
     return boxes[np.argsort(-(boxes[:, 2] - boxes[:, 0]) * (boxes[:, 3] - boxes[:, 1]), kind="stable")]
 
 
 def stopped_on_their_way(world: World) -> np.ndarray:
-    """Return (n, 4) boxes of bodies stopped at a time of impact: each holds the place where the body was stopped and
-    the place it would have reached.
+    """Return (n, 4) boxes of the bodies that were stopped at a time of impact.
+
+    A box contains the place where the body was stopped, and the place that it would have reached.
     """
     ghosts = debug.impact_ghosts(world)
     rows = world.rows(ghosts["body"]) if len(ghosts) else np.zeros(0, int)

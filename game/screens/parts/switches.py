@@ -1,4 +1,4 @@
-"""Switches of a running scene, operated by key or panel, and the line of text about the last switch."""
+"""Switches of a running scene, operated by keys or panel, and the line of text about the last change."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -13,9 +13,9 @@ REPORT_SECONDS = 2.5  # duration of the line about a switch
 
 
 class Switches:
-    """Switches of the scene. Each change is input of the next step, so that a recording contains it.
+    """Switches of the scene. A change is input of the next step, so that a recording contains it.
 
-    way: 1 for the next choice, -1 for the previous one.
+    way: 1 selects the next choice, -1 the previous one.
     """
 
     def __init__(self, scene: Scene, devices: DeviceSource) -> None:
@@ -55,7 +55,7 @@ class Switches:
             self.report("no sprites here that could be tested as another shape")
 
     def narrowphase(self) -> None:
-        """Switch the narrow phase on or off; without it, two boxes that overlap count as a hit."""
+        """Switch the narrow phase on or off. Without it, two bounding boxes that overlap count as a hit."""
         on = not self.scene.narrowphase
         self.devices.change("narrowphase", on)
         self.report("narrow phase: on, was off" if on else "narrow phase: off, was on: boxes that meet are a hit")
@@ -70,12 +70,10 @@ class Switches:
 
     @property
     def news(self) -> str:
-        """Line of text about the setting switched last; "" once REPORT_SECONDS are over."""
+        """Line of text about the last change; "" once REPORT_SECONDS are over."""
         return self.reported[0] if self.now < self.reported[1] else ""
 
 
 def following(names: Sequence[Any], name: Any, way: int) -> Any:
-    """Return the element `way` places after `name` in `names`, cyclically; the first element if `name` is not in
-    `names`.
-    """
+    """Return the element `way` places after `name` in `names`, cyclically; the first one if `name` is missing."""
     return names[(names.index(name) + way) % len(names)] if name in names else names[0]

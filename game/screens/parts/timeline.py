@@ -1,4 +1,4 @@
-"""Rewind control: holding Backspace runs back; while the game is frozen, a bar shows the last ten seconds."""
+"""Control of rewinding: Backspace held runs back; while the game is frozen, a bar shows the last ten seconds."""
 
 from collections.abc import Callable
 
@@ -24,7 +24,7 @@ PAD_RUNS = {"left shoulder": -1, "right shoulder": 1}
 
 
 class Timeline:
-    """Control of a Rewind: feed() takes events, turn() goes to the chosen step. went(): called after each move."""
+    """Control of a Rewind: feed() takes events, turn() moves to the chosen step. went() is called after each move."""
 
     def __init__(self, rewind: Rewind, went: Callable[[], None] = lambda: None) -> None:
         self.rewind, self.went = rewind, went
@@ -36,16 +36,18 @@ class Timeline:
 
     @property
     def runs(self) -> bool:
-        """True while Backspace is held to run back; meanwhile the game makes no steps."""
+        """True while Backspace is held to run back. The game makes no steps then."""
         return self.control == BACK_KEY
 
     def let_go(self) -> None:
-        """Release all held keys."""
+        """Forget all held keys, and the step chosen by mouse or key."""
         self.control, self.dragging, self.asked = None, False, None
 
     def feed(self, event: pygame.event.Event, devices: DeviceSource, frozen: bool, now: float) -> bool:
-        """Process an event; return whether it was used. devices: translate pad events into button names; frozen:
-        whether the game is frozen; now: time of the last turn [s].
+        """Process an event. Return whether it was used.
+
+        devices: translate pad events into button names; frozen: whether the game is frozen; now: time of the last turn
+        [s].
         """
         button = devices.button_of(event)
         if event.type == pygame.KEYUP:
@@ -101,17 +103,17 @@ class Timeline:
         self.asked = self.rewind.end - round((1.0 - max(0.0, min(1.0, share))) * STEPS)
 
     def go(self, steps: int) -> None:
-        """Move by this number of steps: forward, or back if negative."""
+        """Move by `steps` steps, back if negative."""
         before = self.rewind.position
         self.rewind.seek(before + steps)
         if self.rewind.position != before:
             self.went()
 
     def turn(self, now: float, frozen: bool) -> bool:
-        """Move to the step chosen by keys or mouse, at `now` [s]. Keys and mouse act only while the game is frozen,
-        Backspace always.
+        """Move to the step chosen by keys or mouse, at `now` [s]. Return whether Backspace is held to run back.
 
-        Return whether Backspace is held to run back: then the game must make no steps.
+        Keys and mouse act only while the game is frozen, Backspace always. While it is held, the game must make no
+        steps.
         """
         if not frozen and not self.runs:
             self.let_go()
@@ -134,7 +136,7 @@ class Timeline:
         return goal
 
     def reserve(self, frame: Frame) -> None:
-        """Reserve the place of the bar."""
+        """Reserve the place of the bar, so that other text avoids it."""
         frame.reserve(self._rect(frame))
 
     def _rect(self, frame):
@@ -143,7 +145,7 @@ class Timeline:
         return pygame.Rect(area.x, area.bottom - high, area.width, high)
 
     def draw(self, frame: Frame) -> None:
-        """Draw the bar of the last ten seconds: the part that can be reached, the key frames, and the current step."""
+        """Draw the bar of the last ten seconds, with its reachable part, the key frames and the current step."""
         scale, rect, rewind = frame.scale_for(LEAST_WIDTH), self._rect(frame), self.rewind
         covered = [box for box, _ in frame.boxes if rect.colliderect(box)]
         top = min([rect.y, *(box.y - scale for box in covered if rect.y - box.y < MOST_CUT * scale)])

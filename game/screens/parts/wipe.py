@@ -1,4 +1,4 @@
-"""Transition between screens: the old picture disappears in strips, or fades if flashing is reduced."""
+"""Transition between two screens: the old picture disappears in strips, or fades if flashing is reduced."""
 
 import pygame
 
@@ -8,7 +8,7 @@ SPREAD = 0.5  # delay of the last strip after the first, as a share of SECONDS
 
 
 class Wipe:
-    """Transition from the previous screen's last picture to the current picture."""
+    """Transition from the last picture of the previous screen to the current picture."""
 
     def __init__(self) -> None:
         self.old = None
@@ -20,7 +20,10 @@ class Wipe:
         self.started = now
 
     def draw(self, surface: pygame.Surface, now: float, fades: bool = False) -> None:
-        """Draw the remaining part of the old picture over the new one, at `now` [s]. fades: fade instead of strips."""
+        """Draw the remaining part of the old picture over the new one, at `now` [s].
+
+        fades: whether the old picture fades, and does not disappear in strips.
+        """
         if self.old is None:
             return
         share = (now - self.started) / SECONDS
@@ -33,8 +36,9 @@ class Wipe:
             self._draw_strips(surface, share)
 
     def _draw_strips(self, surface, share):
-        """Draw the strips of the old picture when `share` 0..1 of the transition is over. Each becomes narrower from
-        the left; the left strips start first.
+        """Draw the strips of the old picture. share: part of the transition that is over, 0..1.
+
+        Each strip becomes narrower from the left; the left strips start first.
         """
         width, height = surface.get_size()
         for number in range(STRIPS):
