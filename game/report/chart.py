@@ -14,9 +14,10 @@ SECOND = {"ns": 1e9, "us": 1e6, "ms": 1e3, "s": 1.0}
 
 
 class Axis(NamedTuple):
-    """One axis of a plot. label: name and unit; read: reads the figure of a row; log: logarithmic if the values span a
-    decade; mark: position of a line, such as the smallest error that a player sees; decades: greatest span of a
-    logarithmic axis.
+    """One axis of a plot. label: name and unit. read: reads the figure of a row.
+
+    log: whether it is logarithmic if the values span a decade. mark: position of a line, such as the smallest error
+    that a player sees. decades: greatest span of a logarithmic axis.
     """
 
     label: str
@@ -27,7 +28,7 @@ class Axis(NamedTuple):
 
 
 class Curve(NamedTuple):
-    """A line that is no measurement, such as the limit of floating-point arithmetic: y = at(x)."""
+    """A theoretical line y = at(x) in a plot, such as the limit of floating-point arithmetic."""
 
     label: str
     at: Callable[[float], float]
@@ -38,7 +39,7 @@ class Panel(NamedTuple):
 
     line: the line to draw. "front": the Pareto front of the dots; "medians": the Pareto front of the series' medians;
     "series": through the dots of each series in the order of x; "": none. shows(row): whether the row is shown;
-    series(row): name of its series.
+    series(row): name of the series to which the row belongs.
     """
 
     title: str
@@ -51,8 +52,9 @@ class Panel(NamedTuple):
 
 
 class Chart(NamedTuple):
-    """One chart. Its rows have the keys "series" and "label". key: first part of the names of its jobs; truth: sentence
-    on the reference for errors.
+    """One chart. Its rows have the keys "series" and "label".
+
+    key: first part of the names of its jobs; truth: a sentence that says against which reference errors are measured.
     """
 
     number: int
@@ -67,7 +69,10 @@ class Chart(NamedTuple):
 
 
 def time(key: str, unit: str = "us") -> Reading:
-    """Return a function that reads a cost from a row as (least, median, upper quartile) in `unit`."""
+    """Return a reading of a cost in `unit`: a function of a row that returns (least, median, upper quartile).
+
+    key: the cost's key in the row. The function returns None if the row does not have it.
+    """
 
     def read(row):
         cost = row.get(key)
@@ -80,7 +85,10 @@ def time(key: str, unit: str = "us") -> Reading:
 
 
 def value(key: str, scale: float = 1.0) -> Reading:
-    """Return a function that reads a number from a row as (low, middle, high); a single number is all three."""
+    """Return a reading of a number times `scale`: a function of a row that returns (low, middle, high).
+
+    A row stores one number, which is used three times, or a list of three.
+    """
 
     def read(row):
         found = row.get(key)
@@ -93,8 +101,9 @@ def value(key: str, scale: float = 1.0) -> Reading:
 
 
 def percent(key: str) -> Reading:
-    """Return a function that reads a rate, stored as [count, total], as (low, middle, high) in percent; low and high
-    are the confidence interval (Wilson).
+    """Return a reading of a rate in percent: a function of a row that returns (low, middle, high).
+
+    A row stores the rate as [count, total]. low and high are the ends of the confidence interval (Wilson).
     """
 
     def read(row):
@@ -108,5 +117,5 @@ def percent(key: str) -> Reading:
 
 
 def panel_is(name: str) -> Callable[[Row], bool]:
-    """Return a function of a row: whether the row belongs to the panel with that name."""
+    """Return a function of a row that returns whether the row belongs to the panel with that name."""
     return lambda row: row.get("panel") == name

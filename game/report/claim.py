@@ -22,12 +22,11 @@ class Claim(NamedTuple):
 
 
 def ordering(what: str, costs: Mapping[str, tuple[float, float]], unit: float = 1e6, word: str = "us") -> Claim:
-    """Return the claim that one of several methods is the cheapest: HOLDS if that is certain, otherwise TIE, with the
-    names of all methods that may be the cheapest.
+    """Return the claim that one of several methods is the cheapest: HOLDS if that is certain, otherwise TIE.
 
-    what: subject of the sentence. costs: {name: (least, median) seconds}. Two costs tie if their intervals overlap or
-    they differ by less than 10 %. unit, word: factor and name of the printed unit. Raises ValueError for fewer than two
-    costs.
+    A TIE names all methods that may be the cheapest. what: subject of the sentence. costs: {name: (least, median)
+    seconds}. Two costs tie if their intervals overlap or they differ by less than 10 %. unit, word: factor and name of
+    the printed unit. Raises ValueError for fewer than two costs.
     """
     if len(costs) < 2:
         raise ValueError(f"an ordering needs two costs at least (got {len(costs)})")
@@ -41,11 +40,11 @@ def ordering(what: str, costs: Mapping[str, tuple[float, float]], unit: float = 
 
 
 def at_least(text: str, ratio: tuple[float, float, float], limit: float, source: str = "", unit: str = "x") -> Claim:
-    """Return the claim that a measured ratio is at least `limit`. text: the claim as a sentence; ratio: (low, middle,
-    high).
+    """Return the claim that a measured ratio is at least `limit`.
 
-    HOLDS if the whole interval is at least `limit`, FAILS if the whole interval is below `limit`, otherwise TIE.
-    source: paper that claims it, or ""; unit: printed after the ratio.
+    HOLDS if the whole interval is at least `limit`, FAILS if the whole interval is below `limit`, otherwise TIE. text:
+    the claim as a sentence; ratio: (low, middle, high); source: paper that claims it, or ""; unit: printed after the
+    ratio.
     """
     low, middle, high = ratio
     verdict = HOLDS if low >= limit else FAILS if high < limit else TIE
@@ -53,11 +52,11 @@ def at_least(text: str, ratio: tuple[float, float, float], limit: float, source:
 
 
 def at_most(text: str, ratio: tuple[float, float, float], limit: float, source: str = "", unit: str = "x") -> Claim:
-    """Return the claim that a measured ratio is at most `limit`. text: the claim as a sentence; ratio: (low, middle,
-    high).
+    """Return the claim that a measured ratio is at most `limit`.
 
-    HOLDS if the whole interval is at most `limit`, FAILS if the whole interval is above `limit`, otherwise TIE. source:
-    paper that claims it, or ""; unit: printed after the ratio.
+    HOLDS if the whole interval is at most `limit`, FAILS if the whole interval is above `limit`, otherwise TIE. text:
+    the claim as a sentence; ratio: (low, middle, high); source: paper that claims it, or ""; unit: printed after the
+    ratio.
     """
     low, middle, high = ratio
     verdict = HOLDS if high <= limit else FAILS if low > limit else TIE
@@ -65,11 +64,11 @@ def at_most(text: str, ratio: tuple[float, float, float], limit: float, source: 
 
 
 def ratio_of(a: Mapping, b: Mapping) -> tuple[float, float, float]:
-    """Return the ratio a / b of two costs stored by spread(), as (low, middle, high)."""
+    """Return (low, middle, high) of the ratio a / b of two costs, each as spread() stores it in a row."""
     first, second = a["seconds"], b["seconds"]
     return first[0] / second[2], first[1] / second[1], first[2] / second[0]
 
 
 def pair(cost: Mapping) -> tuple[float, float]:
-    """Return (least, median) [s] of a cost stored by spread()."""
+    """Return (least, median) [s] of a cost, as spread() stores it in a row."""
     return cost["seconds"][0], cost["seconds"][1]

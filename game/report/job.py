@@ -25,8 +25,9 @@ class ReportScope(NamedTuple):
 
 
 class Job(NamedTuple):
-    """One job. name: the chart's key, a slash, and the subject of the job; work: "module:function"; this function
-    returns rows.
+    """One job. name: the chart's key, a slash, and the subject of the job.
+
+    work: "module:function", whose function returns rows; params: its arguments.
     """
 
     name: str
@@ -36,10 +37,10 @@ class Job(NamedTuple):
 
 
 def run_job(name: str, work: str, params: Mapping[str, Any]) -> Row:
-    """Run a job: the function `work` ("module:function") with the arguments `params`. Return {name, rows, spent,
-    compiled}, or {name, failed, spent} with the text of the error.
+    """Run a job: call the function `work` ("module:function") with the arguments `params`.
 
-    spent: duration [s]; compiled: the part of it that went into compiling kernels, which no cost includes.
+    Return {name, rows, spent, compiled}, or {name, failed, spent} with the text of the error. spent: duration [s];
+    compiled: the part of it in which kernels were compiled, which no cost includes.
     """
     started = perf_counter()
     found: Row = {"name": name}
@@ -54,17 +55,18 @@ def run_job(name: str, work: str, params: Mapping[str, Any]) -> Row:
 
 
 def spread(cost: Cost) -> Row:
-    """Return a Cost as it is stored in a row: [least, median, upper quartile] seconds per piece of work, number of
-    runs, pieces per run.
+    """Return a Cost as a row stores it, with the keys "seconds", "runs" and "pieces".
+
+    "seconds": [least, median, upper quartile] per piece of work; "pieces": pieces of work per run.
     """
     return {"seconds": [cost.least, cost.median, cost.upper], "runs": cost.runs, "pieces": cost.pieces}
 
 
 def counted(rate: Rate) -> list[int]:
-    """Return a Rate as it is stored in a row: [count, total]."""
+    """Return a Rate as a row stores it: [count, total]."""
     return [rate.count, rate.total]
 
 
 def facts_of(rows: Iterable[Row]) -> list[Row]:
-    """Return the rows without their times."""
+    """Return copies of the rows without their times."""
     return [{key: value for key, value in row.items() if not key.endswith(COST)} for row in rows]

@@ -1,4 +1,4 @@
-"""The report as one self-contained HTML page: plots with data for each dot, tables, and the raw data."""
+"""The report as one self-contained HTML page: plots with the data of each dot, tables, and the raw data."""
 
 import csv
 import io
@@ -22,7 +22,7 @@ PAGE = Path(__file__).with_name("page.html")
 
 
 class Measured(NamedTuple):
-    """A chart with the results of its jobs. failed: {name of a job: reason}; left: number of jobs not yet run."""
+    """A chart with the results of its jobs. failed: {name of a job: reason}; left: number of jobs not run yet."""
 
     chart: Chart
     rows: list[Row]  # each with the name of its job under "job"
@@ -31,11 +31,10 @@ class Measured(NamedTuple):
 
 
 def write_page(measured: Sequence[Measured], manifest: Mapping[str, Any], folder: str, spent: float) -> str:
-    """Return the text of the page. measured: the charts with their results; manifest: description of the report, see
-    Store.
+    """Return the HTML text of the page. measured: the charts with their results.
 
-    folder: the report's folder as on the command line, for the commands that measure a dot again; spent: duration of
-    all jobs [s].
+    manifest: description of the report, see Store; folder: the report's folder as on the command line, for the commands
+    that measure a dot again; spent: duration of all jobs [s].
     """
     reported: dict[str, Any] = {}
     charts = "\n".join(_chart(each, reported, folder, bool(manifest["quick"])) for each in measured)
@@ -61,7 +60,7 @@ def write_page(measured: Sequence[Measured], manifest: Mapping[str, Any], folder
 
 
 def _script(value):
-    """Return a value as JSON that cannot end the HTML element which contains it."""
+    """Return a value as JSON text in which nothing can end the HTML element around it."""
     return json.dumps(value).replace("</", "<\\/")
 
 
@@ -152,7 +151,7 @@ def cell(value: Any) -> str:
 
 
 def as_csv(rows: Sequence[Row]) -> str:
-    """Return the rows as CSV. Each time takes three columns [s]: least, median and upper quartile."""
+    """Return the rows as CSV text. Each time takes three columns [s]: least, median and upper quartile."""
     flat = []
     for row in rows:
         line: Row = {}

@@ -15,8 +15,9 @@ CARD, THICK, LEAN, PLANK = 48.0, 2.0, radians(25.0), 4.0  # [px] between a card'
 
 
 class Pile(NamedTuple):
-    """A pile: positions [px], densities, shapes and angles [rad] of its bodies. rests: whether the bodies should stay
-    where they are.
+    """A pile: positions [px], densities, shapes and angles [rad] of its bodies.
+
+    rests: whether the bodies should stay where they are.
     """
 
     places: list[tuple[float, float]]
@@ -27,13 +28,14 @@ class Pile(NamedTuple):
 
     @property
     def height(self) -> float:
-        """Height of the highest body's position over the ground [px]."""
+        """Height of the highest body's position above the ground [px]."""
         return -min(y for _, y in self.places)
 
 
 def boxes(places: list[tuple[float, float]], density: Sequence[float] = (), size: float = BOX) -> Pile:
-    """Return a pile of upright boxes of one size [px] at these places. density: one for each box; empty: all of density
-    1.
+    """Return a pile of upright boxes of one size [px] at these places [px].
+
+    density: of each box; empty: 1 for all.
     """
     count = len(places)
     return Pile(places, list(density) or [1.0] * count, [Polygon.box(size, size)] * count, [0.0] * count)
@@ -45,8 +47,9 @@ def stack(count: int, size: float = BOX) -> Pile:
 
 
 def pyramid(rows: int, across: float = 1.1, up: float = 1.0) -> Pile:
-    """Return a pyramid of boxes, with a box less in each row. across, up: distance between the centres of neighbours,
-    in box sizes.
+    """Return a pyramid of boxes, in which each row has one box less than the row below.
+
+    across, up: distance between the centres of neighbours, in box sizes.
     """
     return boxes(
         [
@@ -58,21 +61,23 @@ def pyramid(rows: int, across: float = 1.1, up: float = 1.0) -> Pile:
 
 
 def heavy(ratio: float) -> Pile:
-    """Return a light box, and on it a box of `ratio` times the density of the light box."""
+    """Return a light box with a box of `ratio` times its density on top."""
     return boxes(stack(2).places, [1.0, ratio])
 
 
 def crooked(count: int, seed: int = 1, aside: float = 0.64) -> Pile:
-    """Return a column of `count` boxes, each shifted sideways at random by at most `aside` [px]; the default
-    corresponds to 2 cm.
+    """Return a column of `count` boxes, each shifted sideways at random by at most `aside` [px].
+
+    The default of `aside` corresponds to 2 cm.
     """
     shifts = np.random.default_rng(seed).uniform(-aside, aside, count)
     return boxes([(float(shifts[k]), -BOX / 2 - BOX * k) for k in range(count)])
 
 
 def card_house(storeys: int) -> Pile:
-    """Return a card house of so many storeys: pairs of cards that lean on each other, with planks on them, as in
-    lab/card_house.
+    """Return a card house with this number of storeys.
+
+    Pairs of cards lean on each other, with planks on them, as in lab/card_house.
     """
     reach, rise = CARD * sin(LEAN), CARD * cos(LEAN)
     apart, storey = 2.0 * (reach + 2.0 * THICK) + 1.0, rise + 2.0 * THICK + PLANK
@@ -104,8 +109,9 @@ PILES: dict[str, Callable[[], Pile]] = {
 
 
 def world_of(pile: Pile, solver: str, substeps: int | str, effects: Effects = EFFECTS, away: float = 0.0) -> World:
-    """Return a world with the pile on wide ground. solver, substeps, effects: of the world. away: distance of the pile
-    from the origin, in x and in y [px].
+    """Return a world with the pile on wide ground. solver, substeps, effects: of the world.
+
+    away: x and y of the pile's origin [px].
     """
     world = World(effects, solver=solver, gravity=(0.0, GRAVITY), substeps=substeps)
     places = np.array(pile.places) + away
@@ -131,7 +137,7 @@ def overlap(world: World) -> float:
 
 
 def sunk(world: World, pile: Pile) -> float:
-    """Return how far the highest centre of mass is below the pile's initial height [px]."""
+    """Return how far the highest centre of mass is below its initial height [px]."""
     return pile.height + float(world.bodies["center_y"][1:].min())
 
 

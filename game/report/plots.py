@@ -1,7 +1,6 @@
-"""Panels of the report, drawn as SVG by matplotlib, in the page's light or dark colours; the page can show the data of
-each dot.
+"""Panels of the report, drawn as SVG by matplotlib, in the page's light or dark colours.
 
-Raises UsageError if matplotlib is not installed.
+The page can show the data of each dot. Raises UsageError if matplotlib is not installed.
 """
 
 import io
@@ -30,7 +29,7 @@ CURVES = (":", "-.")
 
 
 class Dot(NamedTuple):
-    """A dot of a panel: a row, with x and y as (low, middle, high)."""
+    """A dot of a panel: its row, and x and y as (low, middle, high)."""
 
     row: Row
     x: Interval
@@ -50,7 +49,7 @@ def library() -> Any:
 
 
 def dots_of(panel: Panel, rows: Sequence[Row]) -> list[Dot]:
-    """Return the dots of a panel: the rows that it shows and that have finite figures for x and y."""
+    """Return the dots of a panel: those rows that it shows and that have finite figures for x and y."""
     found = []
     for row in rows:
         if not panel.shows(row):
@@ -62,8 +61,9 @@ def dots_of(panel: Panel, rows: Sequence[Row]) -> list[Dot]:
 
 
 def draw(panel: Panel, rows: Sequence[Row], name: str) -> tuple[str, list[Dot]]:
-    """Return (SVG text of a panel, its dots). Dot number k has the id "{name}-{k}" in the SVG. The text is "" if there
-    is nothing to show.
+    """Return (SVG text of a panel, its dots). The text is "" if there is nothing to show.
+
+    name: of the panel in the SVG; dot number k has the id "{name}-{k}".
     """
     figure = library()(figsize=SIZE, layout="constrained")
     dots = dots_of(panel, rows)
@@ -128,11 +128,10 @@ def _curves(axes, panel, dots):
 
 
 def _scale(axes, which, axis: Axis, values: Sequence[Interval]):
-    """Make the x or y axis (`which`) logarithmic, if `axis.log` is set and `values` span at least a decade. Over a
-    shorter span, tick labels would overlap.
+    """Make an axis logarithmic if `axis.log` is set and the values span at least a decade.
 
-    Values more than axis.decades below the largest one are drawn at the lower end, together with zero. Call it after
-    all dots are drawn.
+    Over a shorter span, tick labels would overlap. which: "x" or "y". Values more than axis.decades below the largest
+    one are drawn at the lower end, together with zero. Call it after all dots are drawn.
     """
     positive = [high for _, _, high in values if high > 0.0]
     if not axis.log or not positive or max(positive) < 10.0 * min(low for low, _, _ in values):
@@ -188,8 +187,9 @@ def _page_colors(figure) -> str:
 
 
 def shown(dot: Dot, panel: Panel) -> Mapping[str, str]:
-    """Return {label: text} of the box that appears when the pointer is over a dot of a panel: the figures of both axes
-    with their intervals, failures, and ignored effects.
+    """Return the text of the box that appears when the pointer is over a dot, {label: text}.
+
+    It contains the figures of both axes with their intervals, failures, and ignored effects.
     """
     reported = {
         "": f"{dot.row['series']}: {dot.row['label']}" if dot.row["label"] != dot.row["series"] else dot.row["label"]

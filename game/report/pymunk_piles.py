@@ -1,5 +1,6 @@
-"""The report's piles of boxes in pymunk, for comparison. Without pymunk a ModuleNotFoundError names the pip extra that
-installs it.
+"""The report's piles of boxes in pymunk, for comparison.
+
+Without pymunk a ModuleNotFoundError names the pip extra that installs it.
 """
 
 from typing import Any
@@ -12,7 +13,10 @@ ITERATIONS = 10  # pymunk's default
 
 
 def space_of(pile: Pile, iterations: int = ITERATIONS) -> Any:
-    """Return a pymunk space with the pile's boxes, of equal density, on wide ground. iterations: of pymunk's solver."""
+    """Return a pymunk space with the pile's boxes, all of one density, on wide ground.
+
+    iterations: of pymunk's solver.
+    """
     try:
         import pymunk
     except ModuleNotFoundError as error:

@@ -28,7 +28,10 @@ from physics.background import compile_jobs
 
 
 def run_report(options: Options, registry: Registry) -> int:
-    """Run the jobs; write the page. Return the exit code: 1 if a job failed. Raises UsageError if it cannot begin."""
+    """Run the jobs and write the page. Return the exit code: 1 if a job failed, otherwise 0.
+
+    Raises UsageError if the report cannot begin.
+    """
     assert options.report is not None
     library()  # matplotlib is required before anything is measured
     start_dummy_display()
@@ -63,8 +66,9 @@ def run_report(options: Options, registry: Registry) -> int:
 
 
 def compile_kernels() -> None:
-    """Compile the kernels that most jobs need, with all cores, before the first job. Other kernels compile at their
-    first call.
+    """Compile the kernels that most jobs need, on all cores, before the first job.
+
+    Other kernels are compiled at their first call.
     """
     worlds = [(effects, solver) for effects in (Effects.rigid_bodies(), Effects.detection()) for solver in SOLVERS]
     kernels = [
@@ -83,8 +87,9 @@ def all_jobs(scope: ReportScope) -> list[Job]:
 
 
 def chosen_jobs(jobs: Sequence[Job], only: str | None) -> list[Job]:
-    """Return the jobs whose name matches the pattern `only`, or whose chart has that name; None: all jobs. Raises
-    UsageError if no job matches.
+    """Return the jobs selected by `only`: a pattern for names of jobs, or the name of a chart; None: all jobs.
+
+    Raises UsageError if no job is selected.
     """
     if only is None:
         return list(jobs)
@@ -133,7 +138,7 @@ def write(store: Store, jobs: Sequence[Job], options: Options) -> None:
 
 
 class Progress:
-    """Progress on standard error, a line after each job: number of finished jobs, and estimated time for the others."""
+    """Progress on standard error: after each job, a line with the number of finished jobs and the remaining time."""
 
     def __init__(self, jobs: Sequence[Job]) -> None:
         self.weights = {job.name: job.seconds for job in jobs}

@@ -1,7 +1,7 @@
-"""Three ways to run the jobs of a report, with the same results: in this process, in worker processes, on a Dask
-cluster.
+"""Three ways to run the jobs of a report, with the same results.
 
-A job whose process dies is run once more, and then reported as failed.
+They run in this process, in worker processes, or on a Dask cluster. A job whose process dies is run once more, and then
+reported as failed.
 """
 
 import json
@@ -27,8 +27,9 @@ def run_here(jobs: Sequence[Job]) -> Iterator[Row]:
 
 
 def run_in_processes(jobs: Sequence[Job], workers: int) -> Iterator[Row]:
-    """Run the jobs in this number of worker processes, and yield results as they finish. The processes share the
-    machine's cores and caches, which affects times.
+    """Run the jobs in `workers` processes, and yield results as they finish.
+
+    The processes share the machine's cores and caches, which affects times.
     """
     waiting: queue.SimpleQueue[tuple[Job, int]] = queue.SimpleQueue()
     found: queue.SimpleQueue[Row | Exception] = queue.SimpleQueue()
@@ -56,10 +57,9 @@ def run_in_processes(jobs: Sequence[Job], workers: int) -> Iterator[Row]:
 
 
 def _serve(waiting, found, running, stopped):
-    """Run jobs from the queue `waiting` in a worker process, and put their results into the queue `found`. A dead
-    process is replaced.
+    """Run jobs from the queue `waiting` in a worker process, and put their results into the queue `found`.
 
-    running: list to which each started process is added. stopped: event that ends the loop.
+    A dead process is replaced. running: list to which each started process is added; stopped: event that ends the loop.
     """
     process: Any = None
     while not stopped.is_set():
@@ -92,8 +92,9 @@ def _serve(waiting, found, running, stopped):
 
 
 def connect(address: str) -> Any:
-    """Return a client of the Dask cluster at an address. Raises UsageError if Dask is missing, the address is invalid,
-    or no scheduler answers.
+    """Return a client of the Dask cluster at an address.
+
+    Raises UsageError if Dask is missing, the address is invalid, or no scheduler answers.
     """
     try:
         from dask.distributed import Client  # pyright: ignore[reportMissingImports]
@@ -111,8 +112,9 @@ def connect(address: str) -> Any:
 
 
 def run_on_dask(jobs: Sequence[Job], client: Any) -> Iterator[Row]:
-    """Run the jobs on a Dask cluster whose workers have this program installed, and yield results as they finish. Close
-    the client at the end.
+    """Run the jobs on a Dask cluster, and yield results as they finish. Close the client at the end.
+
+    This program must be installed on the cluster's workers.
     """
     from dask.distributed import as_completed  # pyright: ignore[reportMissingImports]
 

@@ -1,4 +1,4 @@
-"""The game's sprites that the report measures."""
+"""Sprites of the games, as the report measures them."""
 
 from game.drawing.sprites import load_atlas
 from physics import PixelMask
@@ -19,5 +19,5 @@ FEW = (SPRITES[1], SPRITES[2], SPRITES[5])
 
 
 def mask_of(atlas: str, name: str) -> PixelMask:
-    """Return the pixel mask of a sprite."""
+    """Return the PixelMask of a sprite. atlas, name: as for load_atlas() and its mask()."""
     return load_atlas(atlas).mask(name)

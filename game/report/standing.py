@@ -1,4 +1,4 @@
-"""Accuracy of a standing pile: measured after every step, reported at the end."""
+"""Accuracy of a standing pile: measured after every step, and reported at the end."""
 
 from collections import deque
 
@@ -12,7 +12,7 @@ FALLEN = 0.5 * BOX  # [px] sag of the highest body that counts as a fall
 
 
 class Watch:
-    """Measurements of one pile over its steps: the worst values so far, and the time at which it fell [s]."""
+    """Measurements of one pile over its steps: the worst values so far, and the time of its fall [s]."""
 
     settle = SETTLE
 
@@ -23,7 +23,7 @@ class Watch:
         self.sunk: deque[float] = deque(maxlen=LAST)
 
     def look(self) -> None:
-        """Measure the pile. Call it after each step."""
+        """Measure the pile and update the worst values. Call it after each step."""
         self.overlaps.append(overlap(self.world))
         self.sunk.append(sunk(self.world, self.pile))
         self.deepest = max(self.deepest, self.overlaps[-1])
@@ -34,10 +34,10 @@ class Watch:
     def found(self) -> Row:
         """Return the measurements as part of a row.
 
-        overlap: deepest contact [px]; off: distance of the highest body from its start, up or down [px]; each the worst
-        of the last LAST steps. error: the greater of the two. deepest: deepest contact of all steps [px]. won: energy
-        gained, as a share of the pile's initial energy. stands_s: time of the fall [s], None if it stands. A pile that
-        is not to stay in place has off None.
+        overlap: deepest contact [px]; off: distance of the highest body from its start, up or down [px]; each is the
+        worst of the last LAST steps. error: the greater of the two. deepest: deepest contact of all steps [px]. won:
+        energy gained, as a share of the pile's initial energy. stands_s: time of the fall [s], None if it stands. For a
+        pile that is not to stay in place, off is None.
         """
         deep, off = max(self.overlaps), max(map(abs, self.sunk)) if self.pile.rests else None
         return {

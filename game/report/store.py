@@ -72,9 +72,7 @@ class Store:
         return self.folder / RESULTS / f"{name.replace('/', '--')}.json"
 
     def result(self, name: str) -> dict[str, Any] | None:
-        """Return the stored result of a job. None: the job has not run, or its file is damaged and it must run
-        again.
-        """
+        """Return the stored result of a job. None if the job has not run, or if its file is damaged."""
         try:
             found = read_json(self._path(name))
         except FileError:
@@ -82,5 +80,5 @@ class Store:
         return found if isinstance(found, dict) and found.get("name") == name else None
 
     def keep(self, found: dict[str, Any]) -> None:
-        """Store the result of a job. Raises OSError."""
+        """Store the result of a job, as run_job() returns it. Raises OSError."""
         write_atomically(self._path(found["name"]), json.dumps(found))

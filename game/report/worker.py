@@ -1,7 +1,7 @@
 """`python -m game.report.worker`: worker process that runs jobs of a report, one after the other.
 
-Each line of standard input is a job as JSON; each line of standard output is its result. The process ends when standard
-input ends.
+Each line of standard input is a job as JSON; each line of standard output is its result. The process ends when its
+standard input closes.
 """
 
 import json

@@ -120,7 +120,7 @@ class Course:
         return Result(won, score.points, self.clock / 60, lines)
 
     def state(self):
-        """Return the state for the replay digest, as a flat tuple."""
+        """Return this object's part of Scene.state(), a flat tuple."""
         return (
             self.act,
             self.mode,

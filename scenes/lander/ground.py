@@ -74,5 +74,5 @@ class Ground:
         return reach
 
     def state(self):
-        """Return the state for the replay digest, as a flat tuple. The pixels are part of the world's state."""
+        """Return this object's part of Scene.state(), a flat tuple. The pixels are part of the world's state."""
         return tuple(value for tile in sorted(self.touched) for value in tile)

@@ -44,7 +44,7 @@ class Gun:
         return found
 
     def state(self):
-        """Return the state for the replay digest, as a flat tuple."""
+        """Return this object's part of Scene.state(), a flat tuple."""
         return (*self.shells, *self.shells.values())
 
 

@@ -63,5 +63,5 @@ class Line:
             self.load = None
 
     def state(self):
-        """Return the state for the replay digest, as a flat tuple."""
+        """Return this object's part of Scene.state(), a flat tuple."""
         return (-1 if self.load is None else self.load.id,)

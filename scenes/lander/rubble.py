@@ -63,7 +63,7 @@ class Rubble:
         return gone
 
     def state(self):
-        """Return the state for the replay digest, as a flat tuple."""
+        """Return this object's part of Scene.state(), a flat tuple."""
         return tuple(self.pieces)
 
 

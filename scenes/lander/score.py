@@ -72,7 +72,7 @@ class Score:
         return next(name for name, least in MEDALS if self.points >= least)
 
     def state(self):
-        """Return the state for the replay digest, as a flat tuple."""
+        """Return this object's part of Scene.state(), a flat tuple."""
         return (self.points, self.landings, self.delivered, self.lost, self.fired, self.cans, self.softest)
 
 

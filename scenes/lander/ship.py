@@ -167,7 +167,7 @@ class Ship:
         self.fuel = min(self.fuel + CAN, FUEL)
 
     def state(self):
-        """Return the state for the replay digest, as a flat tuple."""
+        """Return this object's part of Scene.state(), a flat tuple."""
         return (
             self.lives,
             -1 if self.body is None else self.body.id,

@@ -39,5 +39,5 @@ class Weather:
             body.apply_force((body.mass * world.drag * (self.wind - self.steady), 0.0))
 
     def state(self):
-        """Return the state for the replay digest, as a flat tuple."""
+        """Return this object's part of Scene.state(), a flat tuple."""
         return (*self.phases, self.wind, self.steady, self.gust)

@@ -130,7 +130,7 @@ class Yard:
         return done
 
     def state(self):
-        """Return the state for the replay digest, as a flat tuple."""
+        """Return this object's part of Scene.state(), a flat tuple."""
         return (
             *(value for identity, each in self.cargo.items() for value in (identity, each.whole, each.rest)),
             *("" if each.over is None else each.over.name for each in self.cargo.values()),

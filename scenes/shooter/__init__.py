@@ -1,1 +1,1 @@
-"""The plane shooter: hits are decided by exact pixel masks."""
+"""The plane shooter, a game in which exact pixel masks decide what hits."""

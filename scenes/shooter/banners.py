@@ -1,4 +1,4 @@
-"""Banners across the picture: the stage's title, the warning, bonuses, continue, and the end."""
+"""Banners across the picture: the stage's title, the boss warning, bonuses, the offer to continue, and the end."""
 
 from functools import lru_cache
 from math import inf
@@ -22,7 +22,7 @@ HURRY = 4  # the countdown is red below this digit
 
 
 def draw_banners(canvas, scene):
-    """Draw the banner of the current mode of the stage or ending, if there is one."""
+    """Draw the banner that belongs to the current mode of the stage or of the ending, if there is one."""
     director, ending = scene.director, scene.ending
     if ending.mode == ASKING:
         _draw_continue(canvas, scene)
@@ -41,7 +41,7 @@ def draw_banners(canvas, scene):
 
 
 def eased(step, whole_time):
-    """Return how far a banner has slid in at `step` of `whole_time` steps: 0 is out, 1 is in place.
+    """Return how far a banner has slid in at step `step` of its `whole_time` steps: 0 is out, 1 is in place.
 
     The banner slides in over the first SLIDE steps, and out over the last SLIDE steps, with easing.
     """
@@ -50,8 +50,9 @@ def eased(step, whole_time):
 
 
 def _draw_title(canvas, director):
-    """Draw the stage's title, which slides in from the left, and its name, which slides in from the right. Both slide
-    out again.
+    """Draw the stage's title, which slides in from the left, and its name, which slides in from the right.
+
+    At the end of the banner both slide out again.
     """
     share = eased(director.since, READY)
     middle, width = canvas.rect.centerx, canvas.rect.width
@@ -64,7 +65,7 @@ def _draw_title(canvas, director):
 
 
 def _draw_warning(canvas, scene):
-    """Draw the word WARNING and the leader's name, between two rows of moving stripes."""
+    """Draw the word WARNING and the name of the mid-boss or boss, between two rows of moving stripes."""
     since = scene.director.since
     share = eased(since, WARNING)
     high = whole(56 * share)
@@ -90,7 +91,7 @@ def _draw_bonus(canvas, bonus):
 
 
 def _draw_bonuses(canvas, scene):
-    """Draw STAGE CLEAR and one line for each bonus counted so far."""
+    """Draw STAGE CLEAR, and one line for each bonus counted so far."""
     ending = scene.ending
     share = eased(ending.since - SMOKE, inf)
     band(canvas, 70, whole(112 * share))
@@ -124,9 +125,9 @@ def _summary(scene):
 
 
 def band(canvas, top, high):
-    """Draw a dark band of height `high` [px] across the picture, behind a banner's text. `top`: its y when fully grown.
+    """Draw a dark band across the picture, behind a banner's text. top: its y when fully grown; high: its height [px].
 
-    It grows from its middle line; once two lines of text fit, it grows downwards only.
+    The band grows from its middle line. Once it has room for two lines of text, it only grows downwards.
     """
     if high > 0:
         canvas.surface.blit(
@@ -135,7 +136,7 @@ def band(canvas, top, high):
 
 
 def text_inside(canvas, text, x, y, color, scale):
-    """Draw a sliding text, unless a part of it is outside the picture."""
+    """Draw a text of a sliding banner if it is completely inside the picture. (x, y): middle of its upper edge [px]."""
     rect = canvas.text_rect(text, x, y, TEXT, scale, "center")
     if canvas.rect.contains(rect):
         canvas.text(text, x, y, color, TEXT, scale, "center", True)

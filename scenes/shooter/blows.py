@@ -1,4 +1,4 @@
-"""Strength of hits: the impulse that each hit would transfer.
+"""Strength of hits, computed as the impulse that each hit would transfer.
 
 Damage, sparks, debris and sound are in proportion to it.
 """
@@ -17,12 +17,12 @@ class Blow:
 
     @property
     def strength(self):
-        """Impulse relative to a plain shot of the player (1), clamped to 0.5 (a glance) .. 2.5 (ramming)."""
+        """Size of the impulse relative to a plain shot of the player, limited to 0.5 (a glance) .. 2.5 (ramming)."""
         return min(max(hypot(self.x, self.y) / self.USUAL, 0.5), 2.5)
 
     @property
     def kick(self):
-        """Velocity (x, y) [px/s] that the impulse gives to the debris of the body, FASTEST at most."""
+        """Velocity (x, y) [px/s] that the impulse gives to the body's debris, at most FASTEST."""
         x, y = self.x / self.mass, self.y / self.mass
         share = min(1.0, self.FASTEST / max(hypot(x, y), 1.0))
         return x * share, y * share
@@ -31,8 +31,8 @@ class Blow:
 class Blows:
     """The impulses of all hits of one step, by pair of bodies.
 
-    The scene has no collision response, so each impulse is computed from the closing speed and the two masses.
-    `weights`: {body id: mass to use instead of the body's own}; the player's core has the mass of the whole plane.
+    The scene has no collision response, so each impulse is computed from the closing speed and the two masses. weights:
+    {body id: mass to use in place of the body's own}; the player's core gets the mass of the whole plane.
     """
 
     def __init__(self, world, weights=None):
@@ -52,7 +52,7 @@ class Blows:
             self.found[b, a] = (-impulse * nx, -impulse * ny)
 
     def on(self, identity, *others):
-        """Return the sum of the impulses that the bodies `others` gave to body `identity`, as a Blow."""
+        """Return the Blow on the body `identity`: the sum of the impulses that the bodies `others` (ids) gave to it."""
         each = [self.found.get((other, identity), (0.0, 0.0)) for other in others]
         return Blow(sum(x for x, _ in each), sum(y for _, y in each), self.mass.get(identity) or 1.0)
 

@@ -1,4 +1,4 @@
-"""Heads-up display of the shooter: score, chain, lives, bombs, power, hits, and the leader's health."""
+"""Heads-up display of the shooter: score, chain, lives, bombs, power, hits, and the boss's health."""
 
 from game.drawing.canvas import SMALL, TEXT, whole
 from game.drawing.colors import GOLD, INK, PAPER, RED, SKY
@@ -25,7 +25,7 @@ SLIDE_IN, SLIDE_OUT = 12, 10  # steps in which the name of a wave comes and goes
 
 
 def draw_words(canvas, scene, view):
-    """Draw the short texts that rise from events, such as points. `view`: world point at the picture's corner."""
+    """Draw the short texts that rise from events, such as points. view: world point at the picture's corner."""
     for rect in HELD:
         canvas.reserve(rect)
     left, top = view
@@ -35,7 +35,7 @@ def draw_words(canvas, scene, view):
 
 
 def draw_board(canvas, scene):
-    """Draw the heads-up display: score, stock and hits, and the leader's bar or the name of a new wave."""
+    """Draw the heads-up display: score, lives, bombs, power, hits, and the boss's bar or the name of a new wave."""
     _draw_score(canvas, scene)
     _draw_stock(canvas, scene)
     _draw_hits(canvas, scene)
@@ -77,9 +77,7 @@ def _draw_stock(canvas, scene):
 
 
 def _draw_hits(canvas, scene):
-    """Draw the number of hits on the player's core, hull and bounding box. Core or hull, whichever is vulnerable, is
-    gold.
-    """
+    """Draw the numbers of hits on the player's core, hull and bounding box. The vulnerable part is written in gold."""
     ui, y, x = load_atlas("ui"), canvas.rect.bottom - 14, MARGIN
     counts = scene.hits.count
     for part in ("core", "hull"):
@@ -99,7 +97,7 @@ def _draw_wave(canvas, scene):
 
 
 def _draw_leader(canvas, scene, leader):
-    """Draw the leader's name and timer above its health bar, which has one section for each phase."""
+    """Draw the name and timer of the mid-boss or boss above its health bar, which has a section for each phase."""
     left, top, width, height = BAR
     phases = len(leader.phases)
     canvas.text(leader.name, left, MARGIN, PAPER, TEXT, outline=True)
@@ -126,11 +124,11 @@ def _draw_leader(canvas, scene, leader):
 
 
 def draw_health(surface, place, share):
-    """Draw the small health bar of a damaged plane at `place` [canvas px]; `share` of its health is left (0..1)."""
+    """Draw the small health bar of a damaged plane. place: (x, y) [canvas px]; share: remaining health, 0..1."""
     surface.fill(INK, (*place, HEALTH_WIDTH, 4))
     surface.fill(health_color(share), (place[0] + 1, place[1] + 1, max(1, round((HEALTH_WIDTH - 2) * share)), 2))
 
 
 def health_color(share):
-    """Return the colour of a health bar, red, yellow or green, for the remaining share 0..1 of the health."""
+    """Return the colour of a health bar: red, yellow or green. share: remaining health, 0..1."""
     return HEALTH[max(0, min(int(share * 3), 2))]

@@ -14,8 +14,9 @@ DAMAGE, LEADER_DAMAGE = 18.0, 45.0  # damage in plain shots
 
 
 class Bomb:
-    """The player's bomb. `body`: its sensor, or None while no bomb burns; `age` [steps]; `struck`: ids of the planes
-    already damaged.
+    """The player's bomb. body: its sensor, or None while no bomb burns; age: in steps.
+
+    struck: ids of the planes that this bomb has damaged already.
     """
 
     def __init__(self, world):
@@ -40,8 +41,9 @@ class Bomb:
         )
 
     def step(self):
-        """Let the bomb grow for one step. If it has burnt out, return the id of its body, which the caller must remove;
-        else None.
+        """Let the bomb grow for one step.
+
+        If it has burnt out, return the id of its body, which the caller must remove; otherwise return None.
         """
         if self.body is None:
             return None
@@ -54,11 +56,11 @@ class Bomb:
         return body.id
 
     def strikes(self, identity):
-        """Record that the bomb touches a plane. Return whether it does so for the first time."""
+        """Record that the bomb touches the plane with the body id `identity`. Return whether this is the first time."""
         new = identity not in self.struck
         self.struck.add(identity)
         return new
 
     def state(self):
-        """Return the state for the replay digest, as a flat tuple."""
+        """Return this object's part of Scene.state(), a flat tuple."""
         return (self.x, self.y, self.age, -1 if self.body is None else self.body.id, *sorted(self.struck))

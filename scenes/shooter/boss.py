@@ -1,4 +1,4 @@
-"""Leaders: the mid-boss and the boss. A leader fights in phases, each with its own health, timer, path and patterns.
+"""Leaders are the mid-boss and the boss. A leader fights in phases, each with its own health, timer, path and guns.
 
 Between two phases the leader cannot be hurt and does not fire, and all bullets are removed.
 """
@@ -21,9 +21,9 @@ ALMOST = 5.0  # [s] before the end of a phase: from then on its timer is red and
 
 
 class Leader(Enemy):
-    """A mid-boss or boss. `number`: index of the current phase; `clock`: remaining steps of this phase.
+    """A mid-boss or boss. number: index of the current phase; clock: remaining steps of this phase.
 
-    `beaten`: whether the last finished phase was won by the player (True) or ran out of time (False).
+    beaten: True if the player won the last finished phase, False if its time ran out.
     """
 
     heavy = leads = True
@@ -38,12 +38,12 @@ class Leader(Enemy):
 
     @property
     def phase(self):
-        """The Phase that is being fought."""
+        """The current Phase of the fight."""
         return self.phases[self.number]
 
     @property
     def last(self):
-        """True in the last phase."""
+        """True if the current phase is the last one."""
         return self.number + 1 == len(self.phases)
 
     @property
@@ -64,7 +64,10 @@ class Leader(Enemy):
         self.frame = "midboss_0" if self.kind == "midboss" else f"boss_{'abc'[self.number]}_0"
 
     def think(self, sky):
-        """Choose motion and fire for the leader's mode: arrive, fight, change, fall or leave. sky: the scene."""
+        """Set the velocity for the next step and fire, as the leader's mode requires. sky: the scene.
+
+        The modes are "arrive", "fight", "change", "fall" and "leave".
+        """
         if self.mode == "arrive":
             if self.approach(self.home_x, self.home_y, ARRIVE_SPEED) < 3.0:
                 self.begin("fight")
@@ -92,12 +95,12 @@ class Leader(Enemy):
             self.vx, self.vy = self.vx * 0.96, max(self.vy - 2.0, -110.0)
 
     def _swing(self):
-        """Move in a slow figure of eight about the leader's home position."""
+        """Set the velocity of a slow figure of eight around the leader's home position."""
         move, turn = self.phase.move, 2 * pi * self.since / 60 / self.phase.move.seconds
         self.approach(self.home_x + move.across * sin(turn), self.home_y + move.down * sin(2 * turn), SWING_SPEED)
 
     def end_phase(self, beaten):
-        """End the phase. After the last phase the leader falls if `beaten`, else it flies away."""
+        """End the phase. After the last one the leader falls if `beaten` is True, otherwise it flies away."""
         self.beaten = beaten
         if not self.last:
             self.begin("change")
@@ -106,7 +109,7 @@ class Leader(Enemy):
             self.side = FALLING
 
     def state(self):
-        """Return the state for the replay digest, as a flat tuple."""
+        """Return this object's part of Scene.state(), a flat tuple."""
         return (
             *super().state(),
             self.number,

@@ -29,10 +29,10 @@ BULLET = np.dtype([("id", np.int64), ("look", np.int64), ("met", np.int64)])
 
 
 class Bullets:
-    """The bullets of the player, or the bullets of the enemies.
+    """The bullets of one side, of the player or of the enemies.
 
-    `table.rows` holds the id, the look, and as bits the parts of the player that the bullet has touched. The world has
-    the positions.
+    Rows of the table contain the body id, the look, and bits for the parts of the player that the bullet has touched.
+    The positions are in the world.
     """
 
     def __init__(self, world, side):
@@ -45,7 +45,7 @@ class Bullets:
 
     @property
     def ids(self):
-        """Ids of all bullets, ascending."""
+        """Body ids of all bullets, ascending."""
         return self._rows["id"]
 
     @property
@@ -53,7 +53,7 @@ class Bullets:
         return self.table.rows  # NumPy's stubs allow a column by name for no known dtype
 
     def make_room(self, count):
-        """Grow all tables to `count` bullets before the first step, so that no later step allocates memory."""
+        """Let all tables grow to `count` bullets before the first step, so that later steps allocate no memory."""
         apart = 1000.0 + 20.0 * np.arange(count)  # on a diagonal far away, so that no two of them form a pair
         ids = self.world.add_bodies(
             mask_of("small"), np.column_stack((apart, apart)), kind="kinematic", filter=self.side
@@ -65,9 +65,9 @@ class Bullets:
         self.table.keep(np.zeros(count, bool))
 
     def fire(self, look, x, y, headings, speed, out=0.0):
-        """Add one bullet per heading [rad] to the volley, which launch() adds to the world. look: key of LOOKS.
+        """Add one bullet per heading [rad] to the current volley. launch() adds the volley to the world.
 
-        Each starts at (x, y) [px], moved `out` [px] along its heading, and flies at `speed` [px/s].
+        look: key of LOOKS. A bullet starts at (x, y) [px], moved `out` [px] along its heading, with `speed` [px/s].
         """
         painted = LOOKS[look][1]
         for heading in headings:
@@ -76,7 +76,7 @@ class Bullets:
             self.volley[look].append((x + out * across, y + out * down, speed * across, speed * down, angle))
 
     def launch(self):
-        """Add the bullets of the volley to the world, with one call for each look."""
+        """Add the bullets of the current volley to the world, with one call for each look, and begin a new volley."""
         for look, fired in self.volley.items():
             if not fired:
                 continue
@@ -90,22 +90,23 @@ class Bullets:
             fired.clear()
 
     def places(self):
-        """Return the row of each bullet in the world's table of bodies, in the order of `table`."""
+        """Return the rows of the bullets in world.bodies, an array in the order of `table`."""
         return self.world.rows(self.ids)
 
     def has(self, ids):
-        """Return a boolean array: whether each of the body ids `ids` belongs to one of these bullets.
+        """Return (k,) bool: whether each of the body ids `ids` is one of these bullets.
 
-        O(k log n) for k ids and n bullets, because the table is sorted by id.
+        It takes O(k log n) for n bullets, because the table is sorted by id.
         """
         if not len(self):
             return np.zeros(len(ids), bool)
         return self.ids[self._nearest(ids)] == ids
 
     def meet(self, ids, what):
-        """Record that bullets touched a part of the player; `what` is its bit (GRAZED, BOXED, HULLED, CORED).
+        """Record that bullets touched a part of the player. what: bit of the part (GRAZED, BOXED, HULLED, CORED).
 
-        Return the ids of the bullets that touch that part for the first time. Ids of other bodies are ignored.
+        ids: body ids; ids of other bodies are ignored. Return the ids of the bullets that touch that part for the first
+        time.
         """
         at = self._nearest(ids[self.has(ids)])
         met = self._rows["met"]
@@ -114,7 +115,7 @@ class Bullets:
         return self.ids[new]
 
     def forget(self, ids):
-        """Drop the rows of the bullets whose body ids are given. Ids of other bodies are ignored."""
+        """Drop the rows of the bullets with the given body ids. Ids of other bodies are ignored."""
         there = ids[self.has(ids)]
         if len(there):
             keep = np.ones(len(self), bool)
@@ -122,11 +123,14 @@ class Bullets:
             self.table.keep(keep)
 
     def _nearest(self, ids):
-        """Return the table row of each id; for an unknown id, an existing row near its place in the sorted table."""
+        """Return the table row of each id.
+
+        For an unknown id, it is an existing row near its place in the sorted table.
+        """
         return np.minimum(np.searchsorted(np.ascontiguousarray(self.ids), ids), max(len(self) - 1, 0))
 
     def state(self):
-        """Return the whole table as a hexadecimal string, for the replay digest."""
+        """Return the whole table as a hexadecimal string, a part of Scene.state()."""
         return self.table.rows.tobytes().hex()
 
 
@@ -136,5 +140,5 @@ def mask_of(look):
 
 
 def outside(x, y):
-    """Return a boolean array: which places (x, y) [px] are so far outside the picture that no sprite there shows."""
+    """Return (n,) bool: whether each point (x, y) [px] is so far outside that no sprite there is visible."""
     return (x < -MARGIN) | (x > WIDTH + MARGIN) | (y < -2 * MARGIN) | (y > HEIGHT + MARGIN)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 class Difficulty:
     """Factors of the enemies' strength.
 
-    `speed`: factor on the speed of bullets and dives; `patience`: on the time between volleys; `armour`: on health;
-    `extra`: additional bullets in a volley.
+    speed: factor on the speed of bullets and dives; patience: factor on the time between volleys; armour: factor on
+    health; extra: number of additional bullets in a volley.
     """
 
     speed: float = 1.0

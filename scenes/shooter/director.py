@@ -1,6 +1,6 @@
 """Director of a stage: it launches the planes when they are due.
 
-The director's clock stops while a leader is in play.
+The director's clock stops while a leader (mid-boss or boss) is in play.
 """
 
 from dataclasses import replace
@@ -16,10 +16,10 @@ READY = steps(3.0)  # steps of the stage's title, before its clock begins
 
 
 class Director:
-    """The director. `clock` [steps] is the time of the stage; `wave`, `number`: name and number of the latest wave.
+    """The director. clock: time of the stage [steps]; wave, number: name and number of the latest wave.
 
-    `mode`: "ready", then "run"; for a leader "clearing", "warning", "leader", "rest"; after the boss "over".
-    `since`: steps in the current mode.
+    mode: "ready", then "run"; for a leader "clearing", "warning", "leader", "rest"; after the boss "over". since: steps
+    in the current mode.
     """
 
     def __init__(self, stage):
@@ -35,16 +35,16 @@ class Director:
 
     @property
     def ground(self):
-        """The name of the ground that came into view last."""
+        """Name of the ground that came into view last."""
         return self.grounds[-1][1]
 
     @property
     def announced(self):
-        """The event of the leader that is announced or fights, or None if there is none."""
+        """The stage's Event of the leader that is announced or fights, or None if there is none."""
         return self.stage.events[self.next - 1] if self.mode in ("clearing", "warning", "leader") else None
 
     def step(self, sky):
-        """Make one step: begin the events and launch the planes that are due. `sky` is the scene."""
+        """Make one step: begin the events and launch the planes that are due. sky: the scene."""
         self.since += 1
         if self.mode == "run":
             self.clock += 1
@@ -125,7 +125,7 @@ class Director:
             sky.fleet.launch(self._turned(group), share, carries, self.difficulty, wave, sky.scrolled)
 
     def _turned(self, group):
-        """Return the group, mirrored left to right if the current wave is mirrored (chosen at random per wave)."""
+        """Return the Group, mirrored left to right if the current wave is mirrored, which is random for each wave."""
         if not self.mirrored:
             return group
         other = {"left": "right", "right": "left"}.get(group.side, group.side)
@@ -133,14 +133,14 @@ class Director:
         return replace(group, sway=-group.sway, side=other, bend=bend)
 
     def shot_down(self, enemy):
-        """Record that an enemy was shot down. Return whether all planes of its wave have now been shot down."""
+        """Record that the plane `enemy` was shot down. Return whether it was the last plane of its wave."""
         if enemy.wave not in self.left:
             return False
         self.left[enemy.wave] -= 1
         return self.left[enemy.wave] == 0
 
     def state(self):
-        """Return the state for the replay digest, as a flat tuple."""
+        """Return this object's part of Scene.state(), a flat tuple."""
         return (
             self.clock,
             self.next,

@@ -1,6 +1,6 @@
 """The end of a game: a countdown offers to continue after the last life, or bonuses are counted after the stage.
 
-`scene.result` is set once, at the very end; then the picture is frozen and keys have no effect.
+`scene.result` is set once, at the very end. Then the picture is frozen and keys have no effect.
 """
 
 from game.drawing.number_text import count_text
@@ -17,8 +17,9 @@ PLAYING, ASKING, CLEARED, WON, LOST = "playing", "asking", "cleared", "won", "lo
 
 
 class Ending:
-    """The end of a game. `mode`: PLAYING, ASKING, CLEARED, WON or LOST; `since`: steps in this mode; `left`: remaining
-    steps of the countdown to continue.
+    """The end of a game. mode: PLAYING, ASKING, CLEARED, WON or LOST; since: steps in this mode.
+
+    left: remaining steps of the countdown to continue.
     """
 
     def __init__(self):
@@ -27,11 +28,11 @@ class Ending:
 
     @property
     def digit(self):
-        """Digit that the countdown shows: remaining whole seconds."""
+        """Digit that the countdown shows: the remaining whole seconds."""
         return self.left // 60
 
     def step(self, scene, inputs):
-        """Advance the end by one step. Return whether the game's world stands still in this step."""
+        """Make one step of the ending. Return whether the game's world is not stepped in this step."""
         self.since += 1
         if self.mode == PLAYING:
             if scene.plane.lives == 0 and scene.plane.away == 0:
@@ -75,7 +76,7 @@ class Ending:
         scene.result = self._result(scene, won=False)
 
     def clear(self, scene):
-        """Begin to count the bonuses, after the boss is gone."""
+        """Begin to count the bonuses. Called when the boss is gone."""
         self._enter(CLEARED)
         scene.clear_bullets()
         scene.plane.shelter(steps(60))
@@ -102,5 +103,5 @@ class Ending:
         return Result(won, score.points, (scene.frame + 1) / 60, lines)
 
     def state(self):
-        """Return the state for the replay digest, as a flat tuple."""
+        """Return this object's part of Scene.state(), a flat tuple."""
         return (self.mode, self.since, self.left, len(self.counted))

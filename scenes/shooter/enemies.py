@@ -19,9 +19,10 @@ EDGE = 40.0  # [px] distance that gunships keep from the sides
 
 
 class Enemy:
-    """An enemy plane. `frame`: its picture, whose mask collides; `health` in plain shots; `side`: its collision filter.
+    """An enemy plane. frame: name of its picture, whose mask is its shape; side: its collision filter.
 
-    A subclass defines think(sky), which sets vx, vy [px/s] and angle for the next step. `sky` is the scene.
+    health: number of plain shots that it withstands. A subclass defines think(sky), which sets vx, vy [px/s] and angle
+    for the next step. sky: the scene.
     """
 
     kind, frame, health, points = "", "", 1, 0
@@ -44,20 +45,20 @@ class Enemy:
 
     @staticmethod
     def entry(group, share):
-        """Return where a plane of the group enters, (x, y) [px]; `share` 0..1 is the place along the upper edge.
+        """Return the point (x, y) [px] at which a plane of the group enters. share: place along the upper edge, 0..1.
 
-        Kinds that enter elsewhere override this.
+        Kinds that enter elsewhere override this method.
         """
         return WIDTH * share, ENTRY_Y
 
     def begin(self, mode):
-        """Begin a mode of behaviour ("arrive", "fight", ...), and restart its clock `since`."""
+        """Begin a mode of behaviour ("arrive", "fight", ...), and restart the clock `since` of the mode."""
         self.mode, self.since = mode, 0
 
     def approach(self, x, y, most):
-        """Set the velocity towards (x, y) [px], slower when near. `most`: greatest speed [px/s].
+        """Set the velocity towards (x, y) [px], lower when near. Return the remaining distance [px].
 
-        Return the remaining distance [px].
+        most: greatest speed [px/s].
         """
         far = hypot(x - self.x, y - self.y)
         speed = min(most, APPROACH * far)
@@ -65,16 +66,16 @@ class Enemy:
         return far
 
     def face(self, heading):
-        """Rotate the picture and its mask to a heading [rad], rounded to multiples of NOTCH."""
+        """Rotate the plane, with its picture and mask, to a heading [rad], rounded to a multiple of NOTCH."""
         self.heading = heading
         self.angle = round((heading - DOWN) / NOTCH) * NOTCH
 
     def ahead(self, seconds):
-        """Return the predicted x and y [px] of the plane after `seconds` (an array)."""
+        """Return (x, y) [px] of the plane after `seconds`, a number or array, if it keeps its velocity."""
         return self.x + self.vx * seconds, self.y + self.vy * seconds
 
     def state(self):
-        """Return the state for the replay digest, as a flat tuple."""
+        """Return this object's part of Scene.state(), a flat tuple."""
         return (
             self.id,
             self.kind,
@@ -132,8 +133,9 @@ class Saucer(Enemy):
 
     @staticmethod
     def entry(group, share):
-        """Return where the plane enters, (x, y) [px]: at `share` 0..1 of the upper edge, but far enough from the sides
-        to weave.
+        """Return the point (x, y) [px] at which the plane enters the upper edge. share: place along it, 0..1.
+
+        The point is far enough from the sides for the plane to weave.
         """
         room = abs(group.sway) + 20.0
         return min(max(WIDTH * share, room), WIDTH - room), ENTRY_Y

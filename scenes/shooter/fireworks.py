@@ -1,4 +1,4 @@
-"""Moving decoration: explosions, sparks, debris, smoke, rings, words. No game rule reads it."""
+"""Moving decoration: explosions, sparks, debris, smoke, rings, texts. No game rule depends on it."""
 
 import numpy as np
 
@@ -22,7 +22,7 @@ BURNING = 0.7  # share of its life in which debris burns and trails sparks
 
 
 class Fireworks:
-    """Decoration without physics, as lists of rows. Each row ages, and is removed when its time is over."""
+    """Decoration without physics, kept as lists of rows. Each row ages, and is removed when its time is over."""
 
     def __init__(self, particles):
         self.particles, self.random = particles, particles.random
@@ -33,7 +33,7 @@ class Fireworks:
         self.scars = []  # [x, y, size px] of fires on the ground
 
     def step(self, dt, still=False):
-        """Advance all decoration by `dt` [s]. Scars move with the ground unless `still`."""
+        """Make one step of `dt` [s]. still: whether the ground stands still; otherwise scorch marks move with it."""
         effects = load_atlas("effects")
         for burst in self.bursts:
             burst[1] += burst[3] * dt
@@ -62,23 +62,30 @@ class Fireworks:
             self.scars = [scar for scar in self.scars if scar[1] < HEIGHT + 40]
 
     def burst(self, name, x, y, vx=0.0, vy=0.0, age=0.0):
-        """Add an animation that plays once at (x, y), moving by (vx, vy) [px/s]. A negative `age` [s] delays it."""
+        """Add an animation that plays once at (x, y) [px] and moves by (vx, vy) [px/s].
+
+        A negative `age` [s] delays it.
+        """
         self.bursts.append([name, x, y, vx, vy, age])
 
     def chain(self, x, y, wide, high, count, apart):
-        """Add `count` small explosions around (x, y), one every `apart` seconds, at most `wide` and `high` px away
-        along x and y.
+        """Add `count` small explosions at random places around (x, y) [px], one every `apart` seconds.
+
+        wide, high: greatest distance of a place along x and y [px].
         """
         for number in range(count):
             dx, dy = self.random.uniform(-wide, wide), self.random.uniform(-high, high)
             self.burst("explosion_small", x + dx, y + dy, dx * 0.6, dy * 0.6 + 12, -apart * number)
 
     def sparks(self, x, y, count, ramp, speed=150):
-        """Add `count` glowing points in all directions, in the colours of `ramp`, with speeds up to `speed` [px/s]."""
+        """Add `count` sparks that fly in all directions, with speeds up to `speed` [px/s].
+
+        ramp: their colours over time.
+        """
         self.particles.burst(x, y, count, ramp, speed=(speed * 0.2, speed), life=(0.25, 0.8), size=(1, 2), drag=2.6)
 
     def embers(self, xs, ys):
-        """Add three sparks at each of the places (xs, ys) (arrays) [px]."""
+        """Add three sparks at each of the points (xs, ys), arrays [px]."""
         self.particles.burst(
             np.repeat(xs, 3),
             np.repeat(ys, 3),
@@ -97,10 +104,10 @@ class Fireworks:
             self.burst("smoke", x + vx * 0.6, y + vy * 0.6, vx, vy, -0.12 - 0.05 * number)
 
     def pieces(self, frames, x, y, vx, vy, count, blow):
-        """Add debris that flies in the direction of `blow`: the harder the blow, the more and the faster pieces.
+        """Add debris of a plane that flies in the direction of `blow`. A harder blow gives more and faster pieces.
 
-        `frames`: numbers of the two pictures of the debris; (vx, vy) [px/s]: velocity of the destroyed plane; `count`:
-        number of pieces for a plain shot.
+        frames: numbers of the debris's two pictures; vx, vy: velocity of the destroyed plane [px/s]; count: number of
+        pieces for a plain shot.
         """
         wild = 0.7 + 0.3 * blow.strength
         vx, vy = vx + blow.kick[0], vy + blow.kick[1]
@@ -115,11 +122,14 @@ class Fireworks:
             )
 
     def piece(self, kind, x, y, vx, vy, life):
-        """Add one piece of debris with velocity (vx, vy) [px/s] for `life` [s]. `kind`: number of its picture."""
+        """Add one piece of debris at (x, y) [px] with velocity (vx, vy) [px/s] for `life` [s].
+
+        kind: number of its picture.
+        """
         self.debris.append([f"debris_{kind}", x, y, vx, vy, 0.0, life])
 
     def ring(self, x, y, radius):
-        """Add a shock wave that grows to `radius` [px]."""
+        """Add a shock wave at (x, y) that grows to `radius` [px]."""
         self.rings.append([x, y, radius, 0.0])
 
     def scar(self, x, y, size):
@@ -127,6 +137,6 @@ class Fireworks:
         self.scars = [*self.scars[1 - MOST_SCARS :], [x, y, size]]
 
     def word(self, text, x, y, color):
-        """Add a text that rises from (x, y) [px], unless another text has just appeared there."""
+        """Add a text that rises from (x, y) [px], unless another text appeared near there a moment ago."""
         if not any(abs(w[1] - x) < 26 and abs(w[2] - y) < 8 and w[3] < 0.3 for w in self.words):
             self.words.append([text, x, y, 0.0, color])

@@ -15,9 +15,9 @@ OUT = 26.0  # [px] outside of the picture, where a hornet enters
 
 
 class Hornet(Enemy):
-    """A plane that flies straight, along an arc of the group's `bend` [deg], and straight again.
+    """A plane that flies straight, then along an arc of the group's `bend` [deg], then straight again.
 
-    It fires twice, at the place where the player will be if the player keeps the present velocity.
+    It fires twice, each time at the place where the player will be if the player's velocity stays the same.
     """
 
     kind, frame, health, points = "hornet", "hornet_0", 3, 150
@@ -36,7 +36,10 @@ class Hornet(Enemy):
 
     @staticmethod
     def entry(group, share):
-        """Return where the plane enters, (x, y) [px]; `share` 0..1: place down the side, or along the lower edge."""
+        """Return the point (x, y) [px] at which the plane enters.
+
+        share: place down the side, or along the lower edge, 0..1.
+        """
         if group.side == "below":
             return WIDTH * share, HEIGHT + OUT
         return (-OUT if group.side == "left" else WIDTH + OUT), HEIGHT * share
@@ -62,12 +65,12 @@ class Hornet(Enemy):
         sky.spectacle.enemy_fires(self)
 
     def state(self):
-        """Return the state for the replay digest, as a flat tuple."""
+        """Return this object's part of Scene.state(), a flat tuple."""
         return (*super().state(), self.turn, self.left)
 
 
 class Turret(Enemy):
-    """A gun on the ground. Its volleys alternate: a short row of bullets straight down, and a fan at the player."""
+    """A gun on the ground. It fires by turns a short row of bullets straight down, and a fan at the player."""
 
     kind, frame, health, points = "turret", "turret_0", 24, 400
     side = GROUNDED

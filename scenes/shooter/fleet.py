@@ -1,4 +1,4 @@
-"""All enemies in play: their launch, their steps, the shapes of their bodies, and their removal."""
+"""All enemies in play: they are launched, stepped, given their shapes, and removed here."""
 
 from math import pi
 
@@ -16,7 +16,7 @@ ALL_AROUND = 32  # hornets fly in all directions
 
 
 class Fleet:
-    """The enemies in play. `planes`: Enemy by body id, in the order of launch."""
+    """The enemies in play. planes: {body id: Enemy}, in the order of launch."""
 
     def __init__(self, world, tier):
         self.world, self.tier = world, tier
@@ -32,10 +32,10 @@ class Fleet:
         return next((plane for plane in self.planes.values() if plane.leads), None)
 
     def launch(self, group, share, carries="", difficulty=EASY, wave=0, scrolled=0.0):
-        """Launch one plane of a group with a Difficulty. Return the plane.
+        """Launch one plane of a Group, and return it.
 
-        `share` 0..1: place along the edge at which it enters; `carries`: item that it drops, or ""; `wave`: number of
-        its wave; `scrolled`: distance that the ground has moved [px].
+        share: place along the edge at which it enters, 0..1; carries: item that it drops, or ""; wave: number of its
+        wave; scrolled: distance that the ground has moved [px].
         """
         made = KINDS[group.kind]
         plane = made(*made.entry(group, share), group, difficulty)
@@ -45,7 +45,7 @@ class Fleet:
         return self._add(plane)
 
     def launch_leader(self, event):
-        """Launch the mid-boss or boss of an event. Return it."""
+        """Launch the mid-boss or boss of an Event, and return it."""
         return self._add(Leader(event))
 
     def _add(self, plane):
@@ -62,7 +62,7 @@ class Fleet:
         return plane
 
     def step(self, sky):
-        """Step every plane, and write its velocity into the world's columns. sky: the scene."""
+        """Let every plane choose motion and fire, and write its velocity into the world's columns. sky: the scene."""
         if not self.planes:
             return
         planes = list(self.planes.values())
@@ -84,20 +84,23 @@ class Fleet:
             bodies[column][rows] = [getattr(plane, column) for plane in planes]
 
     def forget(self, ids):
-        """Drop the planes whose bodies have the given ids."""
+        """Drop the planes with the given body ids."""
         for identity in ids.tolist():
             self.planes.pop(identity, None)
 
 
 def dress(world, identity, frame, tier):
-    """Give the body of a plane the mask of picture `frame` as its shape, at the given shape tier."""
+    """Give a plane's body the mask of the picture `frame` as its shape. identity: id of the body.
+
+    tier: collision tier of the shape.
+    """
     body = world.body(identity)
     body.set_shapes(load_atlas("planes").mask(frame))
     body.tier = tier
 
 
 def draw_turned():
-    """Rotate the masks of planes and bullets that turn, to fill the cache before the first step (1.7 ms each)."""
+    """Rotate the masks of planes and bullets that turn, so that they are cached before the first step (1.7 ms each)."""
     planes, effects = load_atlas("planes"), load_atlas("effects")
     for frames, notches in ((("dart_0", "dart_1"), DIVES), (("hornet_0",), ALL_AROUND)):
         for notch in range(-notches, notches + 1):

@@ -1,6 +1,6 @@
 """The scrolling ground below the planes, with clouds and rain. The next kind of ground enters from above.
 
-The border between two kinds of ground is a wavy, dithered line: pixels above the line show the new ground.
+The border between two kinds of ground is a wavy, dithered line. Above the line, the new ground is visible.
 """
 
 from functools import cache, lru_cache
@@ -26,7 +26,10 @@ CONTRAST = (150, 150, 158)  # factors, of 255, on the ground for the palette wit
 
 
 def draw_ground(surface, scene, alpha, left, top):
-    """Draw ground, scorch marks, clouds and rain. (left, top): offset of a shaking camera [px]."""
+    """Draw ground, scorch marks, clouds and rain. alpha: position (0..1) between the last two steps.
+
+    left, top: offset of a shaking camera [px].
+    """
     spectacle, grounds = scene.spectacle, scene.director.grounds
     scrolled = scene.scrolled_before + (scene.scrolled - scene.scrolled_before) * alpha
     _draw_stretches(surface, grounds, scrolled, left, top)
@@ -45,7 +48,7 @@ def draw_ground(surface, scene, alpha, left, top):
 
 
 def is_water(scene, x, y):
-    """Return whether the ground at (x, y) [px] in the picture is water, by the colours of its pixels."""
+    """Return whether the ground visible at the point (x, y) [px] of the picture is water, by its colour."""
     since, name = scene.director.grounds[-1]
     line = scene.scrolled - since - BORDER / 2
     if y > line and len(scene.director.grounds) > 1:
@@ -62,7 +65,10 @@ def is_water(scene, x, y):
 
 
 def storm_share(grounds, scrolled):
-    """Return the strength of the storm, 0..1, when the ground has scrolled `scrolled` px."""
+    """Return the strength of the storm, 0..1, after the ground has scrolled by `scrolled` px.
+
+    grounds: list of (distance at which it came into view [px], name), as in Director.
+    """
     since, name = grounds[-1]
     grown = min(max((scrolled - since) / GROUND_SPEED * 60 / DARKEN, 0.0), 1.0)
     if name == "storm":
@@ -103,13 +109,13 @@ def _draw_air(surface, time, off, storm):
 
 @cache
 def stretch(name):
-    """Return the picture of the ground of that name."""
+    """Return the picture of the ground called `name`."""
     return load_backdrop(name)
 
 
 @cache
 def clouds(name, shade):
-    """Return the picture of a layer of clouds, darkened for a storm. `shade`: 0 (bright) .. SHADES (darkest)."""
+    """Return the picture of a layer of clouds, darkened for a storm. shade: 0 (bright) .. SHADES (darkest)."""
     picture = load_backdrop(name)
     if shade == 0:
         return picture
@@ -121,10 +127,9 @@ def clouds(name, shade):
 
 @lru_cache(maxsize=1)
 def coast_line():
-    """Return a mask of the border between two kinds of ground: white for the upper ground, transparent for the lower
-    ground.
+    """Return the image of a border between two grounds: white where the upper one is visible, else transparent.
 
-    The mask is as wide as the canvas and BORDER px high.
+    It is as wide as the canvas and BORDER px high.
     """
     width = CANVAS_SIZE[0]
     x, y = np.arange(width)[:, None], np.arange(BORDER)[None, :]
@@ -160,7 +165,7 @@ def drop():
 
 @lru_cache(maxsize=8)
 def scar(size):
-    """Return the picture of a scorch mark of `size` [px]: dark, ragged, transparent towards its edge."""
+    """Return the picture of a scorch mark, `size` [px] wide: dark, ragged, and transparent towards its edge."""
     reach = 2 * size + 1
     x, y = np.meshgrid(np.arange(reach) - size, np.arange(reach) - size, indexing="ij")
     ragged = 1.0 + 0.16 * np.sin(5 * np.arctan2(y, x) + 1.0) + 0.1 * np.sin(9 * np.arctan2(y, x))
@@ -173,7 +178,7 @@ def scar(size):
 
 
 def tile(surface, picture, x, y):
-    """Tile the surface with a picture. The corner of one tile is at (x, y)."""
+    """Fill the surface with copies of a picture. (x, y): corner of one of the copies [px]."""
     width, height = picture.get_size()
     wide, high = surface.get_size()
     start = whole(y) % height - height

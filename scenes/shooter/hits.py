@@ -1,7 +1,7 @@
 """Hits of the player's plane, counted separately for its core, its hull and its bounding box.
 
-The three counts show the effect of exact shapes. Each bullet or plane counts once for each part. The scene chooses
-whether hits of the core or of the hull hurt.
+The three counts show the effect of exact shapes. Each bullet or plane counts once for each part. A slider of the scene
+selects whether hits of the core or of the hull cost a life.
 """
 
 import numpy as np
@@ -13,8 +13,9 @@ PARTS = {"core": CORED, "hull": HULLED}
 
 
 class Hits:
-    """Numbers of hits. `count`: {part: hits so far}; `now`: {part: ids of the bodies whose contact with core or hull
-    began in this step}.
+    """Numbers of hits. count: {part: hits so far}.
+
+    now: {part: ids of the bodies whose contact with the core or hull began in this step}.
     """
 
     def __init__(self):
@@ -22,9 +23,9 @@ class Hits:
         self.now = {"core": [], "hull": []}
 
     def read(self, world, plane, incoming, fleet):
-        """Count the hits of the player's plane by enemy bullets (`incoming`) and enemies (`fleet`) in the last step.
+        """Count the hits of the player's plane in the last step, by enemy bullets (`incoming`) and planes (`fleet`).
 
-        Return the ids of the bullets that enter the graze ring for the first time.
+        Return the ids of the bullets that enter the plane's graze ring for the first time.
         """
         events = world.events
         for part, bit in PARTS.items():
@@ -42,12 +43,12 @@ class Hits:
                 self.count[part] += 1
 
     def state(self):
-        """Return the state for the replay digest, as a flat tuple."""
+        """Return this object's part of Scene.state(), a flat tuple."""
         return tuple(self.count.values())
 
 
 def partners(events, identity):
-    """Return a list of the ids of all bodies in `events` that are paired with body `identity`."""
+    """Return a list of the ids of all bodies that form a pair with the body `identity` in `events`."""
     if not len(events):
         return []
     a, b = events["body_a"], events["body_b"]
@@ -55,7 +56,10 @@ def partners(events, identity):
 
 
 def boxes_met(world, identity):
-    """Return ids of enemies and bullets whose bounding box overlapped the box of body `identity` in the last step."""
+    """Return an array of the enemies and bullets whose bounding box overlapped that of a body in the last step.
+
+    identity: id of that body. The array contains body ids.
+    """
     shapes = world.shapes
     box = shapes[np.flatnonzero(shapes["body"] == identity)[0]]  # it has one shape, whatever the tier
     a, b = world.candidates[:, 0], world.candidates[:, 1]

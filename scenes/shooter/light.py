@@ -16,7 +16,7 @@ INSIDE = 12  # [px] by which the drawn ring may be smaller than the blast
 
 
 def draw_rings(view, works):
-    """Draw the shock waves of `works`: thin circles of light that grow fast, then slowly, and fade."""
+    """Draw the shock waves of `works`, a Fireworks: thin circles of light that grow, ever more slowly, and fade."""
     for x, y, radius, age in works.rings:
         share = age / RING_LIFE
         grown = max(4, int(radius * (1.0 - (1.0 - share) ** 3)))
@@ -41,7 +41,7 @@ def draw_bomb(view, scene):
 
 @lru_cache(maxsize=600)
 def wave(radius, bright):
-    """Return the picture of a circle of light. `bright`: brightness, 0..SHADES."""
+    """Return the picture of a circle of light. radius [px]; bright: brightness, 0..SHADES."""
     image = pygame.Surface((2 * radius + 2, 2 * radius + 2))
     color = [c * bright // SHADES // 2 for c in WAVE]
     pygame.draw.circle(image, color, (radius + 1, radius + 1), radius, max(1, min(3, radius // 12)))
@@ -50,7 +50,7 @@ def wave(radius, bright):
 
 @lru_cache(maxsize=12)
 def blast(tenths):
-    """Return the picture of the light inside a blast, brightest in the middle. `tenths`: brightness, 0..10."""
+    """Return the picture of the light inside a bomb's blast, brightest in the middle. tenths: brightness, 0..10."""
     image = pygame.Surface((2 * BLAST, 2 * BLAST))
     for number, radius in enumerate(range(BLAST - 4, 10, -14)):
         level = (6 + 5 * number) * tenths // 10
@@ -68,7 +68,7 @@ def faded(image, alpha):
 
 @lru_cache(maxsize=2)
 def circle_line(radius):
-    """Return the picture of the graze ring."""
+    """Return the picture of the graze ring, a thin circle. radius [px]."""
     image = pygame.Surface((2 * radius + 2, 2 * radius + 2), pygame.SRCALPHA)
     pygame.draw.circle(image, (*LINE, 110), (radius + 1, radius + 1), radius, 1)
     return image

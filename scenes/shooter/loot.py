@@ -1,4 +1,7 @@
-"""Pick-ups: power, bombs, lives. They drift down, fly to a player nearby, and are taken by the plane's ring."""
+"""Pick-ups: power, bombs, lives.
+
+They drift down, fly to the player's plane if it is near, and are taken by its ring.
+"""
 
 from math import cos, hypot, pi
 
@@ -17,8 +20,9 @@ PICTURES = {"power": "powerup", "bomb": "bomb_item", "life": "life_item"}
 
 
 class Item:
-    """A pick-up. `what`: power, bomb or life; `born`: step in which it appeared; `tossed`: whether the player's plane
-    threw it up when it was lost.
+    """A pick-up. what: "power", "bomb" or "life"; born: step in which it appeared.
+
+    tossed: whether it came out of the player's plane when a life was lost; it then flies upwards at first.
     """
 
     def __init__(self, what, born, tossed):
@@ -26,7 +30,7 @@ class Item:
 
 
 class Loot:
-    """The pick-ups in play. `items`: Item by body id."""
+    """The pick-ups in play. items: {body id: Item}."""
 
     def __init__(self, world):
         self.world = world
@@ -36,13 +40,13 @@ class Loot:
         return len(self.items)
 
     def drop(self, what, x, y, now, tossed=False):
-        """Add the pick-up `what` (power, bomb or life) at (x, y) [px] in step `now`. `tossed`: see Item."""
+        """Add a pick-up at (x, y) [px] in step `now`. what, tossed: see Item."""
         mask = load_atlas("planes").mask(PICTURES[what] + "_0")
         body = self.world.add_body(mask, kind="kinematic", filter=LOOT, position=(min(max(x, EDGE), WIDTH - EDGE), y))
         self.items[body.id] = Item(what, now, tossed)
 
     def step(self, now, plane):
-        """Set the velocities of all pick-ups for the next step. `now`: current step; `plane`: the player's."""
+        """Set the velocities of all pick-ups for the next step. now: current step; plane: the player's plane."""
         if not self.items:
             return
         rows, bodies = self.world.rows(list(self.items)), self.world.bodies
@@ -61,12 +65,12 @@ class Loot:
             bodies["vx"][row], bodies["vy"][row] = vx, vy
 
     def forget(self, ids):
-        """Forget the pick-ups whose bodies have the given ids."""
+        """Drop the pick-ups with the given body ids."""
         for identity in ids.tolist():
             self.items.pop(identity, None)
 
     def state(self):
-        """Return the state for the replay digest, as a flat tuple."""
+        """Return this object's part of Scene.state(), a flat tuple."""
         return tuple(
             value for identity, item in self.items.items() for value in (identity, item.what, item.born, item.tossed)
         )

@@ -1,4 +1,4 @@
-"""Fire of the bosses: functions that compute headings of bullets, and a Gun that fires one Pattern of a stage file.
+"""Fire of the bosses: functions that compute the headings of bullets, and a Gun that fires one Pattern of a stage file.
 
 "aimed", "lead" and "fan" target the player; "ring", "spiral" and "wall" fill the sky. All bullets of a "stream" follow
 the heading of the first one.
@@ -14,12 +14,15 @@ WALL_EDGE = 30.0  # [px] least distance of the middle of its gap from the sides
 
 
 def aimed(x, y, target):
-    """Return the heading [rad] from (x, y) to the point `target`."""
+    """Return the heading [rad] from (x, y) [px] to the point `target` (x, y)."""
     return atan2(target[1] - y, target[0] - x)
 
 
 def lead(x, y, target, velocity, speed):
-    """Return the heading [rad] in which a bullet of `speed` [px/s] hits a target that keeps its velocity [px/s]."""
+    """Return the heading [rad] at which a bullet from (x, y) hits a target that keeps its velocity.
+
+    target: (x, y) [px]; velocity: of the target [px/s]; speed: of the bullet [px/s].
+    """
     ahead = 0.0
     for _ in range(3):  # each round halves the error at least, because targets are slower than bullets
         ahead_x, ahead_y = target[0] + velocity[0] * ahead, target[1] + velocity[1] * ahead
@@ -28,20 +31,21 @@ def lead(x, y, target, velocity, speed):
 
 
 def fan(heading, count, spread):
-    """Return `count` headings [rad], evenly spaced around `heading`; `spread` [rad] is from the first to the last."""
+    """Return `count` headings [rad], evenly spaced around `heading`. spread: angle from the first to the last [rad]."""
     if count == 1:
         return [heading]
     return [heading + spread * (number / (count - 1) - 0.5) for number in range(count)]
 
 
 def ring(count, turn=0.0):
-    """Return `count` headings [rad], evenly spaced around the full circle. The first is `turn`."""
+    """Return `count` headings [rad], evenly spaced over the full circle, beginning with `turn`."""
     return [turn + 2 * pi * number / count for number in range(count)]
 
 
 def wall(spacing, middle, gap, width=WIDTH):
-    """Return the x [px] of the bullets of a row across the sky, `spacing` apart, with a gap of width `gap` around x =
-    `middle`.
+    """Return the x [px] of the bullets of a row across the sky that has a gap.
+
+    spacing: distance between bullets [px]; middle, gap: middle and width of the gap [px]; width: of the sky [px].
     """
     count = int(width / spacing) + 1
     edge = (width - (count - 1) * spacing) / 2
@@ -50,9 +54,7 @@ def wall(spacing, middle, gap, width=WIDTH):
 
 
 class Gun:
-    """A gun that fires a Pattern. It records the time until the next shot, the number of shots, and the heading of a
-    stream.
-    """
+    """A gun that fires a Pattern, with the state of its fire: time until the next shot, shots so far, and so on."""
 
     def __init__(self, pattern):
         self.pattern = pattern
@@ -63,8 +65,9 @@ class Gun:
         self.middle = WIDTH / 2  # x of the middle of the last wall's gap [px]
 
     def step(self, sky, x, y):
-        """Advance by one step, and fire if a shot is due. sky: the scene; (x, y): centre of the plane [px]. Return
-        whether the gun fired.
+        """Make one step, and fire if a shot is due. Return whether the gun fired.
+
+        sky: the scene; (x, y): centre of the plane that carries the gun [px].
         """
         self.age += 1
         self.wait -= 1
@@ -111,5 +114,5 @@ class Gun:
             sky.incoming.fire(pattern.bullet, x, WALL_Y, (DOWN,), speed)
 
     def state(self):
-        """Return the state for the replay digest, as a flat tuple."""
+        """Return this object's part of Scene.state(), a flat tuple."""
         return self.wait, self.fired, self.age, self.held, self.middle

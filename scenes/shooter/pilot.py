@@ -1,4 +1,4 @@
-"""The shooter's bot: it predicts the bullets, compares several plans of flight, and takes the least dangerous plan.
+"""The shooter's bot. It predicts the bullets, compares several plans of flight, and follows the least dangerous one.
 
 A plan is a direction, flown for a number of steps; then the plane stops. One array expression gives the distances of
 all plans from all threats at all predicted moments. The bot drops a bomb if its best plan soon ends in a hit.
@@ -27,7 +27,10 @@ CROWD = 1500  # number of enemy bullets at which the bot uses its first bomb in 
 
 
 def directions():
-    """Return all plans as a list of (dx, dy, steps, focus): direction, duration, slow flight. The first plan stays."""
+    """Return all plans, a list of (dx, dy, steps, focus). In the first plan the plane stays where it is.
+
+    dx, dy: direction, -1, 0 or 1 each; steps: duration; focus: whether the plane flies slowly.
+    """
     plans = [(0.0, 0.0, 0.0, False)]
     for focus in (False, True):
         for dx in (-1, 0, 1):
@@ -38,7 +41,7 @@ def directions():
 
 
 class Pilot:
-    """The bot. keys(scene) gives the actions to hold in the next step."""
+    """The bot. keys(scene) returns the actions to hold in the next step."""
 
     def __init__(self):
         self.plans = directions()
@@ -48,7 +51,10 @@ class Pilot:
         self.way_x, self.way_y = (dx * speed)[:, None] * held, (dy * speed)[:, None] * held
 
     def keys(self, scene):
-        """Return the actions of the plan of least cost: danger, plus distance from the nearest target or pick-up."""
+        """Return the actions (a frozenset of names) of the plan with the least cost.
+
+        The cost is the danger, plus the distance of the plan's end from the nearest target or pick-up.
+        """
         plane = scene.plane
         if not plane.here:
             return frozenset()
@@ -71,8 +77,9 @@ class Pilot:
         return frozenset(actions)
 
     def _bombs(self, scene, doomed):
-        """Return whether to drop a bomb: just after a hit, before a certain hit (`doomed`), or once when the sky is
-        very full.
+        """Return whether to drop a bomb.
+
+        A bomb is dropped just after a hit, before a certain hit (`doomed`), or once when the sky is very full.
         """
         if not scene.plane.bombs or scene.bomb.body is not None:
             return False
@@ -80,9 +87,9 @@ class Pilot:
         return scene.stricken > 0 or (not scene.plane.safe and doomed) or crowded
 
     def _danger(self, scene, x, y, place_x, place_y):
-        """Return two arrays over the plans: the cost of coming near to threats, and whether the plan is hit soon.
+        """Return (cost, doomed), two arrays over the plans: the danger, and whether the plan soon ends in a hit.
 
-        (x, y): place of the plane [px]; `place_x`, `place_y`: its predicted places [px], arrays [plan, moment].
+        (x, y): place of the plane [px]; place_x, place_y: its predicted places [px], arrays [plan, moment].
         """
         ahead_x, ahead_y, radius = threats(scene, x, y)
         if not len(radius):
@@ -105,8 +112,9 @@ class Pilot:
         return cost, doomed
 
     def _distance(self, scene, x, y, end_x, end_y):
-        """Return an array over the plans: the cost of the distance from the plan's end (`end_x`, `end_y`) to a target
-        or pick-up.
+        """Return an array over the plans: the cost of the distance between the plan's end and a target or pick-up.
+
+        (x, y): place of the plane [px]; end_x, end_y: places at the end of each plan [px].
         """
         goal_x, goal_y, pull = 240.0, LINE_Y, 0.004
         prey = [
@@ -127,9 +135,9 @@ class Pilot:
 
 
 def threats(scene, x, y):
-    """Predict bullets near (x, y) [px], and enemies in the air.
+    """Predict the places of bullets near (x, y) [px] and of enemies in the air.
 
-    Return their x and y [px], as arrays [moment, threat] over MOMENTS, and their radii [px].
+    Return (x, y, radius): two arrays [moment, threat] over MOMENTS [px], and the radii of the threats [px].
     """
     bodies, incoming = scene.world.bodies, scene.incoming
     rows = incoming.places()

@@ -1,7 +1,7 @@
-"""The player's plane: it moves without inertia, banks, fires, is lost and comes back.
+"""The player's plane: it moves without inertia, banks, fires, is lost and returns.
 
-It has three bodies: a small core; the hull, with the mask of the shown frame; and a larger ring, which is a sensor. The
-world tests all three; the scene chooses whether hits of the core or of the hull hurt.
+It has three bodies: a small core; the hull, with the mask of the shown picture; and a larger ring, which is a sensor.
+The world tests all three; the scene decides whether hits of the core or of the hull cost a life.
 """
 
 from math import pi
@@ -39,8 +39,9 @@ VOLLEYS = (
 
 
 class Plane:
-    """The player's plane. `bodies`: {"core", "hull", "ring"}, empty between two lives; `power`: level of the volley,
-    1..TOP_POWER; `safe`: remaining steps in which it cannot be hit.
+    """The player's plane. bodies: {"core", "hull" and "ring": Body}, empty between two lives.
+
+    power: level of its volley, 1..TOP_POWER; safe: remaining steps in which it cannot be hit.
     """
 
     def __init__(self, world, tier):
@@ -68,11 +69,11 @@ class Plane:
 
     @property
     def frame(self):
-        """Name of the shown picture, whose mask is the hull's shape."""
+        """Name of the picture that is shown. Its mask is the hull's shape."""
         return BANKS[round(self.bank) + 2]
 
     def arrive(self):
-        """Begin a life: create the bodies below the picture, from where the plane flies in."""
+        """Begin a life: add the bodies below the picture, from where the plane flies in."""
         self.bank = 0.0
         self.x, self.y = START_X, ENTRY_Y
         shapes = {
@@ -93,8 +94,9 @@ class Plane:
         self.entering, self.safe, self.cooldown = FLY_IN, FLY_IN + SAFE, 0
 
     def step(self, inputs, shots):
-        """Move, bank and fire, or begin the next life when the wait after a loss is over. `shots`: the Bullets to which
-        shots are added.
+        """Move, bank and fire. Between two lives, wait and then begin the next life.
+
+        shots: the player's Bullets, to which shots are added.
         """
         self.fired = False
         hull = self.body
@@ -165,18 +167,21 @@ class Plane:
         return wreck
 
     def go_on(self):
-        """Restore lives and bombs, when the player continues after the last life."""
+        """Restore lives and bombs. Called when the player continues after the last life."""
         self.lives, self.bombs, self.away = LIVES, BOMBS, 1
 
     def gain(self, what):
-        """Take a pick-up, `what` = "power", "bomb" or "life". Return False if the plane already had the maximum."""
+        """Take the pick-up `what` ("power", "bomb" or "life").
+
+        Return False if the plane already has the maximum of it.
+        """
         held, most = {"power": ("power", TOP_POWER), "bomb": ("bombs", MOST_BOMBS), "life": ("lives", MOST_LIVES)}[what]
         before = getattr(self, held)
         setattr(self, held, min(before + 1, most))
         return before < most
 
     def state(self):
-        """Return the state for the replay digest, as a flat tuple."""
+        """Return this object's part of Scene.state(), a flat tuple."""
         return (
             self.lives,
             self.power,

@@ -30,9 +30,7 @@ DROP_EVERY = 45  # kills between two power-ups that no enemy carried
 
 
 class Shooter(Scene):
-    """The shooter. Keys move the plane. Filters define the possible contacts; masks and circles decide which of them
-    occur.
-    """
+    """The shooter. Collision filters define which bodies can meet; masks and circles decide whether they do."""
 
     name = "shooter"
     title = "Shooter"
@@ -60,7 +58,7 @@ class Shooter(Scene):
     level_suffix = ".json"
 
     def build(self):
-        """Build the world with the player's plane, and all objects of the game. No enemy is in the sky yet."""
+        """Build the world with the player's plane, and all objects of the game. The first enemies come later."""
         draw_turned()
         self.music = type(self).music
         stage = load_stage(self.level_file)
@@ -81,13 +79,13 @@ class Shooter(Scene):
         self.beaten = {"midboss": False, "boss": False}
 
     def set_tier(self, name):
-        """Use another shape tier (pixels, obb, aabb, circle) for all sprites, including those added later."""
+        """Use another collision tier (pixels, obb, aabb, circle) for all sprites, including those added later."""
         super().set_tier(name)
         self.fleet.tier = self.plane.tier = name
 
     @property
     def target(self):
-        """Position (x, y) [px] of the player's plane; between two lives, where it was lost."""
+        """Position (x, y) [px] of the player's plane or, between two lives, the place where it was lost."""
         return self.plane.x, self.plane.y
 
     @property
@@ -97,7 +95,7 @@ class Shooter(Scene):
 
     @property
     def hurts(self):
-        """Vulnerable part of the player's plane: "core" or "hull"."""
+        """Part of the player's plane whose hits cost a life: "core" or "hull"."""
         return ("core", "hull")[int(self.values["hurts"])]
 
     @property
@@ -106,7 +104,7 @@ class Shooter(Scene):
         return None if self.plane.ghost or self.plane.body is None else self.plane.body.id
 
     def update(self, inputs):
-        """Choose all velocities, step the world, and read the events."""
+        """Let everything choose its velocity, step the world, and read the events."""
         self.scrolled_before = self.scrolled
         self.spectacle.step(STEP_SECONDS)
         if self.ending.step(self, inputs):
@@ -125,8 +123,9 @@ class Shooter(Scene):
         self._read_events()
 
     def _last_moment(self, inputs):
-        """Process one of the steps after a hit: a bomb dropped now still saves the plane. After the last of these
-        steps, the plane is lost.
+        """Make one of the steps after a hit, in which a bomb still saves the plane.
+
+        After the last, the plane is lost.
         """
         self.stricken -= 1
         if inputs.pressed("bomb") and self.plane.bombs and self.bomb.body is None:
@@ -167,7 +166,7 @@ class Shooter(Scene):
         self.spectacle.bomb_dropped(self.bomb)
 
     def _read_events(self):
-        """Read the events of the step. Removals wait until the next step begins, so that hits can be inspected."""
+        """Read the events of the step. Bodies are removed when the next step begins, so that hits can be inspected."""
         parts = self.plane.bodies
         self.blows = Blows(self.world, {parts["core"].id: parts["hull"].mass} if parts else None)
         begun, met = self.world.events.begin, self.world.events.sensor_begin
@@ -189,7 +188,7 @@ class Shooter(Scene):
             self.spectacle.grazed(self.plane, self.world, grazed, self.score.graze(len(grazed)))
 
     def _is_lost(self, identity):
-        """Return whether a body will be removed or will break when the next step begins."""
+        """Return whether the body `identity` will be removed, or will break, when the next step begins."""
         return identity in self.gone or self.wreckage.is_marked(identity)
 
     def _hit(self, hit_by):
@@ -221,7 +220,10 @@ class Shooter(Scene):
             self._damage(enemy, self.blows.on(enemy.id, int(shots[each])), place)
 
     def _damage(self, enemy, blow, place, times=1.0):
-        """Damage an enemy by the strength of `blow` times `times` [plain shots]. `place`: the contact point [px]."""
+        """Reduce the health of an enemy by the strength of `blow` times `times` [plain shots], and show the result.
+
+        place: the contact point (x, y) [px].
+        """
         if enemy.leads and enemy.sheltered:
             self.spectacle.glanced(enemy, *place)
             return
@@ -234,13 +236,13 @@ class Shooter(Scene):
             self._destroy(enemy, blow, place)
 
     def _pieces_that_strike(self, begun):
-        """Damage the small planes that are struck by pieces of wreckage. `begun`: contacts begun in this step."""
+        """Damage the small planes that are struck by pieces of wreckage. begun: the step's begin events."""
         for piece, enemy, place in self.wreckage.strikes(begun, self.fleet):
             if enemy.health > 0.0:
                 self._damage(enemy, self.blows.on(enemy.id, piece), place, STRIKE)
 
     def _blast(self, met):
-        """Remove the bullets and damage the planes that the bomb touches. `met`: ids of the bodies it touches."""
+        """Remove the bullets and damage the planes that the bomb touches. met: ids of the bodies that it touches."""
         known = self.fleet.planes.keys() | self.gone
         self._burn([identity for identity in met if identity not in known])
         for identity in sorted(set(met) & self.fleet.planes.keys()):
@@ -250,7 +252,7 @@ class Shooter(Scene):
                 self._damage(enemy, blow, (enemy.x, enemy.y), LEADER_DAMAGE if enemy.leads else DAMAGE)
 
     def _burn(self, bullets):
-        """Remove bullets (body ids), with sparks and points for each."""
+        """Remove bullets, with sparks and points for each. bullets: list of body ids."""
         if not len(bullets):
             return
         self.gone += bullets
@@ -289,7 +291,10 @@ class Shooter(Scene):
             self.gone.append(identity)
 
     def _lose_life(self):
-        """Take a life: remove the player's plane and all enemy bullets, and destroy the small plane that rammed it."""
+        """Take a life: remove the player's plane and all enemy bullets.
+
+        A small plane that rammed the player is destroyed.
+        """
         self.score.hit()
         self.spectacle.player_lost(self.plane, self.hit_blow)
         if self.plane.power > 1:
@@ -311,12 +316,12 @@ class Shooter(Scene):
     # --- leaders -----------------------------------------------------------------------------------------------------
 
     def warn(self, event):
-        """Announce the leader (mid-boss or boss) of an event, with its music and a warning."""
+        """Announce the mid-boss or boss of an Event, with its music and a warning."""
         self.music = "boss"
         self.spectacle.warning(event)
 
     def end_phase(self, leader, beaten):
-        """End a phase of a leader's fight. `beaten`: True if its health is gone, False if its time ran out."""
+        """End a phase of a boss fight. beaten: True if the leader's health is gone, False if its time ran out."""
         left = leader.clock / max(steps(leader.phase.seconds), 1)
         worth = self.score.phase(leader.phase.bonus, left) if beaten else 0
         last = leader.last
@@ -329,13 +334,13 @@ class Shooter(Scene):
         self._reward()
 
     def bury(self, leader):
-        """Break a leader that has burnt out, and drop its item."""
+        """Let a leader that has burnt out break into pieces, and drop its item."""
         self.wreckage.mark(leader, leader.x, leader.y, Blow())
         self.spectacle.leader_gone(leader)
         self.loot.drop("life" if leader.kind == "midboss" else "power", leader.x, leader.y, self.frame)
 
     def leader_gone(self, event):
-        """End the fight against a leader that has left the sky. After the boss, end the stage."""
+        """End the fight with a leader that has left the sky. event: of the leader; after the boss, the stage ends."""
         self.music = "shooter"
         if event.event == "boss":
             self.ending.clear(self)
@@ -343,7 +348,7 @@ class Shooter(Scene):
     # --- bodies ------------------------------------------------------------------------------------------------------
 
     def _sweep(self):
-        """Break the planes that are marked to break. Remove, in one batch, bodies that were hit or left the sky."""
+        """Break the planes that are marked to break. Remove all bodies that were hit or left the sky, at once."""
         for plane, x, y in self.wreckage.break_due(self.fleet):
             self.spectacle.broke(plane, x, y)
         bodies = self.world.bodies
@@ -364,7 +369,7 @@ class Shooter(Scene):
     # --- self-check, bot and replay ----------------------------------------------------------------------------------
 
     def check(self):
-        """Return the goals that the bot must reach in the stage."""
+        """Return the goals that the bot must reach in the stage, a list of Goal."""
         return stage_goals(self)
 
     def bot(self):
@@ -372,7 +377,7 @@ class Shooter(Scene):
         return self.pilot.keys(self)
 
     def state(self):
-        """Return the scene's state outside the physics world, as a flat tuple for the replay digest."""
+        """Return the scene's state outside the physics world, a flat tuple for the replay digest."""
         planes = [value for plane in self.fleet.planes.values() for value in plane.state()]
         parts = (self.plane, self.score, self.director, self.hits, self.bomb, self.loot, self.ending, self.wreckage)
         return (
@@ -400,5 +405,5 @@ class Shooter(Scene):
         )
 
     def draw(self, canvas, alpha):
-        """Draw the scene at `alpha` (0..1) between the last two steps."""
+        """Draw the scene. alpha: position (0..1) between the last two steps."""
         the_view().draw(self, canvas, alpha)

@@ -1,7 +1,7 @@
 """Points of the shooter: the values of kills and grazes, and the chain that multiplies these values.
 
-Each kill or graze adds a link to the chain. The chain breaks after a while without kills and grazes, or when the player
-is hit.
+A graze is a bullet that passes close to the player without a hit. Each kill or graze adds a link to the chain. The
+chain breaks after a while without kills and grazes, or when the player is hit.
 """
 
 from scenes.shooter.cast import steps
@@ -15,8 +15,9 @@ LIFE_BONUS, BOMB_BONUS, GRAZE_BONUS, PURE_BONUS = 20_000, 5_000, 50, 100_000
 
 
 class Score:
-    """The score and counts of a game. `chain`: links of the current chain; `hold`: steps until it breaks; `continues`:
-    how often the player continued after the last life.
+    """The points and counts of a game. chain: number of links in the current chain; hold: steps until it breaks.
+
+    continues: number of times that the player continued after the last life.
     """
 
     def __init__(self, kinds):
@@ -27,13 +28,13 @@ class Score:
 
     @property
     def times(self):
-        """Multiplier of points, 1..TOP_CHAIN, by the length of the chain."""
+        """Multiplier of points, 1..TOP_CHAIN, which grows with the chain."""
         return min(1 + self.chain // CHAIN_STEP, TOP_CHAIN)
 
     def step(self, quiet):
-        """Count down to the end of the chain, unless `quiet` (no targets in the sky).
+        """Count down to the end of the chain, unless `quiet` is True (there are no targets in the sky).
 
-        Return whether a chain with a multiplier above 1 breaks in this step.
+        Return whether a chain with a multiplier above 1 broke in this step.
         """
         if self.hold == 0 or quiet:
             return False
@@ -49,7 +50,7 @@ class Score:
         self.hold = min(max(self.hold, 0) + hold, HOLD)
 
     def kill(self, enemy):
-        """Count a kill and add its points. Return these points."""
+        """Count the kill of a plane and add its points. Return these points."""
         if enemy.kind in self.kills:
             self.kills[enemy.kind] += 1
         self._link(HOLD)
@@ -63,7 +64,7 @@ class Score:
         return self._add(GRAZE * count * self.times)
 
     def burn(self, count):
-        """Add the points for `count` bullets removed by a bomb or at the end of a leader's phase. Return the points."""
+        """Add points for `count` bullets that were removed without a hit. Return these points."""
         return self._add(BURNT * count)
 
     def whole_wave(self):
@@ -72,44 +73,49 @@ class Score:
         return self._add(WHOLE_WAVE * self.times)
 
     def phase(self, bonus, left):
-        """Add the points of a won phase of a leader's fight: half of `bonus`, and the other half times `left`.
+        """Add the points of a won phase of a boss fight: half of `bonus`, and the other half times `left`.
 
-        `left`: remaining share of the phase's time, 0..1. Return the points, rounded to hundreds.
+        left: remaining share of the phase's time, 0..1. Return the points, rounded to hundreds.
         """
         self.hold = HOLD if self.chain else 0
         return self._add(round(bonus * (0.5 + 0.5 * left) / 100) * 100)
 
     def take(self, gained):
-        """Count a pick-up. gained: whether the plane gained something by it; if not, points are added. Return these
-        points, else 0.
+        """Count a pick-up. Return the points added for it.
+
+        gained: whether the plane could use it. Points are added only for a pick-up that it could not use.
         """
         self.taken += 1
         return 0 if gained else self._add(SPARE * self.times)
 
     def hit(self):
-        """Count a hit of the player, and break the chain."""
+        """Count a hit of the player, and end the chain."""
         self.hits += 1
         self.chain = self.hold = 0
 
     def go_on(self):
-        """Continue after the last life. The points start again at the number of continues, so that their last digit
-        shows this number.
+        """Count that the player continues after the last life.
+
+        The points start again at the number of continues, so that their last digit shows this number.
         """
         self.continues += 1
         self.points, self.next_life = self.continues, FIRST_LIFE
         self.chain = self.hold = 0
 
     def final(self, lives, bombs):
-        """Return the bonuses at the end of the stage for lives, bombs and grazes, a list of (reason, points)."""
+        """Return the bonuses at the end of the stage, a list of (reason, points).
+
+        There are bonuses for remaining lives, bombs and grazes, and for a game without a continue.
+        """
         found = [("LIVES", lives * LIFE_BONUS), ("BOMBS", bombs * BOMB_BONUS), ("GRAZES", self.grazes * GRAZE_BONUS)]
         return found + [("NO CONTINUE", PURE_BONUS)] if not self.continues else found
 
     def add_bonus(self, points):
-        """Add the points of one bonus."""
+        """Add the points of one bonus of final()."""
         self._add(points)
 
     def earned_life(self):
-        """Return whether the points have earned an extra life. Each extra life is reported once."""
+        """Return whether the points have reached the next extra life. Each extra life is reported once."""
         if self.points < self.next_life:
             return False
         self.next_life += NEXT_LIFE
@@ -120,7 +126,7 @@ class Score:
         return points
 
     def state(self):
-        """Return the state for the replay digest, as a flat tuple."""
+        """Return this object's part of Scene.state(), a flat tuple."""
         return (
             self.points,
             self.chain,

@@ -42,9 +42,9 @@ WORDS = {"power": "POWER UP", "bomb": "BOMB", "life": "1UP"}
 
 
 class Spectacle:
-    """The effects of the scene. `works`: moving decoration (explosions, debris, texts); other attributes are timers.
+    """The effects of the scene. works: moving decoration (explosions, debris, texts); other attributes are timers.
 
-    The methods from wave() on show one event each, with pictures and sound.
+    Each method from wave() on shows one kind of event, with pictures and sound.
     """
 
     def __init__(self, scene):
@@ -63,7 +63,7 @@ class Spectacle:
         self.lean = self.lean_before = 0.0  # [px] offset from the middle for the parallax, which follows the plane
 
     def step(self, dt):
-        """Advance all effects by `dt` [s]."""
+        """Make one step of `dt` [s] of all effects."""
         scene = self.scene
         self.time += dt
         self.muzzle += 1
@@ -112,19 +112,19 @@ class Spectacle:
                 self.works.burst("smoke", x, y, 0.0, 10.0)
 
     def lean_at(self, alpha):
-        """Return the offset of the parallax [px], interpolated at `alpha` (0..1) between the last two steps."""
+        """Return the sideways offset of the parallax [px]. alpha: position (0..1) between the last two steps."""
         return self.lean_before + (self.lean - self.lean_before) * alpha
 
     # --- the stage ---------------------------------------------------------------------------------------------------
 
     def wave(self, director):
-        """Announce the new wave of the director: show its name, with a sound from the second wave on."""
+        """Show the name of the director's new wave, with a sound from the second wave on."""
         self.news = NEWS
         if director.number > 1:
             self.scene.play("blip", volume=0.3)
 
     def wave_done(self, enemy, worth):
-        """Show the points `worth` for a wave of which all planes were shot down; `enemy` was the last of them."""
+        """Show the points for a completely destroyed wave. enemy: its last plane; worth: the points."""
         self.works.word(f"WAVE +{worth}", enemy.x, enemy.y - 34, PRAISE)
 
     def warning(self, event):
@@ -145,7 +145,7 @@ class Spectacle:
         self.scene.play("enemy_shot", enemy.x, 0.35)
 
     def leader_fires(self, leader):
-        """Show the muzzle flash of a leader, at most once in SHOT_SOUND steps."""
+        """Show the muzzle flash of a mid-boss or boss. The sound is played at most once in SHOT_SOUND steps."""
         if not self.quiet:
             self.quiet = SHOT_SOUND
             self.works.burst("muzzle_flash", leader.x, leader.y + 22)
@@ -159,7 +159,7 @@ class Spectacle:
         self.scene.play("enemy_shot", dart.x, 0.3)
 
     def struck(self, enemy, x, y, blow):
-        """Show a shot that damages an enemy at (x, y) [px]: the harder the blow, the more sparks."""
+        """Show that a shot damages an enemy at (x, y) [px]. A harder blow gives more sparks."""
         self.flashes[enemy.id] = FLASH
         self.works.burst("spark", x, y, 0.0, 20.0)
         self.scene.particles.burst(
@@ -176,15 +176,15 @@ class Spectacle:
         self.scene.play("hit", x, min(0.25 * blow.strength, 1.0))
 
     def glanced(self, enemy, x, y):
-        """Show a shot without effect on an enemy that is invulnerable for the moment."""
+        """Show a shot at an enemy that is invulnerable at the moment. (x, y): the contact point [px]."""
         self.scene.particles.burst(
             x, y, 3, BLUE, speed=(40, 120), life=(0.1, 0.25), angle=pi / 2, spread=2.6, size=(1, 1)
         )
 
     def destroyed(self, enemy, worth, blow):
-        """Show the explosion of an enemy, and its points `worth`.
+        """Show the explosion of an enemy, and the points `worth`. blow: the last hit.
 
-        The debris keeps a part of the enemy's velocity, plus the velocity given by the last blow.
+        The debris keeps a part of the enemy's velocity, and gets that of the blow in addition.
         """
         animation, sound, volume, shake, sparks, pieces = DEATHS[enemy.kind]
         x, y, works = enemy.x, enemy.y, self.works
@@ -213,7 +213,10 @@ class Spectacle:
         self.scene.play("tear", x, 1.0 if plane.leads else 0.7)
 
     def piece_down(self, identity, piece):
-        """Show that a piece of wreckage falls into water or on the ground: the larger, the more and the louder."""
+        """Show that a piece of wreckage falls into water or on the ground. Larger pieces give more and louder effects.
+
+        identity: body id of the piece.
+        """
         x, y = self.scene.world.body(identity).center
         count, loud = min(4 + piece.mask.area // 12, 24), min(0.2 + piece.mask.area / 900, 0.7)
         if is_water(self.scene, x, y):
@@ -229,9 +232,9 @@ class Spectacle:
     # --- the player --------------------------------------------------------------------------------------------------
 
     def player_hit(self, plane, hit_by, still):
-        """Show that the player was hit: plane and bullet are white for `still` steps, while a bomb can save the plane.
+        """Show that the player was hit: plane and bullet are white for `still` steps, in which a bomb saves the plane.
 
-        `hit_by`: body ids of the bullets or planes that hit.
+        hit_by: body ids of the bullets or planes that hit.
         """
         for identity in (plane.body.id, *hit_by):
             self.flashes[identity] = still + 1
@@ -239,13 +242,13 @@ class Spectacle:
         self.scene.play("hurt", plane.x, 0.8)
 
     def hit_taken(self, plane):
-        """Show a hit of an invincible player, which costs nothing."""
+        """Show that an invincible player was hit."""
         self.flashes[plane.body.id] = FLASH + 1
         self.works.sparks(plane.x, plane.y, 10, BLUE, 120)
         self.scene.play("hurt", plane.x, 0.4)
 
     def player_lost(self, plane, blow):
-        """Show the explosion of the player's plane after `blow`."""
+        """Show the explosion of the player's plane. blow: the hit that destroyed it."""
         x, y, works = plane.x, plane.y, self.works
         works.burst("explosion_large", x, y, 0.0, 12.0)
         works.chain(x, y, 16, 16, 4, 0.12)
@@ -268,12 +271,15 @@ class Spectacle:
         self.scene.play("bomb", bomb.x, 0.9)
 
     def bullets_burnt(self, xs, ys):
-        """Show sparks where bullets are removed, at (xs, ys) [px]. Only about MOST_EMBERS of the places get sparks."""
+        """Show sparks where bullets were removed. xs, ys: their places, arrays [px].
+
+        Of many places, only about MOST_EMBERS get sparks.
+        """
         each = -(-len(xs) // MOST_EMBERS)
         self.works.embers(xs[::each], ys[::each])
 
     def grazed(self, plane, world, ids, worth):
-        """Show sparks between the plane and the bullets that graze it (body ids), and the points `worth`."""
+        """Show sparks between the plane and the bullets that graze it. ids: of the bullets; worth: points for them."""
         bodies = world.bodies
         for row in world.rows(ids).tolist():
             x, y = bodies["x"][row].item(), bodies["y"][row].item()
@@ -285,7 +291,7 @@ class Spectacle:
         self.scene.play("graze", plane.x, 0.3)
 
     def chain_broken(self, plane):
-        """Show that the chain broke."""
+        """Show that the chain of the score broke."""
         self.works.word("CHAIN LOST", plane.x, plane.y - 26, (214, 190, 206))
         self.scene.play("chain_break", plane.x, 0.5)
 
@@ -294,9 +300,7 @@ class Spectacle:
         self.works.sparks(x, y, 14, GOLD, 90)
 
     def loot_taken(self, plane, what, worth):
-        """Show that the player takes the pick-up `what`. `worth`: points given because the plane had the maximum
-        already, or 0.
-        """
+        """Show that the player takes the pick-up `what`. worth: points for one that the plane could not use, or 0."""
         self.gain = 1.0
         self.works.sparks(plane.x, plane.y, 30, GOLD, 150)
         self.works.ring(plane.x, plane.y, 30.0)
@@ -317,8 +321,9 @@ class Spectacle:
     # --- leaders -----------------------------------------------------------------------------------------------------
 
     def phase_over(self, leader, last, worth):
-        """Show the end of a phase of a leader's fight, with explosions. `last`: whether the fight ends; `worth`: bonus
-        points, 0 if time ran out.
+        """Show the end of a phase of a boss fight, with explosions.
+
+        last: whether the fight ends; worth: bonus points, 0 if time ran out.
         """
         x, y, works = leader.x, leader.y, self.works
         self.bonus = ["PHASE BONUS" if worth else "TIME OUT", worth, BONUS_SHOWN]
@@ -332,7 +337,10 @@ class Spectacle:
         self.scene.play("big_explosion", x, 0.9)
 
     def leader_burns(self, leader, whole):
-        """Show explosions on a falling leader, more often in the second half of its fall, which takes `whole` steps."""
+        """Show explosions on a falling mid-boss or boss, more often in the second half of its fall.
+
+        whole: duration of the fall [steps].
+        """
         share = leader.since / whole
         every = 10 if share < 0.5 else 5
         if leader.since % every == 0:
@@ -346,7 +354,7 @@ class Spectacle:
             self.flashes[leader.id] = 2
 
     def leader_gone(self, leader):
-        """Show the last and largest explosion, in which a leader breaks."""
+        """Show the last and largest explosion of a mid-boss or boss, which breaks it."""
         x, y, works = leader.x, leader.y, self.works
         works.burst("explosion_large", x, y)
         for dx, dy in ((-40, -10), (40, -8), (-20, 22), (22, 20), (0, -24)):

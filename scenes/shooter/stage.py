@@ -29,10 +29,10 @@ MOST_FIRE = 1000  # bullets per second of a phase, over all its patterns
 class Group:
     """Planes of one kind that enter one after another.
 
-    `places`: for each plane, where along the edge it enters (0..1); `after`: time of the first plane [s]; `every`:
-    time between planes [s]; `carries`: item that the last plane drops, or "". Parameters of some kinds: `hover`: y at
-    which a plane stops [px]; `sway`: amplitude of its weaving [px]; `side`: edge at which it enters; `bend`: angle of
-    its arc [deg].
+    places: for each plane, its place along the edge at which it enters (0..1); after: time of the first plane [s];
+    every: time between planes [s]; carries: item that the last plane drops, or "". Some kinds use further fields.
+    hover: y at which a plane stops [px]; sway: amplitude of its weaving [px]; side: edge at which it enters; bend:
+    angle of its arc [deg].
     """
 
     kind: str
@@ -48,11 +48,11 @@ class Group:
 
 @dataclass(frozen=True)
 class Pattern:
-    """The fire of one gun. `shoot`: the kind of fire ("aimed", "fan", "ring", ...), which decides the other fields.
+    """The fire of one gun. shoot: kind of fire ("aimed", "fan", ...), which decides which other fields are used.
 
     The first shot comes after `after` [s], the next ones every `every` [s]. After a burst of `shots` shots, the gun
-    rests for `rest` [s] more. `faster`: speed that each shot of a burst has more than the shot before [px/s].
-    `muzzles`: points relative to the plane's centre [px]; bullets start at distance `out` [px] from a muzzle.
+    rests for `rest` [s] in addition. faster: each shot of a burst is faster by this than the shot before [px/s].
+    muzzles: points relative to the plane's centre [px]; bullets start at distance `out` [px] from a muzzle.
     """
 
     shoot: str
@@ -84,9 +84,9 @@ class Pattern:
 
 @dataclass(frozen=True)
 class Move:
-    """The path of a leader (mid-boss or boss): a figure of eight about its home position.
+    """The path of a mid-boss or boss: a figure of eight around its home position.
 
-    `across`, `down`: amplitudes [px]; `seconds`: duration of one round.
+    across, down: amplitudes [px]; seconds: duration of one round.
     """
 
     across: float
@@ -96,10 +96,9 @@ class Move:
 
 @dataclass(frozen=True)
 class Phase:
-    """A phase of the fight against a leader. It ends after `seconds`, or earlier when shots have taken its `health` (in
-    plain shots).
+    """A phase of a boss fight. It ends after `seconds`, or earlier when shots have used up its `health` [plain shots].
 
-    `bonus`: points if the health was shot away; `patterns`: fire of the leader's guns.
+    bonus: points if the health was used up; patterns: fire of the leader's guns.
     """
 
     name: str
@@ -112,7 +111,7 @@ class Phase:
 
 @dataclass(frozen=True)
 class Event:
-    """An event of a stage, at time `at` [s]. `event` is its kind, which decides the other fields that are used.
+    """An event of a stage, at time `at` [s]. event: its kind, which decides which other fields are used.
 
     "wave": groups; "midboss" and "boss": phases; "backdrop": ground; "item": item, across (0..1 of the width); "pace":
     factors of the difficulty.
@@ -224,9 +223,9 @@ FILE = {
 
 
 def load_stage(path=None):
-    """Return the Stage of a file; without a path, the stage of the game.
+    """Return the Stage of a file, or the game's own stage if `path` is None.
 
-    Raises FileError naming the file, the place and the reason.
+    Raises FileError, which names the file, the place and the reason.
     """
     return _own() if path is None else read_stage(path)
 

@@ -1,4 +1,4 @@
-"""Validation of a JSON file: types of fields, each with a method read(reader, place, value).
+"""Validation of a JSON file: classes for the types of its fields, each with a method read(reader, place, value).
 
 read() returns the value as the game uses it. For an invalid value, read() raises FileError, which names the place in
 the file. `default` is the value of a missing field; REQUIRED: the field must be present.
@@ -13,7 +13,7 @@ REQUIRED = object()
 
 
 class Number:
-    """A number from `low` to `high`. `whole`: only integers are valid."""
+    """A number from `low` to `high`. whole: whether only integers are valid."""
 
     def __init__(self, low, high, default=REQUIRED, whole=False):
         self.low, self.high, self.default, self.whole = low, high, default, whole
@@ -30,7 +30,7 @@ class Number:
 
 
 class Text:
-    """A text of 1 to `most` printable ASCII characters."""
+    """A text of printable ASCII characters, at least 1 and at most `most`."""
 
     def __init__(self, most, default=REQUIRED):
         self.most, self.default = most, default
@@ -48,13 +48,13 @@ class Text:
 
 
 class Choice:
-    """One of the given names."""
+    """One of the texts `names`."""
 
     def __init__(self, names, default=REQUIRED):
         self.names, self.default = tuple(names), default
 
     def read(self, reader, place, value):
-        """Return the name. Raises FileError for another value, with the most similar name as a suggestion."""
+        """Return the text. Raises FileError for another value; the message suggests the most similar name."""
         if value not in self.names:
             reader.fail(place, f"must be one of {', '.join(self.names)} (got {value!r:.60}){guess(value, self.names)}")
         return value
@@ -77,7 +77,7 @@ class List:
 
 
 class Record:
-    """A JSON object with the given fields, which are passed to `make(**fields)`."""
+    """A JSON object with the given fields. Their values are passed to `make(**fields)`."""
 
     def __init__(self, make, default=REQUIRED, **fields):
         self.make, self.fields, self.default = make, fields, default
@@ -88,9 +88,9 @@ class Record:
 
 
 class Variant:
-    """A JSON object whose field `tag` selects its other fields: `records` is {value of the tag: Record}.
+    """A JSON object whose field `tag` decides which other fields it has.
 
-    `shared`: fields that all variants have.
+    records: {value of the tag: Record}; shared: {name: type} of fields that all variants have.
     """
 
     def __init__(self, tag, records, **shared):
@@ -108,7 +108,7 @@ class Variant:
 
 
 class Reader:
-    """Reader of one file. Its errors name the path of the file."""
+    """Reader of one file. Its errors name the file's path."""
 
     def __init__(self, path):
         self.path = path
@@ -118,9 +118,9 @@ class Reader:
         raise FileError(self.path, place, reason)
 
     def fields(self, place, value, wanted, others=False):
-        """Return {name: value} of the fields of a JSON object; `wanted` is {name: field type}.
+        """Return {name: value} of the fields of the JSON object `value`.
 
-        Unknown fields are an error unless `others`.
+        place: of the object in the file; wanted: {name: field type}; others: whether unknown fields are allowed.
         """
         if not isinstance(value, dict):
             self.fail(place or "file", f"must be an object with {', '.join(wanted)} (got {value!r:.40})")
@@ -140,11 +140,11 @@ class Reader:
 
 
 def join(place, name):
-    """Return the place of a field inside the object at `place`, such as "events[2].at"."""
+    """Return the name of a place in a file, such as "events[2].at": the field `name` of the object at `place`."""
     return f"{place}.{name}" if place else str(name)
 
 
 def guess(name, names):
-    """Return a question that suggests the name most similar to `name`, or "" if none is similar."""
+    """Return a question that suggests the most similar one of `names`, or "" if none is similar to `name`."""
     near = get_close_matches(str(name), list(names), n=1)
     return f"; did you mean {near[0]}?" if near else ""

@@ -1,7 +1,7 @@
-"""The picture of the shooter, from the ground up: shadows, planes, fire, and bullets on top.
+"""Drawing of the shooter, from the ground up: shadows, planes, fire, and bullets on top.
 
-Drawing changes no state. Bullets are placed with NumPy and blitted in one call per look. A sprite is drawn exactly
-where physics has its mask: floor(position - origin + 0.5).
+Drawing changes no state of the scene. Bullets are placed with NumPy and blitted in one call per look. A sprite is drawn
+exactly where the physics has its mask: floor(position - origin + 0.5).
 """
 
 from functools import lru_cache
@@ -57,7 +57,7 @@ BLINK = 8  # steps of one blink of a ghost
 
 
 class View:
-    """The renderer of the shooter, with its caches of pictures. One instance serves all scenes."""
+    """Renderer of the shooter, with its caches of pictures. One instance serves all scenes."""
 
     def __init__(self):
         self.planes, self.effects = load_atlas("planes"), load_atlas("effects")
@@ -70,10 +70,9 @@ class View:
         self.wrecks = WreckView(self)
 
     def sprite(self, atlas, frame, angle=0.0, mask=None):
-        """Return (image, its origin) of a frame at an angle [rad]. mask: name of the frame whose mask collides; None:
-        the frame itself.
+        """Return (image, its origin [px]) of a picture at an angle [rad]. The image covers exactly the rotated mask.
 
-        The image covers exactly the pixels of the rotated mask.
+        frame: name of the picture; mask: name of the picture whose mask is the shape, None for `frame` itself.
         """
         mask = mask or frame
         if angle == 0.0:
@@ -84,7 +83,7 @@ class View:
         return self.turned[key].at(angle)
 
     def draw(self, scene, canvas, alpha):
-        """Draw the scene at `alpha` (0..1) between the last two steps."""
+        """Draw the scene. alpha: position (0..1) between the last two steps."""
         self.surface, self.alpha = canvas.surface, alpha
         self.left, self.top = scene.camera.view(alpha)
         self.time = scene.spectacle.time
@@ -116,9 +115,9 @@ class View:
         banners.draw_banners(canvas, scene)
 
     def places(self, scene, ids):
-        """Return arrays of x, y [px] and angle [rad] of the bodies `ids`.
+        """Return arrays of x, y [px] and angle [rad] of bodies. ids: their ids.
 
-        Positions are interpolated between two steps.
+        Positions are interpolated between the last two steps.
         """
         rows, bodies = scene.world.rows(ids), scene.world.bodies
         x, y = bodies["x"][rows], bodies["y"][rows]
@@ -134,9 +133,9 @@ class View:
         return (int(np.floor(x - origin[0] + 0.5)) - self.left, int(np.floor(y - origin[1] + 0.5)) - self.top)
 
     def shadow(self, image, place, high=1.0):
-        """Return (picture, canvas place) of the shadow of a picture that is centred on the world point `place`.
+        """Return (picture, place on the canvas) of the shadow of a picture that is centred on the world point `place`.
 
-        `high`: height above the ground, relative to the height of the planes.
+        high: height above the ground, relative to that of the planes.
         """
         dark = shade(image)
         x, y = place[0] + SHADOW_AT[0] * high, place[1] + SHADOW_AT[1] * high
@@ -147,9 +146,10 @@ class View:
         self.surface.blit(image, self.at(x, y, middle(image)), special_flags=pygame.BLEND_RGB_ADD)
 
     def _planes(self, scene):
-        """Return two lists: (picture, place) of enemies on the ground, (picture, place, whiteness) of planes in flight.
+        """Return two lists: (picture, place) of enemies on the ground, and (picture, place, whiteness) of planes.
 
-        The player's plane is the last of the second list.
+        whiteness: strength of the white flash after a hit, 0 for none. The player's plane is the last of the second
+        list.
         """
         ground, air = [], []
         fleet, flashes = scene.fleet.planes, scene.spectacle.flashes
@@ -173,7 +173,7 @@ class View:
         return ground, air
 
     def _frame(self, plane):
-        """Return the name of the picture to show for a plane.
+        """Return the name of the current picture of an enemy plane.
 
         A dart has one picture for each mode; other kinds have an animation whose pictures share one mask.
         """
@@ -227,17 +227,18 @@ class View:
                 self._stamp_turned(shown, frame, x[mine], y[mine], angles[mine])
 
     def _stamp(self, image, origin, x, y, flags=0):
-        """Draw one picture at many world points (arrays x, y). origin: point of the picture that lies there; flags:
-        pygame's blend flags.
+        """Draw one picture at many world points. x, y: arrays [px].
+
+        origin: point of the picture that lies there; flags: pygame's blend flags.
         """
         across = (np.floor(x - origin[0] + 0.5).astype(np.int64) - self.left).tolist()
         down = (np.floor(y - origin[1] + 0.5).astype(np.int64) - self.top).tolist()
         blit_many(self.surface, list(zip(repeat(image), zip(across, down, strict=True))), flags)
 
     def _stamp_turned(self, shown, frame, x, y, angles):
-        """Draw the picture `shown` at many world points (arrays x, y), each at its own angle [rad].
+        """Draw one picture at many world points, each at its own angle. x, y [px] and angles [rad]: arrays.
 
-        `frame`: the frame whose mask collides.
+        shown: name of the picture; frame: name of the picture whose mask is the shape.
         """
         pairs = []
         for px, py, angle in zip(x.tolist(), y.tolist(), angles.tolist(), strict=True):
@@ -248,7 +249,7 @@ class View:
     def _draw_player_marks(self, scene):
         """Draw the marks on the player's plane: muzzle flash, core, and the hull's outline if the hull is vulnerable.
 
-        While the player focuses, the core is opaque and the graze ring is shown.
+        While the player flies slowly ("focus"), the core is opaque and the graze ring is visible.
         """
         player = scene.plane
         if not player.here:
@@ -302,7 +303,7 @@ def the_view():
 
 
 def middle(image):
-    """Return the centre (x, y) [px] of a picture."""
+    """Return the centre (x, y) [px] of a picture, relative to its top left corner."""
     width, height = image.get_size()
     return width / 2, height / 2
 
@@ -315,8 +316,9 @@ def shade(image):
 
 
 def ghostly(image):
-    """Return a bright, transparent copy of a plane's picture. A plane that cannot be hit blinks: it is drawn with this
-    copy in turn.
+    """Return a bright, transparent copy of a plane's picture.
+
+    A plane that cannot be hit blinks: its picture and this copy are drawn by turns.
     """
     copy = lit(image, 90)
     copy.fill((255, 255, 255, FAINT), special_flags=pygame.BLEND_RGBA_MULT)
@@ -324,7 +326,7 @@ def ghostly(image):
 
 
 def outline(image):
-    """Return a picture of the outline of an image: the line of pixels around its solid pixels.
+    """Return a picture of the line of pixels around an image's solid pixels.
 
     The picture is one pixel larger than the image on each side.
     """
@@ -338,13 +340,13 @@ def outline(image):
 
 
 def stretched(image, more):
-    """Return a picture stretched to be `more` px wider and `more` px lower."""
+    """Return a picture that is stretched: `more` px wider and `more` px less high."""
     width, height = image.get_size()
     return pygame.transform.scale(image, (width + more, height - more)) if more else image
 
 
 def tumbled(image, quarters, small):
-    """Return a picture of debris, rotated by `quarters` quarter turns. `small`: at two thirds of its size."""
+    """Return a picture of debris, rotated by `quarters` quarter turns. small: whether it is reduced to two thirds."""
     image = pygame.transform.rotate(image, 90 * quarters)
     if small:
         image = pygame.transform.scale(image, (image.get_width() * 2 // 3, image.get_height() * 2 // 3))

@@ -1,10 +1,9 @@
-"""Wreckage: a heavy plane that is shot down breaks along cracks, and its pieces fall. Each piece is a body made of its
-own pixels.
+"""Wreckage: a heavy plane that is shot down breaks along cracks, and its pieces fall.
 
-A piece is drawn with its pixels, and collides by them exactly, at any angle. It starts with a part of the plane's
-velocity and a random rotation, and is slowed by the air, which moves with the ground. The game is seen from above, so a
-falling piece shrinks instead of moving down. A piece damages small planes until it is well below them; it never hurts
-the player.
+Each piece is a body made of its own pixels: it is drawn with these pixels, and collides by them at any angle. It starts
+with a part of the plane's velocity and a random rotation, and is slowed by the air, which moves with the ground. The
+game is seen from above, so a falling piece shrinks instead of moving down. A piece damages small planes until it is
+well below them; it never hurts the player.
 """
 
 from dataclasses import dataclass
@@ -35,7 +34,7 @@ HARMLESS = 0.55  # share of the planes' height below which pieces strike nothing
 class Due:
     """A plane that will break when the next step begins, so that its last hit can be inspected before.
 
-    (x, y): place of the last hit [px]; `blow`: impulse of this hit.
+    identity: its body id; (x, y): place of the last hit [px]; blow: impulse of this hit.
     """
 
     identity: int
@@ -46,10 +45,10 @@ class Due:
 
 @dataclass
 class Piece:
-    """A piece of a broken plane. `mask`: its pixels; `frame`: picture from which it was cut; `left`, `top`: place of
-    `mask` in that picture [px].
+    """A piece of a broken plane. mask: its pixels; frame: name of the picture from which it was cut.
 
-    `life`: steps until the piece reaches the ground; `strikes`: whether it can still hit small planes.
+    left, top: place of `mask` in that picture [px]; life: steps until the piece reaches the ground; strikes: whether it
+    can still hit small planes.
     """
 
     mask: PixelMask
@@ -62,12 +61,15 @@ class Piece:
 
     @property
     def high(self):
-        """Height above the ground, 1 (height of the planes) .. 0. The height decreases slowly at first, then faster."""
+        """Height above the ground: 1 at the planes' height, 0 on the ground.
+
+        It decreases slowly at first, then faster.
+        """
         return 1.0 - (self.age / self.life) ** 2
 
 
 class Wreckage:
-    """All wreckage in the sky. `pieces`: Piece by body id; `due`: planes that break when the next step begins."""
+    """All wreckage in the sky. pieces: {body id: Piece}; due: planes that break when the next step begins."""
 
     def __init__(self, world):
         self.world = world
@@ -77,19 +79,17 @@ class Wreckage:
         return len(self.pieces)
 
     def mark(self, plane, x, y, blow):
-        """Mark a plane to break when the next step begins. (x, y): place of the last hit [px]; `blow`: impulse of this
-        hit.
-        """
+        """Mark a plane to break when the next step begins. (x, y): place of the last hit [px]; blow: its impulse."""
         self.due.append(Due(plane.id, x, y, blow))
 
     def is_marked(self, identity):
-        """Return whether the body is a plane marked to break."""
+        """Return whether the body `identity` is a plane that is marked to break."""
         return any(due.identity == identity for due in self.due)
 
     def break_due(self, fleet):
         """Break the marked planes into pieces, and remove the planes from the fleet.
 
-        Return a list of (plane, x, y), where (x, y) [px] is the point at which the cracks of the plane cross.
+        Return a list of (plane, x, y), where (x, y) [px] is the point at which the plane's cracks cross.
         """
         broken = []
         for due in self.due:
@@ -124,9 +124,7 @@ class Wreckage:
         self.pieces[part.id] = Piece(own, frame, left, top, steps(random.uniform(*LIFE)))
 
     def step(self):
-        """Let all pieces fall for one step. Return a list of (body id, piece) of the pieces that have reached the
-        ground.
-        """
+        """Let all pieces fall for one step. Return a list of (body id, Piece) of those that have reached the ground."""
         for identity, piece in self.pieces.items():
             piece.age += 1
             if piece.strikes and piece.high < HARMLESS:
@@ -135,10 +133,9 @@ class Wreckage:
         return [(identity, piece) for identity, piece in self.pieces.items() if piece.age >= piece.life]
 
     def strikes(self, begun, fleet):
-        """Yield (id of the piece, plane, contact point [px]) for each contact of a piece with a small plane that began
-        in this step.
+        """Yield (id of the piece, plane, contact point (x, y) [px]) for each hit of a piece on a small plane.
 
-        `begun`: the step's begin events.
+        begun: the step's begin events, from which the hits are read.
         """
         columns = (begun[name].tolist() for name in ("body_a", "body_b", "point_x", "point_y"))
         for a, b, x, y in zip(*columns, strict=True):
@@ -148,12 +145,12 @@ class Wreckage:
                 yield piece, enemy, (x, y)
 
     def forget(self, ids):
-        """Forget the pieces whose bodies have the given ids."""
+        """Drop the pieces with the given body ids."""
         for identity in ids.tolist():
             self.pieces.pop(identity, None)
 
     def state(self):
-        """Return the state for the replay digest, as a flat tuple. Positions are part of the world's state."""
+        """Return this object's part of Scene.state(), a flat tuple. Positions are part of the world's state."""
         out: list = []
         for due in self.due:
             out += (due.identity, due.x, due.y, due.blow.x, due.blow.y, due.blow.mass)
@@ -163,10 +160,10 @@ class Wreckage:
 
 
 def cracks(mask, x, y, random):
-    """Return a mask of jagged cracks, along which a plane with the given mask breaks.
+    """Return a PixelMask of jagged cracks, along which a plane with the given mask breaks.
 
-    Two cracks cross at (x, y) [px from the mask's origin]; a wide mask gets further cracks. The result has the size and
-    origin of `mask`, so that it covers the same pixels at the same pose.
+    Two cracks cross at (x, y) [px], relative to the mask's origin; a wide mask gets further cracks. The result has the
+    size and origin of `mask`, so that it covers the same pixels at the same pose.
     """
     height, width = mask.solid.shape
     solid = np.zeros((height, width), bool)

@@ -1,7 +1,7 @@
 """Chart 8: cost of the broad phases over the number of bodies, and number of candidate pairs that they report.
 
 Layouts and shares of moving bodies are those of Broadmark (Serpa and Rodrigues 2020). `every pair` is the naive
-baseline: all n (n - 1) / 2 pairs in every step. Each broad phase is compared with it.
+baseline with which each broad phase is compared: it tests all n (n - 1) / 2 pairs in every step.
 """
 
 import math
@@ -33,30 +33,33 @@ Places = tuple[np.ndarray, np.ndarray]  # centres (n, 2) and radii (n,) [px]
 
 
 def even(rng: np.random.Generator, n: int) -> Places:
-    """Return n discs spread evenly, with about one overlap per body."""
+    """Return (positions (n, 2), radii (n,)) [px] of n discs, spread evenly with about one overlap per disc."""
     return rng.uniform(0, SPACING * math.sqrt(n), (n, 2)), np.full(n, RADIUS)
 
 
 def line(rng: np.random.Generator, n: int) -> Places:
-    """Return n discs spread along the ground, in a long and low strip."""
+    """Return (positions, radii) [px] of n discs spread along the ground, in a long and low strip."""
     return np.column_stack([rng.uniform(0, 0.5 * SPACING * n, n), rng.exponential(20.0, n)]), np.full(n, RADIUS)
 
 
 def clusters(rng: np.random.Generator, n: int) -> Places:
-    """Return n discs in n / 100 clusters; each cluster has a standard deviation of 60 px."""
+    """Return (positions, radii) [px] of n discs in n / 100 clusters, each with a standard deviation of 60 px."""
     middles = rng.uniform(0, SPACING * math.sqrt(n), (max(1, n // 100), 2))
     return middles[rng.integers(0, len(middles), n)] + rng.normal(0, 60.0, (n, 2)), np.full(n, RADIUS)
 
 
 def mixed(rng: np.random.Generator, n: int) -> Places:
-    """Return n discs whose radii span 1 to 100 px, small ones more often, at the area density of `even`."""
+    """Return (positions, radii) [px] of n discs with radii of 1 to 100 px, small ones more often.
+
+    They cover the same share of the area as those of `even`.
+    """
     radii = np.round(100.0 ** (rng.random(n) ** 3), 1)  # rounded, so that few different shapes are needed
     side = math.sqrt(float((math.pi * radii**2).sum()) * SPACING**2 / (math.pi * RADIUS**2))
     return rng.uniform(0, side, (n, 2)), radii
 
 
 def point(rng: np.random.Generator, n: int) -> Places:
-    """Return n discs at nearly the same point, so that every pair overlaps."""
+    """Return (positions, radii) [px] of n discs at nearly the same point, so that every pair overlaps."""
     return rng.normal(0, 0.1, (n, 2)), np.full(n, RADIUS)
 
 
@@ -71,9 +74,10 @@ LAYOUTS = {"even": even, "line": line, "clusters": clusters, "mixed sizes": mixe
 
 
 def world_of(strategy: Any, layout: str, n: int, moving: float, seed: int = 5) -> World:
-    """Return a world of n discs in a layout of LAYOUTS, represented by their boxes. strategy: the broad phase.
+    """Return a world of n discs in a layout of LAYOUTS, represented by their boxes.
 
-    moving: share 0..1 of the discs that move, all at the same speed in random directions; the others are static.
+    strategy: the broad phase. moving: share 0..1 of the discs that move, all at the same speed in random directions;
+    the others are static.
     """
     rng = np.random.default_rng(seed)
     places, radii = LAYOUTS[layout](rng, n)
@@ -92,8 +96,7 @@ def world_of(strategy: Any, layout: str, n: int, moving: float, seed: int = 5) -
 
 
 def measure(layout: str, n: int, moving: str) -> list[Row]:
-    """Return a row for each broad phase: its cost in a step, its number of candidate pairs, and the number of pairs
-    whose boxes overlap.
+    """Return a row for each broad phase: its cost in a step, its candidate pairs, and the pairs whose boxes overlap.
 
     layout, moving: keys of LAYOUTS and MOVERS; n: number of discs.
     """
@@ -152,10 +155,10 @@ def _jobs(scope: ReportScope) -> list[Job]:
 
 
 def growth(rows: Sequence[Row], series: str, panel: str) -> tuple[float, float] | None:
-    """Return (p, standard error of p) of the law that the cost grows as n^p, fitted to the rows of a series in a panel
-    with at least FROM bodies.
+    """Return (p, standard error of p) of a fit in which the cost of a broad phase grows as n^p.
 
-    None for fewer than three sizes, which give no standard error.
+    It is fitted to the rows of a series in a panel with at least FROM bodies. None for fewer than three sizes, which
+    give no standard error.
     """
     mine = [row for row in rows if row["series"] == series and row["panel"] == panel and row["n"] >= FROM]
     points = [(row["n"], row["cost"]["seconds"][1]) for row in mine]
@@ -174,11 +177,14 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
 
 
 def _of_papers(rows) -> Iterator[Claim]:
-    """Yield papers' claims about broad phases, at NAIVE_LIMIT bodies, the largest size with the naive baseline."""
+    """Yield the claims of papers about broad phases, tested at NAIVE_LIMIT bodies.
+
+    This is the largest size at which the naive baseline is measured.
+    """
     known = {(row["series"], row["layout"], row["moving"], row["n"]): row for row in rows}
 
     def beside(first, second):
-        """Return the ratio of the costs of two rows, given by their keys in `known`; None if either is not measured."""
+        """Return the ratio of the costs of two rows, given by their keys in `known`; None if one is not measured."""
         return ratio_of(known[first]["cost"], known[second]["cost"]) if first in known and second in known else None
 
     n, all_move, few = NAIVE_LIMIT, *list(MOVERS)[:: len(MOVERS) - 1]

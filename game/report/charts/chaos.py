@@ -1,8 +1,7 @@
-"""Chart 11: predictability of a run. A bullet strikes a pyramid; from run to run, its start is shifted by multiples of
-1e-9 px.
+"""Chart 11: predictability of a run. A bullet strikes a pyramid, and its start is shifted a little from run to run.
 
-No reference exists: measured are the time at which runs diverge, and their distance (Chung and Pollard 2016 call it
-predictability).
+The shifts are multiples of 1e-9 px. There is no reference: the chart shows the time at which runs diverge, and their
+distance at the end (Chung and Pollard 2016 call it predictability).
 """
 
 from collections.abc import Sequence
@@ -32,10 +31,9 @@ def _world(solver, substeps, aside):
 
 
 def measure(seeds: int) -> list[Row]:
-    """Return a row for each setting: the time after which a shifted run differs by a pixel (RMS) from the unshifted
-    run, and the distance of the two at the end.
+    """Return a row for each setting: the time until a shifted run differs, and the distance at the end.
 
-    seeds: number of shifted runs.
+    A run differs when its bodies are a pixel (RMS) from those of the unshifted run. seeds: number of shifted runs.
     """
     rows, steps = {}, {}
     for solver, substeps in WAYS:

@@ -23,27 +23,31 @@ REPEATS = 10  # tests of a batch in a run: 40,000 pairs, 200,000 in all
 
 
 def disc_mask() -> PixelMask:
-    """Return the mask of the pixels whose centres lie in the disc."""
+    """Return the PixelMask of all pixels whose centres lie in the disc."""
     side = int(2 * RADIUS)
     at = np.arange(side) + 0.5 - RADIUS
     return PixelMask(at[:, None] ** 2 + at[None, :] ** 2 <= RADIUS**2, origin=(RADIUS, RADIUS))
 
 
 def square_mask() -> PixelMask:
-    """Return the mask of the square, which is solid throughout."""
+    """Return the PixelMask of the square; all its pixels are solid."""
     side = int(2 * RADIUS)
     return PixelMask(np.ones((side, side), bool), origin=(RADIUS, RADIUS))
 
 
 def of_disc(offset: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return (normals (n, 2), depths (n,) [px]) of a disc at the origin against equal discs at `offset` (n, 2)."""
+    """Return the exact (normals (n, 2), depths (n,) [px]) of a disc at the origin against equal discs.
+
+    offset: (n, 2) positions of the other discs [px].
+    """
     length = np.hypot(*offset.T)
     return offset / length[:, None], 2.0 * RADIUS - length
 
 
 def of_square(offset: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return (normals (n, 2), depths (n,) [px]) of an upright square at the origin against discs at `offset` (n, 2),
-    whose centres are outside the square.
+    """Return the exact (normals (n, 2), depths (n,) [px]) of an upright square at the origin against discs.
+
+    offset: (n, 2) positions of the discs [px], outside the square.
     """
     nearest = np.clip(offset, -RADIUS, RADIUS)
     away = offset - nearest
@@ -58,8 +62,9 @@ BODIES = {
 
 
 def offsets(truth: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]], count: int) -> np.ndarray:
-    """Return (count, 2) random offsets [px] of touching pairs that overlap by less than DEEPEST, uniform in area.
-    truth: of_disc or of_square.
+    """Return (count, 2) random offsets [px] of touching pairs, uniform in area.
+
+    truth: of_disc or of_square. The pairs overlap by less than the share DEEPEST of a disc's diameter.
     """
     chance, found = np.random.default_rng(4), np.zeros((0, 2))
     while len(found) < count:
@@ -71,8 +76,9 @@ def offsets(truth: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]], count:
 
 
 def measure(body: str, count: int) -> list[Row]:
-    """Return a row for each tier, with both sprites in this tier, and a row for the exact shapes. body: key of BODIES;
-    count: number of poses.
+    """Return a row for each tier, with both shapes in this tier, and a row for the exact shapes.
+
+    body: key of BODIES; count: number of poses.
     """
     make, shape, truth, turned = BODIES[body]
     first, second = make(), disc_mask()
@@ -94,9 +100,9 @@ def measure(body: str, count: int) -> list[Row]:
 
 
 def _row(body, name, batch, normals, depths):
-    """Return a row with the errors of the contacts found by a batch; of each pair, the deepest manifold counts.
+    """Return a row with the errors of the contacts that a batch finds. Of each pair, the deepest manifold counts.
 
-    normals, depths: true normal and depth [px] of each pair.
+    body, name: the row's panel and series; normals, depths: true normal and depth [px] of each pair.
     """
     batch.test()
     pairs = batch.pair_of[batch.found["candidate"]]

@@ -1,8 +1,8 @@
-"""Charts 6 and 7: fast discs that fly at a thin plate: share of discs that tunnel, delay of the contact of the others,
-and cost.
+"""Charts 6 and 7: fast discs that fly at a thin plate.
 
-The truth is analytic: a disc on a straight path first touches an upright plate when its centre comes within its radius.
-A discrete test between steps misses max(0, 1 - (w + 2r) / (v dt)) of the discs that fly at the plate's face.
+The charts show the share of discs that tunnel, the delay of the contact of the others, and the cost. The truth is
+analytic: a disc on a straight path first touches an upright plate when its centre comes within its radius. A discrete
+test between steps misses max(0, 1 - (w + 2r) / (v dt)) of the discs that fly at the plate's face.
 """
 
 from collections.abc import Sequence
@@ -27,17 +27,17 @@ EFFECTS = Effects(response=True, continuous=True)
 
 
 def name_of(way: str, divided: int) -> str:
-    """Return the name of a method in the chart: `way`, the kind of continuous collision, or the number of steps that a
-    step is divided into.
+    """Return the name of a method in the chart. way: kind of continuous collision.
+
+    divided: number of steps into which a step is divided; if it is not 1, the method is named after it.
     """
     return way if divided == 1 else f"{divided} steps in one"
 
 
 def starts(lanes: int, step: float) -> np.ndarray:
-    """Return (lanes, 2) start positions [px] of the discs: at all phases of a step, and aimed at the plate's face, at
-    its ends or past it.
+    """Return (lanes, 2) start positions [px] of the discs, one in each lane. step: path of a disc in one step [px].
 
-    step: path of a disc in one step [px].
+    They begin at all phases of a step, and fly at the plate's face, at its ends, or past it.
     """
     chance = np.random.default_rng(8)
     x = -RUN_UP * step - RADIUS - WIDTH - step * (np.arange(lanes) + 0.5) / lanes
@@ -46,8 +46,9 @@ def starts(lanes: int, step: float) -> np.ndarray:
 
 
 def first_touch(aside: np.ndarray) -> np.ndarray:
-    """Return x [px] of a disc's centre at its first contact with the plate, NaN if it never touches. aside: (n,)
-    distances [px] of the disc's path from the plate's middle.
+    """Return (n,) x [px] of the discs' centres at their first contact with the plate, NaN for discs that miss it.
+
+    aside: (n,) distances [px] of the discs' paths from the plate's middle.
     """
     beyond = np.maximum(np.abs(aside) - HALF, 0.0)
     reach = np.full(len(aside), np.nan)
@@ -57,8 +58,10 @@ def first_touch(aside: np.ndarray) -> np.ndarray:
 
 
 def world_of(way: str, divided: int, lanes: int, ratio: float, plates: bool = True) -> World:
-    """Return a world of lanes, each with a disc and a plate. way: kind of continuous collision; divided: number of
-    steps that a step of 1/60 s is divided into; ratio: disc diameters per step.
+    """Return a world of lanes, each with a disc and a plate.
+
+    way: kind of continuous collision; divided: number of steps into which a step of 1/60 s is divided; ratio: path of a
+    disc in a step of 1/60 s [diameters]; plates: False leaves out the plates.
     """
     step = ratio * 2.0 * RADIUS
     world = World(EFFECTS, dt=1.0 / 60.0 / divided)
@@ -70,10 +73,10 @@ def world_of(way: str, divided: int, lanes: int, ratio: float, plates: bool = Tr
 
 
 def measure(ratio: float, lanes: int) -> list[Row]:
-    """Return a row for each method: missed hits, false hits, and the distance of the reported contact from the first
-    touch.
+    """Return a row for each method: missed hits, false hits, and the error of the place of contact.
 
-    ratio: disc diameters per step; lanes: number of discs.
+    That error is the distance of the reported contact from the first touch [px]. ratio: disc diameters per step; lanes:
+    number of discs.
     """
     step = ratio * 2.0 * RADIUS
     begin = starts(lanes, step)
@@ -116,8 +119,9 @@ def measure(ratio: float, lanes: int) -> list[Row]:
 
 
 def measure_times(count: int) -> list[Row]:
-    """Return a row for each method: the time to simulate 1/60 s with `count` discs, each of which moves ten diameters
-    in that time. There is one plate for every ten discs.
+    """Return a row for each method: the time to simulate 1/60 s with `count` discs.
+
+    Each disc moves ten diameters in that time. There is one plate for every ten discs.
     """
     ratio, spent = 10.0, {}  # diameters per step
     rates = {row["series"]: row for row in measure(ratio, 200)}
@@ -146,8 +150,9 @@ def measure_times(count: int) -> list[Row]:
 
 
 def _traffic(way, divided, count, ratio):
-    """Return a world of discs that fly through a field of plates; most of them hit no plate. Arguments: as for
-    world_of.
+    """Return a world of discs that fly through a field of plates; most of them hit no plate.
+
+    count: number of discs; other arguments: as for world_of.
     """
     step = ratio * 2.0 * RADIUS
     world = World(EFFECTS, dt=1.0 / 60.0 / divided)
@@ -213,7 +218,8 @@ def _time_claims(rows: Sequence[Row]) -> list[Claim]:
 
 
 def _expected(ratio):
-    """Return the expected share of hits that a discrete test misses, averaged over all paths that meet the plate.
+    """Return the share of hits that a discrete test misses in theory, averaged over all paths that meet the plate.
+
     ratio: disc diameters per step.
     """
     step = ratio * 2.0 * RADIUS

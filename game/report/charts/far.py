@@ -23,17 +23,17 @@ ROUNDED = ("x", "y", "angle")
 
 
 def round_poses(world: World) -> None:
-    """Round the poses of all bodies to float32, as if stored so; everything else stays float64."""
+    """Round the poses of all bodies to float32, as if they were stored in that type. All other values stay float64."""
     for name in ROUNDED:
         world.bodies[name] = world.bodies[name].astype(np.float32)
     world.touch(world.bodies["id"])
 
 
 def measure(solver: str) -> list[Row]:
-    """Return two rows for each distance, with poses in float64 and with poses rounded to float32 after every step:
-    greatest distance of a box from its place in the run at the origin, and overlap.
+    """Return rows for each distance from the origin: one with poses in float64, one with poses rounded to float32.
 
-    Only float64 rows have a time, because no solver works in float32.
+    They contain the greatest distance of a box from its place in the run at the origin, and the overlap. Poses are
+    rounded after every step. Only float64 rows have a time, because no solver works in float32.
     """
     steps, rows, near = {}, {}, None
     for single in (False, True):

@@ -1,4 +1,4 @@
-"""Chart 5: cost of a second of motion, and its error against the closed form, for several lengths of the step.
+"""Chart 5: cost of a second of motion, and its error against the exact solution, for several lengths of the step.
 
 A slope is level ground under tilted gravity. A first-order error halves with the length of the step; a second-order
 error falls to a quarter.
@@ -25,7 +25,10 @@ SOLVERS = ("projection", "sequential_impulse", "soft_step")
 
 
 class Case(NamedTuple):
-    """A motion with known result. error(position, velocity): error [px] of a body after SECONDS, if it started at 0."""
+    """A motion with a known result. error(position, velocity) returns the error [px] of a body after SECONDS.
+
+    Position and velocity are relative to the start. slope: angle of the ground [rad].
+    """
 
     effects: Effects
     solvers: tuple[str, ...]
@@ -52,9 +55,7 @@ DROP = 40.0  # [px]
 
 
 def _bounce(position, velocity):
-    """Return the error [px] of a ball with restitution 1 at this position and velocity: the height that its energy has
-    gained or lost.
-    """
+    """Return the error of a bouncing ball with restitution 1 as a height [px]: the energy that it gained or lost."""
     return abs(position.y - 0.5 * velocity.y**2 / G)
 
 
@@ -70,8 +71,9 @@ CASES = {
 
 
 def world_of(case: Case, solver: str, rate: int) -> World:
-    """Return a world of COPIES equal bodies, too far apart to meet, at the case's height over the ground. solver: of
-    the world; rate: steps per second.
+    """Return a world of COPIES equal bodies at the case's height over the ground, too far apart to meet.
+
+    solver: of the world; rate: steps per second.
     """
     gravity = (G * sin(case.slope), G * cos(case.slope))
     world = World(case.effects, solver=solver, gravity=gravity, dt=1.0 / rate, substeps=4)
@@ -111,8 +113,9 @@ def measure(case: str) -> list[Row]:
 
 
 def order_of(rows: Sequence[Row]) -> tuple[float, float] | None:
-    """Return (order of the error p in dt^p, its standard error) by a least-squares fit of logarithms; None for fewer
-    than three lengths with more than a rounding error.
+    """Return (p, its standard error), where the error is proportional to dt^p; by least squares on the logarithms.
+
+    None for fewer than three lengths of the step with more than a rounding error.
     """
     points = [(row["dt"], row["error"]) for row in rows if row["error"] > 1e-9 * G]
     return fit_power_law(points)[:2] if len(points) >= 3 else None

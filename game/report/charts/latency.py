@@ -1,4 +1,4 @@
-"""Chart 12: the time of the steps of every scene, played by its bot, up to the slowest step, and the memory of a step.
+"""Chart 12: step times of every scene, played by its bot, up to the slowest step, and the memory of a step.
 
 A step is a step of the whole scene, as `--headless` runs it without drawing: bot, rules and physics.
 """
@@ -25,15 +25,15 @@ RUNS, TRACED = 3, 30  # runs, of which each step's least time counts; steps whos
 
 
 def scene_class(where: str) -> type[Scene]:
-    """Return the class that `where`, "module:Class", names."""
+    """Return the scene class that `where` names as "module:Class"."""
     return resolve_name(where)
 
 
 def measure(scene: str, where: str, frames: int) -> list[Row]:
-    """Return one row: percentiles of the scene's step times. All runs make the same steps; of each step, the least time
-    over the runs counts.
+    """Return a list of one row: the 50th, 95th and 100th percentile of the scene's step times, and the memory.
 
-    where: "module:Class" of the scene; frames: length of a run.
+    All runs make the same steps, and the least time of each step over the runs counts. where: "module:Class" of the
+    scene; frames: length of a run.
     """
     start_dummy_display()
     made = scene_class(where)
@@ -65,8 +65,9 @@ def measure(scene: str, where: str, frames: int) -> list[Row]:
 
 
 def _peaks(made, frames):
-    """Return (frames,) [bytes]: greatest memory held during each step, minus the memory held at its start. made: class
-    of the scene.
+    """Return (frames,) [bytes]: the greatest memory during each step, minus the memory at its start.
+
+    made: class of the scene.
     """
     session, found = Session(made(0), BotSource()), []
     for _ in range(5):

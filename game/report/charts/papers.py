@@ -19,8 +19,9 @@ SETTLE = 120
 
 
 def measure_corners() -> list[Row]:
-    """Return the cost of a pair of polygons: a row for each number of corners, for touching pairs ("hit") and for pairs
-    whose boxes alone overlap ("miss").
+    """Return the cost of testing a pair of polygons: two rows for each number of corners.
+
+    One row is for touching pairs ("hit"), one for pairs of which only the boxes overlap ("miss").
     """
     chance = np.random.default_rng(10)
     works, pieces = {}, {}
@@ -51,8 +52,9 @@ def measure_corners() -> list[Row]:
 
 
 def measure_iterations() -> list[Row]:
-    """Return the mean number of GJK iterations per time of impact: a row for each number of corners of polygons that
-    rotate in flight.
+    """Return the mean number of GJK iterations per time of impact: a row for each number of corners.
+
+    The bodies are polygons that rotate in flight.
     """
     rows = []
     for corners in (4, 8, 16):

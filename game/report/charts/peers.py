@@ -1,7 +1,7 @@
 """Chart 14: the same work done by common libraries: pygame's rectangles and masks, pymunk's solver.
 
 Sprites have integer positions, because pygame compares whole pixels. The truth is the set of pairs of masks that share
-a pixel; to find it, all pairs are tested.
+a pixel, found by testing all pairs.
 """
 
 from collections.abc import Callable, Sequence
@@ -30,7 +30,7 @@ SETTLE = 120
 
 
 class Traffic:
-    """Sprites at integer positions, in pygame and in a world of this project."""
+    """The same sprites at integer positions, in pygame and in a world of this project."""
 
     def __init__(self, count: int) -> None:
         atlas, chance = load_atlas("planes"), np.random.default_rng(6)
@@ -45,12 +45,12 @@ class Traffic:
         self.group = pygame.sprite.Group(*(_sprite(*each) for each in zip(self.masks, self.rects, strict=True)))
 
     def rects_only(self) -> set[tuple[int, int]]:
-        """Return the pairs whose rectangles overlap: the usual first version of a game."""
+        """Return the pairs (indices k < j) whose rectangles overlap: the usual first version of a game."""
         rects = self.rects
         return {(k, j) for k, rect in enumerate(rects) for j in rect.collidelistall(rects) if j > k}
 
     def masks_after_rects(self) -> set[tuple[int, int]]:
-        """Return the pairs whose masks overlap, tested after the rectangles: the fastest exact way in pygame."""
+        """Return the pairs whose masks overlap, tested after their rectangles: the fastest exact way in pygame."""
         rects, masks, found = self.rects, self.masks, set()
         for k, rect in enumerate(rects):
             for j in rect.collidelistall(rects):
@@ -59,13 +59,13 @@ class Traffic:
         return found
 
     def group_collide(self) -> set:
-        """Return the result of pygame.sprite.groupcollide, which tutorials use."""
+        """Return the result of pygame.sprite.groupcollide, the function that tutorials use."""
         collide = pygame.sprite.collide_mask
         # The stubs ask for a bool; pygame documents this very function, which returns a point or None.
         return set(pygame.sprite.groupcollide(self.group, self.group, False, False, collide))  # pyright: ignore
 
     def all_pairs(self) -> set[tuple[int, int]]:
-        """Return all pairs of masks that overlap, without a rectangle test: slow, and used as the truth."""
+        """Return the pairs whose masks overlap, without a rectangle test. This is slow, and used as the truth."""
         return {
             (k, j)
             for k in range(len(self.masks))
@@ -74,7 +74,7 @@ class Traffic:
         }
 
     def world(self, strategy: Any, tier: str) -> World:
-        """Return a world of this project with all sprites. strategy: broad phase; tier: kind of collision shape."""
+        """Return a world of this project with all sprites. strategy: broad phase; tier: collision tier."""
         world = World(Effects(), strategy)
         for k, (x, y) in zip(self.which, self.corners, strict=True):
             world.add_body(self.kinds[k], position=(x, y), kind="kinematic", tier=tier)
@@ -96,7 +96,7 @@ def _sprite(mask, rect):
 
 
 def measure_sprites(count: int) -> list[Row]:
-    """Return a row for each method: the time to find all hits of `count` sprites, and its false and missed hits."""
+    """Return a row for each method: the time to find all hits among `count` sprites, and its false and missed hits."""
     traffic = Traffic(count)
     truth = traffic.all_pairs()
     ways: dict[str, Callable[[], set]] = {
@@ -149,8 +149,9 @@ def _step(world, speeds):
 
 
 def measure_piles(rows: int) -> list[Row]:
-    """Return a row for each engine and setting: overlap and step time of a pyramid after two seconds. Raises
-    ModuleNotFoundError if pymunk is missing.
+    """Return a row for each engine and setting: overlap of a pyramid after two seconds, and time of a step.
+
+    rows: of the pyramid. Raises ModuleNotFoundError if pymunk is missing.
     """
     made, found, steps = pyramid(rows), {}, {}
     for substeps in SUBSTEPS:

@@ -1,5 +1,6 @@
-"""Chart 13: cost and error of every setting of each scene, measured at one state of the bot's run, as in the game's
-live plot.
+"""Chart 13: cost and error of every setting of each scene, measured at one state of the bot's run.
+
+The game's panel of accuracy and cost shows the same live.
 """
 
 from collections.abc import Sequence

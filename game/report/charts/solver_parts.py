@@ -1,8 +1,8 @@
 """Chart 4, the parts of a solver: substeps and iterations, warm starting, the relaxation pass.
 
-A line joins the settings of equal work (substeps times iterations), so that it shows whether many substeps or many
-iterations are better (Macklin et al., Small Steps in Physics Simulation, SCA 2019). Sequential impulses have no
-substeps: the step is divided into shorter steps instead, each with its own collision detection.
+A line joins the settings of equal work (substeps times iterations). It shows whether many substeps or many iterations
+are better (Macklin et al., Small Steps in Physics Simulation, SCA 2019). Sequential impulses have no substeps: the step
+is divided into shorter steps instead, each with its own collision detection.
 """
 
 from collections import Counter
@@ -38,7 +38,7 @@ class Parts(NamedTuple):
 
     @property
     def series(self) -> str:
-        """Name of the combination without its numbers."""
+        """Name of the combination, without the numbers of substeps and iterations."""
         words = [self.solver, *(() if self.warm else ("cold",)), *(() if self.relaxed else ("not relaxed",))]
         return ", ".join(words)
 
@@ -53,7 +53,7 @@ WAYS = (
 
 
 class Studied:
-    """A world that is stepped with one combination of solver parts instead of its own solver."""
+    """A world that is stepped with one combination of solver parts, in place of its own solver."""
 
     def __init__(self, parts: Parts, world: World) -> None:
         self.world, self.divided, stage = world, 1, studied.soft_step(parts.iterations, parts.warm, parts.relaxed)
@@ -96,7 +96,7 @@ def measure(pile: str) -> list[Row]:
 
 
 def jobs(scope: ReportScope) -> list[Job]:
-    """Return one job per pile; in a quick report, no jobs."""
+    """Return one job per pile; none for a quick report."""
     return [
         Job(
             f"solvers/parts-{pile}".replace(" ", "-").replace(":", "-to-"),
@@ -109,7 +109,7 @@ def jobs(scope: ReportScope) -> list[Job]:
 
 
 def panels(pile: str) -> list[Panel]:
-    """Return the panels of a pile: all combinations over their time; and for each solver, lines of equal work."""
+    """Return the panels of a pile: one with all combinations, and one for each solver with lines of equal work."""
     error = Axis("off or overlapping by at most [px]", value("error"), mark=VISIBLE)
     mine = f"{pile}: parts"
     return [
@@ -129,7 +129,7 @@ def panels(pile: str) -> list[Panel]:
 
 
 def claims(rows: Sequence[Row]) -> Iterator[Claim]:
-    """Yield the claims of papers about substeps and warm starting, for each pile."""
+    """Yield the claims of papers about substeps and warm starting, tested on each pile."""
     for pile in PILES:
         known = {Parts(*(row[name] for name in Parts._fields)): row for row in rows if row["panel"] == f"{pile}: parts"}
         if not known:
@@ -142,10 +142,9 @@ def claims(rows: Sequence[Row]) -> Iterator[Claim]:
 
 
 def beside(text: str, better: Row, worse: Row, source: str) -> Claim:
-    """Return the claim that the row `better` has an error at least a tenth below that of the row `worse`. text: the
-    claim; source: its paper.
+    """Return the claim `text`: that the row `better` has an error at least a tenth below that of the row `worse`.
 
-    Errors are the same in every run, so that no interval is needed.
+    source: its paper. Errors are the same in every run, so that no interval is needed.
     """
     a, b = better["error"], worse["error"]
     figure = ", ".join(f"{row['error']:.3g} px in {1e6 * row['cost']['seconds'][1]:.3g} us" for row in (better, worse))

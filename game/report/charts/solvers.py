@@ -1,5 +1,4 @@
-"""Chart 4: cost of a step of a pile, and the pile's accuracy, for each solver, number of substeps, and combination of
-solver parts.
+"""Chart 4: cost of a step of a pile, and the pile's accuracy, for each solver and number of substeps.
 
 The truth is rest: stacked boxes stay in place, so that any rise or sag of the highest box, and any overlap, is an
 error. The question comes from Small Steps (Macklin et al. 2019).
@@ -25,10 +24,9 @@ WAYS = [
 
 
 def measure(pile: str, quick: bool) -> list[Row]:
-    """Return a row for each setting: the pile's accuracy over two seconds, and the cost of a step after that, also if
-    the pile has fallen.
+    """Return a row for each setting: the pile's accuracy over two seconds, and then the cost of a step.
 
-    pile: key of PILES; quick: measure fewer settings.
+    The cost is measured even if the pile has fallen. pile: key of PILES; quick: whether fewer settings are measured.
     """
     made = PILES[pile]()
     ways = [way for way in WAYS if not quick or way[1] not in (2, 16)]

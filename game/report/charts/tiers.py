@@ -1,7 +1,8 @@
 """Charts 1 and 3: cost per pair, error rate, memory and fit of each tier (kind of collision shape) of a sprite.
 
-Two sets of poses are measured, because the share of hits and their depth decide every rate: poses all around each
-other, about half of them hits; and poses within two pixels of touching, where tiers differ.
+Two sets of poses are measured, because all rates depend on the share of hits and on their depth. The first set has
+poses all around each other, about half of them hits. The second has poses within two pixels of touching, where tiers
+differ.
 """
 
 from collections.abc import Sequence
@@ -24,7 +25,7 @@ AROUND, NEAR = "poses all around", "within 2 px of touching"
 
 
 def poses_near(first: PixelMask, second: PixelMask, tried: int) -> Poses:
-    """Return those of `tried` random poses of two sprites at which their exact distance is less than BAND.
+    """Return the poses of two sprites, out of `tried` random ones, at which their exact distance is less than BAND.
 
     Raises ValueError for fewer than LEAST_EACH hits or misses.
     """
@@ -107,9 +108,7 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
 
 
 def _fit_claims(rows: Sequence[Row]) -> list[Claim]:
-    """Return claims about the tiers that fit every sprite within a pixel: which needs the least memory, and which is
-    the fastest to build.
-    """
+    """Return claims about the tiers that fit every sprite within a pixel: least memory, and fastest to build."""
     rows = [row for row in rows if row["panel"] == AROUND]
     fits = {}
     for row in rows:

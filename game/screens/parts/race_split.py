@@ -84,7 +84,7 @@ class SplitScreen:
             self._draw_plot(frame, pygame.Rect(rect.x + 4 * scale, y + 2 * scale, rect.width - 8 * scale, high), scale)
 
     def _draw_plot(self, frame, rect, scale):
-        """Draw the distance between the scenes over the last ten seconds, newest at the right, on a log scale."""
+        """Draw the distance between the scenes over the last ten seconds (logarithmic), the newest at the right."""
         surface, apart = frame.surface, self.race.apart
         surface.fill(NIGHT, rect)
         for value in (0.01, 0.1, VISIBLE, 10.0, 100.0):
