@@ -19,7 +19,7 @@ STREAK = 0.028  # [s] exposure: a flake is drawn as the streak of its motion in 
 
 
 class Backdrop:
-    """The renderer of the background, and of the snow in the foreground."""
+    """Renderer of the background, and of the snow in the foreground."""
 
     def __init__(self):
         self.sky = load_backdrop("lander_sky")
@@ -29,7 +29,10 @@ class Backdrop:
         self.flakes = [random.random((3, FLAKES)) for _ in SNOW]
 
     def draw(self, surface, look, left, top):
-        """Draw the background for a view whose top left corner is the world point (left, top). `look`: Spectacle."""
+        """Draw the background for a view whose top left corner is the world point (left, top).
+
+        look: the scene's Spectacle.
+        """
         surface.blit(self.sky, (0, 0))
         share = min(max((left + CANVAS_SIZE[0] / 2 - STORM[0]) / (STORM[1] - STORM[0]), 0.0), 1.0)
         if share:
@@ -44,17 +47,18 @@ class Backdrop:
                 surface.fill(color, (0, foot, CANVAS_SIZE[0], CANVAS_SIZE[1] - foot))
 
     def _draw_clouds(self, surface, look, left, share):
-        """Draw banks of cloud, moved by the wind, for a view whose left edge is at x = left. `look`: Spectacle.
+        """Draw banks of cloud that the wind moves. left: x of the view's left edge [px].
 
-        `share`: how far the clouds have come down for the storm, 0..1.
+        look: the scene's Spectacle; share: how far the clouds have come down for the storm, 0..1.
         """
         for along, carried, low in CLOUDS:
             y = whole(low * share - self.clouds.get_height() * (1.0 - share))
             tile_along(surface, self.clouds, left * along - look.gusted * carried - look.time * 7.0, y)
 
     def draw_snow(self, surface, layer, look, wind, left, top):
-        """Draw one layer of snow for a view whose top left corner is (left, top): more with strong wind [px/s], less in
-        a cave. `look`: Spectacle.
+        """Draw one layer of snow: more in a strong wind, less in a cave.
+
+        look: the scene's Spectacle; wind [px/s]; (left, top): world point at the view's top left corner.
         """
         share, carried, fall, color, thick = SNOW[layer]
         across, down, speed = self.flakes[layer]

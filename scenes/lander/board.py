@@ -29,9 +29,9 @@ EDGE = 18  # [px] from the picture's edge to the arrow towards a site out of sig
 
 
 def draw_words(canvas, scene, view, covered):
-    """Draw the short texts that rise from events. `view`: world point at the top left corner of the picture.
+    """Draw the short texts that rise from events. view: world point at the picture's top left corner.
 
-    `covered`: rectangle of a banner, where no text is drawn.
+    covered: rectangle of a banner, where no text is drawn.
     """
     for rect in (*HELD, covered):
         canvas.reserve(rect)
@@ -42,7 +42,7 @@ def draw_words(canvas, scene, view, covered):
 
 
 def draw_board(canvas, scene, view):
-    """Draw the heads-up display. `view`: world point at the top left corner of the picture."""
+    """Draw the heads-up display. view: world point at the top left corner of the picture."""
     _draw_score(canvas, scene)
     _draw_ships(canvas, scene)
     _draw_site(canvas, scene, view)
@@ -80,7 +80,10 @@ def _draw_ships(canvas, scene):
 
 
 def _draw_site(canvas, scene, view):
-    """Draw the site's name and distance at the top. While the site is out of view, draw an arrow to it at the edge."""
+    """Draw the name and distance of the landing site at the top.
+
+    While the site is out of view, draw an arrow to it at the picture's edge.
+    """
     course, ship = scene.course, scene.ship
     if course.over or scene.spectacle.act_since < NEWS:
         if not course.over:
@@ -117,7 +120,7 @@ def _draw_arrow(canvas, scene, view):
 
 
 def _draw_stock(canvas, scene):
-    """Draw the panel of fuel, hull and shells."""
+    """Draw the panel with the levels of fuel and hull, and the number of shells."""
     ship, atlas, gain = scene.ship, load_atlas("lander"), scene.spectacle.gain
     left, top, _, _ = PANEL
     canvas.surface.blit(glass(PANEL[2:]), PANEL[:2])
@@ -144,9 +147,9 @@ def _draw_stock(canvas, scene):
 
 
 def _bar(surface, rect, share, color, gain):
-    """Draw a bar in `rect` of which `share` (0..1) is filled, with a tick at each quarter.
+    """Draw a bar with a tick at each quarter. share: filled part, 0..1.
 
-    `gain`: brightness just after a gain, 0..1.
+    gain: brightness after a gain, 1 at the gain .. 0.
     """
     left, top, width, height = rect
     surface.fill(INK, rect)
@@ -161,7 +164,7 @@ def _bar(surface, rect, share, color, gain):
 
 
 def _draw_dials(canvas, scene):
-    """Draw vertical speed, horizontal speed and lean. Green and gold values are safe for a landing, red ones not."""
+    """Draw vertical speed, horizontal speed and lean. Values in red are not safe for a landing."""
     ship = scene.ship
     left, top, _, _ = DIALS
     canvas.surface.blit(glass(DIALS[2:]), DIALS[:2])
@@ -181,7 +184,7 @@ def _draw_dials(canvas, scene):
 
 
 def judged(value, good, fair):
-    """Return the colour of a value: green up to `good`, gold up to `fair`, red beyond."""
+    """Return the colour of a value: green up to the value `good`, gold up to `fair`, red beyond."""
     return GOOD if value <= good else FAIR if value <= fair else RED
 
 
@@ -207,7 +210,10 @@ def _draw_wind(canvas, scene):
 
 
 def _draw_chart(canvas, scene, view):
-    """Draw a map of the whole moon with pads, cargo, ship, and the rectangle of the current view."""
+    """Draw a map of the whole moon with pads, cargo, ship, and the rectangle of the current view.
+
+    view: world point at the top left corner of the picture.
+    """
     left, top, width, height = CHART
     surface, moon = canvas.surface, scene.moon
     surface.blit(chart((width, height)), (left, top))
@@ -238,7 +244,7 @@ def _draw_chart(canvas, scene, view):
 
 
 def chevron(surface, x, y):
-    """Draw the mark above the pad to land on, at (x, y) [canvas px]."""
+    """Draw the mark above the pad to land on. (x, y): place of the mark [canvas px]."""
     for row in range(6):
         surface.fill(INK, (x - 7 + row, y + row - 1, 15 - 2 * row, 3))
     for row in range(5):
@@ -246,7 +252,7 @@ def chevron(surface, x, y):
 
 
 def hook_mark(surface, x, y, inside):
-    """Draw the mark above cargo at (x, y) [canvas px], green if the line can reach the cargo (`inside`)."""
+    """Draw the mark above a piece of cargo at (x, y) [canvas px]. inside: green, because the line can reach it."""
     color = GOOD if inside else PAPER
     for row in range(5):
         surface.fill(INK, (x - 5 + row, y + row - 1, 11 - 2 * row, 3))
@@ -256,7 +262,7 @@ def hook_mark(surface, x, y, inside):
 
 @lru_cache(maxsize=8)
 def glass(size):
-    """Return the background of a panel: dark, half transparent, with a thin edge."""
+    """Return the background of a panel of `size`: dark, half transparent, with a thin edge."""
     out = pygame.Surface(size, pygame.SRCALPHA)
     out.fill(GLASS)
     pygame.draw.rect(out, (*SLATE, 130), (0, 0, *size), 1)
@@ -265,7 +271,7 @@ def glass(size):
 
 @lru_cache(maxsize=2)
 def chart(size):
-    """Return a small picture of the moon's rock and caves, the background of the map."""
+    """Return a small picture of the moon's rock and caves, which is the background of the map."""
     moon = the_moon()
     out = glass(size).copy()
     width, height = size[0] - 2, size[1] - 2

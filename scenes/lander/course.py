@@ -1,6 +1,6 @@
 """The course: three landing sites in three acts, the landings, and the end of a game.
 
-`scene.result` is set once, at the very end. The world goes on moving behind the result.
+`scene.result` is set once, at the very end. The world continues to move behind the result.
 """
 
 from game.drawing.number_text import count_text
@@ -16,8 +16,9 @@ FLYING, LANDED, CLEARED, WON, LOST = "flying", "landed", "cleared", "won", "lost
 
 
 class Course:
-    """State of the course. `act`: number of the current site, 0..2; `mode`: FLYING, LANDED, CLEARED, WON or LOST;
-    `since`: steps in this mode; `rest`: steps at rest on a pad.
+    """State of the course. act: number of the current site, 0..2; rest: steps at rest on a pad.
+
+    mode: FLYING, LANDED, CLEARED, WON or LOST; since: steps in this mode.
     """
 
     def __init__(self, moon):
@@ -35,7 +36,7 @@ class Course:
 
     @property
     def over(self):
-        """True once all sites are reached or all ships are lost."""
+        """True once all sites have been reached or all ships are lost."""
         return self.mode in (CLEARED, WON, LOST)
 
     def _enter(self, mode):
@@ -55,11 +56,11 @@ class Course:
             self._watch(scene)
 
     def touched(self, speed):
-        """Record that the ship touched a body at a speed [px/s]."""
+        """Record that the ship touched a body. speed: of the contact [px/s]."""
         self.touchdown = max(self.touchdown, speed)
 
     def _watch(self, scene):
-        """Check for a landing, for a ship stranded without fuel, and for the loss of the last ship."""
+        """Check for a landing, for a ship that is stranded without fuel, and for the loss of the last ship."""
         ship = scene.ship
         self.airborne = 0 if ship.touching else self.airborne + 1
         if self.airborne == FORGOTTEN:
@@ -80,7 +81,7 @@ class Course:
             scene.result = self._result(scene, won=False)
 
     def _serve(self, scene, ship):
-        """Refuel, repair and rearm the ship, which rests on a pad, for one step."""
+        """Refuel, repair and rearm a ship that rests on a pad, for one step."""
         filling = ship.fuel < FUEL or ship.hull < HULL
         ship.fuel, ship.hull = min(ship.fuel + REFUEL, FUEL), min(ship.hull + REPAIR, HULL)
         if self.rest % REARM == 0 and ship.shells < SHELLS:

@@ -1,4 +1,4 @@
-"""Parameters of the lander's flight, damage and tools, and its collision filters."""
+"""Parameters of the lander's flight, damage and tools, and the collision filters of its bodies."""
 
 from game.scene import STEP_SECONDS
 from physics import Filter
@@ -39,7 +39,7 @@ CARGO_HARMLESS, CARGO_DAMAGE = 55.0, 0.7  # [px/s] harmless change of velocity; 
 
 
 def steps(seconds):
-    """Return the number of steps of 1/60 s nearest to a time [s]."""
+    """Return the number of steps of 1/60 s that is nearest to a time [s]."""
     return round(seconds / STEP_SECONDS)
 
 
@@ -71,5 +71,5 @@ FUEL_CAN = Filter(CAN_BIT, SHIP_BIT)
 
 
 def approach(value, target, change):
-    """Return `value`, moved towards `target` by at most `change`."""
+    """Return `value` moved towards `target`, by at most `change`."""
     return min(value + change, target) if value < target else max(value - change, target)

@@ -10,7 +10,7 @@ TOP = -150.0  # [px] the highest visible point
 
 
 class Gaze:
-    """The control of the scene's camera."""
+    """Control of the scene's camera."""
 
     def __init__(self, camera, ship, moon):
         self.camera, self.ship = camera, ship
@@ -29,10 +29,10 @@ class Gaze:
 
 
 def limited(value, most):
-    """Return the value clamped to -most .. most."""
+    """Return the value, clamped to the range -most .. most."""
     return max(-most, min(value, most))
 
 
 def sees(camera, x, y, margin):
-    """Return whether the world point (x, y) is in the picture, or less than `margin` [px] outside."""
+    """Return whether the world point (x, y) is in the picture, or at most `margin` [px] outside it."""
     return -margin < x - camera.x < CANVAS_SIZE[0] + margin and -margin < y - camera.y < CANVAS_SIZE[1] + margin

@@ -1,4 +1,4 @@
-"""Goals that the bot must reach, with deadlines, for the scene's self-check."""
+"""Goals that the bot must reach in a flight, with deadlines, as the scene's check() returns them."""
 
 from game.scene import Goal
 from scenes.lander.course import WON
@@ -8,7 +8,7 @@ CLEARED = 10500
 
 
 def goals(scene):
-    """Return the list of goals (Goal) of a flight, with their current values."""
+    """Return the goals of a flight, a list of Goal with their current values."""
     score, course = scene.score, scene.course
     return [
         *(

@@ -1,6 +1,6 @@
 """The ground: one static body with the pixel mask of the whole moon, into which craters are carved.
 
-The body's mask holds the remaining pixels; the picture and the bot read the same mask.
+The picture of the ground and the bot read the body's mask, too, which contains the remaining pixels.
 """
 
 from math import floor
@@ -16,7 +16,7 @@ BITS = np.uint64(63)
 
 
 class Ground:
-    """The ground. `body`: the static body; `touched`: the tiles (column, row) that have changed since the start."""
+    """The ground. body: the static body; touched: set of the tiles (column, row) that have changed since the start."""
 
     def __init__(self, world, moon):
         self.moon = moon
@@ -26,7 +26,7 @@ class Ground:
         self.touched = set()
 
     def carve(self, x, y, radius):
-        """Carve a round crater at (x, y) [px]. Return the bodies of the pieces that came loose."""
+        """Carve a round crater at (x, y) [px]. Return a list of the bodies that came loose."""
         carved = self.body.carve(Circle(radius), (x, y), crumb=CRUMB)
         if carved.removed:
             self._touch(x - radius, y - radius, x + radius, y + radius)
@@ -39,9 +39,9 @@ class Ground:
             self.touched.update((column, row) for column in range(floor(left) // TILE, floor(right) // TILE + 1))
 
     def around(self, column, row, border):
-        """Return the remaining pixels of a tile and `border` px around it, a bool array [row, column].
+        """Return the remaining pixels of a tile with `border` px around it, a bool array [row, column].
 
-        Return None if neither the tile nor its neighbours have changed since the start.
+        column, row: of the tile. Return None if the tile and its neighbours have not changed since the start.
         """
         if not any((column + dx, row + dy) in self.touched for dx in (-1, 0, 1) for dy in (-1, 0, 1)):
             return None
@@ -54,7 +54,7 @@ class Ground:
         return np.unpackbits(some, axis=1, bitorder="little").view(bool)[:, columns - first * TILE]
 
     def is_solid(self, x, y):
-        """Return whether there is ground at (x, y) [px]. Everything beside and below the moon counts as ground."""
+        """Return whether there is ground at (x, y) [px]. All points beside and below the moon count as ground."""
         column, row = floor(x), floor(y)
         if not 0 <= column < self.moon.width or row >= self.moon.height:
             return True
@@ -65,7 +65,10 @@ class Ground:
         return bool(self.body.shapes[0].words[row, column // TILE] >> (np.uint64(column) & BITS) & np.uint64(1))
 
     def clear_way(self, x, y, dx, dy, reach):
-        """Return the distance [px] from (x, y) to the first ground along the unit vector (dx, dy), at most `reach`."""
+        """Return the distance [px] from (x, y) to the first ground in the direction (dx, dy), at most `reach`.
+
+        (dx, dy): unit vector.
+        """
         far = 0.0
         while far < reach:
             if self.is_solid(x + dx * far, y + dy * far):

@@ -7,7 +7,7 @@ from scenes.lander.feel import MUZZLE, PUSH, PUSH_REACH, SHELL, SHELL_LIFE, SHEL
 
 
 class Gun:
-    """The gun. `shells`: {body id of a shell: steps until it is removed}."""
+    """The gun. shells: {body id of a shell: steps until it is removed}."""
 
     def __init__(self, world):
         self.world = world
@@ -29,12 +29,15 @@ class Gun:
         ship.body.apply_impulse((-SHELL_MASS * SHELL_SPEED * x, -SHELL_MASS * SHELL_SPEED * y))
 
     def step(self):
-        """Age the shells by one step. Return the ids of the shells whose time is over."""
+        """Make one step. Return the ids of the shells whose time is over."""
         self.shells = {identity: left - 1 for identity, left in self.shells.items()}
         return [identity for identity, left in self.shells.items() if left <= 0]
 
     def bursts(self, begun):
-        """Return {shell id: contact point [px]} of the shells that touched a body. `begun`: the step's begin events."""
+        """Return {id of a shell: contact point (x, y) [px]} of the shells that touched a body in this step.
+
+        begun: the step's begin events.
+        """
         found = {}
         columns = (begun[name].tolist() for name in ("body_a", "body_b", "point_x", "point_y"))
         for a, b, x, y in zip(*columns, strict=True):
@@ -49,7 +52,7 @@ class Gun:
 
 
 def blown(body, x, y):
-    """Return the velocity (vx, vy, speed) [px/s] that an explosion at (x, y) adds to a body; all 0 out of range."""
+    """Return (vx, vy, speed) [px/s] that an explosion at (x, y) adds to a body's velocity; all 0 if it is too far."""
     dx, dy = body.center.x - x, body.center.y - y
     far = hypot(dx, dy)
     speed = PUSH * max(1.0 - far / PUSH_REACH, 0.0)

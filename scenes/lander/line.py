@@ -1,7 +1,7 @@
-"""The line: a rope between ship and load, which pulls but never pushes.
+"""The line: a rope between ship and load. It pulls, but never pushes.
 
-When the rope is longer than LINE it pulls as a damped spring. The force acts at the centres of mass of ship and load,
-so it causes no torque.
+If the rope is longer than LINE, it pulls as a damped spring. The force acts at the centres of mass of ship and load, so
+it causes no torque.
 """
 
 from math import hypot, pi
@@ -11,14 +11,14 @@ from scenes.lander.feel import LINE, LINE_DAMPING, LINE_RATE, REACH, SNAP
 
 
 class Line:
-    """The rope. `load`: the body that it carries, or None; `torn`: whether it tore in this step."""
+    """The rope. load: the body that it carries, or None; torn: whether it tore in this step."""
 
     def __init__(self):
         self.load: Any = None
         self.torn = False
 
     def toggle(self, ship, loose):
-        """Let go of the load, or else catch the nearest of the bodies `loose` that is within REACH.
+        """Let go of the load or, without a load, catch the nearest of the bodies `loose` that is within REACH.
 
         Return "let go", "caught", or "missed" if no body is in reach.
         """
@@ -58,7 +58,7 @@ class Line:
             load.apply_force((-force * ux, -force * uy))
 
     def drop(self, identity):
-        """Let go of the load if it is the body `identity`, which is about to be removed."""
+        """Let go of the load if it is the body `identity`. Call it before this body is removed."""
         if self.load is not None and self.load.id == identity:
             self.load = None
 

@@ -1,6 +1,6 @@
-"""The moon as it is at the start: pictures, pads, winds, places of cargo and rocks, and the bot's path.
+"""The moon at the start: pictures, pads, winds, places of cargo and rocks, and the bot's path.
 
-The Moon is constant; changes during a game are kept in other objects.
+The Moon is constant. Changes during a game are kept in other objects.
 """
 
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ LEVEL = LEVELS / "lander.json"
 
 @dataclass(frozen=True)
 class Pad:
-    """A landing pad: `x` of its middle, `y` of its deck [px]. The first pad of the moon is the base."""
+    """A landing pad. x: of its middle [px]; y: of its deck [px]. The first pad of the moon is the base."""
 
     name: str
     title: str
@@ -37,7 +37,10 @@ class Pad:
 
 @dataclass(frozen=True)
 class Wind:
-    """The wind in a region that ends at x = until [px]. `gust`: the most that gusts add to the wind `steady` [px/s]."""
+    """The wind in a region of the moon, which ends at x = `until` [px].
+
+    steady: its constant part [px/s]; gust: greatest speed that gusts add [px/s].
+    """
 
     until: float
     steady: float
@@ -46,10 +49,9 @@ class Wind:
 
 @dataclass(frozen=True)
 class Waypoint:
-    """A point `at` on the bot's path [px].
+    """A point of the bot's path. at: (x, y) [px]; take: number of the cargo to pick up there, or -1.
 
-    `until`: point to which the path must be free of ground before the bot flies on, or () for no check; `take`: number
-    of the cargo to pick up there, or -1.
+    until: (x, y) up to which the path must be free of ground before the bot continues, or () for no check.
     """
 
     at: tuple
@@ -58,9 +60,9 @@ class Waypoint:
 
 
 class Moon:
-    """The moon. `mask`: the ground as one PixelMask, at the world's origin; `solid`: pixels of the ground.
+    """The moon. mask: the ground as one PixelMask, at the world's origin.
 
-    `massif`: pixels of the mountain, its caves included. `solid` and `massif` are bool arrays [row, column].
+    solid: bool array [row, column] of the ground's pixels. massif: the same of the mountain, including its caves.
     """
 
     def __init__(self):
@@ -82,11 +84,11 @@ class Moon:
         self.massif = np.ascontiguousarray((pygame.surfarray.pixels_alpha(self.wall) > 0).T)
 
     def __deepcopy__(self, memo):
-        """Return itself: a copy of a scene shares the moon."""
+        """Return itself, so that a copy of a scene shares the moon."""
         return self
 
     def is_inside(self, x, y):
-        """Return whether (x, y) [px] is inside the mountain, in rock or in a cave. There is no wind there."""
+        """Return whether (x, y) [px] is inside the mountain, in rock or in a cave, where there is no wind."""
         column, row = int(x), int(y)
         return 0 <= column < self.width and 0 <= row < self.height and bool(self.massif[row, column])
 

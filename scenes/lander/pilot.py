@@ -1,8 +1,8 @@
-"""The lander's bot. It flies from waypoint to waypoint. The thrust follows from a wanted velocity, and the ship's angle
-from the thrust.
+"""The lander's bot. It flies from waypoint to waypoint.
 
-The engine has no throttle: it is on whenever at least half of its thrust is needed. If ice blocks the path, the bot
-hovers, turns the ship's nose to the ice, and fires until the ship fits through.
+The thrust follows from the velocity that the bot wants, and the ship's angle from the thrust. The engine has no
+throttle: it is on whenever at least half of its thrust is needed. If ice blocks the path, the bot hovers, turns the
+ship's nose to the ice, and fires until the ship fits through.
 """
 
 from math import atan2, hypot, sqrt
@@ -34,7 +34,7 @@ WAIT = 22  # steps between two shells
 
 
 class Pilot:
-    """The bot. `act`, `number`: indices of the act and of its next waypoint; `aiming`: whether it is about to fire."""
+    """The bot. act, number: indices of the act and of its next waypoint; aiming: whether it is about to fire."""
 
     def __init__(self):
         self.act = self.number = self.wait = 0
@@ -44,7 +44,7 @@ class Pilot:
         self.blocked: Any = None  # point (x, y) of the obstacle in the path, or None
 
     def keys(self, scene):
-        """Return the set of actions that are held in the next step."""
+        """Return the actions that the bot holds in the next step, a set of names."""
         ship, course = scene.ship, scene.course
         if not ship.here or course.over:
             self.number, self.aiming = 0, False
@@ -71,7 +71,7 @@ class Pilot:
         return self._steer(scene, *self._towards(ship, point.at, last=bool(point.until) or self.number == len(way) - 1))
 
     def _is_stuck(self, scene):
-        """Return whether the ship has been in contact for so long that it must back off: rubble may lie anywhere."""
+        """Return whether the ship has been in contact for so long that it must back off, for example from rubble."""
         self.leant = self.leant + 1 if scene.ship.touching or self.leant > STUCK else 0
         if self.leant > STUCK + BACKING:
             # After backing off, fly to the previous waypoint again.
@@ -129,7 +129,7 @@ class Pilot:
     # --- cargo -------------------------------------------------------------------------------------------------------
 
     def _take(self, scene, piece):
-        """Return the keys to pick up a piece of cargo: slow down above it, then throw the line."""
+        """Return the keys to pick up a piece of cargo: slow down above it, then catch it with the line."""
         ship = scene.ship
         x, y = piece.body.position
         keys = self._steer(scene, *self._towards(ship, (x, y - OVER_CARGO), last=True))
@@ -140,7 +140,7 @@ class Pilot:
         return keys | {"bomb"}
 
     def _sets_down(self, scene, pad):
-        """Return whether to let go of the cargo in this step, because it stands on the pad."""
+        """Return whether to let go of the cargo in this step, because it is on the pad and at rest."""
         load = scene.line.load
         if load is None or self.wait or pad.y - load.bounds[3] > 2.0 or load.velocity.length > GENTLY:
             return False
@@ -150,7 +150,7 @@ class Pilot:
     # --- keys --------------------------------------------------------------------------------------------------------
 
     def _steer(self, scene, wanted_x, wanted_y):
-        """Return the keys that steer the ship towards a wanted velocity [px/s]."""
+        """Return the keys that steer the ship towards the velocity (wanted_x, wanted_y) [px/s]."""
         ship = scene.ship
         heavy = 1.0 if scene.line.load is None else 1.0 + scene.line.load.mass / SHIP_MASS
         push_x = GAIN * (wanted_x - ship.vx) + DRAG * (ship.vx - scene.weather.wind)
@@ -171,7 +171,7 @@ class Pilot:
     def _shoot(self, scene, point, x, y):
         """Return the keys to aim at an obstacle at (x, y) [px] and fire.
 
-        Return None if the ship must first fly back to the waypoint `point` or slow down.
+        Return None if the ship must first slow down or fly back to the waypoint `point`.
         """
         ship = scene.ship
         if not self.aiming:
@@ -193,7 +193,7 @@ class Pilot:
 
 
 def falls(scene, point):
-    """Return whether rubble is falling into the path after waypoint `point`, so that the bot must wait."""
+    """Return whether rubble is falling into the path behind the waypoint `point`, so that the bot must wait."""
     (x, y), (end_x, end_y) = point.at, point.until
     left, right = min(x, end_x) - ROOM, max(x, end_x) + ROOM
     return any(
@@ -203,7 +203,7 @@ def falls(scene, point):
 
 
 def obstacle(ground, start, end):
-    """Return the first point (x, y) [px] at which a ship on the straight path start - end touches ground.
+    """Return the first point (x, y) [px] at which a ship touches ground on the straight path from start to end.
 
     Return None if the ship fits through.
     """

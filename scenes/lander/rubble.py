@@ -8,9 +8,9 @@ from scenes.lander.feel import CRUMB, LOOSE
 
 @dataclass(frozen=True)
 class Piece:
-    """A loose piece. `look`: name of its original picture, a rock's frame or "ground" for the moon's picture.
+    """A loose piece. look: name of its original picture, that of a rock or "ground" for the picture of the moon.
 
-    `source`: place (x, y) in that picture [px] of the top left corner of the piece's mask.
+    source: place (x, y) in that picture [px] of the top left corner of the piece's mask.
     """
 
     look: str
@@ -18,18 +18,24 @@ class Piece:
 
 
 class Rubble:
-    """All rubble. `pieces`: Piece by body id: first the loose rocks; explosions add pieces of ground and of rocks."""
+    """All rubble. pieces: {body id: Piece}.
+
+    At first these are the loose rocks; explosions add pieces of ground and of rocks.
+    """
 
     def __init__(self, world):
         self.world = world
         self.pieces = {}
 
     def add_rock(self, body, look):
-        """Add a whole loose rock with the picture `look`."""
+        """Add a whole loose rock. look: name of its picture."""
         self.pieces[body.id] = Piece(look, (0, 0))
 
     def add_ground(self, bodies):
-        """Add the bodies of pieces that have just come loose from the ground. They must not have moved yet."""
+        """Add pieces that have just come loose from the ground. Call it before they have moved.
+
+        bodies: of the pieces.
+        """
         for body in bodies:
             (mask,) = body.shapes
             x, y = body.position
@@ -44,9 +50,9 @@ class Rubble:
         return [self.world.body(identity) for identity in sorted(self.pieces)]
 
     def carve(self, x, y, radius):
-        """Carve the disc of an explosion out of all pieces in its range.
+        """Carve the disc of an explosion at (x, y) [px] out of all pieces in its range.
 
-        Return the ids of the bodies that are gone, because no pixel of them is left.
+        Return the ids of the bodies of which no pixel is left.
         """
         gone = []
         for body in self.bodies():
@@ -68,9 +74,9 @@ class Rubble:
 
 
 def _source(part, before, mask, parent):
-    """Return the `source` of a new fragment `part`.
+    """Return the `source` of a new fragment, for its Piece. part: body of the fragment.
 
-    `before`: the Piece that it was carved from, with the mask `mask` and the body `parent`.
+    before: the Piece from which it was carved; mask: mask of that piece before; parent: its body.
     """
     (own,) = part.shapes
     x, y = parent.to_local(part.position)

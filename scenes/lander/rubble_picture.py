@@ -1,4 +1,4 @@
-"""Pictures of rubble: each piece is cut out of the picture that it came from, and drawn at any angle."""
+"""Pictures of rubble: each piece is cut out of its original picture, and drawn at any angle."""
 
 from functools import lru_cache
 from math import cos, pi, sin
@@ -14,14 +14,14 @@ KEPT = 300  # pieces in the cache
 
 
 class RubblePictures:
-    """The renderer of rubble, with a cache of pictures. A piece that is carved has a new mask, and so a new picture."""
+    """Renderer of rubble, with a cache of pictures. A piece that is carved gets a new mask, and so a new picture."""
 
     def __init__(self, moon):
         self.moon = moon
         self.kept = {}  # body id -> (mask, Cut)
 
     def draw(self, surface, piece, body, x, y, angle):
-        """Draw a piece with its body's origin at (x, y) of the surface, rotated by `angle` [rad]."""
+        """Draw a piece with its body's origin at (x, y) on the surface, rotated by `angle` [rad]."""
         (mask,) = body.shapes
         kept = self.kept.get(body.id)
         if kept is None or kept[0] is not mask:
@@ -36,8 +36,9 @@ class RubblePictures:
         surface.blit(image, (whole(x + c * u - s * v - width / 2), whole(y + s * u + c * v - height / 2)))
 
     def _cut_out(self, piece, mask):
-        """Return the picture of a piece's pixels, which `mask` holds: dark along the fracture, and lit where the
-        fracture faces up.
+        """Return the picture of the pixels of a piece: dark along the fracture, and light where it faces up.
+
+        mask: the piece's PixelMask.
         """
         width, height = mask.size
         source = self.moon.picture if piece.look == "ground" else load_atlas("lander")[piece.look]
@@ -67,7 +68,7 @@ class Cut:
         self.turned = lru_cache(maxsize=ANGLES)(self._turned)
 
     def at(self, angle):
-        """Return the picture, rotated clockwise by `angle` [rad], rounded to one of ANGLES steps."""
+        """Return the picture, rotated clockwise by `angle` [rad]. The angle is rounded to one of ANGLES per turn."""
         return self.turned(round(angle / (2.0 * pi) * ANGLES) % ANGLES)
 
     def _turned(self, number):
@@ -75,6 +76,9 @@ class Cut:
 
 
 def _beside(gone):
-    """Return a bool array of the pixels that are 4-neighbours of a pixel of `gone`."""
+    """Return a bool array of the pixels that have a pixel of `gone` above, below, left or right of them.
+
+    gone: bool array of pixels.
+    """
     padded = np.pad(gone, 1)
     return padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2] | padded[1:-1, 2:]

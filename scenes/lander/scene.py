@@ -20,7 +20,7 @@ from scenes.lander.yard import Yard
 
 
 class Lander(Scene):
-    """The lander. Damage to the ship and to the cargo follows from the contact impulses of the solver."""
+    """The lander, a scene with one world. The player steers the ship."""
 
     name = "lander"
     title = "Lander"
@@ -71,7 +71,7 @@ class Lander(Scene):
         self.gone = []  # ids of bodies that are removed when the next step begins
 
     def change_slider(self, name, value):
-        """Apply a change of the gravity slider to the world at once."""
+        """Set a slider. The slider of the gravity changes the world's gravity at once."""
         super().change_slider(name, value)
         if self.world.effects.gravity:
             self.world.gravity = (0.0, self.values["gravity"])
@@ -117,7 +117,7 @@ class Lander(Scene):
             self.spectacle.line_used(self.line.toggle(ship, self.yard.light()))
 
     def _in_the_air(self):
-        """Return the bodies that gusts push: the ship, unless it rests on the ground, and the load of the line."""
+        """Return the bodies that gusts push: the ship, unless it rests on the ground, and the line's load."""
         ship, load = self.ship, self.line.load
         flying = ship.here and (ship.thrusting or not ship.quiet)
         return [body for body, blown_at in ((ship.body, flying), (load, load is not None)) if blown_at]
@@ -145,8 +145,9 @@ class Lander(Scene):
             self._crash()
 
     def _knocks(self, hits):
-        """Process the impacts of a step on ship, cargo and rocks. hits: the step's hit events. Impulse / mass is the
-        change of velocity [px/s].
+        """Process the impacts of a step on ship, cargo and rocks. hits: the step's hit events.
+
+        The damage depends on the change of velocity [px/s], which is impulse / mass.
         """
         columns = (hits[name].tolist() for name in ("body_a", "body_b", "point_x", "point_y", "normal_impulse"))
         for a, b, x, y, impulse in zip(*columns, strict=True):
@@ -176,7 +177,7 @@ class Lander(Scene):
     # --- events of the game ------------------------------------------------------------------------------------------
 
     def pad_below(self):
-        """Return the Pad that the ship stands on, or None."""
+        """Return the Pad on which the ship stands, or None."""
         return next((self.yard.pads[each] for each in sorted(self.ship.touching) if each in self.yard.pads), None)
 
     def blast(self, x, y, radius):
@@ -199,12 +200,12 @@ class Lander(Scene):
                 self._hurt(speed, self.ship.x, self.ship.y)
 
     def _forget(self, identity):
-        """Drop the references of line and ship to a body that is removed."""
+        """Remove the references of line and ship to the body `identity`, which is removed."""
         self.line.drop(identity)
         self.ship.touching.discard(identity)
 
     def give_up(self):
-        """Give up a ship that is stranded without fuel."""
+        """Give up the ship, which is stranded without fuel."""
         self.spectacle.stranded()
         self.ship.hull = 0.0
         self._crash()
@@ -233,7 +234,7 @@ class Lander(Scene):
     # --- self-check, bot and replay ----------------------------------------------------------------------------------
 
     def check(self):
-        """Return the goals that the bot must reach, such as landings at all three sites."""
+        """Return the goals that the bot must reach, such as landings at all three sites, a list of Goal."""
         return goals(self)
 
     def bot(self):
@@ -241,7 +242,7 @@ class Lander(Scene):
         return self.pilot.keys(self)
 
     def state(self):
-        """Return the scene's state outside the physics world, as a flat tuple for the replay digest."""
+        """Return the scene's state outside the physics world, a flat tuple for the replay digest."""
         parts = (self.ship, self.course, self.score, self.gun, self.line, self.weather, self.yard, self.ground)
         return (
             self.frame,
@@ -252,11 +253,11 @@ class Lander(Scene):
         )
 
     def draw(self, canvas, alpha):
-        """Draw the scene at `alpha` (0..1) between the last two steps."""
+        """Draw the scene. alpha: position (0..1) between the last two steps."""
         the_view().draw(self, canvas, alpha)
 
 
 def others(rows, identity):
-    """Return the set of ids of the bodies that share an event with body `identity`."""
+    """Return the set of ids of the bodies that form a pair with the body `identity` in a table of events."""
     a, b = rows["body_a"], rows["body_b"]
     return {*b[a == identity].tolist(), *a[b == identity].tolist()}

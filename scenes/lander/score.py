@@ -1,4 +1,4 @@
-"""Points of the lander, for landings, deliveries and at the end, and the medals for the total."""
+"""Points of the lander, for landings, for deliveries and at the end, and the medals for the total."""
 
 from scenes.lander.feel import FUEL, HARD, HULL, SOFT
 
@@ -11,7 +11,7 @@ OFF_CENTRE = 34.0  # [px] distance from a pad's middle from which there is no bo
 
 
 class Score:
-    """The score. `points`: total; the other attributes count landings, deliveries, lost ships, shells and cans."""
+    """The score. points: total; the other attributes count landings, deliveries, lost ships, shells and cans."""
 
     def __init__(self):
         self.points = 0
@@ -21,8 +21,8 @@ class Score:
     def land(self, number, speed, off, fuel, hull):
         """Count a landing and add its points. Return a list of (reason, points).
 
-        `number`: 1 for the first site; `speed`: at touchdown [px/s]; `off`: distance from the pad's middle [px];
-        `fuel`, `hull`: what the ship has left.
+        number: 1 for the first site; speed: at touchdown [px/s]; off: distance from the pad's middle [px]; fuel, hull:
+        remaining amounts.
         """
         self.landings += 1
         self.softest = min(self.softest, speed)
@@ -38,7 +38,10 @@ class Score:
         return found
 
     def deliver(self, whole):
-        """Count a delivered piece of cargo and add its points. Return these points. `whole`: its condition, 0..100."""
+        """Count a delivered piece of cargo and add its points. Return these points.
+
+        whole: condition of the cargo, 100 (undamaged) .. 0.
+        """
         self.delivered += 1
         worth = rounded(DELIVERY * (0.25 + 0.75 * whole / 100.0))
         self.points += worth
@@ -53,7 +56,7 @@ class Score:
     def final(self, seconds, lives, cargo):
         """Return the bonuses at the end, a list of (reason, points).
 
-        `seconds`: time of the run; `lives`: ships left; `cargo`: number of pieces of cargo on the moon.
+        seconds: time of the run; lives: remaining ships; cargo: number of all pieces of cargo on the moon.
         """
         found = [("TIME", rounded(max(PAR - seconds, 0.0) * SECOND)), ("SHIPS LEFT", max(lives - 1, 0) * LIFE)]
         if not self.lost:
@@ -63,7 +66,7 @@ class Score:
         return found
 
     def add(self, points):
-        """Add the points of one bonus."""
+        """Add the points of one bonus of final()."""
         self.points += points
 
     @property

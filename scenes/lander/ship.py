@@ -38,8 +38,9 @@ HULL_MATERIAL = Material(friction=0.8, restitution=0.12)
 
 
 class Ship:
-    """The player's ship. `body`: None between the loss of a ship and the next; `touching`: ids of the bodies in contact
-    with it; `away`: steps until the next ship.
+    """The player's ship. body: None between the loss of a ship and the next one; away: steps until the next one.
+
+    touching: ids of the bodies that are in contact with it.
     """
 
     def __init__(self, world, moon):
@@ -56,12 +57,12 @@ class Ship:
 
     @property
     def here(self):
-        """True while the ship exists; False between the loss of a ship and the next."""
+        """True while there is a ship; False between the loss of a ship and the next one."""
         return self.body is not None
 
     @property
     def nose(self):
-        """Direction of the ship's nose, a unit vector (x, y)."""
+        """Direction in which the ship's nose points, a unit vector (x, y)."""
         return sin(self.angle), -cos(self.angle)
 
     @property
@@ -81,7 +82,7 @@ class Ship:
         )
 
     def arrive(self):
-        """Create a ship on the pad that was reached last."""
+        """Add a new ship on the pad that was reached last."""
         self.fuel, self.hull, self.shells = FUEL, HULL, max(self.shells, FEWEST_SHELLS)
         self.body = self.world.add_body(
             load_atlas("lander").mask("ship"),
@@ -96,14 +97,14 @@ class Ship:
         self.read()
 
     def read(self):
-        """Read position, velocity and angle of the body from the world."""
+        """Copy position, velocity and angle of the body from the world."""
         if self.body is not None:
             self.x, self.y = self.body.position
             self.vx, self.vy = self.body.velocity
             self.angle = wrapped(self.body.angle)
 
     def steer(self, inputs):
-        """Turn and thrust for the next step, as the inputs say."""
+        """Turn and thrust for the next step according to the input."""
         body = self.body
         self.turning = inputs.held("right") - inputs.held("left")
         self.thrusting = inputs.held("up") and self.fuel > 0.0
@@ -123,7 +124,7 @@ class Ship:
         self._stay_in_the_world(body)
 
     def _stay_in_the_world(self, body):
-        """Push the ship gently back from the altitude limit and from both sides of the moon."""
+        """Push the ship gently back from the altitude limit and from both sides of the moon. body: the ship's body."""
         if self.y < CEILING:
             body.apply_force((0.0, SHIP_MASS * CEILING_PUSH * (CEILING - self.y)))
         for edge, way in ((SIDES, 1), (self.moon.width - SIDES, -1)):
@@ -131,7 +132,7 @@ class Ship:
                 body.apply_impulse((SHIP_MASS * (20.0 * way - self.vx), 0.0))
 
     def fires(self, inputs):
-        """Return whether the ship fires a shell in this step. If so, take the shell from the stock."""
+        """Return whether the ship fires a shell in this step. If so, the stock of shells is reduced."""
         if not inputs.held("fire") or self.cooldown or not self.shells:
             return False
         self.shells -= 1
@@ -139,7 +140,7 @@ class Ship:
         return True
 
     def knock(self, change):
-        """Damage the hull by an impact that changes the velocity by `change` [px/s]. Return the loss of hull."""
+        """Damage the hull by an impact. change: change of the ship's velocity [px/s]. Return the loss of hull."""
         cost = min(max(change - HARMLESS, 0.0) * DAMAGE, self.hull)
         self.hull -= cost
         return cost
@@ -155,7 +156,7 @@ class Ship:
         return identity
 
     def wait(self):
-        """Wait one step for the next ship. Return whether it has arrived."""
+        """Wait one step for the next ship. Return whether it has appeared."""
         self.away = max(self.away - 1, 0)
         if self.away or not self.lives:
             return False
@@ -163,7 +164,7 @@ class Ship:
         return True
 
     def refuel(self):
-        """Add the fuel of a can."""
+        """Add the fuel of one can."""
         self.fuel = min(self.fuel + CAN, FUEL)
 
     def state(self):
@@ -190,5 +191,5 @@ class Ship:
 
 
 def wrapped(angle):
-    """Return an angle [rad], wrapped to -pi .. pi."""
+    """Return the equal angle [rad] in the range -pi .. pi."""
     return (angle + 3.141592653589793) % 6.283185307179586 - 3.141592653589793

@@ -19,9 +19,9 @@ TINT = {"good": (170, 255, 190), "gold": (255, 226, 120), "bad": (255, 140, 120)
 
 
 class Spectacle:
-    """The effects of the scene. `works`: moving decoration (explosions, debris, texts); other attributes are timers.
+    """The effects of the scene. works: moving decoration (explosions, debris, texts); other attributes are timers.
 
-    The methods from act_begins() on show one event each, with pictures and sound.
+    Each method from act_begins() on shows one kind of event, with pictures and sound.
     """
 
     def __init__(self, scene):
@@ -37,7 +37,7 @@ class Spectacle:
         self.height = WARN_HEIGHT  # [px] from the ship's feet to the ground, up to a limit
 
     def step(self, dt):
-        """Advance all effects by `dt` [s]."""
+        """Make one step of `dt` [s] of all effects."""
         scene, ship = self.scene, self.scene.ship
         self.time += dt
         self.act_since += 1
@@ -56,9 +56,9 @@ class Spectacle:
         self.works.step(dt)
 
     def _engine(self, ship):
-        """Measure the ship's height above ground.
+        """Emit the engine's fire, and dust from ground that the exhaust reaches.
 
-        Emit the engine's fire, and dust from ground that the exhaust reaches.
+        For this the ship's height above ground is measured.
         """
         scene = self.scene
         x, y = ship.nose
@@ -103,7 +103,7 @@ class Spectacle:
                 )
 
     def _jet(self, ship, side):
-        """Emit a puff of one of the small jets that turn the ship. `side`: -1 left, 1 right."""
+        """Emit a puff of one of the small jets that turn the ship. side: of the ship, -1 left, 1 right."""
         across, down = cos(ship.angle), sin(ship.angle)
         self.scene.particles.burst(
             ship.x + 9 * side * across + 6 * down,
@@ -129,7 +129,7 @@ class Spectacle:
 
     @property
     def sinking(self):
-        """True if the ship sinks too fast near the ground, so that the alarm sounds."""
+        """True if the ship sinks too fast near the ground. The alarm then sounds."""
         return self.scene.ship.here and self.scene.ship.vy > WARN_SPEED and self.height < WARN_HEIGHT
 
     def _at(self, x):
@@ -139,11 +139,11 @@ class Spectacle:
     # --- the course --------------------------------------------------------------------------------------------------
 
     def act_begins(self):
-        """Begin to announce the next site."""
+        """Begin to announce the next landing site."""
         self.act_since = 0
 
     def landed(self, pad, last):
-        """Show a landing on a pad. `last`: whether it is the last site."""
+        """Show a landing on a pad. last: whether it is the last landing site."""
         scene = self.scene
         self.pulse = 1.0
         for share in (-0.45, -0.2, 0.2, 0.45):
@@ -153,7 +153,7 @@ class Spectacle:
         scene.play("touchdown", volume=0.9)
 
     def served(self, rest):
-        """Show that the ship is refuelled, repaired or rearmed on a pad. `rest`: steps at rest on the pad."""
+        """Show that the ship is refuelled, repaired or rearmed on a pad. rest: steps at rest on the pad."""
         self.gain = 1.0
         if rest % 12 == 0:
             self.scene.play("blip", self._at(self.scene.ship.x), 0.16)
@@ -168,9 +168,9 @@ class Spectacle:
     # --- knocks ------------------------------------------------------------------------------------------------------
 
     def ship_knocked(self, x, y, change, cost):
-        """Show an impact of the ship at (x, y) [px]: the harder, the more visible and the louder.
+        """Show an impact of the ship at (x, y) [px]. A harder impact gives more and louder effects.
 
-        `change`: change of velocity [px/s]; `cost`: loss of hull.
+        change: change of the ship's velocity [px/s]; cost: loss of hull.
         """
         if change < KNOCK:
             return
@@ -197,7 +197,10 @@ class Spectacle:
             scene.play("land", self._at(x), 0.3 + 0.5 * min(change / HARMLESS, 1.0))
 
     def cargo_knocked(self, piece, x, y, change, cost):
-        """Show an impact of a piece of cargo at (x, y) [px]. `change`: change of velocity [px/s]; `cost`: damage."""
+        """Show an impact of a piece of cargo at (x, y) [px].
+
+        change: change of its velocity [px/s]; cost: loss of condition.
+        """
         if change < KNOCK:
             return
         self.scene.particles.burst(
@@ -227,7 +230,7 @@ class Spectacle:
         self.scene.play("heavy_laser", self._at(ship.x), 0.4)
 
     def blast(self, x, y, radius):
-        """Show an explosion at (x, y) [px]: fire, a shock wave, flying stones."""
+        """Show an explosion at (x, y) [px]: fire, a shock wave, flying stones. radius: of the crater [px]."""
         large = radius > 20.0
         self.works.burst("explosion_large" if large else "explosion_small", x, y)
         self.works.ring(x, y, 4.0 * radius)
@@ -240,7 +243,7 @@ class Spectacle:
         self.scene.play("blast", self._at(x), 0.8)
 
     def line_used(self, outcome):
-        """Show the `outcome` of using the line: "caught", "let go" or "missed"."""
+        """Show the result of Line.toggle(): "caught", "let go" or "missed"."""
         ship = self.scene.ship
         if outcome == "caught":
             center = self.scene.line.load.center
@@ -259,7 +262,7 @@ class Spectacle:
     # --- won and lost ------------------------------------------------------------------------------------------------
 
     def can_taken(self, x, y, worth):
-        """Show that a can of fuel at (x, y) [px] was taken, and its points `worth`."""
+        """Show that a can of fuel at (x, y) [px] was taken. worth: points for it."""
         self.gain = self.pulse = 1.0
         self.works.sparks(x, y, 26, GOLD, 130)
         self.works.ring(x, y, 30.0)
@@ -267,7 +270,7 @@ class Spectacle:
         self.scene.play("powerup", self._at(x), 0.6)
 
     def delivered(self, piece, worth):
-        """Show that a piece of cargo was delivered, and its points `worth`."""
+        """Show that a piece of cargo was delivered. worth: points for it."""
         x, y = piece.body.center
         self.pulse = 1.0
         self.works.sparks(x, y, 40, BLUE, 150)
@@ -303,5 +306,5 @@ class Spectacle:
 
     @property
     def battered(self):
-        """True if the hull is low."""
+        """True if the hull is badly damaged."""
         return self.scene.ship.hull < 0.4 * HULL

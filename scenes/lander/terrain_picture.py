@@ -1,7 +1,7 @@
 """The picture of the ground: rock, the wall behind it, and the edges of craters. It is drawn in cached tiles.
 
-A tile is drawn from its current pixels alone, so its picture is right after a restart or a rewind, too. Beside carved
-pixels the rock is scorched, and its edge is light or dark like the painted edges.
+A tile is drawn from its current pixels alone, so that its picture is right after a restart or a rewind, too. Beside
+carved pixels the rock is scorched, and its edge is light or dark like the painted edges.
 """
 
 import numpy as np
@@ -19,7 +19,7 @@ BORDER = 3  # [px] width of the surroundings on which the picture of a tile depe
 
 
 class TerrainPicture:
-    """The renderer of the ground, with its cache of tiles. All games on one moon share it."""
+    """Renderer of the ground, with its cache of tiles. All games on one moon share it."""
 
     def __init__(self, moon):
         self.moon = moon
@@ -38,9 +38,7 @@ class TerrainPicture:
         blit_many(surface, pairs)
 
     def tile(self, ground, column, row):
-        """Return the picture of the tile (column, row) with its current pixels in `ground`, or None if the tile is
-        empty.
-        """
+        """Return the picture of a tile with its current pixels in `ground`; None if the tile is empty."""
         around = ground.around(column, row, BORDER)
         version = None if around is None else around.tobytes()
         kept = self.kept.get((column, row))
@@ -65,10 +63,9 @@ class TerrainPicture:
         return out.convert() if covered == TILE * TILE and pygame.display.get_surface() else out
 
     def _holed(self, rock, column, row, around):
-        """Return the picture of the remaining rock of the tile (column, row), scorched and lit along the edges of
-        craters.
+        """Return the picture of a tile's remaining rock, scorched and lit along the edges of craters.
 
-        `rock`: picture of the whole tile; `around`: remaining pixels of the tile and BORDER px around it.
+        rock: picture of the whole tile; around: remaining pixels of the tile and BORDER px around it.
         """
         before = padded(self.moon.solid, column, row)
         hole = before & ~around
@@ -98,8 +95,9 @@ class TerrainPicture:
 
 
 def padded(solid, column, row):
-    """Return the pixels of `solid` in the tile (column, row) and BORDER px around it. Beyond the moon's edge, the edge
-    pixels are repeated.
+    """Return the pixels of a tile with BORDER px around it, a bool array [row, column].
+
+    solid: bool array of the whole moon. Beyond the moon's edge, the pixels of the edge are repeated.
     """
     rows = np.clip(np.arange(row * TILE - BORDER, (row + 1) * TILE + BORDER), 0, solid.shape[0] - 1)
     columns = np.clip(np.arange(column * TILE - BORDER, (column + 1) * TILE + BORDER), 0, solid.shape[1] - 1)

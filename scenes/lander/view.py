@@ -1,6 +1,6 @@
-"""The picture of the lander: sky, ground, pads, loose bodies, the ship and its fire, and the heads-up display on top.
+"""Drawing of the lander: sky, ground, pads, loose bodies, the ship and its fire, and the heads-up display on top.
 
-Drawing changes no state; pictures are cached.
+Drawing changes no state of the scene; pictures are cached.
 """
 
 from functools import lru_cache
@@ -33,7 +33,7 @@ LIT = 0.25  # [s] that a burst lights its surroundings
 
 
 class View:
-    """The renderer of the lander, with its caches of pictures. One instance serves all scenes."""
+    """Renderer of the lander, with its caches of pictures. One instance serves all scenes."""
 
     def __init__(self):
         self.atlas, self.effects = load_atlas("lander"), load_atlas("effects")
@@ -43,13 +43,13 @@ class View:
         self.white = lru_cache(maxsize=64)(lit)
 
     def picture(self, name):
-        """Return the RotatedPicture of a frame, from the cache."""
+        """Return the cached RotatedPicture of the picture called `name`."""
         if name not in self.turned:
             self.turned[name] = RotatedPicture(self.atlas[name])
         return self.turned[name]
 
     def draw(self, scene, canvas, alpha):
-        """Draw the scene at `alpha` (0..1) between the last two steps."""
+        """Draw the scene. alpha: position (0..1) between the last two steps."""
         self.surface, self.alpha = canvas.surface, alpha
         self.left, self.top = scene.camera.view(alpha)
         look, surface = scene.spectacle, canvas.surface
@@ -73,13 +73,13 @@ class View:
     # --- where things are --------------------------------------------------------------------------------------------
 
     def pose(self, scene, identity):
-        """Return x, y [px] and angle [rad] of a body, interpolated between the last two steps."""
+        """Return (x, y, angle) [px, rad] of the body `identity`, interpolated between the last two steps."""
         row = scene.world.bodies[scene.world.rows([identity])[0]]
         back = 1.0 - self.alpha
         return tuple((row[name] - (row[name] - row[f"previous_{name}"]) * back).item() for name in ("x", "y", "angle"))
 
     def sees(self, x, y, margin=NEAR):
-        """Return whether the world point (x, y) is in the picture, or less than `margin` [px] outside."""
+        """Return whether the world point (x, y) is in the picture, or at most `margin` [px] outside it."""
         return -margin < x - self.left < CANVAS_SIZE[0] + margin and -margin < y - self.top < CANVAS_SIZE[1] + margin
 
     def centred(self, image, x, y, flags=0):
@@ -165,8 +165,9 @@ class View:
         self.centred(self.atlas["hook"], load_x, load_y)
 
     def _mark_reach(self, scene, x, y):
-        """Draw a mark above each piece of cargo near the ship at (x, y). The mark is green if the line can reach the
-        cargo.
+        """Draw a mark above each piece of cargo near the ship at (x, y).
+
+        It is green if the line can reach the cargo.
         """
         near = [
             (place[0], place[1])

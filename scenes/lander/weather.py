@@ -8,11 +8,10 @@ CALMING = 0.04  # share of its distance from the wanted wind by which the wind c
 
 
 class Weather:
-    """The weather at the ship. `wind`: current wind to the right [px/s]; `steady`: its constant part in this region
-    [px/s]; `gust`: strength of the gust, 0..1.
+    """The weather at the ship. wind: current wind, positive to the right [px/s]; gust: strength of the gust, 0..1.
 
-    The world's wind is set to `steady` only. Gusts act as forces on the bodies in the air, because a world wind that
-    changes in every step would keep all bodies awake.
+    steady: constant part of the wind in this region [px/s]. Only this part is the world's wind. Gusts act as forces on
+    the bodies in the air, because a world wind that changes in every step would keep all bodies awake.
     """
 
     def __init__(self, random, moon):
@@ -21,7 +20,7 @@ class Weather:
         self.wind = self.steady = self.gust = 0.0
 
     def step(self, seconds, x, y):
-        """Compute the wind at a time [s] and place (x, y) [px]."""
+        """Compute the wind at the time `seconds` [s] and the place (x, y) [px]."""
         region, inside = self.moon.wind_at(x), self.moon.is_inside(x, y)
         first, second = (
             sin(2.0 * pi * seconds / period + phase) for period, phase in zip(PERIODS, self.phases, strict=True)
@@ -32,7 +31,7 @@ class Weather:
         self.wind += (wanted - self.wind) * CALMING
 
     def blow(self, world, *bodies):
-        """Set the world's wind, and apply the force of the gust to the given bodies, for the next step."""
+        """Set the world's wind, and apply the force of the gust to some bodies, for the next step."""
         if world.effects.wind and world.wind.x != self.steady:
             world.wind = (self.steady, 0.0)
         for body in bodies:

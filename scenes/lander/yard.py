@@ -26,8 +26,9 @@ HEAVIEST = 500.0  # greatest mass that the line can carry
 
 
 class Cargo:
-    """A piece of cargo. `whole`: its condition, 100 (undamaged) .. 0; `over`: the Pad below it, or None; `rest`: steps
-    at rest on this pad.
+    """A piece of cargo. whole: its condition, 100 (undamaged) .. 0.
+
+    over: the Pad below it, or None; rest: steps at rest on this pad.
     """
 
     def __init__(self, body, look):
@@ -37,16 +38,16 @@ class Cargo:
         self.rest = 0
 
     def knock(self, change):
-        """Damage the cargo by an impact that changes its velocity by `change` [px/s]. Return the loss of condition."""
+        """Damage the cargo by an impact. change: change of its velocity [px/s]. Return the loss of condition."""
         cost = min(max(change - CARGO_HARMLESS, 0.0) * CARGO_DAMAGE, self.whole)
         self.whole -= cost
         return cost
 
 
 class Yard:
-    """The objects on the moon. `cargo`, `cans`: dictionaries by body id; `rubble`: loose rocks and pieces of ground.
+    """The objects on the moon. cargo, cans: {body id: object}; rubble: loose rocks and pieces of ground.
 
-    `pads`: {body id of a pad's deck: Pad}; `zones`: {body id of the sensor above a pad's deck: Pad}.
+    pads: {body id of a pad's deck: Pad}; zones: {body id of the sensor above a pad's deck: Pad}.
     """
 
     def __init__(self, world, moon):
@@ -89,25 +90,26 @@ class Yard:
 
     @property
     def in_all(self):
-        """Total number of pieces of cargo."""
+        """Number of all pieces of cargo, including those delivered or broken."""
         return len(self.all_cargo)
 
     def piece(self, number):
-        """Return the Cargo of that number in the moon's list, or None if it is delivered or broken."""
+        """Return the Cargo with a number in the moon's list; None if it is delivered or broken."""
         piece = self.all_cargo[number]
         return piece if piece in self.cargo.values() else None
 
     def light(self):
-        """Return the bodies that are light enough for the line."""
+        """Return the bodies that are light enough to be carried by the line."""
         return [body for body in self.loose() if body.mass <= HEAVIEST]
 
     def loose(self):
-        """Return the bodies of cargo and rubble, which an explosion pushes."""
+        """Return the bodies of cargo and rubble, which explosions push."""
         return [*(piece.body for piece in self.cargo.values()), *self.rubble.bodies()]
 
     def meet(self, begun, ended):
-        """Update the pad below each piece of cargo (`over`), from the sensor events of the step. `begun`, `ended`:
-        begin and end events.
+        """Update the pad below each piece of cargo (`over`) from the sensor events of the step.
+
+        begun, ended: begin and end events.
         """
         for events, came in ((ended, False), (begun, True)):
             for pair in zip(events["body_a"].tolist(), events["body_b"].tolist(), strict=True):
@@ -116,10 +118,9 @@ class Yard:
                         self.cargo[piece].over = self.zones[zone] if came else None
 
     def delivered(self, held):
-        """Return the ids of the cargo that is delivered in this step, because it has now been at rest on a pad for long
-        enough.
+        """Return the ids of the cargo that is delivered in this step: at rest on a pad for long enough.
 
-        `held`: body id of the line's load, which does not count; -1: none.
+        held: body id of the line's load, which does not count; -1 for none.
         """
         done = []
         for identity, piece in self.cargo.items():

@@ -31,7 +31,7 @@ CAVE = (("cave_far", 0.15, 0.10), ("cave_near", 0.40, 0.25))
 
 
 class Backdrops:
-    """The renderer of the background of the current act; during a fade, also of the previous act."""
+    """Renderer of the background of the current act and, during a cross-fade, of the previous act."""
 
     def __init__(self, level):
         self.sky = load_backdrop("sky_dusk")
@@ -43,8 +43,9 @@ class Backdrops:
         self.scratch = pygame.Surface(CANVAS_SIZE)
 
     def draw(self, surface, look, left, top):
-        """Draw the background for a view whose top left corner is the world point (left, top). `look`: Look, with the
-        act and its age.
+        """Draw the background for a view whose top left corner is the world point (left, top).
+
+        look: the scene's Look, which has the act and the time since it began.
         """
         share = min(look.act_age / FADE, 1.0)
         if share < 1.0 and look.last_act != look.act:
@@ -72,7 +73,7 @@ class Backdrops:
 
 
 def lowest_view(level, act):
-    """Return the y [px] of the top of the picture when the camera is at the lowest place of an act."""
+    """Return the y [px] of the picture's top edge when the camera is at the lowest place of an act."""
     bottoms = [
         zone.y + zone.height for zone in level.zones if zone.properties["act"] == act and zone.width >= CANVAS_SIZE[0]
     ]
@@ -80,7 +81,10 @@ def lowest_view(level, act):
 
 
 def tile_along(surface, picture, way, y):
-    """Draw a picture repeatedly over the whole width of the canvas at y, shifted to the left by `way` [px]."""
+    """Draw copies of a picture side by side across the canvas, with their top edges at `y`.
+
+    way: shift of the row to the left [px].
+    """
     width = picture.get_width()
     x = -whole(way) % width - width
     while x < CANVAS_SIZE[0]:

@@ -17,7 +17,7 @@ PICTURE_UP = 2.0  # [px] from the middle of a bomb's ball up to the middle of it
 
 
 class BlastView:
-    """The renderer of walls, rubble and bombs, with a cache of the pictures by mask."""
+    """Renderer of walls, rubble and bombs. Their pictures are cached by mask."""
 
     def __init__(self, view):
         self.view = view
@@ -25,7 +25,7 @@ class BlastView:
         self.bombs = [RotatedPicture(view.things[f"bomb_{look}"]) for look in (0, 1)]
 
     def draw_walls(self, canvas, scene):
-        """Draw the walls as far as they stand, and the stands on which bombs lie."""
+        """Draw the parts of walls that still stand, and the stands for bombs."""
         for wall in scene.things.walls:
             if wall.body is not None:
                 picture = self._picture(wall.body, wall, 0, 0)
@@ -38,7 +38,7 @@ class BlastView:
             )
 
     def draw_pieces(self, canvas, scene, alpha):
-        """Draw rubble and bombs at `alpha` (0..1) between the last two steps."""
+        """Draw rubble and bombs. alpha: position (0..1) between the last two steps."""
         look = scene.look
         for piece in scene.things.rubble:
             picture = self._picture(piece.body, piece.wall, piece.left, piece.top)
@@ -70,7 +70,7 @@ class BlastView:
         self.bombs[hot].draw(canvas.surface, x - self.view.left, y - PICTURE_UP - self.view.top, angle)
 
     def _draw_aim(self, canvas, scene):
-        """Draw dots along the path that the carried bomb would take if thrown now, up to the first obstacle."""
+        """Draw dots along the path on which the carried bomb would fly if thrown now, up to the first obstacle."""
         hero = scene.hero
         for number, (x, y) in enumerate(arc(hero.character.position, hero.facing, hero.vx, False)):
             if scene.level.blocks(x - 2, y - 2, 4, 4) or any(
@@ -82,7 +82,7 @@ class BlastView:
                 canvas.surface.fill(AIM, (whole(x) - self.view.left, whole(y) - self.view.top, size, size))
 
     def draw_bursts(self, canvas, look):
-        """Draw the explosions of bombs."""
+        """Draw the explosions of bombs. look: the scene's Look, which has a list of them."""
         for x, y, age in look.blasts:
             image = self.view.things.animation("blast").at(age, loop=False)
             canvas.sprite(image, x - self.view.left, y - self.view.top)

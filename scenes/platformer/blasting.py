@@ -1,7 +1,8 @@
 """Bombs, which the hero finds, carries and throws, and the walls that they blow open.
 
-A wall is a pixel mask. An explosion carves a disc out of the mask, and may crack the rest. Loose pieces become rubble:
-dynamic bodies with the outline of their pixels, which fall, come to rest, and can be pushed and walked on.
+A wall is a pixel mask. An explosion carves a disc out of the mask, and may break the rest along cracks. Loose pieces
+become rubble: dynamic bodies with the outline of their pixels, which fall, come to rest, and can be pushed and walked
+on.
 """
 
 from dataclasses import dataclass
@@ -37,8 +38,10 @@ WAITING, CARRIED, THROWN, GONE = "waiting", "carried", "thrown", "gone"
 
 
 class Bomb:
-    """A bomb. `phase`: WAITING at its stand, CARRIED by the hero, THROWN with a burning fuse, or GONE after it burst,
-    until a new one appears. `count`: steps in this phase.
+    """A bomb. count: steps in its current phase.
+
+    phase: WAITING at its stand, CARRIED by the hero, THROWN with a burning fuse, or GONE from its explosion until a new
+    one appears.
     """
 
     kind = "bomb"
@@ -59,13 +62,13 @@ class Bomb:
         return box[0] - RADIUS < x < box[2] + RADIUS and box[1] < y < box[3] + RADIUS
 
     def take(self):
-        """Put the bomb into the hero's hands."""
+        """Let the hero carry the bomb."""
         self._begin(CARRIED)
 
     def carry(self, place):
-        """Move the carried bomb with the hero, who is at `place` [px].
+        """Move the carried bomb with the hero. place: his position [px].
 
-        Return True if he has carried it too far from its stand, so that it has gone back there.
+        Return True if he has carried it too far from its stand. In that case the bomb is back on the stand.
         """
         self.place = (place[0], place[1] - ABOVE)
         if hypot(place[0] - self.home[0], place[1] - self.home[1]) < LEFT_BEHIND:
@@ -74,9 +77,9 @@ class Bomb:
         return True
 
     def throw(self, way, speed, down):
-        """Throw the bomb, or lay it down if `down`, and light its fuse.
+        """Throw the bomb and light its fuse. down: lay it down instead of throwing it.
 
-        `way`: -1 to the left, 1 to the right; `speed`: the hero's speed along x [px/s].
+        way: -1 to the left, 1 to the right; speed: the hero's speed along x [px/s].
         """
         ahead, up = DROPPED if down else THROW
         self.body = self.world.add_body(
@@ -92,9 +95,9 @@ class Bomb:
         self._begin(THROWN)
 
     def step(self, lowest):
-        """Advance the bomb by one step. A bomb below the y `lowest` [px] explodes at once.
+        """Make one step of the bomb. lowest: y [px] below which it explodes at once.
 
-        Return "burst" when the bomb explodes, "back" when a new bomb appears at the stand, else None.
+        Return "burst" when the bomb explodes, "back" when a new bomb appears at the stand, otherwise None.
         """
         self.count += 1
         if self.phase == THROWN and self.body is not None:
@@ -118,14 +121,15 @@ class Bomb:
         self._begin(WAITING)
 
     def state(self):
-        """Return the state outside the world."""
+        """Return this object's part of Scene.state(), a flat tuple."""
         return self.phase, self.count, *self.place
 
 
 def arc(place, way, speed, down):
-    """Yield points [px] of the free flight of a bomb thrown from the hero's `place`: one point for every third step.
+    """Yield points [px] of the free flight of a bomb that the hero throws: one point for every third step.
 
-    Obstacles are ignored. `way`: -1 or 1; `speed`: the hero's speed along x [px/s]; `down`: the bomb is laid down.
+    place: the hero's position; way: -1 or 1; speed: his speed along x [px/s]; down: whether the bomb is laid down.
+    Obstacles are ignored.
     """
     ahead, up = DROPPED if down else THROW
     vx = ahead * way + (0.0 if down else LENT * speed)
@@ -145,17 +149,17 @@ class Rubble:
 
     @property
     def box(self):
-        """Left, top, right, bottom of its bounding box in whole pixels."""
+        """Bounding box (left, top, right, bottom) in whole pixels."""
         left, top, right, bottom = cast(tuple[float, float, float, float], self.body.bounds)
         return floor(left), round(top), ceil(right), round(bottom)
 
     def slides(self, way):
-        """Return whether the piece moves to the side `way` (-1, 1). While it does, the hero keeps his speed."""
+        """Return whether the piece moves towards `way` (-1 left, 1 right). While it does, the hero keeps his speed."""
         return self.body.velocity.x * way > 0.0
 
 
 class BlastWall:
-    """A wall that bombs can break; its shape is a pixel mask. `body`: the standing part, or None if none stands."""
+    """A wall that bombs can break. Its shape is a pixel mask. body: the part that stands, or None if none stands."""
 
     def __init__(self, world, thing):
         self.world, self.left, self.top = world, int(thing.x), int(thing.y)
@@ -171,7 +175,7 @@ class BlastWall:
 
     @property
     def box(self):
-        """Left, top, right, bottom of the wall [px]; all 0 once no part of it stands."""
+        """Box (left, top, right, bottom) of the wall [px]; all 0 once no part of it stands."""
         if self.body is None:
             return (0, 0, 0, 0)
         return self.left, self.top, self.left + self.size[0], self.top + self.size[1]
@@ -179,7 +183,7 @@ class BlastWall:
     def blast(self, x, y):
         """Carve the crater of an explosion at (x, y) [px] out of the wall. A deep crater breaks the whole wall.
 
-        Return (list of Rubble that came loose, whether the wall was hit).
+        Return (list of the Rubble that came loose, whether the wall was hit).
         """
         if self.body is None:
             return [], False
@@ -201,8 +205,9 @@ class BlastWall:
         return Rubble(body, self, round(x - mask.origin[0]) - self.left, round(y - mask.origin[1]) - self.top)
 
     def _cracks(self, x, y):
-        """Return a mask of cracks, as large as the wall. Some cracks fan out from (x, y) [px]; others run across the
-        wall.
+        """Return a PixelMask of cracks, as large as the wall.
+
+        Some cracks fan out from (x, y) [px]; others run across the wall.
         """
         random, (width, height) = self.world.random, self.size
         solid = np.zeros((height, width), bool)
@@ -216,7 +221,7 @@ class BlastWall:
 
 @lru_cache(maxsize=8)
 def built(width, height):
-    """Return the picture of a wall of width x height [px], tiled from the image in the atlas."""
+    """Return the picture of a wall of width x height [px], filled with copies of the wall's image in the atlas."""
     image = load_atlas("things")["blast_wall"]
     out = pygame.Surface((width, height), pygame.SRCALPHA)
     for left in range(0, width, image.get_width()):
@@ -226,7 +231,7 @@ def built(width, height):
 
 
 def shove(body, x, y):
-    """Push a body away from an explosion at (x, y) [px]: the nearer and lighter the body, the more."""
+    """Push a body away from an explosion at (x, y) [px]. Nearer and lighter bodies are pushed more."""
     dx, dy = body.center.x - x, body.center.y - y
     far = hypot(dx, dy)
     if far >= REACH:

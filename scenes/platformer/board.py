@@ -32,7 +32,7 @@ TITLE_Y = 58  # [canvas px]
 
 
 def draw_board(canvas, scene, view):
-    """Draw the heads-up display. `view`: world point at the top left corner of the canvas."""
+    """Draw the heads-up display. view: world point at the top left corner of the canvas."""
     opened = _opened(scene)
     if opened < 1.0:
         _draw_iris(canvas, scene, view, opened)
@@ -45,13 +45,13 @@ def draw_board(canvas, scene, view):
 
 
 def clock_text(ticks):
-    """Return a number of steps of 1/60 s as a text "minutes:seconds.tenths"."""
+    """Return a time, given in steps of 1/60 s, as the text "minutes:seconds.tenths"."""
     tenths = ticks * 10 // 60
     return f"{tenths // 600}:{tenths // 10 % 60:02d}.{tenths % 10}"
 
 
 def stars(scene):
-    """Return a tuple of (whether it is earned, text of its condition) for each of the three stars."""
+    """Return (earned, condition) for each of the three stars. earned: bool; condition: its text for the player."""
     return (
         (True, "the flag"),
         (scene.secrets == scene.things.secrets_in_all, "all secrets"),
@@ -79,7 +79,7 @@ def _draw_counters(canvas, scene):
 
 
 def _draw_gems(canvas, scene, x):
-    """Draw a gem for each secret found, and a silhouette for each secret not found yet."""
+    """Draw a gem for each secret that was found, and a silhouette for each other secret."""
     icon = load_atlas("ui")["icon_gem"]
     lift, places = whole(4 * scene.look.gem_pulse), min(scene.things.secrets_in_all, MOST_GEMS)
     for number in range(places):
@@ -98,8 +98,9 @@ def _empty(icon):
 
 
 def _draw_title(canvas, look):
-    """Draw the name of the act that the hero has entered; it slides in and fades out. `look`: Look, with the act and
-    its age.
+    """Draw the name of the act that the hero has entered. It slides in and fades out.
+
+    look: the scene's Look, which has the act and the time since it began.
     """
     age = look.act_age
     if age >= TITLE_TIME:
@@ -116,9 +117,7 @@ def _draw_title(canvas, look):
 
 
 def _draw_signs(canvas, scene):
-    """Draw the text of the sign at which the hero stands. The text is at the bottom of the picture, where it never
-    hides him.
-    """
+    """Draw the text of the sign at which the hero stands, at the bottom of the picture, where it never hides him."""
     x, y = scene.hero.character.position
     for sign in scene.level.map.things_of("sign"):
         if abs(x - sign.x - sign.width / 2) < SIGN_REACH[0] and abs(y - sign.y) < SIGN_REACH[1]:
@@ -137,8 +136,9 @@ def _draw_signs(canvas, scene):
 
 
 def _opened(scene):
-    """Return how far the iris wipe is open, 0..1. The iris closes at the end of a life and opens at the start of the
-    next.
+    """Return how far the iris wipe is open, 0..1.
+
+    The iris closes at the end of a life and opens at the start of the next one.
     """
     if scene.phase == "won" or (scene.phase == "playing" and not scene.deaths):
         return 1.0  # the first life begins with the iris open: a replay may be frozen at its first frame
@@ -187,7 +187,7 @@ def _draw_result(canvas, scene):
 
 
 def _draw_star(canvas, image, x, y, shown, age):
-    """Draw a star of the result, which drops in at `age` 0 [s], or its silhouette if not `shown`."""
+    """Draw a star of the result, or its silhouette if not `shown`. age: time since the star begins to drop in [s]."""
     size = STAR + (whole((STAR_DROP - age) * STAR_GROWTH) if shown and age < STAR_DROP else 0)
     star = pygame.transform.scale(image, (size, size))
     if not shown:

@@ -29,18 +29,19 @@ class Bridge:
         )
 
     def height(self, left, right):
-        """Return the y [px] of the highest board between x = left and right, or None beside the bridge."""
+        """Return the y [px] of the highest board between x = left and x = right; None if the bridge is not there."""
         under = self.heights[max(left - self.left, 0) : max(right - self.left, 0)]
         return int(under.min()) if len(under) else None
 
     def bears(self, left, right, bottom):
-        """Return whether feet at y = bottom, from x = left to right [px], stand on the bridge."""
+        """Return whether feet from x = left to x = right [px] stand on the bridge. bottom: y of the feet [px]."""
         height = self.height(left, right)
         return height is not None and abs(bottom - height) <= NEAR
 
     def holds(self, left, right, bottom, reach):
-        """Return whether feet at y = bottom, from x = left to right [px], are in the boards, at most `reach` px below
-        their top.
+        """Return whether feet are inside the boards, at most `reach` px below their top.
+
+        left, right, bottom: x and y of the feet [px].
         """
         height = self.height(left, right)
         return height is not None and 0 < bottom - height <= reach

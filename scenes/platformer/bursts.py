@@ -26,40 +26,40 @@ UP, DOWN = -pi / 2, pi / 2  # [rad] headings
 
 
 def dust(particles, x, y, count, speed):
-    """Emit `count` particles of dust that feet kick up from the ground. speed: (low, high)."""
+    """Emit `count` particles of dust that feet kick up from the ground. speed: (lowest, highest)."""
     particles.burst(x, y, count, DUST, speed=speed, life=(0.15, 0.4), angle=UP, spread=2.8, drag=3.0, gravity=40.0)
 
 
 def slide(particles, x, y, side):
-    """Emit dust of a hero at (x, y) who slides down a wall at his `side`: -1 left, 1 right."""
+    """Emit the dust of a hero who slides down a wall. side: where the wall is, -1 left, 1 right."""
     x, y, heading = x + 5 * side, y + 4, DOWN * (1 + side)
     particles.burst(x, y, 2, DUST, speed=(5, 26), life=(0.2, 0.4), angle=heading, spread=1.6, gravity=60.0)
 
 
 def wall_jump(particles, x, y, away):
-    """Emit dust of a hero at (x, y) who jumps off a wall to the side `away`: -1 left, 1 right."""
+    """Emit the dust of a hero who jumps off a wall. away: direction of the jump, -1 left, 1 right."""
     x, y, heading = x - 6 * away, y + 4, 0.0 if away > 0 else pi
     particles.burst(x, y, 10, DUST, speed=(20, 90), life=(0.2, 0.45), angle=heading, spread=1.8, gravity=120.0)
 
 
 def launch(particles, x, y):
-    """Emit particles of a released spring."""
+    """Emit the particles of a spring that is released."""
     particles.burst(x, y, 10, GOLDEN, speed=(40, 150), life=(0.2, 0.5), angle=UP, spread=1.4)
 
 
 def squash(particles, x, y):
-    """Emit particles of a flattened enemy."""
+    """Emit the particles of an enemy that is flattened."""
     particles.burst(x, y, 14, DUST, speed=(30, 110), life=(0.2, 0.5), angle=UP, spread=2.6, gravity=200.0)
 
 
 def knock(particles, x, y, force):
-    """Emit dust of an impact: the greater `force` (0..1), the more and the faster particles."""
+    """Emit the dust of an impact. A greater `force` (0..1) gives more and faster particles."""
     count, speed, life = 2 + round(16 * force), (10, 30 + 80 * force), (0.2, 0.3 + 0.4 * force)
     particles.burst(x, y, count, DUST, speed=speed, life=life, angle=UP, spread=2.6, gravity=60.0)
 
 
 def trickle(particles, box):
-    """Emit grit from the underside of a shaking stone; `box`: its left, top, right, bottom."""
+    """Emit grit from the underside of a shaking stone. box: (left, top, right, bottom) of the stone."""
     left, _, right, bottom = box
     x = left + (right - left) * particles.random.uniform(0, 1)
     particles.burst(
@@ -68,12 +68,12 @@ def trickle(particles, box):
 
 
 def rubble(particles, x, y):
-    """Emit pieces of a breaking stone."""
+    """Emit small pieces of a breaking stone."""
     particles.burst(x, y, 18, GRIT, speed=(20, 90), life=(0.3, 0.7), spread=6.28, gravity=200.0)
 
 
 def mote(particles, view, act):
-    """Emit one floating speck in the colours of an act, at a random place in `view` (left, top, width, height)."""
+    """Emit one floating speck in the colours of an act. view: (left, top, width, height) in which it appears."""
     left, top, width, height = view
     x = left + width * particles.random.uniform(0, 1)
     y = top + height * particles.random.uniform(0.2, 1)
@@ -98,7 +98,7 @@ def coin(particles, x, y):
 
 
 def gem(particles, x, y):
-    """Emit a slow and a fast ring of particles when a secret is found."""
+    """Emit two rings of particles, a slow and a fast one, when a secret is found."""
     for speed in ((30, 60), (90, 150)):
         particles.burst(x, y, 26, GEM, speed=speed, life=(0.5, 1.2), drag=1.8)
 
@@ -109,7 +109,7 @@ def hurt(particles, x, y):
 
 
 def vanish(particles, x, y):
-    """Emit a puff at the place from which the hero was put back to safe ground."""
+    """Emit a puff where the hero was before he was moved back to safe ground."""
     particles.burst(x, y, 20, GEM, speed=(20, 110), life=(0.25, 0.6))
 
 

@@ -11,7 +11,7 @@ BELOW = 64  # [px] things that fall farther than this below the map are lost
 
 
 class Contents:
-    """The objects of a level, in lists by kind and dictionaries by body id.
+    """The objects of a level, in lists by kind and in dictionaries {body id: object}.
 
     Pick-ups that are taken and enemies that are flattened are removed here and from the world.
     """
@@ -41,7 +41,7 @@ class Contents:
         self.coins_in_all, self.secrets_in_all = len(self.of("coin")), len(self.of("secret"))
 
     def _deck_under(self, one):
-        """Return the platform on which `one`, a crate or an enemy, starts; None if it starts elsewhere."""
+        """Return the Platform on which an object starts; None if it starts elsewhere. one: a crate or an enemy."""
         x = one.home[0] if one.kind == "crate" else one.start[0]
         bottom = one.home[1] + one.size[1] / 2 if one.kind == "crate" else one.bottom
         for platform in self.platforms:
@@ -51,19 +51,19 @@ class Contents:
         return None
 
     def of(self, kind):
-        """Return the list of triggers of a kind, such as "coin", in the order of the map."""
+        """Return the list of Triggers of a kind, such as "coin", in the order of the map."""
         return [trigger for trigger in self.triggers.values() if trigger.kind == kind]
 
     @property
     def solid_boxes(self):
-        """Boxes (left, top, right, bottom) [px] of everything but tiles that is solid for the hero."""
+        """Boxes (left, top, right, bottom) [px] of everything that is solid for the hero, except tiles."""
         groups = (self.crates, self.platforms, self.belts, self.crumbles, self.walls)
         return tuple(one.box for group in groups for one in group)
 
     def step(self, tick, seen):
-        """Advance platforms, crumbling stones, bombs and enemies by one step.
+        """Make one step of the platforms, crumbling stones, bombs and enemies.
 
-        `tick`: number of the step; `seen`: the hero's position [px]. Return a list of events (name, object), such as
+        tick: number of the step; seen: the hero's position [px]. Return a list of events (name, object), such as
         ("break", stone) or ("wake", bat).
         """
         news = []
@@ -97,19 +97,19 @@ class Contents:
         return news
 
     def places(self):
-        """Return {body id: position [px]} of all bodies of the world."""
+        """Return {body id: position (x, y) [px]} of all bodies of the world."""
         rows = self.world.bodies
         return dict(zip(rows["id"].tolist(), zip(rows["x"].tolist(), rows["y"].tolist(), strict=True), strict=True))
 
     @property
     def carried(self):
-        """The bomb that the hero carries, or None."""
+        """The Bomb that the hero carries, or None."""
         return next((bomb for bomb in self.bombs if bomb.phase == CARRIED), None)
 
     def blast(self, x, y):
         """Apply an explosion at (x, y) [px] to walls, rubble and crates.
 
-        Return (list of Rubble that came loose, whether any wall was hit).
+        Return (list of the Rubble that came loose, whether any wall was hit).
         """
         loose, hit = [], False
         for wall in self.walls:
@@ -122,9 +122,9 @@ class Contents:
         return loose, hit
 
     def press_stones(self, riding, begun):
-        """Let the crumbling stones shake that carry the hero, an enemy or a crate.
+        """Let those crumbling stones shake that carry the hero, an enemy or a crate.
 
-        `riding`: body under the hero, or None; `begun`: begin events of the step, from which crates are read.
+        riding: body under the hero, or None; begun: the step's begin events, which tell what crates have landed on.
         """
         pressed = {enemy.riding for enemy in self.enemies.values()} | ({riding.id} if riding is not None else set())
         for a, b in zip(begun["body_a"].tolist(), begun["body_b"].tolist(), strict=True):
@@ -135,7 +135,7 @@ class Contents:
                 crumble.press()
 
     def take(self, trigger):
-        """Remove a coin or a gem, given by its trigger, from the world."""
+        """Remove a coin or a gem from the world. trigger: its Trigger."""
         self.world.remove_body(trigger.body)
         del self.triggers[trigger.body.id]
 
@@ -147,9 +147,9 @@ class Contents:
         enemy.remove()
 
     def go_home(self):
-        """Put crates, enemies, crumbling stones and bombs back to their starts, for a new life of the hero.
+        """Move crates, enemies and bombs to their starts, and restore crumbling stones, for a new life of the hero.
 
-        Pick-ups that were taken and enemies that were flattened stay gone.
+        Pick-ups that were taken and enemies that were flattened stay away.
         """
         for one in (*self.crates, *self.enemies.values()):
             self._send_home(one)
@@ -167,7 +167,7 @@ class Contents:
         one.go_home(moved)
 
     def state(self):
-        """Return the state outside the physics world, as a flat tuple for the replay digest."""
+        """Return the state of all objects outside the physics world, a part of Scene.state()."""
         out: list = [trigger.lit for trigger in self.of("checkpoint")]
         for enemy in self.enemies.values():
             out += enemy.state()

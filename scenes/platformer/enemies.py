@@ -1,4 +1,4 @@
-"""The three enemies: walkers, which can be stomped; hedgehogs, which cannot be stomped; bats, which hang and dive.
+"""The three enemies: walkers, which can be stomped; hedgehogs, which cannot; bats, which hang and dive.
 
 The hero passes through enemies: his contacts with them are read after the step. A falling crate flattens an enemy.
 """
@@ -24,7 +24,7 @@ HANGING, FLYING, RETURNING = "hanging", "flying", "returning"
 
 
 class Creature:
-    """Base class of enemies: a kinematic character with a box shape, which pushes no other bodies."""
+    """Base class of enemies: a Character (a kinematic body) with a box shape, which pushes no other bodies."""
 
     def __init__(self, world, kind, start):
         self.kind, self.size, self.start = kind, BOXES[kind], start
@@ -47,7 +47,7 @@ class Creature:
 
 
 class Walker(Creature):
-    """A walker or hedgehog. It walks to and fro around its `home` x, and turns at walls and crates.
+    """A walker or hedgehog. It walks to and fro around the x `home`, and turns at walls and crates.
 
     A platform that carries it moves `home` along.
     """
@@ -69,7 +69,7 @@ class Walker(Creature):
         return self.kind == "walker"
 
     def step(self, seen):
-        """Walk for one step. `seen` (the hero's position) is not used. Return False: no event to report."""
+        """Walk for one step. Return False: a walker has no events. seen: not used."""
         x, _ = self.character.position
         if self.character.surface_speed == 0.0:
             self.home += x - self.left_at  # a platform moves its range along; a belt moves only the walker
@@ -88,11 +88,14 @@ class Walker(Creature):
         return False
 
     def rest(self, x):
-        """Stand still for one step, because the hero is far away. `x`: the enemy's current x [px]."""
+        """Stand still for one step. Called while the hero is far away. x: the enemy's current x [px]."""
         self.left_at = x
 
     def place_after(self, seconds):
-        """Return the predicted x [px] after `seconds`. It turns at the ends of its range; obstacles are ignored."""
+        """Return the predicted x [px] after `seconds`.
+
+        The walker turns at the ends of its range; obstacles are ignored.
+        """
         if not self.range:
             return self.character.position[0]
         there = self.character.position[0] + self.way * WALK_SPEED[self.kind] * seconds
@@ -100,7 +103,7 @@ class Walker(Creature):
         return 2.0 * end - there if (there - end) * self.way > 0.0 else there
 
     def go_home(self, moved=(0.0, 0.0)):
-        """Move to the start. `moved`: how far the platform under the start has moved since then (x, y) [px]."""
+        """Move to the start. moved: (x, y) by which the platform under the start has moved since then [px]."""
         self.character.move_to((self.start[0] + moved[0], self.start[1] + moved[1]))
         self.home = self.left_at = self.character.position[0]
         self.way, self.vy, self.riding = self.first_way, 0.0, -1
@@ -110,7 +113,7 @@ class Walker(Creature):
         self.character.remove()
 
     def state(self):
-        """Return the state outside the world."""
+        """Return this object's part of Scene.state(), a flat tuple."""
         return self.way, self.home, self.vy, self.left_at, self.riding
 
 
@@ -141,7 +144,7 @@ class Bat(Creature):
         self.phase, self.count, self.way, self.from_y, self.to_y = HANGING, 0, 1, 0.0, 0.0
 
     def step(self, seen):
-        """Fly or hang for one step. `seen`: the hero's position [px]. Return whether the bat wakes up in this step."""
+        """Fly or hang for one step. seen: the hero's position [px]. Return whether the bat wakes up in this step."""
         x, y = self.character.position
         if self.phase == HANGING:
             if self.seen:
@@ -166,10 +169,13 @@ class Bat(Creature):
         return False
 
     def rest(self, x):
-        """Stay in place for one step, because the hero is far away."""
+        """Stay in place for one step. Called while the hero is far away. x: not used."""
 
     def _return(self, x, y):
-        """Fly back to the start for one step. After 3 FLIGHT seconds in all (rock in the way), move there at once."""
+        """Fly back towards the start for one step.
+
+        If the way home is blocked, the bat is moved there 3 FLIGHT seconds after it woke up.
+        """
         way = HOME_SPEED * STEP_SECONDS
         dx, dy = self.start[0] - x, self.start[1] - y
         far = max(abs(dx), abs(dy), 1e-9)
@@ -181,11 +187,11 @@ class Bat(Creature):
             self._hang()
 
     def place_after(self, seconds):
-        """Return the predicted x [px] after `seconds`; obstacles are ignored."""
+        """Return the predicted x [px] after `seconds`. Obstacles are ignored."""
         return self.character.position[0] + (self.way * FLY_SPEED * seconds if self.phase == FLYING else 0.0)
 
     def go_home(self, moved=(0.0, 0.0)):
-        """Move to the start and hang there. `moved` is not used: bats do not ride platforms."""
+        """Move to the start and hang there. moved: not used, because bats do not ride platforms."""
         self.seen = False
         self.character.move_to(self.start)
         self._hang()
@@ -196,5 +202,5 @@ class Bat(Creature):
         self.character.world.remove_body(self.lair)
 
     def state(self):
-        """Return the state outside the world."""
+        """Return this object's part of Scene.state(), a flat tuple."""
         return self.phase, self.count, self.way, self.from_y, self.to_y, self.seen

@@ -1,4 +1,4 @@
-"""Feats of the hero, counted for the scene's self-check: the bot must use each element of the level in time."""
+"""Feats of the hero, counted for the goals of the scene: the bot must use each element of the level in time."""
 
 from game.scene import Goal
 from scenes.platformer.feel import HEIGHT, WIDTH
@@ -28,7 +28,7 @@ TILT = 0.1  # rise per px from which ground counts as a slope
 
 
 class Feats:
-    """The feats of a run. `done`: {name: how often, or for how many steps, the hero has done it}."""
+    """The feats of a run. done: {name: number of times, or of steps, that the hero did it}."""
 
     def __init__(self, scene):
         self.scene = scene
@@ -37,7 +37,7 @@ class Feats:
         self.inside_solid = 0
 
     def count(self):
-        """Count the feats of the last step."""
+        """Count the hero's feats of the last step."""
         scene, done = self.scene, self.done
         hero = scene.hero
         left, top, _, _ = hero.box
@@ -73,7 +73,7 @@ class Feats:
         self.done["crumbled"] += 1
 
     def goals(self):
-        """Return the list of goals of the scene, with their deadlines and current values."""
+        """Return the goals of the scene, a list of Goal with deadlines and current values."""
         scene, things = self.scene, self.scene.things
         kinds = {thing.kind for thing in scene.level.map.things}
         lit = sum(trigger.lit for trigger in scene.checkpoints)

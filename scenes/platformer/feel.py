@@ -1,7 +1,7 @@
-"""Parameters of the hero's moves, and the two functions by which timers and speeds change.
+"""Parameters of the hero's moves, and the functions by which timers and speeds change.
 
 The parameters follow the game Celeste, with lengths doubled: its tiles are 8 px wide, and these are 16 px. Half of the
-parameters forgive inexact play: input is accepted that is a few frames or pixels off.
+parameters forgive inexact play: input that is a few frames or pixels off is accepted.
 """
 
 from game.scene import STEP_SECONDS
@@ -54,10 +54,10 @@ THUD = 90.0  # [px] a fall from this height is audible: more than his own jump
 
 
 def steps(seconds):
-    """Return the number of steps of 1/60 s nearest to a time [s]."""
+    """Return the number of steps of 1/60 s that is nearest to a time [s]."""
     return round(seconds / STEP_SECONDS)
 
 
 def approach(value, target, change):
-    """Return `value`, moved towards `target` by at most `change`."""
+    """Return `value` moved towards `target`, by at most `change`."""
     return min(value + change, target) if value < target else max(value - change, target)

@@ -1,6 +1,7 @@
 """Camera control of the platformer: the camera looks ahead of a run and ignores small jumps.
 
-While the key up or down is held, the camera looks up or down. It stays in the zone of the level in which the hero is.
+While the key up or down is held, the camera looks up or down. It stays inside the zone of the level in which the hero
+is.
 """
 
 from math import exp
@@ -20,7 +21,7 @@ PEEK, PEEK_AFTER = 62.0, 24  # [px] shift of the view after up or down was held 
 
 
 class Gaze:
-    """The control of the scene's camera."""
+    """Control of the scene's camera."""
 
     def __init__(self, scene):
         self.scene = scene
@@ -30,7 +31,7 @@ class Gaze:
         scene.camera.keep_within(0, 0, *scene.level.size)
 
     def arrive(self, x, y):
-        """Center the camera at once on the hero at (x, y) [px], at the start of a life."""
+        """Center the camera at once on the hero at (x, y) [px]. Called at the start of a life."""
         self.level_y, self.ahead, self.peeking = y, STANDING_AHEAD, 0
         self.scene.camera.center_on(*self._kept(x + self.ahead, y - RAISED))
 
@@ -48,9 +49,9 @@ class Gaze:
         scene.camera.follow(*self._kept(x + self.ahead, self.level_y - RAISED + peek), dt, FOLLOW_RATE, DEAD_ZONE)
 
     def _kept(self, x, y):
-        """Return the centre (x, y) of the view, moved so that the view stays in the hero's zone.
+        """Return the centre (x, y) of the view, moved so that the view stays inside the hero's zone.
 
-        A zone smaller than the view sets no limit in that direction.
+        A zone that is smaller than the view sets no limit in that direction.
         """
         zones = self.scene.level.zones_at(*self.scene.hero.character.position)
         width, height = CANVAS_SIZE
@@ -64,5 +65,8 @@ class Gaze:
 
 
 def rows_of(zone):
-    """Return the y of the top and bottom limit of the view in a zone [px]: "view_top" and "view_bottom" if given."""
+    """Return (top, bottom): the y [px] of both limits of the view in a zone.
+
+    They are the zone's properties "view_top" and "view_bottom" if given, otherwise its edges.
+    """
     return zone.properties.get("view_top", zone.y), zone.properties.get("view_bottom", zone.y + zone.height)

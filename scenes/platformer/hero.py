@@ -60,9 +60,9 @@ TIMERS = ("coyote", "drop", "locked", "kept", "lift")
 
 
 class Hero:
-    """The hero: a kinematic character with his speeds [px/s] and timers [steps].
+    """The hero: a kinematic character with speeds [px/s] and timers [steps].
 
-    `news`: names of the events of the last step, such as "jump" or "land", for sounds, dust and goals.
+    news: names of the events of the last step, such as "jump" or "land", for sounds, dust and goals.
     """
 
     def __init__(self, world, level, position):
@@ -80,7 +80,7 @@ class Hero:
         self.place(position)
 
     def place(self, position):
-        """Move the hero to a position [px], at rest, and reset all timers."""
+        """Move the hero to a position (x, y) [px], at rest, and reset all timers."""
         self.character.move_to(position)
         self.character.move(0.0, 0.0)  # clears a squeeze that was not reported yet
         self.before = self.character.position
@@ -98,13 +98,13 @@ class Hero:
 
     @property
     def box(self):
-        """Left, top, right, bottom of the hero's box, in whole pixels."""
+        """Box (left, top, right, bottom) of the hero in whole pixels."""
         x, y = self.character.position
         left, top = round(x - WIDTH / 2), round(y - HEIGHT / 2)
         return left, top, left + WIDTH, top + HEIGHT
 
     def step(self, inputs):
-        """Move the hero for one step, as the inputs say."""
+        """Move the hero for one step according to the input."""
         self.news.clear()
         self.before = self.character.position
         way = inputs.held("right") - inputs.held("left") if self.locked == 0 else self.locked_way
@@ -125,11 +125,14 @@ class Hero:
         self._travel()
 
     def listen(self, inputs):
-        """Record a press of jump, which stays valid for BUFFER seconds; called also while the picture is frozen."""
+        """Record a press of jump, which then stays valid for BUFFER seconds.
+
+        It is also called while the picture is frozen, so that no press is lost.
+        """
         self.buffer = steps(BUFFER) if inputs.pressed("jump") else max(self.buffer - 1, 0)
 
     def rest(self):
-        """Move the hero for one step without keys, after he has reached the goal: he slows down and falls."""
+        """Move the hero for one step without input, after he has reached the goal: he slows down and falls."""
         self.news.clear()
         self.before = self.character.position
         self.ladder, self.gazing = None, 0
@@ -210,8 +213,9 @@ class Hero:
         self.grip = steps(SLIDE_TIME)
 
     def on_boards(self):
-        """Return whether the hero stands on one-way ground (planks, bridge). With the keys down and jump he drops
-        through it.
+        """Return whether the hero stands on one-way ground (planks or a bridge).
+
+        With the keys down and jump he drops through it.
         """
         left, _, right, bottom = self.box
         return self.level.on_plank(left, bottom, WIDTH) or any(one.bears(left, right, bottom) for one in self.bridges)
@@ -219,7 +223,10 @@ class Hero:
     # --- ladders ---------------------------------------------------------------------------------------------------
 
     def _grab(self, up, down):
-        """Hold on to a ladder that the hero touches: with up from beside or below, with down from its top."""
+        """Hold on to a ladder that the hero touches. up, down: whether these keys are held.
+
+        Up grabs it from beside or below, down from its top.
+        """
         if up == down or self.vy < 0.0:
             return
         bottom = self.box[3]
@@ -232,7 +239,10 @@ class Hero:
                 return
 
     def _climb(self, way, turn, down):
-        """Climb for one step, or leave the ladder. `way`: -1 left, 1 right; `turn`: -1 up, 1 down; `down`: key held."""
+        """Climb for one step, or leave the ladder. down: whether the key down is held.
+
+        way: -1 left, 1 right, 0 none; turn: -1 up, 1 down, 0 none.
+        """
         if self.buffer:
             self.ladder, self.coyote = None, 0 if down else 1
             self.vx = self.vy = 0.0
@@ -256,7 +266,7 @@ class Hero:
         self.drop = 2 if turn > 0 else 0  # going down, he passes the one-way ground at the ladder's top
 
     def _leave_ladder(self, moved, ladder):
-        """Leave the ladder if the hero has reached its foot or its top. `moved`: result of his last move."""
+        """Leave the ladder if the hero has reached its foot or its top. moved: result of his last Character.move()."""
         if self.vy > 0.0 and moved.grounded:
             self.ladder, self.drop, self.grounded = None, 0, True
         elif self.box[3] <= ladder.top:
@@ -267,7 +277,7 @@ class Hero:
     # --- what happens to him -----------------------------------------------------------------------------------------
 
     def launch(self):
-        """Throw the hero up by a spring. The height does not depend on the keys held."""
+        """Throw the hero up by a spring. The height does not depend on the keys that are held."""
         self._rise(SPRING_SPEED)
         self.rise = 0
         self.news.append("launch")
@@ -278,7 +288,7 @@ class Hero:
         self.news.append("stomp")
 
     def throw(self, way):
-        """Throw the hero up and to the side `way` (-1, 1), in cases where a hit costs no life."""
+        """Throw the hero up and to the side `way` (-1, 1). Called for hits that cost no life."""
         self._rise(THROWN[1])
         self.rise, self.kept, self.drop = 0, 0, 0
         self.locked, self.locked_way, self.vx = steps(THROWN_TIME), way, way * THROWN[0]
@@ -319,7 +329,7 @@ class Hero:
         self.grounded = grounded
 
     def _remember_lift(self):
-        """Record the velocity of the platform, crate or belt that carries the hero, to be added to a jump."""
+        """Record the velocity of the platform, crate or belt that carries the hero. A jump soon after adds it."""
         vx, vy = self.riding.velocity if self.riding is not None else (0.0, 0.0)
         vx += self.character.surface_speed
         if (vx, vy) != (0.0, 0.0):
@@ -327,7 +337,7 @@ class Hero:
             self.lift = steps(LIFT_TIME)
 
     def _nearly_up(self):
-        """Return whether the hero rises through a plank or bridge with his feet just below its top."""
+        """Return whether the hero rises through a plank or bridge, with his feet just below its top."""
         if self.vy > 0.0 or self.grounded:
             return False
         left, _, right, bottom = self.box
@@ -335,9 +345,9 @@ class Hero:
         return any(within(left, right, bottom, POP_REACH) for within in boards)
 
     def _bump(self, dy):
-        """React to a hit of the head on a ceiling: slip past a near corner, or stop rising.
+        """React to a blocked upward motion: slip past a near corner of the ceiling, or else stop rising.
 
-        `dy`: the motion that was blocked [px].
+        dy: the motion that was blocked [px].
         """
         sides = (1, -1) if self.vx == 0.0 else (1 if self.vx > 0.0 else -1,)
         for reach in range(1, CORNER + 1):
@@ -352,7 +362,10 @@ class Hero:
         self.news.append("bump")
 
     def _slip_out(self):
-        """Move a squeezed hero to the nearer free side, at most CORNER px. Return whether a side was free."""
+        """Move a squeezed hero to the nearest free place at a side, at most CORNER px away.
+
+        Return whether there was one.
+        """
         x, y = self.character.position
         for reach in range(1, CORNER + 1):
             for side in (-1, 1):
@@ -362,7 +375,7 @@ class Hero:
         return False
 
     def _blocked(self, dx, dy):
-        """Return whether the hero's box, shifted by (dx, dy) whole pixels, would overlap anything solid."""
+        """Return whether the hero's box, moved by (dx, dy) whole pixels, would overlap anything solid."""
         left, top, right, bottom = self.box
         left, top, right, bottom = left + dx, top + dy, right + dx, bottom + dy
         return self.level.blocks(left, top, WIDTH, HEIGHT) or any(
@@ -379,7 +392,7 @@ class Hero:
         return None
 
     def state(self):
-        """Return the hero's state outside the physics world, as a flat tuple for the replay digest."""
+        """Return the hero's state outside the physics world, a part of Scene.state()."""
         return (
             self.vx,
             self.vy,

@@ -45,7 +45,7 @@ GLOWS = {
 
 
 class Level:
-    """A level: its TileMap, and queries about the layer of solid tiles. All lengths are in whole pixels."""
+    """A level: its TileMap, and queries about its solid tiles. All lengths are in whole pixels."""
 
     def __init__(self, tilemap, picture=None):
         self.map, self.picture = tilemap, picture
@@ -75,11 +75,14 @@ class Level:
                     yield (column + 0.5) * self.tile + dx, (row + 0.5) * self.tile + dy, names[number]
 
     def zones_at(self, x, y):
-        """Return the list of zones that contain a point [px], in the order of the map. The first decides the act."""
+        """Return the list of zones that contain the point (x, y) [px], in the order of the map.
+
+        The first zone decides the act.
+        """
         return [zone for zone in self.zones if zone.x <= x < zone.x + zone.width and zone.y <= y < zone.y + zone.height]
 
     def add_to(self, world):
-        """Add the tiles to a world as one static body. Return the body.
+        """Add the solid tiles to a world as one static body, and return the body.
 
         Planks are left out if the world's effect `one_way` is off.
         """
@@ -89,20 +92,20 @@ class Level:
         return world.add_body(grid, kind="static", filter=TILE_FILTER, user="tiles")
 
     def kind(self, column, row):
-        """Return the kind of the tile (column, row): EMPTY, SOLID, PLANK or SLOPE.
+        """Return the kind of a tile: EMPTY, SOLID, PLANK or SLOPE.
 
-        Tiles beside the map are SOLID, tiles above and below it EMPTY.
+        Tiles beside the map are SOLID, tiles above and below it are EMPTY.
         """
         if not 0 <= column < self.map.columns:
             return SOLID
         return self.kinds[row][column] if 0 <= row < self.map.rows else EMPTY
 
     def kind_at(self, x, y):
-        """Return the kind of the tile at a point [px]."""
+        """Return the kind of the tile at the point (x, y) [px]."""
         return self.kind(floor(x / self.tile), floor(y / self.tile))
 
     def surface(self, column, row, x):
-        """Return the y [px] of the ground in the tile (column, row), at x [px], or None if it has no solid ground."""
+        """Return the y [px] of the ground at `x` [px] in a tile; None if the tile is neither solid nor a slope."""
         kind = self.kind(column, row)
         if kind == SOLID:
             return row * self.tile
@@ -114,8 +117,9 @@ class Level:
         return (row + 1 - low - (high - low) * share) * self.tile
 
     def blocks(self, left, top, width, height):
-        """Return whether a box with its corner at (left, top) [px] overlaps solid tiles or slopes. Planks are one-way,
-        so they never block.
+        """Return whether a box with its top left corner at (left, top) [px] overlaps solid tiles or slopes.
+
+        Planks are one-way, so they never block.
         """
         bottom = top + height
         for row in range(floor(top / self.tile), floor((bottom - 1) / self.tile) + 1):
@@ -132,7 +136,10 @@ class Level:
         return False
 
     def on_plank(self, left, bottom, width):
-        """Return whether feet at y = bottom, from x = left on for `width` px, stand on planks and nothing else."""
+        """Return whether feet stand on planks and nothing else.
+
+        left, bottom: x and y of the feet's left end [px]; width: of the feet [px].
+        """
         if bottom % self.tile:
             return False
         row = bottom // self.tile
@@ -143,8 +150,9 @@ class Level:
         return PLANK in under and under <= {PLANK, EMPTY}
 
     def plank_within(self, left, right, bottom, reach):
-        """Return whether feet at y = bottom, from x = left to right [px], are in a plank, at most `reach` px below its
-        top.
+        """Return whether feet are inside a plank, at most `reach` px below its top.
+
+        left, right, bottom: x and y of the feet [px].
         """
         row = (bottom - 1) // self.tile
         if not 0 < bottom - row * self.tile <= reach:
@@ -152,7 +160,7 @@ class Level:
         return any(self.kind(column, row) == PLANK for column in range(left // self.tile, (right - 1) // self.tile + 1))
 
     def drop_to_ground(self, x, y, most):
-        """Return the distance [px] from (x, y) straight down to the ground, `most` if it is farther.
+        """Return the vertical distance [px] from the point (x, y) down to the ground, but at most `most`.
 
         Planks do not count as ground.
         """
@@ -168,9 +176,10 @@ class Level:
 
 @lru_cache(maxsize=4)
 def load_level(path=None, stamp=None):
-    """Return the Level in a map file; without a path, the level of the game. Raises FileError if it is not playable.
+    """Return the Level in a map file, or the game's own level if `path` is None.
 
-    Results are cached by path and `stamp`, the file's time of change [ns].
+    Results are cached by path and `stamp`, the file's time of change [ns]. Raises FileError if the level is not
+    playable.
     """
     tilemap = load_tilemap(LEVELS / "platformer.tmj" if path is None else path, LARGEST)
     check_level(tilemap)
@@ -178,9 +187,9 @@ def load_level(path=None, stamp=None):
 
 
 def level_of(path=None):
-    """Return the Level in a map file, read again if the file has changed; without a path, the level of the game.
+    """Return the Level in a map file, read again if the file has changed; the game's own level if `path` is None.
 
-    Raises FileError if the file is not a playable level.
+    Raises FileError if the level is not playable.
     """
     if path is None:
         return load_level()

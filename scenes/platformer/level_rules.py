@@ -14,10 +14,9 @@ FAR = 1e5  # [px] beyond any map
 
 @dataclass(frozen=True)
 class Kind:
-    """Requirements of a kind of object in a map. `least`, `most`: allowed number of such objects.
+    """Requirements for a kind of object in a map. least, most: allowed number of such objects.
 
-    `properties`: tuples (name, type, least value or tuple of the allowed values, greatest value, whether it is
-    required).
+    properties: tuples (name, type, least value or tuple of the allowed values, greatest value, whether it is required).
     """
 
     least: int = 0
@@ -64,7 +63,7 @@ KINDS = {
 
 
 def check_level(tilemap):
-    """Raise FileError for the first error in a map that makes it unplayable."""
+    """Raise FileError for the first error that makes a map unplayable."""
     _check_size(tilemap)
     for thing in tilemap.things:
         _check_thing(tilemap, thing)

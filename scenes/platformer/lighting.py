@@ -31,7 +31,7 @@ SHINES = {
 
 
 class Lighting:
-    """The renderer of light, drawn above the world and below the heads-up display."""
+    """Renderer of light, drawn above the world and below the heads-up display."""
 
     def __init__(self):
         self.cover = pygame.Surface(CANVAS_SIZE)
@@ -39,7 +39,7 @@ class Lighting:
     def draw(self, surface, lights, dark, time):
         """Darken the picture where no light reaches, and draw the glows.
 
-        `lights`: list of (canvas x, canvas y, name); `dark`: darkness, 0..1; `time` [s] drives the flicker.
+        lights: list of (x [canvas px], y [canvas px], name); dark: darkness, 0..1; time: for the flicker [s].
         """
         level = whole(dark * STEPS)
         if level:
@@ -65,16 +65,17 @@ class Lighting:
 
 
 def flickering(radius, share, speed, time, x):
-    """Return the radius [px] at `time` [s] of a flickering light whose full radius is `radius`.
+    """Return the current radius [px] of a flickering light. radius: its full radius [px].
 
-    `share`: part of the radius that flickers; `speed` [rad/s]; `x`: place of the light, so that lights differ.
+    share: part of the radius that flickers, 0..1; speed: of the flicker [rad/s]; time [s]; x: place of the light, which
+    shifts its phase.
     """
     return GRAIN * whole(radius * (1.0 - share + share * wave(time * speed / 6.28 + x * 0.013)) / GRAIN)
 
 
 @lru_cache(maxsize=128)
 def glow(radius, warm):
-    """Return the picture of a glow of the given radius [px]. A cold glow (not `warm`) has red and blue swapped."""
+    """Return the picture of a glow of a radius [px]. warm: False makes a bluish glow, with red and blue exchanged."""
     image = pygame.transform.scale(load_atlas("things")["lantern_light"], (2 * radius, 2 * radius))
     if not warm:
         pixels = pygame.surfarray.pixels3d(image)
@@ -85,7 +86,10 @@ def glow(radius, warm):
 
 @lru_cache(maxsize=128)
 def disc(radius, color, share):
-    """Return the picture of a round light, in rings that darken outwards. `share`: darkness around it, 0..1."""
+    """Return the picture of a round light, in rings that darken outwards.
+
+    share: strength of the light, 0..1, in proportion to the darkness around it.
+    """
     image = pygame.Surface((2 * radius, 2 * radius))
     rings = max(radius // 5, 3)
     for ring in range(rings):

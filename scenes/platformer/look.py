@@ -59,7 +59,7 @@ WINDOW = 20.0, 72.0  # [px] distance (x, y) from a checkpoint within which the g
 
 
 class Look:
-    """The effects of the scene. The methods from hear() on show one event each, with pictures and sound."""
+    """The effects of the scene. Each method from hear() on shows one kind of event, with pictures and sound."""
 
     def __init__(self, scene):
         self.scene = scene
@@ -85,22 +85,22 @@ class Look:
 
     @property
     def foot(self):
-        """The y of the hero's feet in the picture [px], also while he falls out of the picture."""
+        """Drawn y of the hero's feet [px], also while he falls out of the picture after a hit."""
         return self.scene.hero.box[3] + (self.fall if self.scene.phase == "hurt" else 0.0)
 
     def _act(self):
-        """Return the act of the zone that the hero is in; between zones, the act of the last zone."""
+        """Return the act of the hero's zone, or of the last zone while he is between zones."""
         zones = self.scene.level.zones_at(*self.scene.hero.character.position)
         return zones[0].properties["act"] if zones else self.act
 
     def begin_step(self):
-        """Record positions and angles of all bodies before the step, to interpolate from."""
+        """Record positions and angles of all bodies before the step, for the interpolation."""
         rows = self.scene.world.bodies
         self.bodies = self.scene.things.places()
         self.angles = dict(zip(rows["id"].tolist(), rows["angle"].tolist(), strict=True))
 
     def hold(self):
-        """Advance the effects while the game is frozen: lights and coins go on slowly."""
+        """Make one step of the effects while the game is frozen: lights and coins continue, slowly."""
         self.time += HELD_STEP
 
     def before(self, body):
@@ -108,7 +108,7 @@ class Look:
         return self.bodies.get(body.id, body.position)
 
     def step(self, dt):
-        """Advance all effects after a step of `dt` [s] of the world."""
+        """Make one step of `dt` [s] of all effects, after the world's step."""
         scene, hero = self.scene, self.scene.hero
         self.time += dt
         back = 1.0 - exp(-STRETCH_RATE * dt)
@@ -165,7 +165,7 @@ class Look:
             self.split = (self.split[0], self.split[1] + dt) if self.split[1] < SPLIT_TIME else None
 
     def _burn_fuses(self):
-        """Emit sparks, and play the hiss, of every burning fuse."""
+        """Emit the sparks of all burning fuses, and play their hiss."""
         for bomb in self.scene.things.bombs:
             if bomb.phase == THROWN:
                 bursts.fuse(self.scene.particles, *fuse_end(bomb))
@@ -184,14 +184,17 @@ class Look:
             self.open[number] += (float(inside) - self.open[number]) * (1.0 - exp(-COVER_RATE * dt))
 
     def hidden(self, x, y):
-        """Return whether the point (x, y) [px] is in a covered room that is closed, so that its light must not show."""
+        """Return whether the point (x, y) [px] is in a hidden room that is still covered.
+
+        Its light must not be visible.
+        """
         return any(
             seen < 0.5 and cover.x <= x <= cover.x + cover.width and cover.y <= y <= cover.y + cover.height
             for cover, seen in zip(self.scene.level.covers, self.open, strict=True)
         )
 
     def _leave_images(self, hero):
-        """Leave afterimages while the hero is faster than a run or a plain fall."""
+        """Leave afterimages while the hero is faster than by running or falling alone."""
         quick = hero.vy < -QUICK or hero.vy > FALL_SPEED + 20.0 or (abs(hero.vx) > QUICK - 20.0 and not hero.grounded)
         if quick and self.scene.frame % 2 == 0 and self.scene.phase == "playing" and self.scene.trail:
             x, bottom, name, way = self.scene.trail[-1]
@@ -212,7 +215,7 @@ class Look:
     # --- events of the scene -----------------------------------------------------------------------------------------
 
     def hear(self, news):
-        """Show the events of the hero's step (names such as "jump") by sound, stretch and dust."""
+        """Show the hero's events of this step by sound, stretch and dust. news: names such as "jump"."""
         for word in news:
             if word in STRETCHES:
                 self.width, self.height = STRETCHES[word]
@@ -231,8 +234,9 @@ class Look:
                 bursts.launch(self.scene.particles, *self._feet())
 
     def show(self, word, thing):
-        """Show the event `word` of a stone ("shake", "break", "back"), a bat ("wake") or a bomb. thing: the stone, bat
-        or bomb.
+        """Show an event of a stone ("shake", "break", "back"), of a bat ("wake") or of a bomb.
+
+        word: name of the event; thing: the stone, bat or bomb.
         """
         scene = self.scene
         if word == "wake":
@@ -253,7 +257,7 @@ class Look:
             self._puff("sparkle", x, y)
 
     def _show_bomb(self, word, x, y):
-        """Show that a bomb at (x, y) [px] is taken, thrown, or back on its stand (`word`)."""
+        """Show that a bomb at (x, y) [px] is taken, thrown or back on its stand. word: name of the event."""
         if word == "taken":
             self._sound_at("hook", x, 0.5)
             self._puff("sparkle", x, y)
@@ -265,7 +269,7 @@ class Look:
             self._sound_at("blip", x, 0.4)
 
     def burst(self, x, y, loose, hit):
-        """Show the explosion of a bomb at (x, y) [px]. `loose`: Rubble of walls; `hit`: whether a wall was hit."""
+        """Show the explosion of a bomb at (x, y) [px]. loose: Rubble of walls; hit: whether a wall was hit."""
         scene = self.scene
         self.blasts.append([x, y, 0.0])
         bursts.blast(scene.particles, x, y)
@@ -280,7 +284,7 @@ class Look:
             self._sound_at("crumble", x, 1.0)
 
     def took(self, trigger):
-        """Show that the hero takes a coin or a gem."""
+        """Show that the hero takes a coin or a gem. trigger: its Trigger."""
         if trigger.kind == "secret":
             bursts.gem(self.scene.particles, trigger.x, trigger.y)
             self.gem_pulse = 1.0
@@ -293,13 +297,14 @@ class Look:
         self._sound("coin", 0.6)
 
     def threw(self, trigger):
-        """Show that a spring has thrown a crate."""
+        """Show that a spring has thrown a crate. trigger: the spring."""
         self._sound_at("spring", trigger.x, 0.7)
         bursts.launch(self.scene.particles, trigger.x, trigger.foot[1] - 8)
 
     def lit(self, trigger):
-        """Show that a checkpoint is reached: its lantern is lit, and the time is compared with that of the best run at
-        this place.
+        """Show that a checkpoint is reached: its lantern is lit.
+
+        The time is compared with that of the best run at this place. trigger: the checkpoint.
         """
         x, bottom = trigger.foot
         bursts.kindle(self.scene.particles, x, bottom - 24)
@@ -329,7 +334,7 @@ class Look:
             self.scene.camera.shake(0.35 * force)
 
     def hurt(self):
-        """Begin to show a hurt hero, who is thrown up and falls out of the picture."""
+        """Begin to show that the hero is hurt: he is thrown up and falls out of the picture."""
         x, y = self.scene.hero.character.position
         self.fall, self.fall_speed = 0.0, -FALLEN
         bursts.hurt(self.scene.particles, x, y)
@@ -338,12 +343,12 @@ class Look:
         self._sound("hurt", 0.9)
 
     def vanished(self):
-        """Show a puff at the hero's place, before he is put back to safe ground."""
+        """Show a puff at the hero's place. Call it before he is moved back to safe ground."""
         bursts.vanish(self.scene.particles, *self.scene.hero.character.position)
         self.scene.camera.shake(0.25)
 
     def won(self, trigger):
-        """Show confetti at the goal."""
+        """Show confetti at the goal. trigger: the goal."""
         bursts.confetti(self.scene.particles, trigger.x, trigger.y - 10)
         self._sound("goal", 1.0)
 

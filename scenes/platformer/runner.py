@@ -1,8 +1,8 @@
 """The platformer's bot: it follows hints in the map, and presses keys by rules.
 
-A hint is a place in the map and the way to reach that place: run (with jumps at obstacles), jump at once, climb, kick
-from wall to wall, ride a platform, drop through a plank, push, fall, throw a bomb, or jump by a spring. The rules find
-the right moment: when a platform is at its end, where an enemy will be, whether there is ground ahead.
+A hint is a place in the map and the way to reach it: run (with jumps at obstacles), jump at once, climb, kick from wall
+to wall, ride a platform, drop through a plank, push, fall, throw a bomb, or jump by a spring. The rules find the right
+moment: when a platform is at its end, where an enemy will be, whether there is ground ahead.
 """
 
 from math import sqrt
@@ -25,7 +25,7 @@ KICK_SPEED = -90.0  # [px/s] vy above which the bot kicks off a wall (up is nega
 
 
 class Runner:
-    """The bot. `next`: index of the hint it heads for; `kept`: the value of `next` at the last checkpoint."""
+    """The bot. next: index of the hint that it follows; kept: value of `next` at the last checkpoint."""
 
     def __init__(self):
         self.next = self.kept = 0
@@ -33,7 +33,7 @@ class Runner:
         self.start_again()
 
     def remember(self):
-        """Record the current hint at a checkpoint, to resume from it in the next life."""
+        """Record the current hint, from which the next life starts. Called at a checkpoint."""
         self.kept = self.next
 
     def start_again(self):
@@ -51,7 +51,7 @@ class Runner:
         self.dropped = False
 
     def keys(self, scene):
-        """Return the set of actions that are held in the next step."""
+        """Return the actions that the bot holds in the next step, a frozenset of names."""
         hints = scene.level.hints
         if scene.phase != "playing" or self.next >= len(hints) or self.pause:
             self.pause = max(self.pause - 1, 0)
@@ -67,7 +67,7 @@ class Runner:
         return self._press(scene.hero, set(keys), jump)
 
     def _press(self, hero, keys, jump):
-        """Return the actions `keys` as a frozenset, with jump added while it is held. jump: whether a jump is wanted.
+        """Return the actions `keys` as a frozenset, with "jump" while it is to be held. jump: whether a jump is wanted.
 
         Jump is held while the hero rises, and released for one step before the next press: only a new press jumps.
         """
@@ -107,8 +107,9 @@ class Runner:
         return _keys(way), self._must_jump(scene, hero, hint, way)
 
     def _needs_a_run_up(self, scene, hero, way):
-        """Return whether a hedgehog ahead in the direction `way` is so near that a jump at the present speed would end
-        on it.
+        """Return whether a jump now would end on a hedgehog: one is near ahead, and the hero is slow.
+
+        way: direction of the run, -1 or 1.
         """
         x, feet = hero.character.position[0], hero.box[3]
         return (
@@ -123,8 +124,9 @@ class Runner:
         )
 
     def _waits_at_edge(self, scene, hero, hint, way):
-        """Return whether to wait at an edge on the way to a hint: a hedgehog is below the edge, where a step down in
-        the direction `way` would end.
+        """Return whether to wait at an edge because a hedgehog is below it, where a step down would end.
+
+        way: direction of the run, -1 or 1.
         """
         x, feet = hero.character.position[0], hero.box[3]
         if _foot(hint) < feet + STEP or self._ground(scene, x + 16 * way, feet):
@@ -137,7 +139,7 @@ class Runner:
         )
 
     def _landing_aside(self, scene, hero):
-        """Return the direction (-1, 1) in which to steer so as not to land on a hedgehog; 0 if no hedgehog is there."""
+        """Return the direction (-1, 1) in which to steer in order not to land on a hedgehog; 0 if none is there."""
         x, feet = hero.character.position[0], hero.box[3]
         for enemy in scene.things.enemies.values():
             depth = enemy.top - feet
@@ -205,7 +207,7 @@ class Runner:
         return _keys(way), hero.wall == way or self._enemy_ahead(scene, hero, way)
 
     def _throw(self, scene, hero, hint):
-        """Return the keys to take the bomb, throw it near the hint, and stay away until it has burst."""
+        """Return (keys, jump) to take the bomb, throw it near the hint, and stay away until it has exploded."""
         bomb = min(scene.things.bombs, key=lambda one: abs(one.home[0] - _middle(hint)))
         x = hero.character.position[0]
         if bomb.phase == CARRIED:
@@ -263,7 +265,10 @@ class Runner:
         return _keys(way), hero.grounded and (hero.wall == way or self._must_jump(scene, hero, hint, way))
 
     def _place_on(self, scene, platform, x):
-        """Return the x [px] at which to land on a platform: on the large crate that it carries, else in its middle."""
+        """Return the x [px] at which to land on a platform: on the large crate that it carries, or else in its middle.
+
+        x: not used.
+        """
         left, top, right, _ = platform.box
         for crate in scene.things.crates:
             at, _ = crate.body.position
@@ -274,9 +279,9 @@ class Runner:
     # --- obstacles and enemies ---------------------------------------------------------------------------------------
 
     def _must_jump(self, scene, hero, hint, way):
-        """Return whether to jump because of a wall, spikes, an enemy, or a gap that does not lead down to the hint.
+        """Return whether to jump: because of a wall, spikes, an enemy, or a gap that does not lead down to the hint.
 
-        `way`: direction of the run, -1 or 1; 0: the hero stands.
+        way: direction of the run, -1 or 1; 0 if the hero stands.
         """
         if not way:
             return self._enemy_near(scene, hero)
@@ -309,7 +314,7 @@ class Runner:
         return False
 
     def _enemy_ahead(self, scene, hero, way):
-        """Return whether to jump now in the direction `way`: onto an enemy that can be stomped, or over another."""
+        """Return whether to jump now: onto an enemy ahead that can be stomped, or over another. way: -1 or 1."""
         x, bottom = hero.character.position[0], hero.box[3]
         for enemy in scene.things.enemies.values():
             there = (enemy.character.position[0] - x) * way
@@ -323,7 +328,7 @@ class Runner:
         return False
 
     def _enemy_near(self, scene, hero):
-        """Return whether an enemy near the hero approaches from either side."""
+        """Return whether an enemy near the hero approaches him from either side."""
         x, bottom = hero.character.position[0], hero.box[3]
         return any(
             0.0 < (x - enemy.character.position[0]) * enemy.way < CLOSE and abs(enemy.bottom - bottom) < 10
@@ -340,7 +345,7 @@ def _foot(hint):
 
 
 def _nearest_end(platform, x, y):
-    """Return the end (x, y) [px] of a platform's path that is nearer to the point (x, y)."""
+    """Return the end (x, y) [px] of a platform's path that is nearer to the point (x, y) [px]."""
     return min((platform.start, platform.end), key=lambda end: abs(x - end[0]) + abs(y - end[1]))
 
 
@@ -363,9 +368,9 @@ def _docked(platform, place):
 
 
 def _soon(platform, place, tick, within):
-    """Return whether a platform is docked at `place`, the end of its path, or will soon be there.
+    """Return whether a platform is at the end `place` of its path, or will be there soon.
 
-    `tick`: current step; `within`: number of steps after which it must be nearer than now.
+    tick: current step; within: number of steps after which it must be nearer than now.
     """
     here = platform.place_at(tick)
     far = abs(here[0] - place[0]) + abs(here[1] - place[1])

@@ -28,7 +28,7 @@ PLAYING, HURT, WON = "playing", "hurt", "won"
 
 
 class Platformer(Scene):
-    """The platformer. Keys move the hero; contacts are read from the events of the step."""
+    """The platformer, a scene with one world. The player moves the hero."""
 
     name = "platformer"
     title = "Platformer"
@@ -91,7 +91,7 @@ class Platformer(Scene):
         self.look = Look(self)
 
     def update(self, inputs):
-        """Move the objects of the level and the hero, step the world, and read its events."""
+        """Move the hero and the objects of the level, step the world, and read its events."""
         if self.stop:
             self.stop -= 1
             self.hero.listen(inputs)
@@ -145,9 +145,7 @@ class Platformer(Scene):
             self._lose()
 
     def _handle_bombs(self, inputs):
-        """Let the hero take a bomb that he reaches. If he carries a bomb and the key focus is pressed, throw the bomb
-        or lay it down.
-        """
+        """Let the hero take a bomb that he reaches, or throw or lay down the bomb that he carries, by the key focus."""
         hero, bomb = self.hero, self.things.carried
         if bomb is None:
             for each in self.things.bombs:
@@ -211,9 +209,9 @@ class Platformer(Scene):
                     self.feats.done["crates thrown"] += 1
 
     def _strike(self, hit, me):
-        """Process an impact `hit` of a crate. A strong one from above flattens an enemy or hurts the hero.
+        """Process an impact of a crate. A strong one from above flattens an enemy or hurts the hero.
 
-        `me`: body id of the hero.
+        hit: row of the step's hit events; me: body id of the hero.
         """
         impulse, pair = float(hit["normal_impulse"]), (int(hit["body_a"]), int(hit["body_b"]))
         enemies = self.things.enemies
@@ -262,9 +260,7 @@ class Platformer(Scene):
             self.look.lit(trigger)
 
     def _meet(self, enemy):
-        """Process a contact of the hero with an enemy: he stomps the enemy if it can be stomped, else the enemy hurts
-        him.
-        """
+        """Process a contact of the hero with an enemy: he stomps it, or it hurts him."""
         hero = self.hero
         if self.phase != PLAYING:
             return
@@ -280,7 +276,7 @@ class Platformer(Scene):
             self._hurt(1 if hero.character.position[0] >= enemy.character.position[0] else -1)
 
     def _hurt(self, away):
-        """Hurt the hero: he loses a life, or is thrown to the side `away` (-1, 1) if the assist `invincible` is on."""
+        """Let the hero lose a life or, if the assist `invincible` is on, throw him to the side `away` (-1, 1)."""
         if self.phase != PLAYING or (self.mercy and self.assist["invincible"]):
             return
         if self.assist["invincible"]:
@@ -332,7 +328,7 @@ class Platformer(Scene):
     # --- self-check, bot, replay, picture ----------------------------------------------------------------------------
 
     def check(self):
-        """Return the goals that the bot must reach in the level, with deadlines."""
+        """Return the goals that the bot must reach in the level, a list of Goal with deadlines."""
         return self.feats.goals()
 
     def bot(self):
@@ -340,7 +336,7 @@ class Platformer(Scene):
         return self.runner.keys(self)
 
     def state(self):
-        """Return the scene's state outside the physics world, as a flat tuple for the replay digest."""
+        """Return the scene's state outside the physics world, a flat tuple for the replay digest."""
         return (
             self.frame,
             self.ticks,
@@ -360,11 +356,11 @@ class Platformer(Scene):
         )
 
     def draw(self, canvas, alpha):
-        """Draw the scene at `alpha` (0..1) between the last two steps."""
+        """Draw the scene. alpha: position (0..1) between the last two steps."""
         level_view(self.level).draw(self, canvas, 1.0 if self.stop else alpha)
 
 
 def others(rows, identity):
-    """Return the set of ids of the bodies that share an event with body `identity`."""
+    """Return the set of ids of the bodies that form a pair with the body `identity` in a table of events."""
     a, b = rows["body_a"], rows["body_b"]
     return {*b[a == identity].tolist(), *a[b == identity].tolist()}

@@ -37,7 +37,7 @@ BIT_LIFE = 1.6  # [s]
 class Trigger:
     """An object of the level with a sensor: coin, secret, spring, spikes, checkpoint, goal or ladder.
 
-    `lit`: whether a checkpoint has been reached; `touched`: step in which it was last touched, or None.
+    lit: whether a checkpoint has been reached; touched: step of the last touch, or None.
     """
 
     def __init__(self, world, thing):
@@ -81,7 +81,7 @@ class Trigger:
 
     @property
     def foot(self):
-        """The middle (x, y) of the object's lower edge [px]."""
+        """Middle (x, y) [px] of the object's lower edge."""
         return self.thing.x + self.thing.width / 2, self.thing.y + self.thing.height
 
 
@@ -115,8 +115,9 @@ class Platform:
         )
 
     def aim(self, tick):
-        """Set the velocity that moves the platform from its place in step `tick` to its place in the next step, so that
-        it carries bodies.
+        """Set the velocity that moves the platform to its place in step `tick` + 1 of the world.
+
+        It is moved by a velocity so that it carries bodies.
         """
         x, y = self.body.position
         next_x, next_y = self.place_at(tick + 1)
@@ -124,7 +125,7 @@ class Platform:
 
     @property
     def box(self):
-        """Left, top, right, bottom of the platform in whole pixels, rounded as characters see it."""
+        """Box (left, top, right, bottom) of the platform in whole pixels, rounded as characters see it."""
         x, y = self.body.position
         left, top = int(x - self.size[0] / 2 + 0.5), int(y - self.size[1] / 2 + 0.5)
         return left, top, left + int(self.size[0]), top + int(self.size[1])
@@ -142,7 +143,7 @@ class Block:
 
 
 class Belt(Block):
-    """A conveyor belt. Its surface moves to the right at `speed` [px/s] (left if negative), and carries bodies."""
+    """A conveyor belt, which carries bodies. speed: of its surface, positive to the right [px/s]."""
 
     def __init__(self, world, thing):
         super().__init__(world, thing)
@@ -158,7 +159,7 @@ class Belt(Block):
 
 
 class Crumble(Block):
-    """A stone that shakes when something steps on it, then breaks into pieces, and comes back after a while."""
+    """A stone that shakes under a load, then breaks into pieces, and is whole again after a while."""
 
     FREE = Filter(PLATFORM, HERO | ENEMY | CRATE)
 
@@ -185,13 +186,14 @@ class Crumble(Block):
         self.box, self.count, self.shaking = self.whole, 0, False
 
     def press(self):
-        """Begin to shake, because the stone carries a load."""
+        """Let the stone shake. Called when it carries a load."""
         self.shaking = self.body is not None
 
     def step(self):
-        """Advance the stone and its pieces by one step.
+        """Make one step of the stone and its pieces.
 
-        Return "shake" when the stone begins to shake, "break" when it breaks, "back" when it is whole again, else None.
+        Return "shake" when the stone begins to shake, "break" when it breaks, "back" when it is whole again, otherwise
+        None.
         """
         for bit in self.bits:
             bit[1] += 1
@@ -248,25 +250,25 @@ class Crate:
         )  # without continuous collision, a fall of two tiles would end 5 px deep in the ground
 
     def slides(self, way):
-        """Return whether the crate moved to the side `way` (-1, 1) in the last step."""
+        """Return whether the crate moved towards `way` (-1 left, 1 right) in the last step."""
         row = self.body.world.bodies[self.body.world.rows(self.body.id)]
         return (row["x"] - row["previous_x"]) * way > SLIDES
 
     def launch(self):
-        """Throw the crate up by a spring: as high as a spring throws the hero, whatever the crate's mass."""
+        """Throw the crate up by a spring, as high as a spring throws the hero. The crate's mass has no influence."""
         vx, vy = self.body.velocity
         mass = self.body.mass
         self.body.apply_impulse(((SPRING_KEEPS - 1.0) * vx * mass, -(SPRING_SPEED + vy) * mass))
 
     def go_home(self, moved=(0.0, 0.0)):
-        """Move to the start, at rest. `moved`: how far the platform under the start has moved since (x, y) [px]."""
+        """Move to the start, at rest. moved: (x, y) by which the platform under the start has moved since then [px]."""
         self.body.move_to((self.home[0] + moved[0], self.home[1] + moved[1]), 0.0)
         self.body.velocity = (0.0, 0.0)
         self.body.angular_velocity = 0.0
 
     @property
     def box(self):
-        """Left, top, right, bottom of the crate's bounding box in whole pixels."""
+        """Bounding box (left, top, right, bottom) of the crate in whole pixels."""
         x, y = self.body.position
         c, s = abs(cos(self.body.angle)), abs(sin(self.body.angle))
         half_width, half_height = (c * self.size[0] + s * self.size[1]) / 2, (s * self.size[0] + c * self.size[1]) / 2

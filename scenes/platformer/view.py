@@ -1,6 +1,6 @@
-"""The picture of the platformer: background, tiles, objects, the hero, the ghost of the best run, lights, and texts.
+"""Drawing of the platformer: background, tiles, objects, hero, ghost of the best run, lights, and texts.
 
-Drawing changes no state; pictures are cached.
+Drawing changes no state of the scene; pictures are cached.
 """
 
 from functools import lru_cache
@@ -40,7 +40,7 @@ SHINING = ("secret", "goal", "coin")
 
 
 class View:
-    """The renderer of a level, with its caches of pictures."""
+    """Renderer of a level, with its caches of pictures."""
 
     def __init__(self, level):
         self.level = level
@@ -71,7 +71,7 @@ class View:
     def _cover(self, thing):
         """Return (picture, left, top) of the tiles that cover a hidden room and its walls.
 
-        thing: the room in the map.
+        thing: the room, an object of the map; left, top: place of the picture in the world [px].
         """
         tile = self.level.tile
         left, top = int(thing.x) - tile, int(thing.y) - tile
@@ -83,7 +83,7 @@ class View:
         return canvas.surface, left, top
 
     def draw(self, scene, canvas, alpha):
-        """Draw the scene at `alpha` (0..1) between the last two steps."""
+        """Draw the scene. alpha: position (0..1) between the last two steps."""
         left, top = scene.camera.view(alpha)
         self.left, self.top = left, top
         self.near = [
@@ -230,7 +230,7 @@ class View:
                 canvas.surface.blit(picture, place)
 
     def _lights(self, scene, alpha):
-        """Yield (canvas x, canvas y, name) of every light that reaches into the picture."""
+        """Yield (x [canvas px], y [canvas px], name) of every light that reaches into the picture."""
         for x, y, name in self.level.lights:
             if self._sees(x, y, LIT_FROM) and not scene.look.hidden(x, y):
                 yield x - self.left, y - self.top, name
@@ -273,7 +273,7 @@ class View:
         self._stand(canvas, image, x, bottom)
 
     def _draw_ghost(self, canvas, scene):
-        """Draw the ghost: the hero of the best run at the same time, half transparent."""
+        """Draw the ghost, half transparent: the hero of the best run at the same time of the run."""
         if not scene.ghost or scene.clock >= len(scene.ghost) or scene.phase == "won":
             return
         x, bottom, name, way = scene.ghost[max(scene.clock - 1, 0)]
@@ -288,7 +288,10 @@ class View:
         return image if way > 0 else pygame.transform.flip(image, True, False)
 
     def _tinted(self, name, way, color, alpha):
-        """Return a frame of the hero with `color` added and the given alpha (0..255). `way`: -1 mirrors it."""
+        """Return a picture of the hero with `color` added. name: of the picture.
+
+        way: -1 mirrors it; alpha: opacity, 0..255.
+        """
         image = self.shaped(name, way, FRAME, FRAME).copy()
         image.fill((*color, 0), special_flags=pygame.BLEND_RGBA_ADD)
         image.fill((255, 255, 255, alpha), special_flags=pygame.BLEND_RGBA_MULT)
@@ -296,7 +299,7 @@ class View:
 
 
 def hero_frame(scene):
-    """Return (name of the frame, direction -1 or 1) in which the hero is drawn."""
+    """Return (name of the picture, direction -1 or 1) with which the hero is drawn."""
     hero, look, frames = scene.hero, scene.look, load_atlas("hero")
     if scene.phase == "hurt":
         return "hurt_0", hero.facing
@@ -339,29 +342,29 @@ def deck(width):
 
 @lru_cache(maxsize=64)
 def flipped(image, mirrored, upside_down=False):
-    """Return a picture, mirrored and turned upside down as the arguments say."""
+    """Return a picture, mirrored left to right if `mirrored`, and turned upside down if `upside_down`."""
     return pygame.transform.flip(image, mirrored, upside_down) if mirrored or upside_down else image
 
 
 def between(before, now, alpha):
-    """Return the point (x, y) at `alpha` (0..1) between the positions `before` and `now`."""
+    """Return the point (x, y) between two positions. alpha: 0 for `before` .. 1 for `now`."""
     return before[0] + (now[0] - before[0]) * alpha, before[1] + (now[1] - before[1]) * alpha
 
 
 def cycle(animation, seconds):
-    """Return the name of the frame that an animation shows after `seconds`."""
+    """Return the name of the picture that a repeated animation shows after `seconds`."""
     return animation.names[animation.index_at(seconds)]
 
 
 def strode(animation, way, stride):
-    """Return the name of the frame that an animation shows after a path of `way` px, at `stride` px per frame."""
+    """Return the name of the picture of a walking animation after a path of `way` px. stride: px per picture."""
     return animation.names[int(way / stride) % len(animation.names)]
 
 
 def lowered(level, hero):
     """Return how far below his box the hero is drawn [px].
 
-    On a slope the box stands on one of its lower corners, but the drawn feet touch the ground at their middle.
+    On a slope the box stands on one of its lower corners, but the middle of the drawn feet touches the ground.
     """
     if hero.slope == 0.0:
         return 0.0

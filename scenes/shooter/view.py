@@ -129,7 +129,7 @@ class View:
         )
 
     def at(self, x, y, origin):
-        """Return the top left corner [canvas px] of a picture whose point `origin` is at the world point (x, y)."""
+        """Return the top left corner (x, y) [canvas px] of a picture whose point `origin` is at (x, y) in the world."""
         return (int(np.floor(x - origin[0] + 0.5)) - self.left, int(np.floor(y - origin[1] + 0.5)) - self.top)
 
     def shadow(self, image, place, high=1.0):
