@@ -49,7 +49,7 @@ def run_app(options: Options, registry: Registry) -> int:
 
 
 class App:
-    """Main loop, which runs the top screen of the stack `screens`. `arcade`: the state that all screens share."""
+    """Main loop. It runs the top screen of the stack `screens`. arcade: the state that all screens share."""
 
     def __init__(
         self,
@@ -126,8 +126,9 @@ class App:
             self._follow(self.screen.outcome)
 
     def _menu_steps(self, now: float) -> Iterator[InputState]:
-        """Yield the player's input once for each menu step that is due at `now` [s]. A screen with its own clock
-        ignores this iterator.
+        """Yield the player's input once for each menu step that is due at `now` [s].
+
+        A screen that shows a scene ignores this iterator, because it has its own clock.
         """
         for _ in range(self.clock.advance(now)):
             self.inputs.set(self.arcade.devices.next())
@@ -150,7 +151,7 @@ class App:
             self.arcade.running = False
 
     def _sound(self, now: float) -> None:
-        """Play the menu's sounds and the current tune."""
+        """Play the sounds of the menu and the current tune. now: current time [s]."""
         screen, sounds = self.screen, self.arcade.sounds
         if screen.cues:
             sounds.play_cues([(name, None, 1.0) for name in screen.cues])
@@ -162,9 +163,9 @@ class App:
         self.before = now
 
     def _rest(self, started: float) -> None:
-        """Wait until the frame cap allows the next frame: without vsync, the loop would occupy a whole core.
+        """Wait until the frame cap allows the next frame. Without vsync, the loop would otherwise occupy a whole core.
 
-        `started`: time at which this iteration of the loop began [s].
+        started: time at which this iteration of the loop began [s].
         """
         spent = perf_counter() - started
         self.frame_time.note(spent)
@@ -190,8 +191,9 @@ class App:
                 self.arcade.devices.feed(event)
 
     def _follow(self, outcome: Outcome) -> None:
-        """Perform `outcome`, the top screen's request to change the screen (for example: open the menu). A wipe from
-        the old picture to the new one follows.
+        """Carry out `outcome`, the top screen's request for another screen.
+
+        A wipe leads from the old picture to the new one.
         """
         if outcome[0] == "menu" and self.screens.played is not None:
             if self.options.scene and (self.options.is_a_run or self.options.recording):
@@ -204,7 +206,7 @@ class App:
         self._arrive()
 
     def _arrive(self) -> None:
-        """Reset the input and the clock for a new top screen."""
+        """Reset the input, the clock and the music for a new top screen."""
         devices, sounds = self.arcade.devices, self.arcade.sounds
         devices.release_all()
         devices.menus = not self.screen.takes_game_input
@@ -217,7 +219,7 @@ class App:
         self.clock.rest()
 
     def _save_what_is_open(self) -> None:
-        """Enter the results, and save the settings and the current run or its recording, before the program ends."""
+        """Before the program ends, enter the results, and save the settings and the current run or its recording."""
         if not self.options.frames:
             self.screens.enter_results()
         self.arcade.save_settings()
@@ -228,7 +230,7 @@ class App:
             play.end_run()
 
     def _save_screenshot(self) -> None:
-        """Save a screenshot in the player's folder, under the scene's name and the time (F12)."""
+        """Save a screenshot in the player's folder. Its file name contains the scene's name and the time."""
         folder, play = data_folder() / "screenshots", self.screens.played
         try:
             folder.mkdir(parents=True, exist_ok=True)

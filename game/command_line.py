@@ -35,7 +35,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def run(arguments: Sequence[str], registry: Registry) -> int:
-    """Run the program with these arguments and return the exit code."""
+    """Run the program with these command-line arguments, and return the exit code."""
     try:
         code = _dispatch(read_options(arguments, registry), registry)
         if sys.stdout is not None:
@@ -62,7 +62,7 @@ def run(arguments: Sequence[str], registry: Registry) -> int:
 
 
 def _give_up_output():
-    """Redirect standard output to the null device, so that the interpreter does not flush it again at exit."""
+    """Redirect standard output to the null device, because the interpreter would otherwise flush it again at exit."""
     if sys.stdout is not None and sys.stdout is sys.__stdout__:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
@@ -143,8 +143,9 @@ def read_options(arguments: Sequence[str], registry: Registry) -> Options:
 
 
 def _check_output(flag, name):
-    """Raise UsageError if `name`, the value of the flag --`flag`, cannot be an output file. This is checked before the
-    run starts.
+    """Raise UsageError if `name`, the value of the option --`flag`, cannot be an output file.
+
+    It is called before the run starts, so that no run is lost.
     """
     try:
         is_folder = name and is_there(Path(name)) and S_ISDIR(Path(name).stat().st_mode)
@@ -156,7 +157,7 @@ def _check_output(flag, name):
 
 
 def _check_advice(options):
-    """Check that --advise has no conflicting options, and make its scene the scene of the run, which the bot plays."""
+    """Check that no options conflict with --advise. Make its scene the scene of the run, played by the bot."""
     if options.error is not None and options.advise is None:
         raise UsageError("--error needs --advise")
     if options.error is not None and not 0.0 < options.error < math.inf:
@@ -170,7 +171,7 @@ def _check_advice(options):
 
 
 def _check_report(options):
-    """Check that --report has no conflicting options, and that its own options (--quick ...) come with --report."""
+    """Check that no options conflict with --report, and that its own options (--quick ...) come with --report."""
     if options.report is None:
         for flag in ("quick", "workers", "dask", "only"):
             if getattr(options, flag) is not None and getattr(options, flag) is not False:
@@ -192,10 +193,10 @@ def _known(name, what, valid):
 
 
 def read_layers(text: str | None) -> tuple[str, ...] | None:
-    """Return the layers that the value of --overlay names: "bounds,pairs" gives ("bounds", "pairs"), "all" gives every
-    layer, "none" gives ().
+    """Return the names of the layers that the value of --overlay selects; None without --overlay.
 
-    None (no --overlay) gives None: the scene's own layers are shown.
+    "bounds,pairs" gives ("bounds", "pairs"), "all" gives every layer, "none" gives (). None stands for the scene's own
+    layers.
     """
     if text is None:
         return None
@@ -212,7 +213,7 @@ def read_layers(text: str | None) -> tuple[str, ...] | None:
 
 
 def _take_from_recording(options):
-    """Take scene, seed and switches from the recording. The command line takes precedence, except for the scene."""
+    """Take scene, seed and switches from the recording. Other options of the command line take precedence."""
     recording = options.recording
     if recording is None:
         return

@@ -13,8 +13,9 @@ STEPS = 60  # least number of steps in a run: one second of play. Five runs give
 
 
 class SpriteRequest(NamedTuple):
-    """Request to measure two sprites at every collision tier, and again after either has changed. Figures: {tier:
-    TierFigures}.
+    """Request to measure two sprites at every collision tier, and again after either has changed.
+
+    The results are {tier: TierFigures}.
     """
 
     first: PixelMask
@@ -44,9 +45,9 @@ class Act(NamedTuple):
 
 
 class MeasuredRun(NamedTuple):
-    """Run whose time is measured: worlds that are restored from snapshots and stepped.
+    """Run whose time is measured: worlds are restored from snapshots and stepped.
 
-    The result is RunFigures, stored in the scene's `figures` under the name of the run.
+    The result is a RunFigures, stored in the scene's `figures` under the name of the run.
     """
 
     snapshots: Sequence[Snapshot | Recipe]
@@ -58,8 +59,9 @@ class MeasuredRun(NamedTuple):
 
 
 class RunRequest(NamedTuple):
-    """Request for measured runs. make(name) returns the run of a name. make() is called once per name, and its results
-    are cached.
+    """Request for measured runs. make(name) returns the MeasuredRun of a name.
+
+    make() is called once per name, and its results are cached.
     """
 
     names: Sequence[Hashable]  # numbers, words or tuples of them: runs with the same name cost the same

@@ -1,4 +1,4 @@
-"""Scenes by name. The list is in scenes/__init__.py; main.py passes it, since game never imports scenes."""
+"""Scenes by name. The list is in scenes/__init__.py. main.py passes it, because game/ never imports scenes/."""
 
 from collections.abc import Mapping
 from importlib import import_module
@@ -8,7 +8,7 @@ from game.scene import Scene
 
 
 class Registry:
-    """Scene classes by name, imported on first use, so that starting one scene imports one scene."""
+    """Scene classes by name. Each is imported at its first use, so that starting one scene imports one scene."""
 
     def __init__(self, listing: Mapping[str, str]) -> None:
         self.listing = dict(listing)  # name -> "module:Class", in menu order

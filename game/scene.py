@@ -1,9 +1,8 @@
-"""Scene: base class of the scenes, one subclass per file in scenes/. The same scene is played, tested headless, and
-measured.
+"""Scene: base class of the scenes. The same scene is played, tested headless, and measured.
 
 update() is one fixed step of 1/60 s: rules, world.step(), events. update() is deterministic, uses no display and reads
 no clock. draw() changes neither the state nor the random numbers. Purely visual data (particles, curves, camera shake)
-is outside state() and uses its own random numbers.
+are outside state() and use their own random numbers.
 """
 
 import gc
@@ -37,7 +36,7 @@ ASSISTS = {"invincible": False, "hit_stop": True}  # name -> initial value; they
 
 @dataclass(frozen=True)
 class Goal:
-    """Goal that a scene must reach by frame `due`. `met`: whether it is reached; `detail`: the progress, as text."""
+    """Goal that a scene must reach by frame `due`. met: whether it is reached; detail: the progress, as text."""
 
     name: str
     due: int
@@ -47,7 +46,7 @@ class Goal:
 
 @dataclass(frozen=True)
 class Result:
-    """Result of a game. `lines`: further lines of text for the player."""
+    """Result of a game. lines: further lines of text for the player."""
 
     won: bool
     points: int
@@ -55,7 +54,7 @@ class Result:
     lines: tuple = ()
 
     def ranks(self, ranked_by: str | None) -> bool:
-        """Return whether a run with this result is eligible for a high-score table; ranked_by as in Scene."""
+        """Return whether a run with this result may enter a high-score table. ranked_by: as in Scene."""
         if ranked_by == "seconds":
             return self.won
         return ranked_by == "points" and self.points > 0
@@ -63,7 +62,7 @@ class Result:
 
 @dataclass(frozen=True)
 class Slider:
-    """Value that the player can change with a slider. `choices`, if given: the names of the values low, low + 1, ..."""
+    """Value that the player can change with a slider. choices: if given, the names of the values low, low + 1, ..."""
 
     name: str
     low: float
@@ -74,7 +73,7 @@ class Slider:
     choices: tuple = ()
 
     def clamp(self, value: float) -> float:
-        """Return the value of the slider that is nearest to `value`; an int if `low` and `step` are whole."""
+        """Return the slider's value that is nearest to `value`; it is an int if `low` and `step` are whole."""
         steps = round((min(max(value, self.low), self.high) - self.low) / self.step)
         value = min(self.low + steps * self.step, self.high)
         return int(value) if float(self.step).is_integer() and float(self.low).is_integer() else value
@@ -227,7 +226,7 @@ class Scene:
 
     @property
     def world(self) -> WatchedWorld:
-        """Return the first world."""
+        """The first world."""
         return self.worlds[0]
 
     def step(self, inputs: InputState) -> None:
@@ -248,8 +247,9 @@ class Scene:
             self.monitor.note(self.frame, self.worlds)
 
     def watch_invariants(self, on: bool = True, strict: bool = False) -> None:
-        """Start checking the invariants of all worlds after every step, or stop it if `on` is False. strict: see
-        InvariantMonitor.
+        """Start checking the invariants of all worlds after every step, or stop it if `on` is False.
+
+        strict: see InvariantMonitor.
         """
         self.monitor = InvariantMonitor(strict) if on else None
         for world in self.worlds:
@@ -258,11 +258,11 @@ class Scene:
                 self.monitor.take(world)
 
     def _cameras(self):
-        """Return each camera once: the scene's own, and those of its views."""
+        """Return all cameras, each once: the scene's own, and those of its views."""
         return {id(camera): camera for camera in (self.camera, *(each for _, each in self.views()))}.values()
 
     def change(self, name: str, value: Any) -> None:
-        """Apply one change that came with the input. An unknown name or value raises ValueError."""
+        """Apply one change that came with the input. Raises ValueError for an unknown name or value."""
         if name.startswith("slider:") and name[7:] in self.values:
             self.change_slider(name[7:], value)
         elif name == "broadphase" and value in BROADPHASES:
@@ -291,21 +291,25 @@ class Scene:
             self.substeps = None  # the slider's value from now on
 
     def set_broadphase(self, name: str) -> None:
-        """Switch the broad phase of every world during a game. Worlds with their own keep it (switches_broadphase)."""
+        """Switch the broad phase of every world during a game.
+
+        If switches_broadphase is False, the worlds keep their own broad phases.
+        """
         self.broadphase = name
         if self.switches_broadphase:
             for world in self.worlds:
                 world.broadphase = BROADPHASES[name]()
 
     def solver_choices(self) -> tuple[str, ...]:
-        """Return the solvers that the player may switch between. () without the effect response, or if each world has
-        its own solver.
+        """Return the names of the solvers between which the player may switch.
+
+        They are () without the effect `response`, or if each world has its own solver.
         """
         return () if self.solvers or not self.effects.response else self.valid_solvers()
 
     @classmethod
     def valid_solvers(cls) -> tuple[str, ...]:
-        """Return the solvers that the scene's effects allow."""
+        """Return the names of the solvers that the scene's effects allow."""
         return tuple(SOLVERS) if cls.effects.stacking else ("blocking", "projection")
 
     @classmethod
@@ -316,16 +320,15 @@ class Scene:
         return (cls.level_suffix,) if cls.level_suffix else (".tmj", ".json")
 
     def set_solver(self, name: str) -> None:
-        """Switch the broad phase of every world during a game. If switches_broadphase is False, the worlds keep their
-        own broad phases.
-        """
+        """Switch the solver of every world during a game."""
         self.solver = name
         for world in self.worlds:
             world.solver = name
 
     def set_substeps(self, count: Any) -> None:
-        """Set the number of substeps of every world during a game. count: a number, or "auto", which adapts the number
-        to the loads.
+        """Set the number of substeps of every world during a game.
+
+        count: a number, or "auto", which adapts the number to the loads.
         """
         self.substeps = count
         for slider in self.sliders:
@@ -341,8 +344,9 @@ class Scene:
             world.set_narrowphase(on)
 
     def set_tier(self, name: str) -> None:
-        """Switch the collision tier of all sprite bodies during a game. Bodies that the scene adds later must get
-        self.tier.
+        """Switch the collision tier of all sprite bodies during a game.
+
+        The scene must use self.tier for bodies that it adds later.
         """
         self.tier = name
         for world in self.worlds:
@@ -353,7 +357,7 @@ class Scene:
 
     @property
     def own_body(self) -> int | None:
-        """Return the id of the body, in the first world, that the player must protect; None if there is none."""
+        """Id of the body in the first world that the player must protect; None if there is none."""
         return None
 
     def set_accessibility(self, accessibility: Accessibility) -> None:
@@ -362,47 +366,52 @@ class Scene:
         self.camera.shake_share = accessibility.shake
 
     def play(self, sound: str, x: float | None = None, volume: float = 1.0) -> None:
-        """Queue a sound effect. x: canvas position for the pan; None: the middle. volume: 0..1."""
+        """Queue a sound effect. x: canvas position, from which it is heard; None: the middle. volume: 0..1."""
         self.cues.append((sound, x, volume))
 
     @property
     def offer(self) -> str:
-        """Return the text that offers a new run after the end of a run; "" during a run.
+        """Text that offers a new run after the end of a run; "" during a run.
 
         While this text is shown, the help line stays visible. R restarts every scene; the text describes the new run.
         """
         return ""
 
     def views(self) -> list[tuple[WatchedWorld, Camera]]:
-        """Return (world, camera) of each picture on the canvas. Overlays use these cameras, and step() calls
-        begin_step() of each.
+        """Return a list of (world, camera), one for each picture of a world on the canvas.
+
+        Overlays use these cameras, and step() calls begin_step() of each.
         """
         return [(self.world, self.camera)]
 
     @property
     def chosen(self) -> tuple:
-        """Return the values of all sliders and switches. A measured run that depends on these values has this tuple in
-        its name.
+        """Values of all sliders and switches, a tuple.
+
+        It is part of the name of a measured run that depends on them.
         """
         return *self.values.values(), self.broadphase, self.solver, self.substeps, self.narrowphase
 
     def measured(self) -> MeasurementRequest | None:
-        """Return the measurements to make beside the game, whose results go to `figures`; None for no measurements."""
+        """Return the measurements that the measuring process makes during the game; None for no measurements.
+
+        The results are stored in `figures`.
+        """
         return None
 
     def finding(self) -> str:
         """Return the scene's finding: one sentence with the numbers measured in this run so far.
 
-        Until all numbers are measured, the sentence begins with "not yet: " and names the missing ones. "" for a scene
-        without a finding.
+        Until all numbers are measured, the sentence begins with "not yet: " and names the missing ones. It is "" for a
+        scene without a finding.
         """
         return ""
 
     def draw_on_frame(self, frame: Frame) -> None:
-        """Draw at window resolution, under the overlays (curves, thin lines). Most scenes draw nothing here."""
+        """Draw at window resolution, below the overlays (curves, thin lines). Most scenes draw nothing here."""
 
     def observe(self) -> None:
-        """Record timings after a step, for the curves that the scene draws. Timings are never part of the state."""
+        """Record timings after a step, for curves that the scene draws. Timings are never part of the state."""
 
 
 def set_loaded_aside() -> None:

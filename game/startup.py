@@ -1,7 +1,7 @@
 """Checks at the start of the program, before any slow import. Each reports its result in one line.
 
-The syntax is old on purpose (see main.py). `*_problem` returns a line that stops the program, or "". `*_note` returns a
-line of information, or "".
+The syntax is old on purpose (see main.py). A function `*_problem` returns a line that stops the program, or "". A
+function `*_note` returns a line of information, or "".
 """
 
 import os
@@ -23,12 +23,12 @@ def python_problem(version: tuple, executable: str) -> str:
 
 
 def dotted(version: tuple) -> str:
-    """Return a version as text: 3.11."""
+    """Return a version as text, for example 3.11."""
     return ".".join(str(part) for part in version)
 
 
 def package_problem() -> str:
-    """Return a line with the first missing package and the command that installs it; "" if none is missing."""
+    """Return a line with the first missing package and the command that installs it; "" if no package is missing."""
     from importlib.util import find_spec
 
     for module, package in (("numpy", "numpy"), ("pygame", "pygame-ce")):
@@ -38,14 +38,14 @@ def package_problem() -> str:
 
 
 def install(extra: str = "") -> str:
-    """Return the command that installs the program and its dependencies. extra: the name of an extra to install too."""
+    """Return the command that installs the program and its dependencies. extra: an extra to install, too, or ""."""
     if IN_CHECKOUT:
         return "python -m pip install -e " + ('".[' + extra + ']"' if extra else ".")
     return "python -m pip install " + ('"hitbox[' + extra + ']"' if extra else "hitbox")
 
 
 def installed(package: str) -> bool:
-    """Return whether a distribution of that name is installed in this environment."""
+    """Return whether the distribution `package` is installed in this environment."""
     from importlib import metadata
 
     try:
@@ -56,7 +56,7 @@ def installed(package: str) -> bool:
 
 
 def pygame_note(is_installed: "Callable[[str], bool]" = installed) -> str:
-    """Return a warning if both pygame and pygame-ce are installed: they overwrite each other's files."""
+    """Return a warning if both pygame and pygame-ce are installed, because they overwrite each other's files."""
     if is_installed("pygame") and is_installed("pygame-ce"):
         return (
             "both pygame and pygame-ce are installed and share one import name; keep one: "
@@ -81,13 +81,12 @@ def pygame_name() -> str:
 
 
 def prepare_environment() -> None:
-    """Suppress pygame's greeting on standard output, where --json prints its one object."""
+    """Suppress pygame's greeting on standard output, where --json prints only its one object."""
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
 
 def end_quietly_on_interrupt() -> "object":
-    """Make Ctrl-C end the program at once, with exit code 130 and without a traceback, until take_interrupts() is
-    called.
+    """Make Ctrl-C end the program at once, with exit code 130 and without a traceback, until take_interrupts().
 
     Return the previous handler, the argument of take_interrupts(). Call this function before the imports: imports need
     no cleanup, and an exception during an import prints many lines or is swallowed. A handler other than Python's
@@ -103,7 +102,7 @@ def end_quietly_on_interrupt() -> "object":
 
 
 def take_interrupts(handler: "object") -> None:
-    """Make Ctrl-C raise KeyboardInterrupt again. handler: the return value of end_quietly_on_interrupt()."""
+    """Make Ctrl-C raise KeyboardInterrupt again. handler: the result of end_quietly_on_interrupt()."""
     import signal
 
     if handler is signal.default_int_handler and signal.getsignal(signal.SIGINT) is not handler:
@@ -111,10 +110,10 @@ def take_interrupts(handler: "object") -> None:
 
 
 def say(line: str, whole: bool = False) -> None:
-    """Print one line on standard error, cut to errors.LONGEST characters. A program without standard error prints
-    nothing.
+    """Print one line on standard error, cut to errors.LONGEST characters.
 
-    whole: do not cut the line. Use it for the program's own texts, and for bounded texts with a list of valid names.
+    A program without standard error prints nothing. whole: whether the line is not cut, for the program's own texts and
+    for bounded texts with a list of valid names.
     """
     if line and sys.stderr is not None:  # None if closed, or started without a terminal
         if not whole:

@@ -1,4 +1,4 @@
-"""Every scene in menu order: SCENES is name -> "module:Class", imported at its first use.
+"""All scenes in the order of the menu. SCENES is {name: "module:Class"}; a class is imported at its first use.
 
 A scene that is not listed here is not in the game. tests/scenes/test_registry.py fails if a scene of the folder is not
 listed.

@@ -37,7 +37,7 @@ MOST = 20000  # frames within which every moment of a game must occur
 class Shot:
     """A picture to take: the frame number or moment of a run, and the part of the canvas to show.
 
-    The part is 160 x 90 px times `zoom`, with its top left corner at (`left`, `top`) [canvas px].
+    The part is 160 x 90 px times `zoom`, with its top left corner at (left, top) [canvas px].
     """
 
     frame: int | Moment
@@ -48,7 +48,7 @@ class Shot:
 
     @property
     def part(self):
-        """left, top, width, height of the part [canvas px]."""
+        """The part of the canvas as (left, top, width, height) [px]."""
         return self.left, self.top, SIZE[0] * self.zoom, SIZE[1] * self.zoom
 
 
@@ -99,13 +99,16 @@ class Film:
         self.overlays.note(self.scene)
 
     def take(self):
-        """Return the current picture."""
+        """Return the current picture, an array (810, 1440, 3) uint8."""
         self.picture.draw_scene(self.scene, self.overlays)
         return pygame.surfarray.array3d(self.picture.presenter.frame.surface).transpose(1, 0, 2)
 
 
 def film(name, seed, frames, layers=()):
-    """Run a scene with the overlays `layers`. Return {frame number: picture} for the frame numbers in `frames`."""
+    """Run a scene with some overlays. Return {frame number: picture}.
+
+    frames: the wanted frame numbers; layers: names of the overlays.
+    """
     running, wanted, taken = Film(name, seed, layers), set(frames), {}
     for number in range(1, max(wanted) + 1):
         running.step()
@@ -117,7 +120,7 @@ def film(name, seed, frames, layers=()):
 def film_moments(name, seed, moments):
     """Run a scene. Return a list with one picture for each moment.
 
-    The moments must occur in the given order. Raises ValueError naming the first moment that does not occur.
+    The moments must occur in the given order. Raises ValueError, which names the first moment that does not occur.
     """
     running, taken = Film(name, seed), []
     for moment in moments:
@@ -134,7 +137,7 @@ def film_moments(name, seed, moments):
 def reduced(pixels, part=(0, 0, *FRAME), zoom=1):
     """Return a part of a presented picture, reduced to one pixel per `zoom` x `zoom` canvas pixels.
 
-    `part`: left, top, width, height [canvas px]. The averages use integers, so they are equal on every machine.
+    part: (left, top, width, height) [canvas px]. The averages use integers, so they are equal on every machine.
     """
     left, top, width, height = (value * SCREENSHOT_SCALE for value in part)
     share = SCREENSHOT_SCALE * zoom
@@ -149,7 +152,7 @@ def picture_name(scene):
 
 
 def menu_picture(scene):
-    """Return the menu's picture of a scene, (90, 160, 3) uint8."""
+    """Return the menu's picture of a scene, an array (90, 160, 3) uint8."""
     shot = SHOTS[scene]
     if isinstance(shot.frame, Moment):
         taken = film_moments(scene, SEED, [shot.frame])[0]
@@ -159,7 +162,7 @@ def menu_picture(scene):
 
 
 def write_pictures(folder):
-    """Write the menu's pictures into a folder."""
+    """Write the menu's pictures of all scenes into a folder."""
     for scene in SCENES:
         (folder / picture_name(scene)).write_bytes(png.encode(menu_picture(scene)))
 
@@ -175,7 +178,7 @@ def write_moments(game, folder):
 
 
 def reel(name, seed, first, last, every, columns=8):
-    """Return a contact sheet of a run, to choose frames from: small pictures in rows of `columns`.
+    """Return a contact sheet of a run, from which frames can be chosen: small pictures in rows of `columns`.
 
     It shows every `every`-th frame from `first` to `last`.
     """
@@ -212,7 +215,7 @@ def read_arguments(arguments):
 
 
 def main(arguments=None):
-    """Film what the command line asks for. Return the exit code."""
+    """Make the pictures that the command line names. Return the exit code."""
     options = read_arguments(arguments)
     if options.what == "pictures":
         write_pictures(options.folder)

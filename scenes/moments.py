@@ -12,7 +12,7 @@ SEED = 1
 
 @dataclass(frozen=True)
 class Moment:
-    """A moment of a game. It occurs when `when(scene)` is true, and is filmed `after` steps later."""
+    """A moment of a game. It occurs when when(scene) is true, and its picture is taken `after` steps later."""
 
     caption: str
     when: Callable
@@ -20,7 +20,7 @@ class Moment:
 
 
 def flying(kind, least):
-    """Return a predicate of the scene: at least `least` planes of the kind are in the picture."""
+    """Return a function of the scene: whether at least `least` planes of a kind are in the picture."""
     return lambda scene: (
         sum(plane.kind == kind and 16 < plane.y < 200 and 20 < plane.x < 460 for plane in scene.fleet.planes.values())
         >= least
@@ -28,7 +28,10 @@ def flying(kind, least):
 
 
 def leader(frame, bullets=0):
-    """Return a predicate: a boss or mid-boss with picture `frame` fights, amid at least `bullets` enemy bullets."""
+    """Return a function of the scene: whether a boss or mid-boss fights amid at least `bullets` enemy bullets.
+
+    frame: name of the picture of the boss or mid-boss.
+    """
     return lambda scene: (
         len(scene.incoming) >= bullets
         and any(plane.leads and plane.frame == frame and plane.mode == "fight" for plane in scene.fleet.planes.values())
@@ -36,21 +39,24 @@ def leader(frame, bullets=0):
 
 
 def falling(kind):
-    """Return a predicate: a mid-boss or boss of that kind is burning and falling."""
+    """Return a function of the scene: whether a mid-boss or boss of that kind is burning and falling."""
     return lambda scene: any(
         plane.leads and plane.kind == kind and plane.mode == "fall" for plane in scene.fleet.planes.values()
     )
 
 
 def over(ground, bullets, planes=0):
-    """Return a predicate: the stage flies over that ground, with at least `bullets` bullets and `planes` planes."""
+    """Return a function of the scene: whether the stage is over that ground, with enough bullets and planes.
+
+    bullets, planes: their least numbers.
+    """
     return lambda scene: (
         scene.director.ground == ground and len(scene.incoming) >= bullets and len(scene.fleet.planes) >= planes
     )
 
 
 def bombed(frame):
-    """Return a predicate of a scene: a bomb was just dropped in a fight against a leader.
+    """Return a function of the scene: whether a bomb was just dropped in a fight against a boss or mid-boss.
 
     frame: see leader().
     """
@@ -59,17 +65,23 @@ def bombed(frame):
 
 
 def done(feat, times=1):
-    """Return a predicate: the hero has done `feat` at least `times` times."""
+    """Return a function of the scene: whether the hero has done `feat` at least `times` times."""
     return lambda scene: scene.feats.done[feat] >= times
 
 
 def flown(act, number):
-    """Return a predicate: the lander's bot is in act `act` and heads for waypoint `number` or a later one."""
+    """Return a function of the scene: whether the lander's bot is in act `act` and has come far enough.
+
+    That is when it heads for waypoint `number` or a later one.
+    """
     return lambda scene: scene.pilot.act == act and scene.pilot.number >= number
 
 
 def landing(name, high):
-    """Return a predicate: the lander comes down to site `name` and is less than about `high` px above it."""
+    """Return a function of the scene: whether the lander comes down to site `name` and is nearly there.
+
+    high: greatest height above the site [px], approximately.
+    """
     return lambda scene: (
         scene.course.site.name == name
         and abs(scene.ship.x - scene.course.site.x) < 30.0
@@ -78,7 +90,7 @@ def landing(name, high):
 
 
 def landed(count, mode):
-    """Return a predicate: exactly `count` landings have been made, and the course is in mode `mode`."""
+    """Return a function of the scene: whether `count` landings have been made, and the course is in mode `mode`."""
     return lambda scene: scene.score.landings == count and scene.course.mode == mode
 
 

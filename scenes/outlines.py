@@ -1,7 +1,7 @@
 """`python -m scenes.outlines [--check]`: fit polygon outlines to the pixel masks of the scenes, and store them.
 
-The outlines are stored in assets/outlines.npz, so that a start without compiled kernels does not fit them again.
-Every scene is built at each of its shape tiers. Bots play the games for some seconds, to include the masks that appear
+The outlines are stored in assets/outlines.npz, so that a start without compiled kernels does not fit them again. Every
+scene is built at each of its collision tiers. Bots play the games for some seconds, to include the masks that appear
 during play. The sprites of all sheets are included, too.
 
 --check compares the stored file with newly fitted outlines. Exit code 1: the file differs.
@@ -46,7 +46,7 @@ def fit_all() -> dict[bytes, kept.Parts]:
 
 
 def main(arguments: list[str]) -> int:
-    """Write the outline file, or with --check compare it with new outlines. Return the exit code."""
+    """Write the outline file or, with --check, compare it with new outlines. Return the exit code."""
     found = fit_all()
     if arguments == ["--check"]:
         with tempfile.TemporaryDirectory() as folder:

@@ -1,7 +1,8 @@
 """Music: one tune at a time, streamed from its file, with fades between tunes, and jingles in between.
 
-A file is read when its tune is wanted. The old tune fades out before the new one fades in: two tunes in different keys
-over each other are noise. The volume is set once per drawn frame (step), so that a slider is heard while it moves.
+A file is read when its tune is wanted. The old tune fades out before the new one fades in, because two tunes in
+different keys at once are noise. The volume is set once per drawn frame (step), so that a slider has effect while it
+moves.
 """
 
 from collections.abc import Callable
@@ -18,7 +19,7 @@ DUCK_DOWN, DUCK_UP = 0.05, 0.35  # [s] to lower the volume, and to raise it agai
 
 
 class Music:
-    """Player of tunes and jingles. `playing`: name of the tune or jingle that is heard; None in silence.
+    """Player of tunes and jingles. playing: name of the tune or jingle that plays; None in silence.
 
     report(line) is called once for each file that cannot be played.
     """
@@ -36,18 +37,18 @@ class Music:
         self.unusable = set()
 
     def tune(self, name: str | None) -> None:
-        """Choose the tune to play, or None for silence. If a jingle is playing, the tune starts after the jingle."""
+        """Choose the tune to play, or None for silence. During a jingle, the tune starts after it."""
         if name != self.wanted:
             self.wanted = name
             self.resume()
 
     def jingle(self, name: str) -> None:
-        """Play a jingle once, at once; the tune starts again after it."""
+        """Play a jingle once, without delay. The tune starts again after it."""
         self.resume()
         self.jingle_due = name
 
     def duck_for(self, seconds: float) -> None:
-        """Lower the volume for `seconds`, behind a loud effect."""
+        """Lower the volume for `seconds`, so that a loud effect is heard."""
         self.ducked_for = max(self.ducked_for, seconds)
 
     def pause(self) -> None:
@@ -63,7 +64,7 @@ class Music:
         self.paused = False
 
     def step(self, seconds: float, volume: float) -> None:
-        """Advance fades, lowered volume and changes of tune by `seconds`. volume: 0..1 of all music."""
+        """Update fades, the lowered volume and the tune after `seconds`. volume: of all music, 0..1."""
         if not self.paused:
             self._advance(seconds)
         pygame.mixer.music.set_volume(0.0 if self.paused else volume * self.level * self.duck)
@@ -83,8 +84,9 @@ class Music:
         self.duck = min(1.0, max(DUCKED, self.duck + way * (1.0 - DUCKED)))
 
     def _leave_for(self, name, share):
-        """Fade out before the tune or jingle `name`: lower the volume by `share` (0..1) of the full volume, and start
-        `name` once the volume is 0.
+        """Fade out by one step before the tune or jingle `name`, and start it once the volume is 0.
+
+        share: part of the full volume by which the volume is lowered, 0..1.
         """
         self.level = max(0.0, self.level - share)
         if self.level == 0.0 or self.playing is None:

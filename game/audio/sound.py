@@ -1,7 +1,7 @@
 """Sound: effects with a few voices each, panned and varied in pitch, over music; silence without a device.
 
-Scenes read nothing back from the player, and the choice of pitches has its own random numbers. The buffer has 512
-samples (12 ms): larger ones are heard as lag, smaller ones pop.
+Scenes read nothing back from the player of sounds, and the choice of pitches has its own random numbers. The buffer has
+512 samples (12 ms): a larger one causes an audible delay, a smaller one pops.
 """
 
 import math
@@ -50,10 +50,7 @@ RANKS = {
 
 @dataclass
 class Voice:
-    """One channel of the mixer and its last sound.
-
-    `started`: number of that sound, counting all sounds started so far.
-    """
+    """One channel of the mixer, with its last sound. started: number of that sound among all sounds started so far."""
 
     channel: "pygame.mixer.Channel"  # in quotes: a pygame without its mixer has no such name
     name: str = ""
@@ -62,7 +59,7 @@ class Voice:
 
 
 class Sounds:
-    """Player of effects and music by file name. `silent_because`: the reason for silence; "" if sound is played.
+    """Player of effects and music by file name. silent_because: the reason for silence, or "".
 
     master, effects and music are volumes 0..1 and may be set at any time. Call step() once per drawn frame.
     """
@@ -102,7 +99,10 @@ class Sounds:
         return ""
 
     def play_cues(self, cues: Iterable[Cue]) -> None:
-        """Play the cues (name, canvas x or None, volume) of one step. Of equal names only the loudest is played."""
+        """Play the cues of one step, each (name, canvas x or None, volume).
+
+        Of equal names only the loudest is played.
+        """
         loudest = {}
         for name, x, volume in cues:
             if name not in loudest or volume > loudest[name][1]:
@@ -111,9 +111,9 @@ class Sounds:
             self.play(name, x, volume)
 
     def play(self, name: str, x: float | None = None, volume: float = 1.0) -> bool:
-        """Start a sound at canvas x (None: the centre), and return whether it is heard.
+        """Start a sound, and return whether it is played. x: canvas position, None for the centre.
 
-        If VOICES voices of this sound play already, the oldest is replaced.
+        If VOICES voices already play this sound, the oldest of them is replaced.
         """
         loudness = min(1.0, volume) * self.effects * self.master
         now = self.clock()
@@ -134,10 +134,9 @@ class Sounds:
         return True
 
     def _start(self, name, sides, loudness):
-        """Start the sound `name` on a voice, with the (left, right) volumes `sides` times `loudness`, and return the
-        voice.
+        """Start the sound `name` on a voice, and return the voice; None if its file is unusable or no voice is free.
 
-        Return None if the file is unusable or no voice is free.
+        sides: (left, right) volumes, which are multiplied by `loudness`.
         """
         sound = self._variant(name)
         voice = self._voice_for(name, RANKS.get(name, 1)) if sound else None
@@ -148,16 +147,15 @@ class Sounds:
         return voice
 
     def _lose(self, error):
-        """Switch to silence after the sound device was removed, and report that in one line with the `error`."""
+        """Switch to silence because the sound device was removed, and report the `error` in one line."""
         self.silent_because = f"the sound device is gone ({error})"
         self.report(f"{self.silent_because}; the game goes on in silence")
 
     def _voice_for(self, name, rank):
-        """Return the voice for a sound `name` of importance `rank`; None if all voices are busy with sounds of higher
-        ranks.
+        """Return the voice for a sound `name` of importance `rank`; None if all voices have more important sounds.
 
-        The first of these that exists: the oldest voice of the same sound, if VOICES of them play; a free voice; the
-        oldest voice of the lowest rank.
+        It is the first of these that exists: the oldest voice of the same sound, if VOICES of them play; a free voice;
+        the oldest voice of the lowest rank.
         """
         busy = [voice for voice in self.voices if voice.channel.get_busy()]
         same = [voice for voice in busy if voice.name == name]
@@ -169,7 +167,7 @@ class Sounds:
         return least if least.rank <= rank else None
 
     def _variant(self, name):
-        """Return the sound `name` at a random pitch, other than its last one; None if its file is unusable."""
+        """Return the sound `name` at a random pitch, different from its last one; None if its file is unusable."""
         if name not in self.samples:
             self.samples[name] = self._read(name)
         samples = self.samples[name]
@@ -199,27 +197,30 @@ class Sounds:
         return None
 
     def tune(self, name: str | None) -> None:
-        """Choose a tune, which is faded in, or None for silence. A call with the present tune costs little."""
+        """Choose the tune to play, or None for silence. A new tune is faded in.
+
+        A call with the current tune costs little.
+        """
         if not self.silent_because:
             self.player.tune(name)
 
     def jingle(self, name: str) -> None:
-        """Play a jingle once, at once; the chosen tune starts after it."""
+        """Play a jingle once, without delay. The chosen tune starts after it."""
         if not self.silent_because:
             self.player.jingle(name)
 
     def pause(self) -> None:
-        """Pause the music; effects end by themselves."""
+        """Pause the music. Effects that play continue to their end."""
         if not self.silent_because:
             self.player.pause()
 
     def resume(self) -> None:
-        """Continue the music at its position."""
+        """Continue the music where it was paused."""
         if not self.silent_because:
             self.player.resume()
 
     def step(self, seconds: float) -> None:
-        """Advance fades and lowered volume. seconds: time since the last call."""
+        """Update fades and the lowered volume. seconds: time since the last call [s]."""
         if self.silent_because:
             return
         try:
@@ -229,14 +230,17 @@ class Sounds:
 
 
 def pan(x: float | None) -> tuple[float, float]:
-    """Return (left, right) volumes 0..1 for a canvas x, of equal power everywhere; None is the centre."""
+    """Return (left, right) volumes, 0..1, for a sound at canvas `x`; None is the centre.
+
+    The power is equal everywhere.
+    """
     side = 0.0 if x is None else max(-1.0, min(1.0, 2.0 * x / CANVAS_SIZE[0] - 1.0)) * PAN_WIDTH
     angle = (side + 1.0) * math.pi / 4.0
     return math.cos(angle), math.sin(angle)
 
 
 def resampled(samples: np.ndarray, speed: float) -> np.ndarray:
-    """Return the samples played `speed` times as fast, and so at a higher pitch."""
+    """Return samples that sound `speed` times as fast, and so at a higher pitch."""
     if speed == 1.0:
         return samples
     places = np.arange(0.0, len(samples) - 1, speed)
@@ -244,5 +248,5 @@ def resampled(samples: np.ndarray, speed: float) -> np.ndarray:
 
 
 def stereo(samples: np.ndarray) -> bytes:
-    """Return mono samples as the bytes of a stereo buffer."""
+    """Return mono samples as the bytes of a stereo buffer, equal on both sides."""
     return np.repeat(samples, 2).tobytes()

@@ -13,14 +13,14 @@ CLOUD_TOP = 18
 
 
 class Backdrop:
-    """Sky and parallax layers, which repeat in x."""
+    """A sky with parallax layers that repeat in x."""
 
     def __init__(self, layers: Sequence[tuple[str, float, int | None]] = DUSK, sky: str = "sky_dusk") -> None:
         self.sky = load_backdrop(sky)
         self.layers = [(load_backdrop(name), share, low) for name, share, low in layers]
 
     def draw(self, canvas: Canvas, distance: float, dim: int = 0) -> None:
-        """Draw for a camera that has moved `distance` px to the right. dim 0..255 darkens the picture for text."""
+        """Draw the backdrop for a camera that has moved `distance` px to the right. dim: 0..255, darkens for text."""
         canvas.surface.blit(self.sky, (0, 0))
         for picture, share, low in self.layers:
             y = CLOUD_TOP if low is None else CANVAS_SIZE[1] - picture.get_height() + low

@@ -9,7 +9,7 @@ import pygame
 def blit_many(
     surface: pygame.Surface, pairs: Iterable[tuple[pygame.Surface, tuple[float, float]]], flags: int = 0
 ) -> None:
-    """Blit (image, (x, y)) pairs; flags: pygame's blend flags.
+    """Blit many pictures. pairs: (image, (x, y)); flags: pygame's blend flags.
 
     fblits, which pygame 2.6.1 lacks, skips checks: 0.4 instead of 0.5 µs a pair.
     """

@@ -11,7 +11,7 @@ SHAKE_DECAY = 0.75  # [1/s] trauma lost per second: a full shake ends after 1.3 
 
 
 class Camera:
-    """Camera. `x, y`: the world point at the top left of `viewport` (a canvas Rect); `zoom`: canvas px per world px.
+    """A camera. x, y: the world point at the top left of `viewport`, a canvas Rect; zoom: canvas px per world px.
 
     Call begin_step() once per step, before moving the camera. view(alpha) returns the world point that is drawn at the
     top left. At zoom 1 this point is rounded once, so that all drawn objects move together.
@@ -43,7 +43,7 @@ class Camera:
         self.limits = (left, top, right, bottom)
 
     def place(self, x: float, y: float) -> None:
-        """Move the top left of the view to a world point at once, without interpolation (a restart, a door)."""
+        """Move the view's top left corner to a world point at once, without interpolation (a restart, a door)."""
         self.x, self.y = self._limited(x, y)
         self.previous_x, self.previous_y = self.x, self.y
 
@@ -61,7 +61,7 @@ class Camera:
     def follow(
         self, x: float, y: float, dt: float, rate: float = 8.0, dead_zone: tuple[float, float] = (0.0, 0.0)
     ) -> None:
-        """Move the view towards centring a world point, at `rate` [1/s].
+        """Move the view towards a world point, so that the point comes to its middle. rate: of the approach [1/s].
 
         The view does not move while the point is within `dead_zone` (x, y) [world px] of the middle.
         """
@@ -72,7 +72,10 @@ class Camera:
         self.x, self.y = self._limited(self.x + off_x * share, self.y + off_y * share)
 
     def shake(self, trauma: float) -> None:
-        """Add trauma 0..1. The drawn offset is proportional to the square of the trauma, so small hits stay small."""
+        """Add trauma, 0..1.
+
+        The drawn offset is proportional to the square of the trauma, so that small hits stay small.
+        """
         self.trauma = min(1.0, self.trauma + trauma)
 
     def view(self, alpha: float = 1.0) -> tuple[float, float]:
@@ -87,12 +90,15 @@ class Camera:
         return (whole(x), whole(y)) if self.zoom == 1.0 else (x, y)
 
     def to_canvas(self, x: Number, y: Number, alpha: float = 1.0) -> tuple[Number, Number]:
-        """Return the canvas position of world points; scalars or arrays."""
+        """Return the canvas position (x, y) of world points, numbers or arrays.
+
+        alpha: position (0..1) between the last two steps.
+        """
         left, top = self.view(alpha)
         return (x - left) * self.zoom + self.viewport.x, (y - top) * self.zoom + self.viewport.y
 
     def to_world(self, x: float, y: float) -> tuple[float, float]:
-        """Return the world position of a canvas point, by the camera's position in the last step."""
+        """Return the world position (x, y) of a canvas point, for the camera's position in the last step."""
         left, top = self.view()
         return (x - self.viewport.x) / self.zoom + left, (y - self.viewport.y) / self.zoom + top
 
@@ -105,7 +111,7 @@ class Camera:
 
 
 def _outside(offset, zone):
-    """Return how far an offset lies outside a zone of +-zone around 0; 0 inside."""
+    """Return how far an offset lies outside the range -zone .. zone; 0 inside."""
     if offset > zone:
         return offset - zone
     return offset + zone if offset < -zone else 0.0

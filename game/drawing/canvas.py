@@ -1,7 +1,7 @@
 """Canvas: the surface that scenes draw on. It records every text box, so that later text can avoid them.
 
-Positions are canvas pixels. Sprites are rounded once, with floor(x + 0.5), so that a sprite and the ground under it
-always move together.
+Positions are canvas pixels. The position of a sprite is rounded once, as floor(x + 0.5), so that a sprite and the
+ground under it always move together.
 """
 
 from collections.abc import Iterable
@@ -27,9 +27,10 @@ def whole(value: float) -> int:
 
 
 class Canvas:
-    """Surface with text. `boxes`: (rect, text) of each line of text in this picture; `reserved`: rects without text.
+    """Surface with text. boxes: (rect, text) of each line of text in this picture.
 
-    `fixed`: the reserved rects that show an icon, a bar or a plot. Overlays cover neither the text nor these rects.
+    reserved: rectangles that later text must avoid, as well. fixed: those of them that show an icon, a bar or a plot.
+    Overlays cover neither the text nor the fixed rectangles.
     """
 
     edge = 1  # [px] by which an outline extends over its text's box
@@ -42,7 +43,7 @@ class Canvas:
         self.palette = "standard"  # name of the overlays' palette, from the player's settings
 
     def tone(self, color: Color) -> Color:
-        """Return an overlay's colour in this picture's palette."""
+        """Return the colour that an overlay's `color` has in this picture's palette."""
         return toned(color, self.palette)
 
     @property
@@ -51,7 +52,7 @@ class Canvas:
         return self.surface.get_rect()
 
     def begin(self, color: Color | None = None) -> None:
-        """Start a new picture: clear the lists of boxes and rects, and fill the surface with `color` if it is given."""
+        """Start a new picture: clear all lists, and fill the surface with `color` if it is given."""
         self.boxes.clear()
         self.reserved.clear()
         self.fixed.clear()
@@ -59,18 +60,18 @@ class Canvas:
             self.surface.fill(color)
 
     def sprite(self, image: pygame.Surface, x: float, y: float) -> None:
-        """Draw an image centred on (x, y)."""
+        """Draw an image centred on the canvas point (x, y)."""
         width, height = image.get_size()
         self.surface.blit(image, (whole(x) - width // 2, whole(y) - height // 2))
 
     def measure(self, text: str, font: str = TEXT, scale: int = 1) -> tuple[int, int]:
-        """Return the width and height of a line of text [px]."""
+        """Return (width, height) of a line of text [px]."""
         return load_font(font).measure(text, scale)
 
     def text_rect(
         self, text: str, x: float, y: float, font: str = TEXT, scale: int = 1, align: str = "left"
     ) -> pygame.Rect:
-        """Return the rect that text() would draw the line in. align: the meaning of x, "left", "center" or "right"."""
+        """Return the rectangle that text() would use for a line. align: "left", "center" or "right", the place of x."""
         width, height = load_font(font).measure(text, scale)
         left = {"left": x, "center": x - width / 2, "right": x - width}[align]
         return pygame.Rect(whole(left), whole(y), width, height)
@@ -86,7 +87,10 @@ class Canvas:
         align: str = "left",
         outline: bool = False,
     ) -> pygame.Rect:
-        """Draw one line of text with its top at y, and return its rect. The caller must keep it clear of other text."""
+        """Draw one line of text with its upper edge at y, and return its rectangle. align: as in text_rect().
+
+        The caller must keep it clear of other text.
+        """
         rect = self.text_rect(text, x, y, font, scale, align)
         load_font(font).draw(self.surface, text, rect.x, rect.y, color, scale, outline)
         self.boxes.append((rect, text))
@@ -103,7 +107,7 @@ class Canvas:
         align: str = "left",
         outline: bool = False,
     ) -> bool:
-        """Draw the line only if it is on the canvas and touches no other text. Return whether it was drawn.
+        """Draw a line of text only if it is on the canvas and touches no other text. Return whether it was drawn.
 
         This is for labels that follow moving objects. The caller counts the labels that were not drawn, and shows the
         count in a fixed place.
@@ -116,37 +120,37 @@ class Canvas:
         return True
 
     def is_free(self, rect: pygame.Rect) -> bool:
-        """Return whether the rect is on the canvas and meets no text box and no reserved rect."""
+        """Return whether a rectangle is on the canvas and touches no text box and no reserved rectangle."""
         return self.rect.contains(rect) and rect.collidelist(self._taken()) < 0
 
     def _taken(self):
         return [box for box, _ in self.boxes] + self.reserved
 
     def reserve(self, rect: Box) -> None:
-        """Keep the text of text_if_free and the places of free_place out of a rect (a graph, a panel, a life bar)."""
+        """Reserve a rectangle (a graph, a panel, a life bar), which text_if_free() and free_place() then avoid."""
         self.reserved.append(pygame.Rect(rect))
 
     def fix(self, rect: Box) -> None:
-        """Reserve a rect whose content overlays must not cover."""
+        """Reserve a rectangle that overlays must not cover."""
         self.reserve(rect)
         self.fixed.append(pygame.Rect(rect))
 
     def lift(self) -> list[tuple[pygame.Surface, tuple[int, int]]]:
-        """Return copies of the text and of the fixed rects, each as (picture, top left).
+        """Return copies of the text and of the fixed rectangles, a list of (picture, top left corner).
 
-        put_back() draws these copies again, over anything that was drawn after the call of lift().
+        put_back() draws these copies again, over everything that was drawn since the call of lift().
         """
         rects = [box.inflate(2 * self.edge, 2 * self.edge) for box, _ in self.boxes] + self.fixed
         inside = [rect.clip(self.rect) for rect in rects]
         return [(self.surface.subsurface(rect).copy(), rect.topleft) for rect in inside if rect.width and rect.height]
 
     def put_back(self, lifted: list[tuple[pygame.Surface, tuple[int, int]]]) -> None:
-        """Draw the copies returned by lift() over the canvas. lifted: the result of lift()."""
+        """Draw the copies `lifted`, which lift() returned, over the canvas."""
         for picture, place in lifted:
             self.surface.blit(picture, place)
 
     def free_place(self, size: tuple[int, int], places: Iterable[tuple[float, float]]) -> tuple[int, int] | None:
-        """Return the first (x, y) of `places` where a box of `size` is free, or None."""
+        """Return the first (x, y) of `places` at which a box of `size` is free, or None."""
         inside, taken = self.rect, self._taken()
         for x, y in places:
             rect = pygame.Rect(whole(x), whole(y), *size)
@@ -156,7 +160,7 @@ class Canvas:
 
 
 def wrap(text: str, width: int, font: str = TEXT, scale: int = 1) -> list[str]:
-    """Break a sentence into lines of at most `width` pixels; a longer word stands alone."""
+    """Return a text broken into lines of at most `width` pixels. A word that is wider has its own line."""
     measure = load_font(font).measure
     lines, line = [], ""
     for word in text.split():
@@ -170,7 +174,7 @@ def wrap(text: str, width: int, font: str = TEXT, scale: int = 1) -> list[str]:
 
 
 def shorten(text: str, width: int, font: str = TEXT, scale: int = 1) -> str:
-    """Return the text if it fits in `width` pixels, else its longest beginning that fits, followed by two dots."""
+    """Return the text if it fits in `width` pixels, otherwise its longest beginning that fits, followed by two dots."""
     measure = load_font(font).measure
     if measure(text, scale)[0] <= width:
         return text

@@ -46,7 +46,10 @@ BROADPHASE_COLORS = {"brute": RED, "sweep": YELLOW, "hash": SKY, "tree": GREEN}
 
 
 def toned(color: Color, palette: str) -> Color:
-    """Return an overlay's colour in a palette (a name in game.files.accessibility.PALETTES); alpha, if any, is kept."""
+    """Return the colour that an overlay's `color` has in a palette; alpha, if any, is kept.
+
+    palette: a name in game.files.accessibility.PALETTES.
+    """
     plain = tuple(color[:3])
     found = TONES[palette].get(plain)
     if found is None:
@@ -55,5 +58,5 @@ def toned(color: Color, palette: str) -> Color:
 
 
 def faded(color: Color, amount: float) -> Color:
-    """Return `color` mixed towards NIGHT, the dark ground: amount 0 gives `color`, 1 gives NIGHT."""
+    """Return `color` mixed with the dark colour NIGHT. amount: 0 gives `color`, 1 gives NIGHT."""
     return tuple(round(c + (n - c) * amount) for c, n in zip(color[:3], NIGHT, strict=True))

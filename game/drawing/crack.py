@@ -1,4 +1,4 @@
-"""Cracks: jagged lines of pixels across a raster, by which a shape is carved."""
+"""Cracks: jagged lines of pixels across a raster, along which a shape is carved into pieces."""
 
 from math import cos, hypot, sin
 
@@ -9,7 +9,7 @@ FINE = 0.25  # [px] between the points that are drawn
 
 
 def draw_crack(solid: np.ndarray, at: tuple[float, float], heading: float, random: np.random.Generator) -> None:
-    """Set the pixels of a crack in `solid`[row, column] to True.
+    """Set the pixels of a crack in `solid`, a bool array [row, column], to True.
 
     The crack passes through the point `at` (x, y) [px], along `heading` [rad] on average, from side to side of the
     raster. It is two pixels wide, so that the pixels on both sides of it do not touch at corners.

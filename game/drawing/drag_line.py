@@ -1,4 +1,4 @@
-"""The mouse drag on screen: a line from the grabbed point to the pointer."""
+"""The mouse drag on the screen: a line from the grabbed point to the pointer."""
 
 import pygame
 
@@ -8,8 +8,9 @@ from game.input.drag import Drag, to_world
 
 
 def draw_drag(frame: Frame, drag: Drag, pointer: tuple[float, float]) -> None:
-    """Draw a line from the grabbed point to the pointer (canvas px), with a ring and a dot; nothing if no body is
-    held.
+    """Draw a line with a ring and a dot from the grabbed point to the pointer; nothing if no body is held.
+
+    pointer: (x, y) [canvas px].
     """
     hold = drag.hold
     if hold is None:

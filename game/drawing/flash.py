@@ -16,7 +16,7 @@ FAINTEST = 0.02  # of the full light; less counts as none
 
 
 class Flash:
-    """Light of the flashes. `light`: 0..1 now; `begun`: the steps at which the last flashes began."""
+    """Light of the flashes. light: current strength, 0..1; begun: steps at which the last flashes began."""
 
     def __init__(self) -> None:
         self.now = 0
@@ -25,8 +25,9 @@ class Flash:
         self.begun = []
 
     def start(self, strength: float = 1.0, color: Color = (255, 255, 255)) -> bool:
-        """Start a flash of `strength` 0..1, unless MOST flashes began within the last SPAN steps. Return whether it
-        started.
+        """Start a flash, and return whether it was started. strength: 0..1.
+
+        It is not started if MOST flashes began within the last SPAN steps.
         """
         self.begun = [step for step in self.begun if self.now - step < SPAN]
         if len(self.begun) >= MOST:
@@ -41,7 +42,7 @@ class Flash:
         self.light = self.light * FADE if self.light > FAINTEST else 0.0
 
     def draw(self, surface: pygame.Surface) -> None:
-        """Add the light to a picture."""
+        """Add the light to the whole surface."""
         if self.light > 0.0:
             part = BRIGHTEST * self.light / 255
             surface.fill([int(c * part) for c in self.color], special_flags=pygame.BLEND_RGB_ADD)

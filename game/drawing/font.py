@@ -20,7 +20,7 @@ UNKNOWN = "?"  # drawn for a character that the sheet lacks
 
 
 class Font:
-    """One sheet of glyphs. `height` is a line's height in font pixels."""
+    """One sheet of glyphs. height: of a line [font px]."""
 
     def __init__(self, sheet: pygame.Surface, height: int, glyphs: dict[str, dict[str, int]]) -> None:
         self.height = height
@@ -32,7 +32,7 @@ class Font:
         self.measure = lru_cache(maxsize=MEASURED)(self._measure)  # labels measure the same text in every picture
 
     def _measure(self, text, scale=1):
-        """Return the width and height of one line [px], without the gap behind the last letter."""
+        """Return (width, height) of one line [px], without the gap after the last letter."""
         unknown = self.advance[UNKNOWN]
         width = sum(self.advance.get(c, unknown) for c in text)
         return (max(width - 1, 0) * scale, self.height * scale)
@@ -40,7 +40,7 @@ class Font:
     def draw(
         self, surface: pygame.Surface, text: str, x: int, y: int, color: Color, scale: int = 1, outline: bool = False
     ) -> None:
-        """Draw one line with its top left at whole pixels (x, y)."""
+        """Draw one line with its top left corner at (x, y), whole pixels."""
         edge = scale if outline else 0
         surface.blit(self.line(text, tuple(color), scale, outline), (x - edge, y - edge))
 
@@ -93,7 +93,7 @@ def tint(image: pygame.Surface, color: Color) -> pygame.Surface:
 
 @cache
 def load_font(name: str) -> Font:
-    """Return the font of assets/font/<name>.png and .json. Raises FileError when a file is damaged or missing."""
+    """Return the font of assets/font/<name>.png and .json. Raises FileError if a file is damaged or missing."""
     path = FONTS / f"{name}.json"
     try:
         table = json.loads(path.read_text(encoding="utf-8"))

@@ -14,11 +14,10 @@ ANGLES = 64  # pictures cached per full turn: a 40 px piece moves by 2 px at its
 def cut_out(
     source: pygame.Surface, mask: PixelMask, left: int, top: int, edge: tuple[int, int, int], share: float = 0.75
 ) -> pygame.Surface:
-    """Return the part of the picture `source` under the solid pixels of a mask; all other pixels are transparent.
+    """Return the part of the picture `source` under a mask's solid pixels; all other pixels are transparent.
 
-    The top left of the mask lies at (left, top) of the picture. At a fracture, where the picture continues beyond the
-    mask, the outermost pixels are mixed with the colour `edge` by `share` 0..1, and the next pixels inwards by share /
-    2.
+    left, top: place of the mask in the picture. A fracture is where the picture continues beyond the mask. There the
+    outermost pixels are mixed with the colour `edge` by `share` 0..1, and the next pixels inwards by share / 2.
     """
     width, height = mask.size
     wide = pygame.Surface((width + 2, height + 2), pygame.SRCALPHA)
@@ -40,7 +39,7 @@ def cut_out(
 
 
 class FragmentPicture:
-    """Picture of a fragment, drawn at any angle about the origin of its body."""
+    """Picture of a fragment, drawn at any angle around the origin of its body."""
 
     def __init__(self, image: pygame.Surface, mask: PixelMask) -> None:
         # From the body's origin to the centre of the picture.
@@ -55,7 +54,7 @@ class FragmentPicture:
         return self.kept[number]
 
     def middle(self, x: float, y: float, angle: float) -> tuple[float, float]:
-        """Return the world position of the picture's centre for a body at position (x, y), rotated by `angle` [rad]."""
+        """Return the world position (x, y) of the picture's centre for a body at (x, y), rotated by `angle` [rad]."""
         c, s = cos(angle), sin(angle)
         return x + c * self.off[0] - s * self.off[1], y + s * self.off[0] + c * self.off[1]
 
@@ -68,6 +67,6 @@ class FragmentPicture:
 
 
 def _beside(pixels):
-    """Return the flags of the pixels with a flagged pixel on one of their four sides."""
+    """Return a bool array of the pixels that have a pixel of `pixels` above, below, left or right of them."""
     padded = np.pad(pixels, 1)
     return padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2] | padded[1:-1, 2:]

@@ -1,4 +1,4 @@
-"""Score, lives, bars and banners on the canvas. Each function returns the rect it drew in."""
+"""Score, lives, bars and banners on the canvas. Each function returns the rectangle in which it has drawn."""
 
 from collections.abc import Sequence
 
@@ -14,7 +14,7 @@ BANNER_GROUND = (20, 16, 32, 150)
 def label(
     canvas: Canvas, text: str, x: float, y: float, value: str = "", align: str = "left", color: Color = PAPER
 ) -> pygame.Rect:
-    """Draw `text` in gold and `value` beside it in `color`. Return the rect of both."""
+    """Draw `text` in gold, and `value` beside it in `color`. Return the rectangle of both."""
     if align == "right":
         right = canvas.text(value, x, y, color, TEXT, align="right", outline=True)
         left = canvas.text(text, right.left - 4, y, GOLD, TEXT, align="right", outline=True)
@@ -27,8 +27,10 @@ def label(
 def icons(
     canvas: Canvas, image: pygame.Surface, count: int, x: int, y: int, gap: int = 2, most: int = 8
 ) -> pygame.Rect:
-    """Draw a row of `count` pictures, for example one per life, and return its rect. If `count` exceeds `most`, only
-    `most` pictures are drawn, with the count as text beside them.
+    """Draw a row of `count` pictures, for example one per life, and return its rectangle.
+
+    If `count` exceeds `most`, only `most` pictures are drawn, with the count as text beside them. gap: between pictures
+    [px].
     """
     width, height = image.get_size()
     shown = min(count, most)
@@ -43,7 +45,7 @@ def icons(
 
 
 def bar(canvas: Canvas, rect: Box, share: float, color: Color, ground: Color = INK) -> pygame.Rect:
-    """Draw a bar filled to `share` 0..1, over the colour `ground`, and return its rect."""
+    """Draw a bar of which `share` (0..1) is filled with `color`, over the colour `ground`. Return its rectangle."""
     rect = pygame.Rect(rect)
     canvas.surface.fill(ground, rect)
     canvas.surface.fill(
@@ -57,7 +59,10 @@ def bar(canvas: Canvas, rect: Box, share: float, color: Color, ground: Color = I
 def banner(
     canvas: Canvas, title: str, lines: Sequence[str] = (), color: Color = GOLD, y: int | None = None
 ) -> pygame.Rect:
-    """Draw a large title over a dark band in the middle of the picture, with small lines under it. Return the rect."""
+    """Draw a large title over a dark band in the middle of the picture, with small lines under it.
+
+    Return its rectangle.
+    """
     width, height = canvas.measure(title, TEXT, 3)
     total = height + 6 + 13 * len(lines)
     top = (canvas.rect.height - total) // 2 if y is None else y

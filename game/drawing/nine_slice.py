@@ -1,4 +1,4 @@
-"""Framed boxes from the ui sheet: nine slices, of which the middle ones are stretched."""
+"""Framed boxes from the sheet "ui". A box consists of nine slices, of which the middle ones are stretched."""
 
 from functools import lru_cache
 
@@ -11,7 +11,7 @@ EDGE = 8  # [px] side of a slice that keeps its size
 
 
 def draw_box(canvas: Canvas, rect: Box, name: str = "panel_dark") -> None:
-    """Draw a framed box; `name` is panel, panel_selected or panel_dark."""
+    """Draw a framed box. name: "panel", "panel_selected" or "panel_dark"."""
     canvas.surface.blit(_box(name, rect[2], rect[3]), (rect[0], rect[1]))
 
 
@@ -32,5 +32,8 @@ def _box(name, width, height):
 
 
 def _place(index, length):
-    """Return (start, length) [px] of the first, middle or last slice (index 0, 1, 2) along a side of this length."""
+    """Return (start, length) [px] of a slice along a side of the box. index: 0 first, 1 middle, 2 last slice.
+
+    length: of the side [px].
+    """
     return ((0, EDGE), (EDGE, max(length - 2 * EDGE, 0)), (length - EDGE, EDGE))[index]

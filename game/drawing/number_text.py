@@ -28,5 +28,5 @@ def plain_name(name: str) -> str:
 
 
 def count_text(number: int, what: str) -> str:
-    """Return a number with its noun, `what`, in the singular or plural: "1 plane", "2 planes"."""
+    """Return a number with its noun in the singular or plural: "1 plane", "2 planes". what: the singular noun."""
     return f"{number} {what}{'s' if number != 1 else ''}"

@@ -1,5 +1,6 @@
-"""Particles, stored as columns and moved with NumPy. They are decoration: no game rule reads them, and they have their
-own random numbers.
+"""Particles, stored as columns and moved with NumPy.
+
+They are decoration: no game rule reads them, and they have their own random numbers.
 """
 
 import numpy as np
@@ -14,7 +15,7 @@ COLUMNS = ("x", "y", "vx", "vy", "age", "life", "size", "drag", "gravity")
 
 
 class Particles:
-    """Squares of 1 to 3 canvas pixels that fly, slow down and change colour along a ramp."""
+    """Squares of 1 to 3 canvas pixels that fly, slow down and change their colour along a ramp."""
 
     def __init__(self, seed: int = 0) -> None:
         self.random = np.random.default_rng(seed)
@@ -58,11 +59,11 @@ class Particles:
         gravity: float = 0.0,
         carry: tuple[float, float] = (0.0, 0.0),
     ) -> None:
-        """Throw `count` particles from (x, y) [world px].
+        """Emit `count` particles at (x, y) [world px].
 
-        ramp: colours from hot to cold. speed [px/s], life [s] and size [px] are (low, high) ranges. angle and spread
-        [rad] aim the cone. drag [1/s] slows the particles, gravity [px/s2] pulls them down. carry: velocity [px/s] that
-        is added to all, such as the velocity of a wreck.
+        ramp: colours over the lifetime, from hot to cold. speed [px/s], life [s] and size [px]: (low, high) ranges.
+        angle, spread [rad]: direction and width of the cone in which they fly. drag [1/s] slows them, gravity [px/s2]
+        pulls them down. carry: velocity [px/s] that is added to all, such as that of a wreck.
         """
         if ramp not in self.colors:
             self.colors.append(ramp)
@@ -96,8 +97,9 @@ class Particles:
         age += dt
 
     def draw(self, canvas: Canvas, camera: Camera, alpha: float = 1.0) -> None:
-        """Draw the particles in view. The loop is over the pixels of the largest size, with one array write each, not
-        over particles.
+        """Draw the particles in view.
+
+        The loop is over the pixels of the largest particle, with one array assignment for each, and not over particles.
         """
         x, y, _, _, age, life, size, _, _ = self.rows
         alive = np.flatnonzero(age < life)
@@ -117,9 +119,9 @@ class Particles:
         del pixels  # unlocks the surface
 
     def _mapped(self, surface, alive, age, life):
-        """Return the pixel value of the surface for the colour of each living particle.
+        """Return the pixel value of each living particle's colour on this surface, (n,) uint32.
 
-        `alive`: rows of the living particles; `age`, `life`: age and lifetime of every row [s].
+        alive: (n,) rows of the living particles; age, life: age and lifetime of all rows [s].
         """
         heat = age[alive] / life[alive]
         out = np.zeros(len(alive), dtype=np.uint32)

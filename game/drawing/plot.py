@@ -1,4 +1,4 @@
-"""A plot with two logarithmic axes at window resolution: decades, ticks, points, and a line at the bottom for zero."""
+"""A plot with two logarithmic axes at window resolution: decades, ticks, points, and a strip at the bottom for zero."""
 
 from collections.abc import Iterable
 from math import ceil, floor, log10
@@ -16,7 +16,7 @@ GRID = (52, 46, 76)
 
 
 class Axis:
-    """Logarithmic axis over all values above 0. `low`, `high`: logarithms to base 10 of its ends.
+    """Logarithmic axis that contains all `values` above 0. low, high: logarithms to base 10 of its ends.
 
     The axis extends beyond the values by PAD, and spans at least LEAST_SPAN.
     """
@@ -28,11 +28,14 @@ class Axis:
         self.low, self.high = low - spare, high + spare
 
     def share(self, value: float) -> float:
-        """Return the place of a value above 0 on the axis, 0..1."""
+        """Return the place of a value above 0 on the axis, 0 (low end) .. 1 (high end)."""
         return (log10(value) - self.low) / (self.high - self.low)
 
     def ticks(self, most: int) -> list[float]:
-        """Return round values within the axis, not many more than `most`."""
+        """Return round values within the axis, not many more than `most`.
+
+        They are multiples of the powers of ten by STEPS, or the powers of ten alone if those are too many.
+        """
         decades = range(floor(self.low), ceil(self.high) + 1)
         for steps in (STEPS, (1,)):
             found = [step * 10.0**decade for decade in decades for step in steps]
@@ -43,7 +46,7 @@ class Axis:
 
 
 class LogPlot:
-    """A plot of two axes, x and y. zero: whether a strip under the plot stands for a y of 0."""
+    """A plot with the axes x and y. zero: whether a strip below the plot is for points with y = 0."""
 
     def __init__(self, rect: pygame.Rect, x: Axis, y: Axis, zero: bool, scale: int) -> None:
         self.x, self.y, self.scale = x, y, scale
@@ -53,7 +56,7 @@ class LogPlot:
         self.area = inner if not zero else pygame.Rect(inner.x, inner.y, inner.width, inner.height - 13 * scale)
 
     def place(self, x: float, y: float) -> tuple[float, float]:
-        """Return the frame position of a point; a y of 0 lies in the strip."""
+        """Return the frame position (x, y) of a point. A point with y = 0 is in the strip."""
         left = self.area.x + self.x.share(x) * self.area.width
         if y <= 0.0 and self.strip is not None:
             return left, self.strip.centery
@@ -83,7 +86,7 @@ class LogPlot:
         pygame.draw.rect(surface, SLATE, area, 1)
 
     def draw_level(self, frame: Frame, value: float, color: Color, name: str) -> None:
-        """Draw a dashed horizontal line at y = `value`, with its name; draw nothing if it lies outside the axis."""
+        """Draw a dashed horizontal line at y = `value` with its name; draw nothing if it is outside the axis."""
         if not self.y.low <= log10(value) <= self.y.high:
             return
         top = round(self.place(1.0, value)[1])
@@ -95,7 +98,7 @@ class LogPlot:
 
 
 def number(value: float) -> str:
-    """Return a short number: 0.02, 1, 300, 20k."""
+    """Return a number as short text: 0.02, 1, 300, 20k."""
     if value >= 1000.0:
         return f"{value / 1000.0:g}k"
     return f"{value:g}"

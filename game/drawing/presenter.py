@@ -16,19 +16,20 @@ SCREENSHOT_SCALE = 3  # 1440 x 810
 
 
 class Lens:
-    """Transform from world (x, y) to frame (X, Y): X = x * scale + dx, Y = y * scale + dy. `clip`: the viewport on the
-    frame.
+    """Transform from world (x, y) to frame (X, Y): X = x * scale + dx, Y = y * scale + dy.
+
+    clip: the camera's viewport on the frame.
     """
 
     def __init__(self, scale: float, dx: float, dy: float, clip: pygame.Rect) -> None:
         self.scale, self.dx, self.dy, self.clip = scale, dx, dy, clip
 
     def points(self, x: Number, y: Number) -> tuple[Number, Number]:
-        """Return the frame positions of world points (scalars or arrays)."""
+        """Return the frame positions (x, y) of world points, numbers or arrays."""
         return x * self.scale + self.dx, y * self.scale + self.dy
 
     def seen(self, rows: np.ndarray) -> np.ndarray:
-        """Return (n,) bool: whether each world box (min x, min y, max x, max y) of (n, 4) reaches into the view."""
+        """Return (n,) bool: whether each box is at least partly in view. rows: (n, 4) min x, min y, max x, max y."""
         clip = self.clip
         left, top = (clip.left - self.dx) / self.scale, (clip.top - self.dy) / self.scale
         right, bottom = (clip.right - self.dx) / self.scale, (clip.bottom - self.dy) / self.scale
@@ -36,7 +37,7 @@ class Lens:
 
 
 class Frame(Canvas):
-    """Picture at window resolution. `area`: rect of the game canvas on it; `scale`: frame px per canvas px."""
+    """Picture at window resolution. area: rectangle of the game's canvas on it; scale: frame px per canvas px."""
 
     def __init__(self, surface: pygame.Surface) -> None:
         super().__init__(surface)
@@ -45,28 +46,28 @@ class Frame(Canvas):
 
     @property
     def text_scale(self) -> int:
-        """Whole-number scale at which small text is readable at this resolution."""
+        """Scale of small text at this resolution, a whole number at which it is readable."""
         return max(1, (self.surface.get_height() + 140) // 340)
 
     @property
     def edge(self) -> int:
-        """Greatest width of a text outline outside the text's box, on the canvas or on the frame [frame px]."""
+        """Greatest width of a text's outline beyond the text's box, on the canvas or on the frame [frame px]."""
         return max(self.scale, self.text_scale)
 
     @property
     def plot_scale(self) -> int:
-        """Scale of small text in a plot inside the game's picture: no larger than the scale of the picture."""
+        """Scale of small text in a plot inside the game's picture: at most the scale of the picture."""
         return min(self.text_scale, self.scale)
 
     def scale_for(self, width: int) -> int:
-        """Return the largest scale, a whole number, at which a text of `width` font px fits the game's picture.
+        """Return the largest whole scale at which a text of `width` font px fits into the game's picture.
 
-        The result is at least 1 and at most the usual scale of texts.
+        The result is at least 1 and at most `text_scale`.
         """
         return max(1, min(self.text_scale, self.area.width // width))
 
     def lens(self, camera: View) -> Lens:
-        """Return the transform from world to frame for a camera, at the poses of the last step."""
+        """Return the Lens from world to frame for a camera, at its position in the last step."""
         left, top = camera.view()
         scale = camera.zoom * self.scale
         view = camera.viewport
@@ -76,20 +77,20 @@ class Frame(Canvas):
         return Lens(scale, corner_x - left * scale, corner_y - top * scale, clip)
 
     def from_canvas(self, rect: Box) -> pygame.Rect:
-        """Return the frame rect of a canvas rect."""
+        """Return the frame rectangle of a canvas rectangle."""
         s, area = self.scale, self.area
         return pygame.Rect(area.x + rect[0] * s, area.y + rect[1] * s, rect[2] * s, rect[3] * s)
 
 
 class Presenter:
-    """Scaling of a canvas onto a frame. `docked` makes room for the panel on the right and for graphs below."""
+    """Scaling of the canvas onto a frame. docked: whether there is room for the panel at the right and graphs below."""
 
     def __init__(self, surface: pygame.Surface) -> None:
         self.frame = Frame(surface)
         self.docked = False
 
     def place(self) -> None:
-        """Choose the scale and the place of the canvas for the present size of the surface."""
+        """Choose the scale and place of the canvas for the current size of the surface."""
         frame = self.frame
         width, height = frame.surface.get_size()
         free = width - self.panel_width if self.docked and not self.crowded else width
@@ -102,7 +103,7 @@ class Presenter:
 
     @property
     def crowded(self) -> bool:
-        """True if canvas and panel do not fit side by side; the panel then takes the whole picture."""
+        """True if canvas and panel do not fit side by side. The panel then covers the whole picture."""
         return self.frame.surface.get_width() - self.panel_width < CANVAS_SIZE[0]
 
     @property
@@ -120,14 +121,14 @@ class Presenter:
 
     @property
     def strip_rect(self) -> pygame.Rect:
-        """Rect of the strip under the docked canvas; empty if there is none."""
+        """Rectangle of the strip below the docked canvas; empty if there is none."""
         width, height = self.frame.surface.get_size()
         if self.crowded:
             return pygame.Rect(0, 0, 0, 0)
         return pygame.Rect(0, self.frame.area.bottom, width - self.panel_width, height - self.frame.area.bottom)
 
     def present(self, canvas: Canvas) -> Frame:
-        """Scale the canvas onto the frame and return the frame with the canvas's text boxes."""
+        """Scale the canvas onto the frame, and return the frame. It takes over the canvas's text boxes."""
         self.place()
         frame = self.frame
         frame.begin()
@@ -144,6 +145,6 @@ class Presenter:
         return frame
 
     def to_canvas(self, position: tuple[int, int]) -> tuple[int, int]:
-        """Return the canvas pixel under a window position; it may lie outside the canvas."""
+        """Return the canvas pixel (x, y) under a window position. It may lie outside the canvas."""
         area = self.frame.area
         return (position[0] - area.x) // self.frame.scale, (position[1] - area.y) // self.frame.scale

@@ -1,8 +1,7 @@
-"""Pictures of rotating bodies: small pixel art at any angle with sharp edges, and Cast, which draws each body of a
-world with its picture.
+"""Pictures of rotating bodies: small pixel art at any angle with sharp edges.
 
 A picture is enlarged eight times by Scale2x, which keeps edges sharp, and then sampled at each pixel of the rotated
-picture (the idea of RotSprite). Rotated pictures are cached.
+picture (the idea of RotSprite). Rotated pictures are cached. A Cast draws each body of a world with its picture.
 """
 
 from collections.abc import Mapping
@@ -25,7 +24,7 @@ MARGIN = 80  # [canvas px] pieces up to this far outside the view may reach into
 
 
 class RotatedPicture:
-    """One picture at any angle, centred on the body's position."""
+    """One picture at any angle, centred on the position of a body."""
 
     def __init__(self, image: pygame.Surface) -> None:
         self.image = image
@@ -73,8 +72,9 @@ class RotatedPicture:
 
 
 def poses_between(bodies: np.ndarray, alpha: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return x, y [px] and angle [rad] of the BODY rows `bodies`, interpolated between the last two steps by alpha, 0
-    to 1.
+    """Return (x, y, angle), arrays [px, rad], of bodies between the last two steps.
+
+    bodies: BODY rows; alpha: 0 the last step but one .. 1 the last step.
     """
     x, y, angle = (
         bodies["previous_" + name] + (bodies[name] - bodies["previous_" + name]) * alpha for name in ("x", "y", "angle")
@@ -83,7 +83,7 @@ def poses_between(bodies: np.ndarray, alpha: float) -> tuple[np.ndarray, np.ndar
 
 
 class Cast:
-    """The pictures of the bodies of a world, drawn in the order of the ids."""
+    """The pictures of a world's bodies, drawn in the order of the body ids."""
 
     def __init__(self, atlas: Atlas | Mapping[str, pygame.Surface]) -> None:
         self.atlas = atlas
@@ -91,19 +91,20 @@ class Cast:
         self.looks = {}  # body id -> name
 
     def add(self, body: BodyOrId, name: str) -> BodyOrId:
-        """Assign the picture `name` to a body, or to a body's id. Return this first argument."""
+        """Assign the picture `name` to a body, given as Body or id. Return the first argument."""
         self.looks[getattr(body, "id", body)] = name
         return body
 
     def picture(self, name: str) -> RotatedPicture:
-        """Return the RotatedPicture of a name, made at its first use."""
+        """Return the RotatedPicture of the picture `name`. It is made at its first use."""
         if name not in self.turned:
             self.turned[name] = RotatedPicture(self.atlas[name])
         return self.turned[name]
 
     def draw(self, canvas: Canvas, camera: Camera, world: World, alpha: float) -> None:
-        """Draw the bodies that have a picture, interpolated between the last two steps, clipped to the camera's
-        view.
+        """Draw the bodies that have a picture, clipped to the camera's view.
+
+        alpha: position (0..1) between the last two steps.
         """
         bodies, surface = world.bodies, canvas.surface
         x, y, angle = poses_between(bodies, alpha)

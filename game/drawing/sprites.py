@@ -26,7 +26,10 @@ class Animation:
     fps: float
 
     def index_at(self, seconds: float, loop: bool = True) -> int:
-        """Return the index of the image that is shown `seconds` after the start. Without loop the last image stays."""
+        """Return the index of the image that is shown `seconds` after the start.
+
+        Without `loop` the last image stays.
+        """
         number = int(seconds * self.fps)
         return number % len(self.images) if loop else min(number, len(self.images) - 1)
 
@@ -41,35 +44,33 @@ class Animation:
 
 
 class Atlas:
-    """One sheet: images by name, animations by name, and a PixelMask per image, made once."""
+    """One sheet: images by name, animations by name, and a PixelMask for each image, made at its first use."""
 
     def __init__(self, path: Path, images: dict[str, pygame.Surface], animations: dict[str, Animation]) -> None:
         self.path, self.images, self.animations = path, images, animations
         self.masks = {}
 
     def __getitem__(self, name):
-        """Return the image `name`. If the sheet has no image of that name, raises ValueError, which names the sheet."""
+        """Return the image `name`. Raises ValueError, which names the sheet, for an unknown name."""
         if name not in self.images:
             raise ValueError(f"{self.path} has no frame {name!r}; it has {', '.join(self.images)}")
         return self.images[name]
 
     def animation(self, name: str) -> Animation:
-        """Return the animation `name`. If the sheet has no animation of that name, raises ValueError, which names the
-        sheet.
-        """
+        """Return the Animation `name`. Raises ValueError, which names the sheet, for an unknown name."""
         if name not in self.animations:
             raise ValueError(f"{self.path} has no animation {name!r}; it has {', '.join(self.animations)}")
         return self.animations[name]
 
     def mask(self, name: str) -> PixelMask:
-        """Return the pixels of a frame as a PixelMask about its centre, made once."""
+        """Return the PixelMask of the image `name`, with its origin in the centre. It is made at its first use."""
         if name not in self.masks:
             self.masks[name] = PixelMask.from_surface(self[name])
         return self.masks[name]
 
 
 def load_image(path: Path) -> pygame.Surface:
-    """Return a picture, converted for fast blits when there is a display. Raises FileError."""
+    """Return the picture in a file, converted for fast blits if there is a display. Raises FileError."""
     try:
         image = pygame.image.load(str(path))
     except (OSError, pygame.error) as error:
@@ -85,7 +86,7 @@ def load_backdrop(name: str) -> pygame.Surface:
 
 @cache
 def load_atlas(name: str) -> Atlas:
-    """Return the sheet assets/images/<name>.png with its .json. Raises FileError if either file is damaged."""
+    """Return the Atlas of assets/images/<name>.png and .json. Raises FileError if either file is damaged."""
     path = IMAGES / f"{name}.json"
     sheet = load_image(IMAGES / f"{name}.png")
     try:
@@ -104,19 +105,20 @@ def load_atlas(name: str) -> Atlas:
 
 
 class RotatedSprites:
-    """A sprite at any angle, drawn from exactly the pixels that its mask tests: every visible pixel collides."""
+    """A sprite at any angle, drawn with exactly the pixels that its mask tests: every visible pixel collides."""
 
     def __init__(self, image: pygame.Surface, mask: PixelMask) -> None:
         self.image, self.mask = image, mask
         self.cache = {}
 
     def __deepcopy__(self, memo):
-        """Return this object itself: a copy of a scene draws with the same pictures."""
+        """Return itself, so that a copy of a scene shares the cached pictures."""
         return self
 
     def draw(self, canvas: Canvas, camera: Camera, x: float, y: float, angle: float, alpha: float = 1.0) -> None:
-        """Draw the sprite, rotated by `angle` [rad], with its mask's origin at world (x, y), rounded as the physics
-        places the mask on the pixel grid.
+        """Draw the sprite, rotated by `angle` [rad], with its mask's origin at the world point (x, y).
+
+        The place is rounded as the physics places the mask on the pixel grid.
         """
         image, origin = self.at(angle)
         left, top = camera.view(alpha)
@@ -134,9 +136,9 @@ class RotatedSprites:
 
 
 def pick_pixels(image: pygame.Surface, turned: Any) -> pygame.Surface:
-    """Return the picture of a rotated mask: each solid pixel has the colour of the pixel of `image` that it comes from.
+    """Return the picture of a rotated mask. Each solid pixel has the colour of the pixel of `image` that it comes from.
 
-    turned: the rotated mask; source_x and source_y are the places in `image` of its pixels.
+    turned: the rotated mask, whose source_x and source_y are the places of its pixels in `image`.
     """
     height, width = turned.solid.shape
     out = pygame.Surface((max(width, 1), max(height, 1)), pygame.SRCALPHA)
@@ -153,7 +155,7 @@ def pick_pixels(image: pygame.Surface, turned: Any) -> pygame.Surface:
 
 
 def lit(image: pygame.Surface, amount: int = 110) -> pygame.Surface:
-    """Return a copy made brighter by `amount` 0..255, for the flash of a hit."""
+    """Return a brighter copy of an image, for the flash of a hit. amount: 0..255."""
     copy = image.copy()
     copy.fill((amount, amount, amount, 0), special_flags=pygame.BLEND_RGBA_ADD)
     return copy

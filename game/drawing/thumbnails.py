@@ -13,8 +13,9 @@ SIZE = (160, 90)
 
 
 def draw_picture(canvas: Canvas, name: str, title: str, x: int, y: int) -> pygame.Rect:
-    """Draw the picture of the scene `name`, with a thin frame, at (x, y) and return the frame's rect. Without a
-    picture, draw the scene's title.
+    """Draw the picture of the scene `name` with a thin frame at (x, y), and return the frame's rectangle.
+
+    If there is no picture, draw the scene's title.
     """
     rect = pygame.Rect((x, y), SIZE)
     picture = _load(name)

@@ -15,7 +15,7 @@ CHUNK = 32  # tiles along a side of a chunk: 512 px, so at most four of them are
 
 
 class TilePicture:
-    """Pictures of one layer of a TileMap, drawn through a camera."""
+    """Pictures of one layer of a TileMap, which are drawn through a camera."""
 
     def __init__(self, tilemap: TileMap, layer: str, tiles: pygame.Surface | None = None) -> None:
         self.map, self.layer = tilemap, layer
@@ -39,9 +39,7 @@ class TilePicture:
         return self.chunks[column, row]
 
     def _paint(self, first_column, first_row):
-        """Return the picture of the chunk whose first tile is at (first_column, first_row), or None if the chunk has no
-        tile.
-        """
+        """Return the picture of the chunk whose first tile is (first_column, first_row); None if it has no tiles."""
         numbers, flips = self.map.layers[self.layer], self.map.flips[self.layer]
         if first_column < 0 or first_row < 0:
             return None
@@ -67,5 +65,5 @@ class TilePicture:
 
 
 def _sheet(tilemap):
-    """Return the tileset's picture, which must hold every tile of the map."""
+    """Return the picture of the map's tileset. It must contain every tile of the map."""
     return load_image(map_picture(tilemap))

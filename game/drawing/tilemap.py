@@ -1,9 +1,9 @@
 """Levels made with Tiled (.tmj): tile layers, tile properties, objects. An error names file, place and reason.
 
-Finite orthogonal maps of one embedded tileset are read, with layer data as CSV or base64 (plain, zlib, gzip), layers in
-groups, and offsets of layers and groups: any offset for objects, a number of whole tiles for tiles. Infinite maps,
-external tilesets, other encodings, and keys that move or hide what is drawn (parallax, opacity, tint, rotation ...) are
-refused. Packed data is unpacked only up to the bytes that the map can hold.
+The reader accepts finite orthogonal maps with one embedded tileset. Layer data are CSV or base64 (plain, zlib, gzip).
+Layers may be in groups. Layers and groups may have offsets: any offset for objects, a number of whole tiles for tiles.
+Infinite maps, external tilesets, other encodings, and keys that move or hide drawn objects (parallax, opacity, tint,
+rotation ...) are refused. Packed data are unpacked only up to the size that the map can have.
 """
 
 import base64
@@ -36,7 +36,7 @@ KINDS = ("solid", "one_way", "slope", "spikes", "decor")
 
 @dataclass(frozen=True)
 class Thing:
-    """An object of the map: kind, name, rect in world pixels, own properties. `place`: where it is in the file."""
+    """An object of the map: kind, name, rectangle in world pixels, and properties. place: where it is in the file."""
 
     kind: str
     name: str
@@ -50,7 +50,10 @@ class Thing:
 
 @dataclass(frozen=True)
 class TileMap:
-    """A level. `layers[name]`: (rows, columns) tile numbers, -1 empty. `tiles[number]`: properties."""
+    """A level. layers[name]: (rows, columns) array of tile numbers, -1 for an empty tile.
+
+    tiles[number]: properties of the tile with that number.
+    """
 
     path: Path
     columns: int
@@ -66,15 +69,15 @@ class TileMap:
 
     @property
     def size(self) -> tuple[int, int]:
-        """Width and height in world pixels."""
+        """(width, height) in world pixels."""
         return self.columns * self.tile_size, self.rows * self.tile_size
 
     def kind_of(self, number: int) -> str:
-        """Return the kind of the tile `number`, one of KINDS; "decor" if the tileset gives it none."""
+        """Return the kind of the tile `number`, one of KINDS; "decor" if the tileset does not name one."""
         return self.tiles.get(int(number), {}).get("kind", "decor")
 
     def grid(self, layer: str = "solid") -> TileGrid:
-        """Return the layer as a physics.TileGrid with its one-way tiles and slopes."""
+        """Return a layer as a physics.TileGrid, with its one-way tiles and slopes."""
         numbers = self._layer(layer)
         solid, one_way = np.zeros(numbers.shape, bool), np.zeros(numbers.shape, bool)
         slopes = np.zeros((*numbers.shape, 2))
@@ -93,13 +96,13 @@ class TileMap:
         return TileGrid(solid, self.tile_size, one_way, slopes)
 
     def cells(self, kind: str, layer: str = "solid") -> list[tuple[int, int]]:
-        """Return (column, row) of every tile of one kind in a layer, for example of all spikes."""
+        """Return the (column, row) of every tile of one kind in a layer, for example of all spikes."""
         numbers = self._layer(layer)
         matching = [number for number in np.unique(numbers).tolist() if number >= 0 and self.kind_of(number) == kind]
         return [(int(c), int(r)) for r, c in np.argwhere(np.isin(numbers, matching))]
 
     def things_of(self, kind: str) -> list[Thing]:
-        """Return the objects of a kind, in the file's order."""
+        """Return the objects of a kind, in the order of the file."""
         return [thing for thing in self.things if thing.kind == kind]
 
     def one(self, kind: str) -> Thing:
@@ -113,9 +116,9 @@ class TileMap:
         return self.flips.get(layer, np.zeros((self.rows, self.columns), int))
 
     def _refuse_turned(self, layer, turned):
-        """Raise FileError if a slope is rotated or upside down. turned: (rows, columns) bool, flags of such slopes.
+        """Raise FileError if a slope is rotated or upside down. turned: (rows, columns) bool, True for such a slope.
 
-        Slopes may be mirrored left and right only. The collision shape of any other slope would not match its picture.
+        Slopes may only be mirrored left to right. The collision shape of any other slope would not match its picture.
         """
         for row, column in np.argwhere(turned)[:1].tolist():
             raise FileError(
@@ -131,15 +134,19 @@ class TileMap:
 
 
 def load_tilemap(path: Path, largest: tuple[int, int] = (LARGEST, LARGEST)) -> TileMap:
-    """Read a .tmj file of at most `largest` (columns, rows). Raises FileError naming file, place and reason."""
+    """Return the TileMap in a .tmj file. Raises FileError, which names file, place and reason.
+
+    largest: greatest allowed (columns, rows).
+    """
     data = read_json(path)
     reader = _Reader(path, largest)
     return reader.read(data)
 
 
 def map_picture(tilemap: TileMap) -> Path:
-    """Return the path of the tileset's picture: a file beside the map, or one of the game's own pictures. Raises
-    FileError.
+    """Return the path of the tileset's picture: a file beside the map, or one of the game's own pictures.
+
+    Raises FileError if there is none, or if it is too small for the map's tiles.
     """
     path = picture_of(tilemap.path, "tilesets[0].image", tilemap.image, IMAGES)
     width, height = png_size(path, LARGEST_PICTURE)
@@ -151,9 +158,9 @@ def map_picture(tilemap: TileMap) -> Path:
 
 
 def unpacked(packed: bytes, packing: int, most: int) -> bytes:
-    """Return unpacked data of up to `most` bytes. Longer data is cut after `most` + 1 bytes, so that its excess shows.
+    """Return unpacked data, at most `most` + 1 bytes. The caller refuses data of more than `most` bytes.
 
-    packing: one of PACKINGS. Bytes behind the packed data count as more data. Raises zlib.error, or ValueError for data
+    packing: one of PACKINGS. Bytes after the packed data count as more data. Raises zlib.error, or ValueError for data
     that is cut off.
     """
     reader = zlib.decompressobj(packing)
@@ -164,7 +171,7 @@ def unpacked(packed: bytes, packing: int, most: int) -> bytes:
 
 
 class _Reader:
-    """Reader of a map that checks each value; `fail` names the place of an error."""
+    """Reader of a map that checks each value. Its method fail() raises FileError for a place in the file."""
 
     def __init__(self, path, largest):
         self.path, self.largest = Path(path), largest
@@ -210,10 +217,10 @@ class _Reader:
         )
 
     def flat_layers(self, data, place, prefix, offset, depth=0):
-        """Yield (place, name, layer, offset [px]) of all tile and object layers in order, also of those in groups.
+        """Yield (place, name, layer, offset [px]) of all tile and object layers in order, including those in groups.
 
-        `data`: the map, or a group of layers. `place`, `offset` [px]: place of `data` in the file, and its offset;
-        `prefix`: text before "layers" in the place of a layer.
+        data: the map, or a group of layers; place, offset [px]: its place in the file, and its offset; prefix: text
+        before "layers" in the place of a layer; depth: number of groups around it.
         """
         for index, layer in enumerate(self.listing(data, place, "layers")):
             here = f"{prefix}layers[{index}]"
@@ -232,8 +239,9 @@ class _Reader:
                 yield from self.flat_layers(layer, here, f"{here}.", (x, y), depth + 1)
 
     def refuse(self, data, place, defaults):
-        """Raise FileError if a key that moves, turns or hides drawn objects does not have its default value. defaults:
-        {key: value}.
+        """Raise FileError if a key that moves, turns or hides drawn objects does not have its default value.
+
+        defaults: {key: value}.
         """
         for name, default in defaults.items():
             value = data.get(name, default)
@@ -242,9 +250,9 @@ class _Reader:
                 self.fail(f"{place}.{name}", f"is not supported: must be {usual} (got {value!r:.60})")
 
     def shifted(self, found, place, offset, size):
-        """Return `found`, the (tiles, flips) of a layer, moved by the layer's `offset` [px].
+        """Return the tiles of a layer, moved by the layer's `offset` [px]. found: (tile numbers, flips), two arrays.
 
-        `size`: side of a tile [px]. Raises FileError if the offset is not a whole number of tiles.
+        size: side of a tile [px]. Raises FileError if the offset is not a number of whole tiles.
         """
         if offset == (0.0, 0.0):
             return found
@@ -359,8 +367,9 @@ class _Reader:
         return found
 
     def things(self, layer, place, offset, tileset):
-        """Return the objects of a layer, with the top left corner as position. In the file, a tile object has the
-        position of its bottom left corner.
+        """Return the objects of a layer as Things, whose position is the top left corner.
+
+        In the file, an object with a tile has the position of its bottom left corner.
         """
         found = []
         for index, entry in enumerate(self.listing(layer, place, "objects")):

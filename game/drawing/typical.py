@@ -1,4 +1,4 @@
-"""A figure that stays readable while it is measured in every step: the median of the last values.
+"""A readable figure for a value that is measured in every step: the median of the last values.
 
 With an average, one slow step (compilation, garbage collection) would distort the shown value for seconds.
 """
@@ -9,7 +9,7 @@ KEPT = 61  # values: a second of steps
 
 
 class Typical:
-    """The median of the last KEPT values, in `value`; 0 before the first. Call note(value) once per step."""
+    """Median of the last KEPT values, in `value`. Call note(value) once per step."""
 
     def __init__(self, kept: int = KEPT) -> None:
         self.last: deque[float] = deque(maxlen=kept)
@@ -20,7 +20,8 @@ class Typical:
 
     @property
     def value(self) -> float:
-        """Median of the stored values (with an even number of values, the upper of the two middle values); 0 before the
-        first value.
+        """Median of the stored values; 0 before the first value.
+
+        Of an even number of values, it is the upper of the two middle values.
         """
         return sorted(self.last)[len(self.last) // 2] if self.last else 0.0

@@ -1,4 +1,4 @@
-"""Functions that open the window, and change it when the settings change."""
+"""Functions that open the window, and change it after a change of the settings."""
 
 import os
 import sys
@@ -43,12 +43,12 @@ def has_screen(platform: str, environment: Mapping[str, str]) -> bool:
 
 
 def mode_of(settings: Settings) -> tuple[bool, int, bool]:
-    """Return the settings that the window depends on. The window is opened again only when one of these changes."""
+    """Return the settings on which the window depends. The window is opened again only if one of these has changed."""
     return settings.fullscreen, settings.window_scale, settings.vsync
 
 
 def set_mode(settings: Settings) -> pygame.Surface:
-    """Open the window, or change it, to the size in the settings."""
+    """Open the window, or change it, as the settings say. Return its surface."""
     desktop = pygame.display.get_desktop_sizes()[0]
     if settings.fullscreen:
         return _open(desktop, pygame.FULLSCREEN, settings.vsync)
@@ -58,10 +58,9 @@ def set_mode(settings: Settings) -> pygame.Surface:
 
 
 def _open(size, flags, vsync):
-    """Open the window with vsync if wanted, and without vsync if the system has none: the game loop's own timing then
-    sets the rate.
+    """Open the window with vsync if wanted, or without it if the system has none. Return its surface.
 
-    flags: pygame's flags of the display mode.
+    Without vsync, the game loop's own timing sets the frame rate. flags: pygame's flags of the display mode.
     """
     if vsync and pygame.display.get_driver() not in ("dummy", "offscreen"):
         try:
@@ -74,7 +73,7 @@ def _open(size, flags, vsync):
 
 
 def copy_text(text: str) -> bool:
-    """Copy text to the clipboard. Return whether the clipboard now holds the text."""
+    """Copy a text to the clipboard. Return whether the clipboard now contains it."""
     try:
         pygame.scrap.put_text(text)
         return pygame.scrap.get_text() == text

@@ -7,8 +7,9 @@ PALETTES = ("standard", "safe", "contrast")  # safe: the Okabe-Ito colours; cont
 
 @dataclass(frozen=True)
 class Accessibility:
-    """Accessibility settings. `shake`: factor 0..1 on camera shake. `flashing`: False disables flashes of the whole
-    picture, and blinking.
+    """Accessibility settings. shake: factor 0..1 on the camera's shake.
+
+    flashing: False disables flashes of the whole picture, and blinking.
     """
 
     shake: float = 1.0

@@ -1,6 +1,6 @@
 """Ghost of a scene: the player's positions in the fastest won run, kept in a file, and drawn beside later runs.
 
-A trail is a list of (x, y, frame name, way) rows, one per step; way: -1 or 1, the direction that the player faces. An
+A trail is a list of rows (x, y, frame name, way), one per step. way: direction that the player faces, -1 or 1. An
 unusable ghost file is kept and not shown: it never stops a game.
 """
 
@@ -23,10 +23,9 @@ def ghost_path(table: str) -> Path:
 
 
 def load_ghost(table: str) -> tuple[list[tuple] | None, float | None, str]:
-    """Return (trail, seconds, message) of the best run so far in a high-score table. Trail and seconds are None if
-    there is no usable file.
+    """Return (trail, seconds, message) of the best run so far in a high-score table.
 
-    The message reports an unusable file; it is "" otherwise.
+    Trail and seconds are None if there is no usable file. The message reports an unusable file; it is "" otherwise.
     """
     path = ghost_path(table)
     if not is_there(path):
@@ -41,10 +40,9 @@ def load_ghost(table: str) -> tuple[list[tuple] | None, float | None, str]:
 
 
 def keep_ghost(table: str, trail: Sequence[tuple], seconds: float) -> bool:
-    """Save the trail of a run that took `seconds`, if the run was faster than the saved one. Return whether it was
-    saved.
+    """Save the trail of a run if the run was faster than the saved one. Return whether it was saved.
 
-    Raises OSError.
+    seconds: time of the run. Raises OSError.
     """
     best = load_ghost(table)[1]
     if not trail or (best is not None and best <= seconds):

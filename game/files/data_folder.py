@@ -1,4 +1,4 @@
-"""The folder of this user's settings, recordings and screenshots, by the rule of the platform."""
+"""The folder of this user's settings, recordings and screenshots, where the platform's rules place it."""
 
 import errno
 import os
@@ -19,7 +19,7 @@ OVERRIDE = "HITBOX_DATA"  # variable with a folder; set by tests, or by a player
 def data_folder(environment: Mapping[str, str] | None = None, platform: str | None = None) -> Path:
     """Return the folder of this user's files. The folder is not created here (see write_atomically).
 
-    environment, platform: for tests; None: os.environ and sys.platform.
+    environment, platform: values for tests; None: os.environ and sys.platform.
     """
     environment = os.environ if environment is None else environment
     platform = sys.platform if platform is None else platform
@@ -42,8 +42,9 @@ def _home():
 
 
 def is_there(path: Path) -> bool:
-    """Return whether the file exists. True, too, if permissions forbid the check: reading the file then reports the
-    reason.
+    """Return whether the file exists.
+
+    It is also True if permissions forbid the check: reading the file then reports the reason.
     """
     try:
         path.stat()
@@ -55,8 +56,9 @@ def is_there(path: Path) -> bool:
 
 
 def free_name(folder: Path, scene_name: str, suffix: str = ".json") -> Path:
-    """Return the path of a new file in `folder`, named after the scene and the time, with this suffix. No file of that
-    name exists yet.
+    """Return the path of a new file in `folder`, named after the scene and the time, with the given suffix.
+
+    No file of that name exists yet.
     """
     name = f"{scene_name.replace('/', '-')}-{strftime('%Y%m%d-%H%M%S')}"
     path, number = folder / f"{name}{suffix}", 2
@@ -66,7 +68,7 @@ def free_name(folder: Path, scene_name: str, suffix: str = ".json") -> Path:
 
 
 def write_atomically(path: str | Path, content: str | bytes, makes_folder: bool = True) -> None:
-    """Write a file, text or bytes, so that a reader sees the old file or the new one, never a part of one.
+    """Write a file, text or bytes, so that a reader sees the old file or the new one, never a part of it.
 
     A device or a pipe is written to, not replaced. makes_folder: whether a missing folder is created. Partial versions
     of this file that an earlier process left are removed. Raises OSError if the folder cannot be written; the old file
@@ -93,8 +95,9 @@ def write_atomically(path: str | Path, content: str | bytes, makes_folder: bool 
 
 
 def part_of(path: Path, process: int) -> Path:
-    """Return the path of the partial file that a process writes before it replaces `path`. A long file name is replaced
-    by its digest.
+    """Return the path of the partial file that a process writes before it replaces `path`.
+
+    process: id of the process. In the partial file's name, a digest stands for a long file name.
     """
     name = (
         path.name if len(os.fsencode(path.name)) <= LONGEST_NAME else blake2b(os.fsencode(path.name)).hexdigest()[:32]
@@ -129,10 +132,10 @@ def keep_beside(path: str | Path, why: str = "damaged") -> Path:
 
 
 def refusal(path: Path, place: str, reason: str, instead: str, why: str = "damaged") -> str:
-    """Keep a copy of an unusable file. Return one line with the error (path, place in the file, reason), with
-    `instead`, and with the name of the copy.
+    """Keep a copy of an unusable file, and return one line about it for the player.
 
-    instead: what the game uses in place of the file's content. why: word in the name of the copy, see keep_beside.
+    The line contains the path, the place in the file, the reason, the text `instead` and the name of the copy. instead:
+    what the game uses in place of the file's content; why: word in the name of the copy, see keep_beside.
     """
     try:
         kept = f"the old file is kept as {keep_beside(path, why).name}"

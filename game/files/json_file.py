@@ -12,7 +12,7 @@ CHUNK = 2**20  # bytes that are read and checked at a time
 
 
 def read_json(path: str | Path) -> Any:
-    """Return the content of a JSON file, with or without a byte order mark. Raises FileError."""
+    """Return the content of a JSON file. A byte order mark is allowed. Raises FileError."""
     try:
         return json.loads("".join(_texts(path)))
     except OSError as error:

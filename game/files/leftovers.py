@@ -18,7 +18,10 @@ FOLDERS = ("", "ghosts", "replays", "replays/recent", "screenshots")  # of the d
 
 
 def remove_leftovers(folder: Path, inside: Iterable[str] = FOLDERS) -> None:
-    """Remove the old partial files in the subfolders `inside` of a folder; ignore folders that cannot be read."""
+    """Remove old partial files in some subfolders of a folder. inside: names of the subfolders.
+
+    Folders that cannot be read are ignored.
+    """
     for name in inside:
         place = folder / name
         with contextlib.suppress(OSError, ValueError):
@@ -28,8 +31,9 @@ def remove_leftovers(folder: Path, inside: Iterable[str] = FOLDERS) -> None:
 
 
 def remove_parts_of(part: Path) -> None:
-    """Remove the old partial files of one file, which earlier processes left. part: path of this process's partial file
-    of that file.
+    """Remove the old partial files of one file, which earlier processes left.
+
+    part: path of this process's own partial file of the same file.
     """
     file = _file_of(part.name)
     with contextlib.suppress(OSError, ValueError):
@@ -39,7 +43,7 @@ def remove_parts_of(part: Path) -> None:
 
 
 def _file_of(name):
-    """Return the name of the file that a partial file belongs to; None if `name` is not the name of a partial file."""
+    """Return the name of the file to which a partial file belongs; None if `name` is not that of a partial file."""
     found = NAME.fullmatch(name)
     return found and found[1]
 

@@ -1,4 +1,4 @@
-"""Levels of the player: files in levels/ of the data folder, listed under the game that can play them."""
+"""Levels of the player: files in levels/ of the data folder. The menu lists them under the game that can play them."""
 
 from collections.abc import Sequence
 from hashlib import blake2b
@@ -15,9 +15,9 @@ def levels_folder() -> Path:
 
 
 def own_levels(suffixes: Sequence[str]) -> tuple[Path, ...]:
-    """Return the paths of the player's level files with one of these suffixes (see Scene.level_suffixes), by name.
+    """Return the paths of the player's level files with one of these suffixes, sorted by name.
 
-    Return () if there is no levels folder.
+    suffixes: as of Scene.level_suffixes. Return () if there is no levels folder.
     """
     try:
         return tuple(sorted(path for path in levels_folder().iterdir() if path.suffix in suffixes and path.is_file()))
@@ -26,7 +26,7 @@ def own_levels(suffixes: Sequence[str]) -> tuple[Path, ...]:
 
 
 def level_digest(path: str | Path) -> str:
-    """Return 12 hex digits of a file's content, by which a run identifies its level. Raises FileError."""
+    """Return a digest of a file's content, 12 hex digits, by which a run identifies its level. Raises FileError."""
     path = Path(path)
     try:
         if path.exists() and not path.is_file():

@@ -1,4 +1,4 @@
-"""Pictures of levels: allowed locations, and a size limit that is checked before the pixels are decoded."""
+"""Pictures of levels: where they may be, and a limit of their size that is checked before the pixels are decoded."""
 
 import os
 import struct
@@ -12,7 +12,10 @@ SIGNATURE, FIRST = b"\x89PNG\r\n\x1a\n", (13, b"IHDR")
 
 
 def png_size(path: str | Path, most: int) -> tuple[int, int]:
-    """Return (width, height) of a PNG file from its header. Raises FileError for other files, and sides over `most`."""
+    """Return (width, height) of a PNG file, read from its header.
+
+    Raises FileError for other files, and for a side of more than `most` px.
+    """
     try:
         with open(path, "rb") as file:
             head = file.read(HEADER.size)
@@ -57,7 +60,7 @@ def picture_of(level: Path, place: str, name: str, own: Path) -> Path:
 
 
 def _is_file(path):
-    """Return whether the file exists. Raises OSError if that cannot be checked (a name too long, a closed folder)."""
+    """Return whether the file exists. Raises OSError if that cannot be checked (too long a name, a closed folder)."""
     try:
         return S_ISREG(path.stat().st_mode)
     except (FileNotFoundError, NotADirectoryError):

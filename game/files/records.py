@@ -1,6 +1,6 @@
 """High scores: the ten best runs of each ranked scene, in one JSON file that is written atomically.
 
-A damaged entry is left out and the file is kept as a copy; a file of a newer version is kept and not read.
+A damaged entry is left out, and a copy of the file is kept. A file of a newer version is kept and not read.
 """
 
 import json
@@ -20,7 +20,7 @@ PLACES = 10
 
 @dataclass(frozen=True)
 class Entry:
-    """One line of a table. `assisted`: played at lower speed, invincible, or with a rule changed in the panel."""
+    """One line of a table. assisted: whether it was played at lower speed, invincible, or with a changed rule."""
 
     name: str
     points: int
@@ -31,7 +31,7 @@ class Entry:
 
 
 class Records:
-    """High scores. `tables`: key of a scene (see table_of) -> entries, best first."""
+    """High scores. tables: {key of a scene (see table_of): entries, best first}."""
 
     def __init__(self, path: Path | None = None) -> None:
         self.path = path or records_path()
@@ -43,20 +43,22 @@ class Records:
         return self.tables.get(key, [])
 
     def best(self, key: str | None) -> Entry | None:
-        """Return the first entry of a table, or None."""
+        """Return the best entry of a table, or None."""
         found = self.entries(key)
         return found[0] if found else None
 
     def place(self, key: str, ranked_by: str | None, entry: Entry) -> int | None:
-        """Return the place 1..10 that an entry would take in a table, or None. Of equal entries, the earlier one comes
-        first. ranked_by: as in Scene.
+        """Return the place 1..10 that an entry would take in a table, or None.
+
+        Of equal entries, the earlier one comes first. ranked_by: as in Scene.
         """
         better = sum(1 for each in self.entries(key) if order(each, ranked_by) <= order(entry, ranked_by))
         return better + 1 if better < PLACES else None
 
     def add(self, key: str, ranked_by: str | None, entry: Entry) -> int | None:
-        """Insert an entry into a table at its place, and drop the entry after the last place. Return the place or None.
-        ranked_by: as in Scene.
+        """Insert an entry into a table at its place, and drop the entry after the last place.
+
+        Return the place or None. ranked_by: as in Scene.
         """
         place = self.place(key, ranked_by, entry)
         if place is not None:
@@ -85,8 +87,9 @@ class Records:
 
 
 def order(entry: Entry, ranked_by: str | None) -> tuple[float, float]:
-    """Return the sort key of an entry. ranked_by "seconds": least time first, then most points; otherwise most points
-    first, then least time.
+    """Return the sort key of an entry. ranked_by: as in Scene.
+
+    For "seconds": least time first, then most points. For "points": most points first, then least time.
     """
     if ranked_by == "seconds":
         return entry.seconds, -entry.points
@@ -94,7 +97,10 @@ def order(entry: Entry, ranked_by: str | None) -> tuple[float, float]:
 
 
 def table_of(scene_name: str, level: Path | None = None) -> str:
-    """Return the key of a scene's table. A level of the player has its own table, keyed by a digest of the level."""
+    """Return the key of a scene's table. level: level file of the player, or None.
+
+    Such a level has its own table, keyed by a digest of the level.
+    """
     return scene_name if level is None else f"{scene_name}@{level_digest(level)}"
 
 
@@ -104,7 +110,7 @@ def records_path() -> Path:
 
 
 def load_records(path: Path | None = None) -> tuple[Records, str]:
-    """Return (records, message). The message is "" or one line: file, place, reason, and the name of the kept copy."""
+    """Return (Records, message). The message is "" or one line: file, place, reason, and the name of the kept copy."""
     path = path or records_path()
     records = Records(path)
     if not is_there(path):

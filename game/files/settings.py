@@ -1,8 +1,7 @@
 """Settings of the player: JSON with a version, written atomically, read leniently.
 
-A damaged file never stops the game: unusable values fall back to their defaults, the file is kept under another name,
-and one line names the place and the reason of the damage. A file of a newer version is not interpreted; it is kept,
-too.
+A damaged file never stops the game: unusable values get their defaults, the file is kept under another name, and one
+line names the place and the reason of the damage. A file of a newer version is not interpreted, and is kept, too.
 """
 
 import json
@@ -26,7 +25,7 @@ LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-"  # of initials
 
 @dataclass
 class Settings:
-    """Choices of the player. Shares and volumes are 0..1."""
+    """Choices of the player. Volumes and other shares are 0..1."""
 
     master: float = 0.8
     music: float = 0.6
@@ -55,7 +54,7 @@ class Settings:
         return Accessibility(self.shake, not self.reduced_flashing, self.palette)
 
     def assists(self) -> dict[str, bool]:
-        """Return the settings that a scene's rules need, with the names in game.scene.ASSISTS as keys."""
+        """Return the settings that a scene's rules need, {name in game.scene.ASSISTS: value}."""
         return {"invincible": self.invincible, "hit_stop": self.hit_stop}
 
 
@@ -65,7 +64,7 @@ def settings_path() -> Path:
 
 
 def load_settings(path: Path | None = None) -> tuple[Settings, str]:
-    """Return (settings, message). The message is "" or one line: file, place, reason, and the name of the kept copy."""
+    """Return (Settings, message). The message is "" or one line: file, place, reason, and the name of the kept copy."""
     path = path or settings_path()
     if not is_there(path):
         return Settings(), ""
@@ -93,8 +92,9 @@ def save_settings(settings: Settings, path: Path | None = None) -> None:
 
 
 def _upgraded(path, data):
-    """Return `data`, the content of a settings file of version 1 or 2, in the form of version 2. Raises FileError for
-    other versions.
+    """Return the content `data` of a settings file of version 1 or 2 in the form of version 2.
+
+    Raises FileError for other versions.
     """
     version = data.get("version") if isinstance(data, dict) else None
     if version not in (1, VERSION) or isinstance(version, bool):

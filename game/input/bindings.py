@@ -1,6 +1,6 @@
-"""Bindings of keys and buttons to actions, as data: readable names that a settings file can hold.
+"""Bindings of keys and buttons to actions, as data: readable names that a settings file can contain.
 
-A key may mean several actions (Space fires and jumps), as long as no game uses two of them together, see `rivals`.
+One key may have several actions (Space fires and jumps), as long as no game uses two of them together; see `rivals`.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -110,20 +110,22 @@ _NAMES = {}  # key code -> name, filled at the first call
 
 
 def rivals(action: str, other: str) -> bool:
-    """Return whether some game uses both actions, so that they cannot share a key."""
+    """Return whether there is a game that uses both actions. Such actions cannot share a key."""
     return action != other and any(action in game and other in game for game in USED_TOGETHER)
 
 
 def key_codes(names: Table) -> dict[int, tuple[str, ...]]:
-    """Return {key code: actions} for the bindings `names`, {action: names of keys}, and the fixed keys. Raises
-    ValueError for an unknown name.
+    """Return {key code: actions} for some bindings and the fixed keys.
+
+    names: {action: names of keys}. Raises ValueError for an unknown name.
     """
     return _turned({**names, **FIXED_KEYS}, _code)
 
 
 def button_actions(names: Table) -> dict[str, tuple[str, ...]]:
-    """Return {button name: actions} for the bindings `names`, {action: names of buttons}, and the fixed buttons. Raises
-    ValueError for an unknown name.
+    """Return {button name: actions} for some bindings and the fixed buttons.
+
+    names: {action: names of buttons}. Raises ValueError for an unknown name.
     """
     return _turned({**names, **FIXED_BUTTONS}, _button)
 
@@ -139,7 +141,7 @@ def _turned(names, read):
 
 
 def _code(key: str) -> int:
-    """Return the key code of a key name. The codes are constants of pygame, so no display is needed."""
+    """Return the key code of a key name. It is a constant of pygame, so that no display is needed."""
     name = SPELLED.get(key, key)
     for spelling in (name.upper(), name.lower()):
         code = getattr(pygame, f"K_{spelling}", None)
@@ -155,7 +157,7 @@ def _button(name):
 
 
 def key_name(code: int) -> str | None:
-    """Return the name of a key code, as in the settings; None for a key without a plain name."""
+    """Return the name of a key code, as the settings contain it; None for a key without a plain name."""
     if not _NAMES:
         spelled = {constant: name for name, constant in SPELLED.items()}
         for constant in dir(pygame):
@@ -165,14 +167,14 @@ def key_name(code: int) -> str | None:
 
 
 def shown(control: str) -> str:
-    """Return the text that stands for a control, a key or button, on screen."""
+    """Return the text that stands on the screen for a control, a key or a button."""
     return PICTURED.get(control, control.capitalize())
 
 
 def help_pairs(actions: Iterable[tuple[str, str]], table: Table) -> list[tuple[str, str]]:
     """Return the (control, effect) pairs of the help line, with the player's bindings.
 
-    actions: as Scene.actions. table: {action: names of keys or buttons}.
+    actions: as Scene.actions; table: {action: names of keys or buttons}.
     """
     pairs = []
     steering = [table[action][0] for action in ("left", "right", "up", "down")]

@@ -1,7 +1,7 @@
 """Keyboard, mouse and controllers as one source of InputFrames, fed by pygame events only.
 
 pygame.key.get_pressed() is not used: posted events do not change it, and a tap that begins and ends between two steps
-would be lost. Pads are keyed by instance id, which is unique while the program runs; device indexes change and are
+would be lost. Pads are keyed by instance id, which is unique while the program runs. Device indexes change and are
 reused.
 """
 
@@ -30,8 +30,9 @@ PULLED = 0.5  # of a trigger's travel, from which it counts as a button
 
 
 class DeviceSource:
-    """Input of all devices. `to_canvas(position)` maps the window's pointer to the canvas; `pads` opens controllers
-    (see Pads).
+    """Input of all devices. to_canvas(position) maps the window's pointer to the canvas.
+
+    pads: opens the controllers (see Pads), or None.
     """
 
     def __init__(
@@ -54,18 +55,19 @@ class DeviceSource:
         self.lost_pad = False  # a pad was pulled out; the app pauses and resets this
 
     def bind(self, keys: Table, buttons: Table) -> None:
-        """Replace the bindings of the keys and of the buttons; each is a table {action: names}."""
+        """Replace the bindings of the keys and of the buttons. Each is a table {action: names}."""
         self.keys, self.buttons = key_codes(keys), button_actions(buttons)
         self.menu_keys = {**self.keys, **key_codes(DEFAULT_KEYS)}
         self.menu_buttons = {**self.buttons, **button_actions(DEFAULT_BUTTONS)}
 
     def change(self, name: str, value: object) -> None:
-        """Queue a change of the simulation, made in the panel or by a key, for the next step."""
+        """Queue a change of the simulation for the next step. It was made in the panel or by a key."""
         self.changes.append((name, value))
 
     def next(self, scene: object | None = None) -> InputFrame:
-        """Return the input of the next step. An action that is pressed and released between two steps counts as held in
-        one step.
+        """Return the InputFrame of the next step. scene: not used.
+
+        An action that was pressed and released between two steps counts as held in one step.
         """
         actions = frozenset(self.tapped.union(*self.held.values()) if self.held else self.tapped)
         down = self.pointer_down or self.pointer_tapped
@@ -76,7 +78,7 @@ class DeviceSource:
         return frame
 
     def release_all(self) -> None:
-        """Clear all held actions: the window lost focus, or another screen opened."""
+        """Clear all held actions. Called when the window loses focus or another screen opens."""
         self.held.clear()
         self.tapped.clear()
         self.pointer_down = self.pointer_tapped = False
@@ -106,7 +108,7 @@ class DeviceSource:
     def button_of(self, event: pygame.event.Event) -> tuple[int, str, bool] | None:
         """Return (pad, name of the button, whether it is down) of a pad event; None for other events.
 
-        A trigger counts as a button, which is down beyond PULLED.
+        A trigger counts as a button that is down beyond PULLED.
         """
         kind = event.type
         if kind in (pygame.CONTROLLERBUTTONDOWN, pygame.CONTROLLERBUTTONUP) and event.button in CONTROLLER_NAMES:
@@ -126,8 +128,9 @@ class DeviceSource:
         return found[1]
 
     def _is_mapped(self, instance_id):
-        """Return whether SDL has a mapping of this pad's buttons. For such a pad, SDL also sends joystick events, which
-        are ignored.
+        """Return whether SDL has a mapping of this pad's buttons.
+
+        For such a pad, SDL also sends joystick events, which are ignored.
         """
         return self.pads is not None and self.pads.is_controller(instance_id)
 
@@ -154,7 +157,7 @@ class DeviceSource:
             self._press(control, (self.menu_buttons if self.menus else self.buttons).get(name, ()))
 
     def _feed_joystick(self, event):
-        """Process the stick and the hat of a pad without a mapping."""
+        """Process an event of the stick or the hat of a pad without a mapping."""
         pad = event.instance_id
         if event.type == pygame.JOYHATMOTION:
             self._axis(pad, "hat x", event.value[0], AXES[0])
@@ -174,9 +177,9 @@ class DeviceSource:
         self._axis(pad, f"axis {axis}", 0 if abs(value) < DEAD_ZONE else value, actions)
 
     def _axis(self, pad, axis, value, actions):
-        """Set the held action of an axis: actions[0] if the value is negative, actions[1] if positive, none for 0.
+        """Set the held action of an axis: actions[0] for a negative value, actions[1] for a positive one, none for 0.
 
-        An action is tapped only when the stick moves to its side, so a held stick does not repeat.
+        The action is pressed only when the value changes its sign, so that a held stick does not repeat.
         """
         control = (pad, axis)
         action = () if value == 0 else (actions[1],) if value > 0 else (actions[0],)

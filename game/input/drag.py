@@ -1,8 +1,8 @@
 """Dragging a body with the mouse: a critically damped spring from the grabbed point to the pointer.
 
-The pointer is part of the step's input like every key, so a recording contains the drag. The spring is integrated
-implicitly over one step (Catto, "Soft Constraints", GDC 2011), so it is stable at any stiffness and for any mass. Its
-force is capped in proportion to the mass.
+The pointer is part of the step's input like every key, so that a recording contains the drag. The spring is integrated
+implicitly over one step (Catto, "Soft Constraints", GDC 2011), so that it is stable at any stiffness and for any mass.
+Its force is capped in proportion to the mass.
 """
 
 from collections.abc import Sequence
@@ -25,9 +25,7 @@ REACH = 4.0  # [canvas px] greatest distance of a press from a body: a card is 2
 
 
 class View(Protocol):
-    """The part of a camera that dragging uses: the world point at its left top corner, its zoom, and its place on the
-    canvas.
-    """
+    """The part of a camera that dragging uses: the world point at its top left corner, its zoom, and its viewport."""
 
     x: float
     y: float
@@ -35,15 +33,15 @@ class View(Protocol):
     viewport: pygame.Rect
 
     def view(self, alpha: float = 1.0) -> tuple[float, float]:
-        """Return the world point at the camera's left top corner as drawn, with shake."""
+        """Return the world point (x, y) that is drawn at the camera's top left corner, with shake."""
         ...
 
 
 @dataclass(frozen=True)
 class Hold:
-    """A held body. `grip`: the grabbed point in body space [px].
+    """A held body. grip: the grabbed point in body space [px].
 
-    `before`: velocity [px/s] that the body gets back when it is released; None: it keeps its velocity.
+    before: velocity [px/s] that the body gets back when it is released; None: it keeps its velocity.
     """
 
     body: Body
@@ -59,12 +57,12 @@ class Hold:
         return x + c * self.grip[0] - s * self.grip[1], y + s * self.grip[0] + c * self.grip[1]
 
     def is_there(self) -> bool:
-        """Return whether the world still has the body."""
+        """Return whether the body is still in the world."""
         return bool((self.world.bodies["id"] == self.body.id).any())
 
 
 class Drag:
-    """The drag of a scene's bodies by one pointer: at most one body is held. `hold`: its Hold, or None."""
+    """Dragging of a scene's bodies by one pointer: at most one body is held. hold: its Hold, or None."""
 
     def __init__(self) -> None:
         self.hold: Hold | None = None
@@ -89,8 +87,7 @@ class Drag:
             hold.body.velocity = hold.before
 
     def step(self, inputs: InputState, views: Sequence[tuple[World, View]]) -> None:
-        """Grab, pull or release a body, depending on the pointer's button. Call it once per step, before the worlds
-        step.
+        """Grab, pull or release a body, depending on the pointer's button. Call it once per step, before World.step().
 
         views: (world, camera) of each picture on the canvas.
         """
@@ -119,8 +116,9 @@ class Drag:
 
 
 def _goes_on(hold, views):
-    """Return whether the hold can continue. It cannot if its world is not in `views` (the scene was rebuilt), or if its
-    body is gone or can no longer be held.
+    """Return whether a hold can continue.
+
+    It ends if its world is not in `views` (the scene was rebuilt), or if its body is gone or can no longer be held.
     """
     return any(world is hold.world for world, _ in views) and hold.is_there() and can_be_held(hold.body)
 
@@ -144,8 +142,9 @@ def _pull(hold, target):
 
 
 def to_world(camera: View, pointer: tuple[float, float]) -> tuple[float, float]:
-    """Return the world point under the canvas point `pointer`, as if the camera did not shake: the settings may switch
-    the shake off.
+    """Return the world point (x, y) under the canvas point `pointer`, as if the camera did not shake.
+
+    The shake is left out because it depends on the player's settings.
     """
     view = camera.viewport
     return (pointer[0] - view.x) / camera.zoom + camera.x, (pointer[1] - view.y) / camera.zoom + camera.y
@@ -163,8 +162,9 @@ def can_be_held(body: Body) -> bool:
 
 
 def body_at(world: World, point: tuple[float, float], reach: float) -> Body | None:
-    """Return the body to grab at a world point: the uppermost body there, else the body nearest within `reach` [px],
-    else None.
+    """Return the Body to grab at a world point, or None.
+
+    It is the uppermost body at the point, or else the nearest body within `reach` [px].
     """
     held = [body for body in world.query_point(point) if can_be_held(body)]
     if held:
@@ -177,7 +177,7 @@ def body_at(world: World, point: tuple[float, float], reach: float) -> Body | No
 def spring_force(
     row: np.void, point: tuple[float, float], target: tuple[float, float], dt: float, turns: bool
 ) -> tuple[float, float]:
-    """Return the force [mass px/s2] on a body at `point` from a spring to `target`, implicit over a step of dt.
+    """Return the force [mass px/s2] on a body at `point` from a spring to `target`, implicit over a step of dt [s].
 
     row: BODY row of the body. turns: whether the body can rotate. The impulse is J = -s K^-1 (v + b (point - target)).
     K is the inverse effective mass matrix and v the velocity at the point; s and b are the factors of the soft

@@ -1,4 +1,4 @@
-"""InputState: the input of this step, from any source.
+"""The input of one step, from any source.
 
 Devices, bots, scripts and recordings all produce InputFrames; a scene reads only an InputState. So a replay takes the
 same path as a keyboard. Changes (a moved slider, another broad phase) are part of the frame, too, because they change
@@ -13,7 +13,7 @@ CHANGES = ("broadphase", "solver", "substeps", "tier", "narrowphase", "restart")
 
 @dataclass(frozen=True)
 class InputFrame:
-    """The input of one step. `pointer` in canvas pixels; `changes` are (name, value) pairs, in order."""
+    """The input of one step. pointer: (x, y) [canvas px]; changes: (name, value) pairs, in order."""
 
     actions: frozenset = frozenset()
     pointer: tuple = (0, 0)
@@ -26,27 +26,28 @@ NOTHING = InputFrame()
 
 
 class InputState:
-    """The input of this step and of the step before."""
+    """The input of the current step and of the step before."""
 
     def __init__(self) -> None:
         self.now = self.before = NOTHING
 
     def set(self, frame: InputFrame) -> None:
-        """Set the input of the next step."""
+        """Advance by one step, whose input is `frame`."""
         self.before, self.now = self.now, frame
 
     def held(self, action: str) -> bool:
-        """Return whether the action is held. Raises ValueError for an unknown action, so that a typo never reads as
-        "not held".
+        """Return whether the action is held.
+
+        Raises ValueError for an unknown action, so that no typo reads as "not held".
         """
         return _known(action) in self.now.actions
 
     def pressed(self, action: str) -> bool:
-        """Return whether the action goes down in this step."""
+        """Return whether the action is held in this step, and was not in the step before."""
         return _known(action) in self.now.actions and action not in self.before.actions
 
     def released(self, action: str) -> bool:
-        """Return whether the action comes up in this step."""
+        """Return whether the action was held in the step before, and is not in this step."""
         return _known(action) not in self.now.actions and action in self.before.actions
 
     @property
@@ -66,7 +67,7 @@ class InputState:
 
     @property
     def wheel(self) -> int:
-        """Wheel notches turned in this step; away from the hand is positive."""
+        """Notches by which the wheel was turned in this step, positive away from the user."""
         return self.now.wheel
 
 

@@ -1,4 +1,4 @@
-"""The connected controllers by instance id, which is unique in one run."""
+"""The connected controllers by instance id, which is unique while the program runs."""
 
 from types import ModuleType
 
@@ -25,7 +25,10 @@ class Pads:
             self.module.init()
 
     def added(self, device_index: int) -> None:
-        """Open the pad at this device index. A pad that is announced as joystick and as controller is opened once."""
+        """Open the pad with this device index.
+
+        A pad that SDL announces twice, as joystick and as controller, is opened once.
+        """
         try:
             joystick = pygame.joystick.Joystick(device_index)
             instance = joystick.get_instance_id()
@@ -48,12 +51,13 @@ class Pads:
         return instance_id in self.controllers or instance_id in self.joysticks
 
     def is_controller(self, instance_id: int) -> bool:
-        """Return whether SDL maps this pad's buttons."""
+        """Return whether SDL has a mapping of this pad's buttons."""
         return instance_id in self.controllers
 
     def rumble(self, low: float, high: float, milliseconds: int) -> None:
-        """Run the motors of every pad with an SDL mapping for `milliseconds`. low, high: strength 0..1 of the motors of
-        low and high pitch.
+        """Run the motors of every pad with an SDL mapping for some milliseconds.
+
+        low, high: strength 0..1 of the motors of low and of high pitch.
         """
         for controller in self.controllers.values():
             controller.rumble(low, high, milliseconds)

@@ -1,4 +1,4 @@
-"""Rebinding of keys and buttons: a fixed control is refused, a control of another action is swapped."""
+"""Rebinding of keys and buttons. A fixed control is refused; a control of another action is exchanged."""
 
 from string import ascii_lowercase
 
@@ -20,7 +20,7 @@ SPARE = {"keys": tuple(ascii_lowercase), "buttons": BUTTON_NAMES}
 
 
 def rebind(table: dict[str, list[str]], device: str, action: str, control: str | None) -> str:
-    """Make `control` the first control of `action` in table {action: [names]}. Return a line for the player.
+    """Make `control` the first control of `action` in a table {action: [names]}. Return a line for the player.
 
     device: "keys" or "buttons". control: None for a key without a name. Another action that had the control, and cannot
     share it (bindings.rivals), gets the control that `action` gives up. No action is left without a control.
@@ -48,8 +48,7 @@ def rebind(table: dict[str, list[str]], device: str, action: str, control: str |
 
 
 def _make_room(table, device, other, control, given_up):
-    """Take `control` away from the action `other` in a table {action: controls}, and give `other` another control if
-    possible.
+    """Take `control` away from the action `other` in a table {action: controls}, and give it another one if possible.
 
     device: "keys" or "buttons". given_up: the control to try first, which the new owner of `control` gives up. Return
     the line for the player; None if `other` would be left without a control.
@@ -68,7 +67,7 @@ def _make_room(table, device, other, control, given_up):
 
 
 def _is_free(table, device, action, control):
-    """Return whether a control is free for an action in a table {action: controls}. device: "keys" or "buttons".
+    """Return whether an action can get a control in a table {action: controls}. device: "keys" or "buttons".
 
     The control must not be fixed, belong to the action already, or belong to an action that cannot share it
     (bindings.rivals).
@@ -78,8 +77,9 @@ def _is_free(table, device, action, control):
 
 
 def clash(table: Table) -> tuple[str, str, str] | None:
-    """Return (action, other, control) of the first two actions that share a control although one game uses both; None
-    if there are none.
+    """Return (action, other, control) of the first two actions that share a control although one game uses both.
+
+    Return None if there are none.
     """
     for action in table:
         for other in table:
@@ -91,13 +91,14 @@ def clash(table: Table) -> tuple[str, str, str] | None:
 
 
 def default_table(device: str) -> dict[str, list[str]]:
-    """Return a new copy of the default bindings of a device."""
+    """Return a new copy of the default bindings of a device, "keys" or "buttons"."""
     return {action: list(controls) for action, controls in DEFAULTS[device].items()}
 
 
 def completed(table: Table, device: str) -> dict[str, list[str]]:
-    """Return a copy of the table with the actions that an older file lacks. They get their default controls, except
-    those that clash with another action. device: "keys" or "buttons".
+    """Return a copy of a table with the actions that an older file lacks. device: "keys" or "buttons".
+
+    They get their default controls, except those that clash with another action.
     """
     full = {}
     for action in DEFAULTS[device]:

@@ -12,9 +12,9 @@ BODY_NUMBERS = ("x", "y", "angle", "vx", "vy", "angular_velocity", "center_x", "
 
 
 class Bodies:
-    """Copy of the numbers of all bodies, which later steps do not change. Sums are over the dynamic bodies.
+    """Copy of the numbers of all bodies at one moment. Sums are over the dynamic bodies.
 
-    Units: px, s, rad; mass in density px2. `gravity` [px/s2] is (0, 0) where the effect is not declared.
+    Units: px, s, rad; mass in density px2. gravity [px/s2]: (0, 0) in a world without the effect.
     """
 
     def __init__(self, world: World) -> None:
@@ -32,7 +32,7 @@ class Bodies:
         return len(self.ids)
 
     def same_as(self, other: "Bodies") -> bool:
-        """Return whether all values equal those of `other`, to the bit."""
+        """Return whether all values equal those of `other`, bit by bit."""
         return (
             np.array_equal(self.ids, other.ids)
             and np.array_equal(self.kind, other.kind)
@@ -54,33 +54,33 @@ class Bodies:
 
     @cached_property
     def speed(self) -> np.ndarray:
-        """Speed of each centre of mass [px/s]."""
+        """(n,) speed of each centre of mass [px/s]."""
         return np.sqrt(self.vx * self.vx + self.vy * self.vy)
 
     @cached_property
     def heights(self) -> np.ndarray:
-        """Scalar product of gravity and position of each body [px2/s2]: minus the potential energy per mass."""
+        """(n,) scalar product of gravity and position [px2/s2]: minus the potential energy per mass."""
         gx, gy = self.gravity
         return gx * self.cx + gy * self.cy
 
     @cached_property
     def kinetic_each(self) -> np.ndarray:
-        """Kinetic energy of each body."""
+        """(n,) kinetic energy of each body [mass px2/s2]."""
         return 0.5 * (self.mass * self.speed**2 + self.inertia * self.turn * self.turn)
 
     @cached_property
     def energy_each(self) -> np.ndarray:
-        """Kinetic and potential energy of each body."""
+        """(n,) kinetic plus potential energy of each body [mass px2/s2]."""
         return self.kinetic_each - self.mass * self.felt * self.heights
 
     @property
     def kinetic(self) -> float:
-        """Total kinetic energy."""
+        """Total kinetic energy [mass px2/s2]."""
         return float(self.kinetic_each.sum())
 
     @property
     def energy(self) -> float:
-        """Total kinetic and potential energy."""
+        """Total kinetic and potential energy [mass px2/s2]."""
         return float(self.energy_each.sum())
 
     @property
@@ -95,18 +95,18 @@ class Bodies:
 
     @property
     def momentum(self) -> tuple[float, float]:
-        """Total momentum."""
+        """Total momentum (x, y) [mass px/s]."""
         return float(self.mass @ self.vx), float(self.mass @ self.vy)
 
     @property
     def momentum_scale(self) -> float:
-        """Sum of mass times speed: the scale that a drift of the momentum is compared with."""
+        """Sum of mass times speed, with which a drift of the momentum is compared."""
         return float(self.mass @ self.speed)
 
     def spin(self, among: np.ndarray) -> float:
-        """Return the sum of the unsigned angular momenta of some bodies about their common centre of mass.
+        """Return the sum of the absolute angular momenta of some bodies about their common centre of mass.
 
-        among: (n,) bool, flags of these bodies.
+        among: (n,) bool, True for these bodies.
         """
         mass = self.mass * among
         total = float(mass.sum())

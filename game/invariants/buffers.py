@@ -7,8 +7,9 @@ from game.invariants.step import Step
 
 
 class Caps(Invariant):
-    """Invariant U11: no limit (cap) was hit in the step. No search ended early, and no island needed more than the
-    largest number of substeps.
+    """Invariant U11: no limit (cap) was hit in the step.
+
+    No search ended early, and no island needed more than the greatest number of substeps.
     """
 
     id, word = "U11", "caps"

@@ -17,7 +17,7 @@ def _words(dtype, names):
 
 
 def block(rows: np.ndarray, names: tuple[str, ...]) -> np.ndarray:
-    """Return the columns `names`, all of type float64, as a copy: (len(names), n) for n rows."""
+    """Return a copy of the columns `names`, all of type float64: (len(names), n) for n rows."""
     table = np.ascontiguousarray(rows)
     words = table.view(np.float64).reshape(len(table), table.dtype.itemsize // 8)
     return np.array(words[:, _words(table.dtype, names)].T, order="C")  # a copy even of a single row

@@ -1,7 +1,7 @@
 """Invariants U3, U4 and U5: without outside influence, bodies keep momentum and angular momentum and gain no energy.
 
-The invariants are checked only where the tables of the world prove that nothing acts from outside. A change by the game
-between two steps starts a new comparison.
+The invariants are checked only where the world's tables prove that nothing acts from outside. If the game changes
+something between two steps, a new comparison begins.
 """
 
 import math
@@ -59,25 +59,25 @@ class OfTheAlone(Invariant):
         return "drag acts" if step.world.effects.drag and step.world.drag > 0.0 else ""
 
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
-        """Return (gain, allowance, change): the gain of the quantity in this step (2,), the gain that is allowed in
-        LONG steps, and the change of each body (n,).
+        """Return (gain, allowance, change) of this step.
 
-        alone: (n,) bool, the bodies over which the gain is summed.
+        gain: (2,) gain of the quantity in this step; allowance: allowed gain in LONG steps; change: (n,) change of each
+        body. alone: (n,) bool, the bodies over which the gain is summed.
         """
         raise TypeError(f"{type(self).__name__} must define gain")
 
 
 class Momentum(OfTheAlone):
-    """Invariant U3: isolated bodies keep their momentum, but for gravity, to 1e-10 of Σ m v in 600 steps."""
+    """Invariant U3: isolated bodies keep their momentum, except for gravity, to 1e-10 of Σ m v in 600 steps."""
 
     id, word = "U3", "momentum"
     gained = "momentum drifted though nothing pushes from outside"
 
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
-        """Return (gain, allowance, change): the gain of momentum in this step (2,), the gain that is allowed in LONG
-        steps, and the change of each body (n,).
+        """Return (gain, allowance, change) of this step.
 
-        alone: (n,) bool, the bodies over which the gain is summed.
+        gain: (2,) gain of momentum in this step; allowance: allowed gain in LONG steps; change: (n,) change of each
+        body. alone: (n,) bool, the bodies over which the gain is summed.
         """
         now, before = step.now, step.before
         mass = now.mass * alone
@@ -124,10 +124,10 @@ class Spin(OfTheAlone):
         return ""
 
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
-        """Return (gain, allowance, change): [gain of angular momentum in this step, 0], the gain that is allowed in
-        LONG steps, and the change of each body (n,).
+        """Return (gain, allowance, change) of this step.
 
-        alone: (n,) bool, the bodies over which the gain is summed.
+        gain: [gain of angular momentum in this step, 0]; allowance: allowed gain in LONG steps; change: (n,) change of
+        each body. alone: (n,) bool, the bodies over which the gain is summed.
         """
         now, before = step.now, step.before
         mass, inertia = now.mass * alone, now.inertia * alone
@@ -146,11 +146,10 @@ class Spin(OfTheAlone):
 
 
 def slip(step: Step, among: np.ndarray) -> float:
-    """Return the error of angular momentum that the contacts of a step may cause. among: (n,) bool, the bodies to
-    consider.
+    """Return the error of angular momentum that the contacts of a step may cause.
 
-    The error is Σ impulse · (relative path of the two bodies in the step + gap or overlap), over contacts between these
-    bodies.
+    among: (n,) bool, the bodies to consider. The error is Σ impulse · (relative path of the two bodies in the step +
+    gap or overlap), over contacts between these bodies.
     """
     rows, (a, b) = step.contacts, step.sides
     pushed = np.flatnonzero(among[a] & among[b])
@@ -169,12 +168,12 @@ def slip(step: Step, among: np.ndarray) -> float:
 
 
 def most(step: Step, change: np.ndarray) -> tuple[int, ...]:
-    """Return (id,) of the body with the greatest `change`, which has one value per body; () if there are no bodies."""
+    """Return (id,) of the body with the greatest change; () if there are no bodies. change: (n,), one per body."""
     return (int(step.now.ids[int(np.argmax(change))]),) if len(change) else ()
 
 
 class Account:
-    """Energy of a world since the start of a comparison. `start`: energy at the start; gain(): energy above it."""
+    """Energy of a world since the start of a comparison. start: energy at the start [mass px2/s2]."""
 
     def __init__(self, bodies: Bodies, overlap: float = 0.0) -> None:
         self.start = self.top = bodies.energy
@@ -188,7 +187,7 @@ class Account:
             self.low, self.high = min(self.low, float(heights.min())), max(self.high, float(heights.max()))
 
     def gain(self, world: World, now: Bodies) -> tuple[float, float]:
-        """Return (energy above the start, the allowed value of it).
+        """Return (energy above that at the start, allowed value of it).
 
         The allowed value is the sum of four terms: 1 % of the energy in play (kinetic energy, plus the potential energy
         between the lowest and the highest position so far); m g (slop + overlap at the start) of each body; the
@@ -206,11 +205,10 @@ class Account:
 
 
 class Energy(Invariant):
-    """Invariant U5: without a drive, the energy of bodies never exceeds the energy at the start by more than
-    Account.gain allows.
+    """Invariant U5: without a drive, the energy of all bodies never exceeds that at the start by more than allowed.
 
-    The comparison starts after the last change by the game, as soon as no overlap is deeper than two slops: bodies that
-    were placed into each other are pushed apart, some of them upwards.
+    The allowed gain is that of Account.gain. The comparison starts after the last change by the game, as soon as no
+    overlap is deeper than two slops: bodies that were placed into each other are pushed apart, some of them upwards.
     """
 
     id, word = "U5", "energy"
@@ -245,7 +243,7 @@ class Energy(Invariant):
 
 
 def driven(step: Step) -> str:
-    """Return a phrase that names the drive that adds energy to bodies in this step; "" if there is none."""
+    """Return a phrase that names a drive, something that adds energy to bodies in this step; "" if there is none."""
     world, effects = step.world, step.world.effects
     if step.forced.any():
         return "forces act"

@@ -8,8 +8,9 @@ from game.invariants.step import Step
 
 @dataclass(frozen=True)
 class Broken:
-    """An invariant that does not hold. `bodies`: ids of the bodies concerned; `value`: the measured value; `allowed`:
-    the largest allowed value.
+    """An invariant that does not hold. bodies: ids of the bodies concerned.
+
+    value: the measured value; allowed: the greatest allowed value.
     """
 
     invariant: str  # U1 ... U11
@@ -26,7 +27,7 @@ class Broken:
 
     @property
     def brief(self) -> str:
-        """World and bodies, quantity and value, in one line."""
+        """One line with world and bodies, quantity and value."""
         world = [f"world {self.world}"] if self.world else []
         bodies = [f"bodies {' '.join(map(str, self.bodies))}"] if self.bodies else []
         where = ", ".join(world + bodies)
@@ -35,7 +36,7 @@ class Broken:
 
 @dataclass(frozen=True)
 class NotAsked:
-    """Answer of an invariant that cannot be checked in this step; `reason` says why."""
+    """Result for an invariant that cannot be checked in this step. reason: why not."""
 
     reason: str
 
@@ -44,20 +45,23 @@ Answer = Broken | NotAsked | None  # None: checked, and it holds
 
 
 class Invariant:
-    """Base class of the invariants. `id`, `word`: label of the invariant, such as "U1" and "finite". look() is called
-    once after every step.
+    """Base class of the invariants. id, word: label of the invariant, such as "U1" and "finite".
+
+    look() is called once after every step.
     """
 
     id: str
     word: str
 
     def look(self, step: Step) -> Answer:
-        """Check the invariant for the last step."""
+        """Check the invariant for the last step. Return a Broken, a NotAsked, or None if the invariant holds."""
         raise TypeError(f"{type(self).__name__} must define look")
 
     def broken(self, step: Step, bodies: Iterable[int], value: float, allowed: float, sentence: str) -> Broken:
-        """Return the answer of look() for a broken invariant: a Broken with these values. bodies: ids; allowed: the
-        greatest allowed value.
+        """Return a Broken with these values, the result of look() for a broken invariant.
+
+        bodies: ids of the bodies concerned; value: the measured value; allowed: the greatest allowed value; sentence:
+        what is wrong.
         """
         return Broken(
             self.id, self.word, step.number, tuple(int(b) for b in bodies), float(value), float(allowed), sentence

@@ -18,8 +18,7 @@ NO_STEP = "no step was made yet"
 class InvariantStatus:
     """State of one invariant: grey (not checked), green (holds), or red (broken now or shortly before).
 
-    `reason`: why the state is grey; `breaks`: number of frames with a break since the scene began; `last`: the last
-    break.
+    reason: why the state is grey; breaks: number of frames with a break since the scene began; last: the last Broken.
     """
 
     id: str
@@ -32,7 +31,7 @@ class InvariantStatus:
 
     @property
     def sentence(self) -> str:
-        """State as a sentence."""
+        """The state as a sentence."""
         if self.state == RED:
             return self.last_report
         text = f"{self.id} {self.word}: " + (f"not asked: {self.reason}" if self.state == GREY else "holds")
@@ -40,16 +39,15 @@ class InvariantStatus:
 
     @property
     def last_report(self) -> str:
-        """The last break in a line, "" if there was none."""
+        """The last break as one line; "" if there was none."""
         return f"frame {self.last_frame}, {self.id}: {self.last.brief}" if self.last is not None else ""
 
 
 class InvariantMonitor:
-    """Monitor of the invariants of a scene.
+    """Monitor of the invariants of a scene. Call take(world) for each world, and note() after each frame.
 
-    Call take(world) for each world of the scene, and note() after each frame.
-
-    strict: check pairs of concave shapes, too; the caller ends the run at the first break, `first`.
+    strict: whether pairs of concave shapes are checked, too. The caller of a strict monitor ends the run at the first
+    break, `first`.
     """
 
     def __init__(self, strict: bool = False) -> None:
@@ -60,11 +58,11 @@ class InvariantMonitor:
         self.seconds = 0.0  # time of the checks in the last frame
 
     def take(self, world: WatchedWorld) -> None:
-        """Check the invariants of this world after each of its steps from now on."""
+        """Begin to check the invariants of this world after each of its steps."""
         world.watch = Watch(concave=self.strict)
 
     def note(self, frame: int, worlds: Iterable[WatchedWorld]) -> None:
-        """Update the states after frame number `frame` from the checks of these worlds."""
+        """Update the states after a frame from the checks of these worlds. frame: its number."""
         self.frame, self.seconds = frame, 0.0
         answers = []
         for number, world in enumerate(worlds):

@@ -1,4 +1,4 @@
-"""U1 and U2: all numbers that a world reports are finite, all normals are of unit length."""
+"""Invariants U1 and U2: all numbers that a world reports are finite, and all normals are of unit length."""
 
 import numpy as np
 
@@ -17,9 +17,9 @@ Bad = tuple[tuple[int, ...], float, str]  # ids of bodies, value, quantity
 
 
 def tables(world: World, sleeping: bool) -> list:
-    """Return [(name, rows, columns to check)] of the tables that a world reports, except the AABBs of shapes.
+    """Return a list of (name, rows, columns to check) of the tables that a world reports, except the AABBs of shapes.
 
-    sleeping: include the sleeping contacts.
+    sleeping: whether sleeping contacts are included.
     """
     events = world.events
     reported = [(f"events.{name}", getattr(events, name), EVENT_NUMBERS) for name in REPORTED]
@@ -36,7 +36,7 @@ REPORTED = ("begin", "persist", "end", "sensor_begin", "sensor_end")
 
 
 def ids_of(row: np.void) -> tuple[int, ...]:
-    """Return the ids of the bodies that a row of any table belongs to."""
+    """Return the ids of the bodies to which a row belongs. row: of any table."""
     names = row.dtype.names or ()
     return tuple(
         int(row[name])
@@ -46,10 +46,10 @@ def ids_of(row: np.void) -> tuple[int, ...]:
 
 
 def not_finite(world: World, sleeping: bool = False) -> Bad | None:
-    """Return the first reported number that is not finite, as (ids of bodies, value, quantity); None if all are finite.
+    """Return (ids of bodies, value, quantity) of the first reported number that is not finite; None if all are.
 
-    sleeping: check sleeping contacts, too; the world has to list them for this check. A shape without a solid part has
-    an AABB from +inf to -inf, which is allowed.
+    sleeping: whether sleeping contacts are checked, too; the world has to list them for this. A shape without a solid
+    part has an AABB from +inf to -inf, which is allowed.
     """
     for name, rows, columns in tables(world, sleeping):
         if not len(rows):
@@ -70,9 +70,9 @@ def not_finite(world: World, sleeping: bool = False) -> Bad | None:
 
 
 def not_unit(world: World, sleeping: bool = False) -> Bad | None:
-    """Return the first normal that is not of unit length, as (ids of bodies, value, quantity); None if all are.
+    """Return (ids of bodies, value, quantity) of the first normal that is not of unit length; None if all are.
 
-    The value is the error of the squared length.
+    value: error of the squared length.
     """
     for name, rows, columns in tables(world, sleeping)[1:]:
         if len(rows):

@@ -11,8 +11,7 @@ COMPARED = ("x", "y", "angle", "vx", "vy", "angular_velocity")
 
 
 class Order(Invariant):
-    """Invariant U9. One running world has only one order of bodies, so U9 cannot be checked in it, and its state is
-    never green.
+    """Invariant U9. A running world has only one order of bodies, so U9 cannot be checked in it and is never green.
 
     Tests compare two worlds with `furthest_apart` (tests/game/test_invariants.py). U9 holds for bodies that do not
     press on each other. Loaded contacts are solved one after the other, in an order that begins with the ids, and the
@@ -23,7 +22,7 @@ class Order(Invariant):
     id, word = "U9", "order"
 
     def look(self, step: Step) -> Answer:
-        """Return NotAsked: the check takes a second world."""
+        """Return NotAsked, because the check needs a second world."""
         return NotAsked("takes a second world: tests ask it")
 
 
@@ -31,7 +30,7 @@ def furthest_apart(one: World, other: World, ids: np.ndarray) -> float:
     """Return the greatest relative difference between the bodies of two worlds, over the columns COMPARED.
 
     Each difference is divided by the greatest absolute value of its column in `one`, or by 1 if that value is less.
-    ids[k]: id in `other` of the k-th body of `one`.
+    ids: (n,) id in `other` of each body of `one`.
     """
     rows, twins = one.bodies, other.bodies[other.rows(ids)]
     worst = 0.0

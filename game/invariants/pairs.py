@@ -1,8 +1,8 @@
-"""Invariants U7, U8 and U10: collision queries about two shapes give the same result for swapped shapes (U7) and at any
-place (U8), and different queries agree with each other (U10).
+"""Invariants U7, U8 and U10: collision queries about two shapes are consistent.
 
-A sample of the pairs is checked: a few pairs in a step, other pairs in the next step. Each step checks one of the three
-invariants, in turn.
+They give the same result for swapped shapes (U7) and at any place (U8), and different queries agree with each other
+(U10). A sample of the pairs is checked: a few pairs in a step, other pairs in the next step. Each step checks one of
+the three invariants, in turn.
 """
 
 import math
@@ -24,7 +24,7 @@ SELDOM = 4  # turns of an invariant before it checks a concave pair again: a til
 class OfPairs(Invariant):
     """Base class of an invariant that is checked on a sample of pairs, in every third step.
 
-    In the other steps, look() returns the last answer. concave: check pairs with concave shapes, too.
+    In the other steps, look() returns its last result. concave: whether pairs with concave shapes are checked, too.
     """
 
     turn: int
@@ -34,7 +34,7 @@ class OfPairs(Invariant):
         self.answer: Answer = NotAsked("not its turn yet")
 
     def look(self, step: Step) -> Answer:
-        """Check the invariant for the last step."""
+        """Check the invariant for the last step. Return a Broken, a NotAsked, or None if it holds."""
         if not step.world.effects.narrowphase:
             return NotAsked("no narrow phase: boxes that meet are a hit")
         if step.number % TURNS != self.turn:
@@ -54,7 +54,7 @@ class OfPairs(Invariant):
 
 
 class Swap(OfPairs):
-    """Invariant U7: a pair with swapped shapes has the opposite normal and the same points and depths, to the bit."""
+    """Invariant U7: swapped shapes give the opposite normal and the same points and depths, bit by bit."""
 
     id, word, turn = "U7", "swap", 0
 
@@ -102,7 +102,7 @@ class Turn(OfPairs):
 
 
 def moved(pose: tuple[float, float, float], quarters: int) -> tuple[float, float, float]:
-    """Return a pose rotated about the origin by `quarters` quarter turns, then shifted by SHIFT."""
+    """Return a pose (x, y, angle), rotated about the origin by `quarters` quarter turns, then shifted by SHIFT."""
     x, y, angle = pose
     for _ in range(quarters):
         x, y = -y, x
@@ -110,8 +110,9 @@ def moved(pose: tuple[float, float, float], quarters: int) -> tuple[float, float
 
 
 def rounding(pair: Pair) -> float:
-    """Return the rounding error of the poses [px]: one ulp of the coordinates, plus one ulp of the angles times the
-    size of the pair.
+    """Return the rounding error of the poses of a pair [px].
+
+    It is one ulp of the coordinates, plus one ulp of the angles times the size of the pair.
     """
     size = pair.size + max(map(abs, SHIFT))
     angle = max(abs(pair.pose_a[2]), abs(pair.pose_b[2])) + 2.0 * math.pi
@@ -159,13 +160,16 @@ def disagreement(world: World, pair: Pair) -> tuple[float, float, str] | None:
 
 
 def looks_only(world: World) -> bool:
-    """Return whether no body moves after the world has found its contacts: no response, no continuous collision."""
+    """Return whether no body moves after the world has found its contacts.
+
+    That is so without response and without continuous collision.
+    """
     effects = world.effects
     return effects.narrowphase and not effects.response and not effects.continuous
 
 
 def reports_contacts(world: World, pair: Pair) -> bool:
-    """Return whether the contacts of the world are found from the shapes of this pair.
+    """Return whether the world finds its contacts of this pair from the pair's shapes.
 
     Sensors report no contacts, and masks are tested by their pixels.
     """

@@ -18,8 +18,9 @@ Pose = tuple[float, float, float]
 
 
 class Pair(NamedTuple):
-    """Two shapes that may touch. `size` [px]: their distance from the origin plus their extents; rounding errors are
-    proportional to it.
+    """Two shapes that may touch, with the ids of their bodies.
+
+    size: distance of the shapes from the origin plus their extents [px], to which rounding errors are proportional.
     """
 
     body_a: int
@@ -34,12 +35,12 @@ class Pair(NamedTuple):
 
     @property
     def bodies(self) -> tuple[int, int]:
-        """Ids of the bodies."""
+        """Ids of the two bodies."""
         return self.body_a, self.body_b
 
     @property
     def hulls(self) -> bool:
-        """True if both shapes are convex, and rotate with their bodies."""
+        """True if both shapes are convex and rotate with their bodies."""
         return isinstance(self.shape_a, Convex) and isinstance(self.shape_b, Convex)
 
     @property
@@ -54,9 +55,9 @@ class Pair(NamedTuple):
 
 
 def sample(step: Step, turn: int, concave: bool) -> Iterator[Pair]:
-    """Yield up to PAIRS of the candidate pairs of a step, chosen by `turn` alone.
+    """Yield up to PAIRS of the candidate pairs of a step, each as a Pair. The choice depends only on `turn`.
 
-    turn: number of checks so far. concave: yield pairs with concave shapes, too.
+    turn: number of checks so far; concave: whether pairs with concave shapes are included.
     """
     world = step.world
     rows = world.pairs.rows
@@ -79,7 +80,7 @@ def sample(step: Step, turn: int, concave: bool) -> Iterator[Pair]:
 
 
 def pair_of(world: World, shape_a: int, shape_b: int) -> Pair | None:
-    """Return the Pair of two shapes, given by their ids; None if a body is disabled, or a pose is not finite."""
+    """Return the Pair of two shapes, given by ids; None if a body is disabled, or a pose is not finite."""
     found_a, found_b = placed(world, shape_a), placed(world, shape_b)
     if found_a is None or found_b is None:
         return None
@@ -91,16 +92,16 @@ def pair_of(world: World, shape_a: int, shape_b: int) -> Pair | None:
 
 
 def extent_of(shape: Shape) -> int:
-    """Return the number of pixels of a mask or tiles of a grid, clear ones included; 1 for other shapes."""
+    """Return the number of pixels of a mask, or of tiles of a grid, including empty ones; 1 for other shapes."""
     if isinstance(shape, PixelMask):
         return shape.size[0] * shape.size[1]
     return shape.solid.size if isinstance(shape, TileGrid) else 1
 
 
 def placed(world: World, shape_id: int) -> tuple[int, Shape, Pose, float] | None:
-    """Return (body id, shape, pose, reach) of a shape; None if its body is disabled.
+    """Return (body id, shape, pose, reach) of a shape, given by its id; None if its body is disabled.
 
-    reach: greatest distance of a point of the body from the position of its pose, or more [px].
+    reach: an upper bound of the distance of the body's points from its position [px].
     """
     shapes, bodies = world.shapes, world.bodies
     at = int(np.searchsorted(shapes["id"], shape_id))

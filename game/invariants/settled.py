@@ -15,10 +15,10 @@ CALM_TIME = 0.5  # [s] a pile has settled once all of it has been slower than th
 
 
 class Settled(Invariant):
-    """Invariant U6: bodies that have been slow for half a second, and so have all bodies that they touch, hardly
-    overlap.
+    """Invariant U6: bodies at rest hardly overlap.
 
-    Two slops are allowed, five where masses differ by more than 100 : 1.
+    A body is at rest if it and all bodies that it touches have been slow for half a second. Two slops are allowed, five
+    where masses differ by more than 100 : 1.
 
     With a fixed number of substeps, contacts are springs of 60 Hz, less stiff than their loads need: the overlap by
     which they yield (`sag`) is allowed in addition. After the ball has hit the twelve rows of lab/pyramid, they settle
@@ -69,11 +69,10 @@ class Settled(Invariant):
 
 
 def sag(step: Step, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Return the overlap [px] by which each contact, a spring, yields to its normal force of the step. a, b: body rows
-    of the contacts.
+    """Return (n,) overlap [px] by which each contact, a spring, yields to its normal force of the step.
 
-    The overlap is F / (m ω²), with m the effective mass of the contact; 0 if the number of substeps follows from the
-    loads.
+    a, b: (n,) body rows of the contacts. The overlap is F / (m ω²), with m the effective mass of the contact; 0 if the
+    number of substeps follows from the loads.
     """
     world, rows, now = step.world, step.contacts, step.now
     substeps = world.substeps

@@ -9,10 +9,10 @@ from physics import DYNAMIC, KINEMATIC, World
 
 
 class Step:
-    """Finished step. `before`, `now`: bodies before and after it; `dt`: length [s].
+    """Finished step. before, now: Bodies before and after it; dt: its length [s].
 
-    `edited`: whether the game changed the world since the previous step. By row of the bodies before the step:
-    `changed`, the bodies that the game changed; `forced`, the bodies with applied forces.
+    edited: whether the game changed the world since the previous step. changed, forced: (n,) bool by row of the bodies
+    before the step, for bodies that the game changed, and for bodies with applied forces.
     """
 
     def __init__(
@@ -37,7 +37,7 @@ class Step:
 
     @cached_property
     def max_speed(self) -> np.ndarray:
-        """Speed of each body [px/s]: the magnitude of its velocity, or its displacement in the step over dt if greater.
+        """(n,) speed of each body [px/s]: that of its velocity, or its path in the step divided by dt if greater.
 
         The two differ because push-out moves a body without changing its velocity.
         """
@@ -48,12 +48,15 @@ class Step:
 
     @cached_property
     def sides(self) -> tuple[np.ndarray, np.ndarray]:
-        """Body rows of A and of B of each contact."""
+        """(body rows of A, body rows of B) of the contacts."""
         return self.rows_of(self.contacts["body_a"]), self.rows_of(self.contacts["body_b"])
 
     @cached_property
     def linked(self) -> tuple[np.ndarray, np.ndarray]:
-        """Body rows of A and of B of each joint that acted in the step, broken ones included; -1 for the world."""
+        """(body rows of A, body rows of B) of the joints that acted in the step; -1 for the world.
+
+        Joints that broke in the step are included.
+        """
         world = self.world
         joints, broken = world.joints[world.joints["enabled"]], world.events.broken
         broken = broken[broken["reason"] != "removed"]
@@ -61,13 +64,13 @@ class Step:
         return np.where(a < 0, -1, self.rows_of(a)), np.where(b < 0, -1, self.rows_of(b))
 
     def rows_of(self, ids: np.ndarray) -> np.ndarray:
-        """Return the rows of bodies by id."""
+        """Return the rows of the bodies with the given ids."""
         return np.searchsorted(self.now.ids, ids)
 
     def spread(self, rows: np.ndarray, through: np.ndarray) -> np.ndarray:
         """Return (n,) bool: the bodies flagged in `rows`, and all bodies that contacts and joints connect to them.
 
-        A contact or joint counts only if both its bodies are flagged in `through`.
+        rows: (n,) bool. A contact or joint counts only if both its bodies are flagged in `through`, (n,) bool.
         """
         joined = (self.linked[0] >= 0) & (self.linked[1] >= 0)
         a, b = (np.concatenate([one, other[joined]]) for one, other in zip(self.sides, self.linked, strict=True))
@@ -88,7 +91,7 @@ class Step:
 
     @cached_property
     def outside(self) -> str:
-        """Outside influence that may act on any body and is in no table, as a phrase; "" if there is none."""
+        """A phrase for an outside influence that may act on any body and is in no table; "" if there is none."""
         world, effects = self.world, self.world.effects
         if len(self.before) != len(self.now):
             return "bodies came or went"
@@ -100,7 +103,7 @@ class Step:
 
     @cached_property
     def alone(self) -> np.ndarray:
-        """Flags of the dynamic bodies on which nothing but gravity acted from outside, for the whole step.
+        """(n,) bool: the dynamic bodies on which nothing but gravity acted from outside, for the whole step.
 
         They have no applied force and were not stopped within the step. No contact or joint, directly or through
         others, connects them to the world or to a static, kinematic, sleeping, stopped or forced body.

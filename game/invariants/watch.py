@@ -18,8 +18,9 @@ from physics import World
 
 
 def all_invariants(concave: bool = True) -> tuple[Invariant, ...]:
-    """Return new invariants U1 to U11. concave: pairs of masks, tiles and chains are checked, too, at ten times the
-    cost.
+    """Return new objects of the invariants U1 to U11.
+
+    concave: whether pairs of masks, tiles and chains are checked, too, at ten times the cost.
     """
     return (
         Finite(),
@@ -37,10 +38,10 @@ def all_invariants(concave: bool = True) -> tuple[Invariant, ...]:
 
 
 class Watch:
-    """Checks of all invariants of one world; call before() and after() around each step.
+    """Checks of all invariants of one world. Call before() and after() around each step.
 
-    `found`: answers since the last collect(), by id of the invariant: the first break if there was one, else the latest
-    answer. `seconds`: time that the checks took since then.
+    found: {id of the invariant: its first break since the last collect(), or else its latest result}. seconds: time
+    that the checks took since then.
     """
 
     def __init__(self, concave: bool = True) -> None:
@@ -52,7 +53,7 @@ class Watch:
         self.edited, self.changed, self.forced, self.time = True, np.zeros(0, bool), np.zeros(0, bool), 0.0
 
     def before(self, world: World) -> None:
-        """Record the changes that the game made since the last step. Call it right before a step."""
+        """Record the changes that the game has made since the last step. Call it right before a step."""
         started = perf_counter()
         rows, now = world.bodies, Bodies(world)
         same = self.last is not None and now.same_as(self.last)
@@ -76,16 +77,16 @@ class Watch:
         self.seconds += perf_counter() - started
 
     def collect(self) -> tuple[dict[str, Answer], float]:
-        """Return (answers since the last call, by id; seconds that the checks took)."""
+        """Return ({id of an invariant: result}, seconds that the checks took), both since the last call."""
         found, self.found = self.found, {}
         seconds, self.seconds = self.seconds, 0.0
         return found, seconds
 
 
 class WatchedWorld(World):
-    """World whose invariants can be checked. `watch`: the checks around its steps; None: no checks, and no cost.
+    """World whose invariants can be checked. watch: the checks around its steps; None: no checks, and no cost.
 
-    stepped_by(world, dt): replaces World.step; None: World.step itself.
+    stepped_by(world, dt): function that replaces World.step; None: World.step itself.
     """
 
     watch: Watch | None = None

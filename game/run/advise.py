@@ -56,7 +56,7 @@ def recorded_run(options: Options, registry: Registry, frames: int) -> RecordedR
 
 
 class Progress:
-    """Progress lines on standard error: number of finished measurement runs, and estimated time left."""
+    """Progress on standard error: number of finished runs of the measurement, and estimated remaining time."""
 
     def __init__(self) -> None:
         self.started = self.reported = perf_counter()

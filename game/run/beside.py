@@ -1,5 +1,6 @@
-"""Compilation in the background while the program runs: the played scene first, then all others; one core is left to a
-running game.
+"""Compilation in the background while the program runs: the played scene first, then all others.
+
+While a game runs, one core is left to it.
 """
 
 import contextlib
@@ -26,20 +27,20 @@ class Beside:
         self.background: Background | None = None
 
     def _all_scenes(self, registry) -> Iterator[type[Scene]]:
-        """Yield the scene classes one by one. Each is imported when it is due; scenes with errors are skipped."""
+        """Yield the scene classes one by one. Each is imported only now; scenes with errors are skipped."""
         for name in registry.names:
             with contextlib.suppress(UsageError):
                 yield registry.scene_class(name)
 
     def start(self, plays: bool = False) -> None:
-        """Start compilation in the background, if it has not begun. plays: leave one core to the running scene."""
+        """Begin compilation in the background, if it has not begun. plays: leave one core to a running scene."""
         if self.background is None and physics.JIT:
             self.background = physics.compile_in_background(self.cores)
         if self.background is not None:
             self.background.workers.limit = max(1, self.cores - plays)
 
     def turn(self, plays: bool) -> None:
-        """Continue compilation; call it once per turn of the program's loop.
+        """Continue compilation. Call it once per iteration of the program's loop.
 
         plays: whether a scene is on the screen. If so, one core is left to the scene, and no other scene is imported.
         """
@@ -49,7 +50,7 @@ class Beside:
 
     @property
     def share(self) -> float:
-        """The share of the called kernels that ran compiled, 0..1."""
+        """Share of the called kernels that ran compiled, 0..1."""
         return 1.0 if self.background is None else self.background.share
 
     def stop(self) -> None:

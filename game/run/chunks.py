@@ -1,4 +1,4 @@
-"""Compressed store for the bytes of a scene's state, in which successive states share the parts that did not change.
+"""Compressed store for the bytes of a scene's state, in which successive states share their equal parts.
 
 Arrays are cut into blocks of bytes, called chunks. Tables are cut column by column, since most columns stay the same
 from one state to the next. Equal chunks are found by Python's hash of their bytes: 64 bits, with a different key in
@@ -23,8 +23,10 @@ LEVEL = 6  # of zlib: level 1 is three times as fast, for a sixth more bytes
 
 
 class Chunk:
-    """A block of bytes, possibly compressed. like: the chunk at the same place in the previous state, used as
-    dictionary to compress this one; None: no dictionary.
+    """A block of bytes, possibly compressed.
+
+    like: the chunk at the same place in the previous state, which serves as dictionary for the compression; None: no
+    dictionary.
     """
 
     __slots__ = ("data", "hash", "like", "packed")
@@ -35,16 +37,16 @@ class Chunk:
 
     @property
     def depth(self) -> int:
-        """Number of other chunks that must be decompressed to read this one."""
+        """Number of other chunks that must be decompressed in order to read this one."""
         return 0 if self.like is None else 1 + self.like.depth
 
     @property
     def first(self) -> "Chunk":
-        """The first chunk of the chain of dictionaries, which can be read without another chunk."""
+        """The first chunk of the chain of dictionaries. It can be read without another chunk."""
         return self if self.like is None else self.like.first
 
     def pack(self) -> None:
-        """Compress the chunk if that makes it smaller; use the bytes of `like` as dictionary if that saves enough."""
+        """Compress the chunk if that makes it smaller, with the bytes of `like` as dictionary if that saves enough."""
         by_like = None if self.like is None else _deflated(self.data, self.like.content())
         alike = by_like is not None and len(by_like) < ALIKE * len(self.data)
         own = b"" if alike else _deflated(self.data, b"")
@@ -72,8 +74,7 @@ class Chunks:
     """The contents of several buffers, stored in order as chunks.
 
     raw: the buffers. widths: size of an array item in each buffer [bytes], 0 if the buffer is not an array. before: the
-    Chunks of an earlier state of the same buffers, whose equal chunks are shared. `new`: the chunks that are not
-    shared.
+    Chunks of an earlier state of the same buffers, whose equal chunks are shared. new: the chunks that are not shared.
     """
 
     def __init__(self, raw: Sequence[memoryview], widths: Sequence[int], before: "Chunks | None" = None) -> None:
@@ -114,16 +115,16 @@ class Chunks:
         return tuple(chunks)
 
     def __iter__(self) -> Iterator[Chunk]:
-        """Iterate over all chunks. A chunk that occurs several times is yielded each time."""
+        """Yield all chunks in order. A chunk that occurs several times is yielded each time."""
         return (chunk for part in self.parts for chunk in part)
 
     def _sizes(self):
-        """Return (size, row size) of each buffer [bytes]; for the row size see _row()."""
+        """Return a list of (size, row size) of the buffers [bytes]. For the row size see _row()."""
         count = len(self.layout) // 2
         return zip(self.layout[:count], self.layout[count:], strict=True)
 
     def contents(self) -> list[memoryview]:
-        """Return the contents of the buffers as writable copies."""
+        """Return the contents of the buffers, each as a writable copy."""
         parts = iter(self.parts)
         small = _joined(next(parts))
         found, at = [], 0
@@ -137,8 +138,9 @@ class Chunks:
 
 
 def bytes_of(many: Iterable[Chunks]) -> int:
-    """Return the memory of several Chunks together [bytes], Python's overhead included. Chunks that several of them
-    share count once.
+    """Return the memory that several Chunks take together [bytes], including Python's overhead.
+
+    A chunk that several of them share counts once.
     """
     parts = {id(part): part for chunks in many for part in chunks.parts}
     layouts = {id(chunks.layout): chunks.layout for chunks in many}
@@ -151,7 +153,7 @@ def bytes_of(many: Iterable[Chunks]) -> int:
 
 
 def _row(size, width):
-    """Return the row size [bytes] of a buffer that is stored by columns; 1 for other arrays, 0 for no array.
+    """Return the row size [bytes] of a buffer that is stored by columns; 1 for another array, 0 for no array.
 
     size: size of the buffer [bytes]; width: size of its array items [bytes], 0 for no array.
     """
@@ -159,7 +161,10 @@ def _row(size, width):
 
 
 def _by_columns(view, width):
-    """Return the bytes of a table of 8-byte words reordered by columns; other data unchanged. width: bytes of a row."""
+    """Return the bytes of a table of 8-byte words in the order of its columns; other data unchanged.
+
+    width: size of a row [bytes].
+    """
     if width <= WORD:
         return view
     words = np.frombuffer(view, np.uint64).reshape(-1, width // WORD)
@@ -167,7 +172,7 @@ def _by_columns(view, width):
 
 
 def _by_rows(data: np.ndarray, width: int) -> np.ndarray:
-    """Return the bytes reordered by rows: the inverse of _by_columns(). width: bytes of a row."""
+    """Return the bytes in the order of the rows: the inverse of _by_columns(). width: size of a row [bytes]."""
     if width <= WORD:
         return data
     words = np.frombuffer(data, np.uint64).reshape(width // WORD, -1)
@@ -175,5 +180,5 @@ def _by_rows(data: np.ndarray, width: int) -> np.ndarray:
 
 
 def _joined(chunks):
-    """Return the contents of chunks, joined in one writable array of bytes."""
+    """Return the contents of several chunks, joined into one writable array of bytes."""
     return np.frombuffer(bytearray(b"".join([chunk.content() for chunk in chunks])), np.uint8)

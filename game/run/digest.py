@@ -1,4 +1,4 @@
-"""Digest (hash) of a scene's complete state: all worlds in build order, its own state, and its random generator."""
+"""Digest (hash) of a scene's complete state: its worlds in order of creation, its own state, its random generator."""
 
 import struct
 from hashlib import blake2b
@@ -7,9 +7,9 @@ from game.scene import Scene
 
 
 def scene_digest(scene: Scene) -> str:
-    """Return the digest of the scene's worlds, state() and random numbers, as 32 hex digits.
+    """Return the digest of the scene's worlds, Scene.state() and random numbers, as 32 hex digits.
 
-    Floats are hashed by their bits, with -0.0 as 0.0. Raises TypeError if Scene.state() holds a type that cannot be
+    Floats are hashed by their bits, with -0.0 as 0.0. Raises TypeError if Scene.state() contains a type that cannot be
     hashed.
     """
     digest = blake2b(digest_size=16)

@@ -23,7 +23,7 @@ from game.scene import Scene, set_loaded_aside
 
 
 def start_dummy_display() -> None:
-    """Set up pygame so that it can draw without a display or sound device."""
+    """Set up pygame so that it can draw without a display and without a sound device."""
     os.environ["SDL_VIDEODRIVER"] = "dummy"
     os.environ["SDL_AUDIODRIVER"] = "dummy"
     os.environ["SDL_NO_SIGNAL_HANDLERS"] = "1"  # SDL would turn SIGTERM into an event, and no events are read here
@@ -80,8 +80,9 @@ def save_or_fail(save: Callable[[str], object], path: str) -> None:
 
 
 def finish(scene: Scene, report: RunReport, options: Options, broken: str = "") -> int:
-    """Print the requested results and return the exit code. broken: message about the broken invariant that ended the
-    run, or "".
+    """Print the requested results and return the exit code.
+
+    broken: message about the broken invariant that ended the run, or "".
     """
     played = options.played_by_bot
     extra = [broken] if broken else report.strict_failures() if options.strict else []
@@ -99,8 +100,9 @@ def finish(scene: Scene, report: RunReport, options: Options, broken: str = "") 
 
 
 def summary_line(scene: Scene, report: RunReport, check: Check, played: bool) -> str:
-    """Return one line of text that summarizes the run. check: result of judge() or not_judged(); played: whether the
-    bot played.
+    """Return one line of text about the run. check: result of judge() or not_judged().
+
+    played: whether the bot played.
     """
     verdict = ("check ok" if check["ok"] else "check FAILED") if played else "nobody played, so nothing was checked"
     pending = f", {len(check['pending'])} goals pending" if played and check["pending"] else ""

@@ -29,7 +29,7 @@ class Histogram:
         return self.total / self.count if self.count else 0.0
 
     def quantile(self, share: float) -> float:
-        """Return the quantile [s] for a share 0..1 (0.5: the median), within half a percent; 0 without durations."""
+        """Return a quantile [s], correct to half a percent; 0 without durations. share: 0..1, 0.5 for the median."""
         left = share * (self.count - 1) + 1.0
         for place, count in enumerate(self.bins):
             left -= count

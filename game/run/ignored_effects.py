@@ -1,4 +1,4 @@
-"""Effects that a running scene declares but its solver does not support: which ones, and a warning on the picture."""
+"""Effects that a running scene declares but its solver does not support, and a warning about them on the picture."""
 
 from collections.abc import Iterable
 
@@ -17,8 +17,9 @@ SHADE = (20, 16, 32, 225)
 
 
 def ignored_by_solver(worlds: Iterable[World]) -> dict[str, list[str]]:
-    """Return {solver: names of the declared effects that it ignores}, in the order of the worlds. Solvers that ignore
-    no effect are left out.
+    """Return {solver: names of the declared effects that it ignores}, in the order of the worlds.
+
+    Solvers that ignore no effect are left out.
     """
     found: dict[str, set[str]] = {}
     for world in worlds:
@@ -34,12 +35,12 @@ def ignored_effects(scene: Scene) -> list[str]:
 
 
 def in_order(names: set[str]) -> list[str]:
-    """Return names of effects in the order of the fields of Effects."""
+    """Return the names of effects in the order of the fields of Effects."""
     return [name for name in Effects.__dataclass_fields__ if name in names]
 
 
 def sentences(scene: Scene) -> list[str]:
-    """Return a sentence for each solver that ignores effects."""
+    """Return a list with a sentence for each solver that ignores effects of the scene."""
     return [
         f"{plain_name(solver)} ignores {', '.join(map(plain_name, names))}"
         for solver, names in ignored_by_solver(scene.worlds).items()
@@ -47,10 +48,9 @@ def sentences(scene: Scene) -> list[str]:
 
 
 def draw_ignored(frame: Frame, scene: Scene) -> None:
-    """Write the sentences into a free corner of the game's part of a frame, below its top line, in the largest text
-    that fits.
+    """Write the sentences into a free corner of the game's part of a frame, in the largest text that fits.
 
-    If no place is free, write the sentences at the bottom left, over any text there.
+    They are below the game's top line. If no place is free, they are at the bottom left, over any text there.
     """
     shown_ignored = sentences(scene)
     if not shown_ignored:
@@ -75,7 +75,7 @@ def _size(frame, rows, scale):
 
 
 def _places(area, size, scale):
-    """Yield (x, y) places for a box, from the bottom of an area up, first at the left edge, then at the right edge."""
+    """Yield places (x, y) for a box of `size` in an area: at the left edge from the bottom up, then at the right."""
     step, edge = LINE * scale, EDGE * scale
     for x in (area.left + edge, area.right - size[0] - edge):
         for y in range(area.bottom - size[1] - edge, area.top - 1, -step):

@@ -1,7 +1,7 @@
 """Key frame: a compact copy of the complete state of a scene, which can be restored into the same scene.
 
 Restoring changes the contents of the scene's objects and keeps the objects themselves, so that references to them stay
-valid. The contents are pickled, with arrays outside the pickle. Constant objects are stored by reference only:
+valid. The contents are pickled, with arrays outside the pickle. Constant objects are stored only by reference:
 pictures, shapes, code, and objects whose deep copy is the object itself.
 """
 
@@ -27,7 +27,7 @@ KEPT = (type, FunctionType, np.dtype, pygame.Surface)  # types of constant objec
 
 
 class KeyFrame:
-    """Stored state of a scene. before: an earlier key frame of the scene, whose unchanged data is shared."""
+    """Stored state of a scene. before: an earlier key frame of the scene, whose unchanged data are shared."""
 
     def __init__(self, scene: Scene, before: "KeyFrame | None" = None) -> None:
         self.scene = scene
@@ -44,7 +44,7 @@ class KeyFrame:
         self.chunks = Chunks(raw, [0, *writer.widths], before and before.chunks)
 
     def restore(self) -> None:
-        """Restore the scene to the stored state."""
+        """Restore the stored state of the scene."""
         stream, *buffers = self.chunks.contents()
         reader = _Reader(io.BytesIO(stream), self.kept, buffers)
         scene = self.scene
@@ -59,28 +59,30 @@ class KeyFrame:
 
 
 def bytes_held(frames: Iterable[KeyFrame]) -> int:
-    """Return the memory of several key frames together [bytes]. Shared data counts once."""
+    """Return the memory that several key frames take together [bytes]. Shared data count once."""
     lists = {id(kept): kept for frame in frames for kept in (frame.kept, frame.worlds)}
     return sum(map(sys.getsizeof, lists.values())) + bytes_of([frame.chunks for frame in frames])
 
 
 def table_of(rows: np.ndarray, capacity: int) -> Table:
-    """Return a table of this capacity with these rows. Called on unpickling: a pickle holds the used rows only."""
+    """Return a table with these rows and this capacity. Called on unpickling: a pickle contains only the used rows."""
     table = Table(rows.dtype, capacity)
     table.append(len(rows)).view(np.uint8)[:] = rows.view(np.uint8)
     return table
 
 
 def shared(number: int) -> object:
-    """Represent, in the pickle, the object `kept[number]` of the key frame. A key frame's own reader replaces this
-    function, so a call raises LookupError.
+    """Stand, in the pickle, for the object `kept[number]` of the key frame.
+
+    A key frame's own reader replaces this function, so that a call raises LookupError.
     """
     raise LookupError(f"object {number} is not in this pickle: a key frame holds it")
 
 
 class _Writer(pickle.Pickler):
-    """Pickler of a key frame. `kept`: the objects stored by reference; `worlds`: the worlds among them, whose state is
-    pickled separately.
+    """Pickler of a key frame. kept: the objects that are stored by reference.
+
+    worlds: the worlds among them, whose state is pickled separately.
     """
 
     def __init__(self, file, scene):
@@ -126,8 +128,9 @@ class _Reader(pickle.Unpickler):
 
 
 def _same(new, old):
-    """Return `old` if it holds the same objects as `new`, otherwise `new`. Tuples with the same objects are then stored
-    once.
+    """Return `old` if it contains the same objects as `new`, otherwise `new`.
+
+    Tuples with the same objects are then stored once.
     """
     if old is not None and len(new) == len(old) and all(map(is_, new, old)):
         return old

@@ -1,4 +1,4 @@
-"""Fixed time step: converts real time into whole steps of 1/60 s; the remaining fraction of a step is alpha.
+"""Fixed time step: real time is converted into whole steps of 1/60 s. The remaining fraction of a step is alpha.
 
 Time is read from perf_counter: pygame's Clock.tick(60) counts whole milliseconds and so gives 62 frames a second.
 """
@@ -12,7 +12,7 @@ SPEEDS = (1.0, 0.5, 0.25, 0.1, 0.05)  # slow motion, as fractions of real time
 
 
 class FixedStep:
-    """Time accumulator. `advance(now)` returns the number of steps due; `alpha` is the remaining fraction of a step."""
+    """Time accumulator. advance(now) returns the number of due steps; alpha is the remaining fraction of a step."""
 
     def __init__(self, step: float = STEP_SECONDS) -> None:
         self.step = step
@@ -26,7 +26,7 @@ class FixedStep:
         self.load: float | None = None  # mean ratio of the time that frames take to the time of their steps
 
     def advance(self, now: float) -> int:
-        """Return the number of steps due at `now` [s, perf_counter]. The first call only starts the clock."""
+        """Return the number of steps that are due at `now` [s, perf_counter]. The first call only starts the clock."""
         passed = 0.0 if self.before is None else min(max(now - self.before, 0.0), LONGEST_FRAME)
         self.before = now
         if self.paused:
@@ -57,7 +57,7 @@ class FixedStep:
         self.load = load if self.load is None else self.load + (load - self.load) * SMOOTHING
 
     def rest(self) -> None:
-        """Stop counting time until the next advance(), because another screen is shown."""
+        """Stop counting time until the next advance(). Called when another screen is shown."""
         self.before = None
         self.requested = 0
 

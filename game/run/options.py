@@ -12,7 +12,7 @@ DEFAULT_FRAMES = 600  # of a headless run without --frames: ten seconds
 
 @dataclass
 class Options:
-    """Checked options, a field for each command-line flag. `recording`: content of the file that --replay names."""
+    """Checked options, one field for each command-line flag. recording: content of the file that --replay names."""
 
     list: bool = False
     scene: str | None = None
@@ -44,15 +44,12 @@ class Options:
 
     @property
     def is_a_run(self) -> bool:
-        """True if the run of one scene is measured, saved or limited in length.
-
-        The program then ends when the run ends.
-        """
+        """True if the run of one scene is measured, saved or limited in length. The program then ends with the run."""
         return bool(self.frames or self.record or self.json or self.profile or self.screenshot or self.strict)
 
     @property
     def played_by_bot(self) -> bool:
-        """True if the scene's bot plays, or played the recording that is replayed. Only then are its goals checked."""
+        """True if the scene's bot plays, or played the recording that is replayed. Only then are the goals checked."""
         return self.bot or bool(self.recording and self.recording.bot)
 
     @property
@@ -68,7 +65,7 @@ def scene_class_of(options: Options, registry: Registry) -> type[Scene]:
 
 
 def make_scene(options: Options, registry: Registry) -> Scene:
-    """Build the scene that the options name. Raises FileError for a level file with an error."""
+    """Build the scene that the options name. Raises FileError for an invalid level file."""
     return scene_class_of(options, registry)(
         options.seed or 0, options.broadphase, options.solver, options.tier, options.level
     )

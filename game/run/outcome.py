@@ -1,5 +1,6 @@
-"""Measurements of a run, summed over the scene's worlds: times of stages and frames, counters, events; and the check of
-the scene's goals.
+"""Measurements of a run, summed over the scene's worlds: times of stages and frames, counters, events.
+
+The module also checks the scene's goals.
 """
 
 from collections.abc import Iterable
@@ -16,7 +17,7 @@ EVENTS = ("begin", "persist", "end", "hits")
 
 
 class RunReport:
-    """Measurements of a run, added step by step. Times are in seconds here, in milliseconds in to_json()."""
+    """Measurements of a run, added step by step. Times are seconds here, and milliseconds in to_json()."""
 
     def __init__(self) -> None:
         self.steps = 0
@@ -29,7 +30,7 @@ class RunReport:
         self.quarantined = 0
 
     def note_step(self, scene: Scene, seconds: float) -> None:
-        """Add the measurements of the last step of all worlds. seconds: duration of the scene's step."""
+        """Add the measurements of all worlds' last step. seconds: duration of the scene's step."""
         self.steps += 1
         self._close_frame()
         self.last = seconds
@@ -47,7 +48,7 @@ class RunReport:
             self.stages.setdefault(name, Histogram()).add(spent)
 
     def note_drawing(self, seconds: float) -> None:
-        """Add drawing time [s] to the frame of the last step."""
+        """Add drawing time to the frame of the last step. seconds: duration of the drawing."""
         if self.last is not None:
             self.last += seconds
 
@@ -57,8 +58,9 @@ class RunReport:
             self.last = None
 
     def strict_failures(self) -> list[str]:
-        """Return the failures that --strict reports at the end of a run: quarantined bodies, and iterations that hit
-        their cap.
+        """Return the failures that --strict reports at the end of a run, a list of texts.
+
+        They are disabled bodies, and iterations that hit their cap.
         """
         failures = []
         if self.quarantined:
@@ -68,7 +70,7 @@ class RunReport:
         return failures
 
     def to_json(self, scene: Scene, check: Check) -> dict[str, Any]:
-        """Return the object that --json prints. check: the result of judge()."""
+        """Return the object that --json prints, a dict. check: result of judge()."""
         self._close_frame()
         return {
             "scene": scene.name,
@@ -88,7 +90,7 @@ class RunReport:
         }
 
     def profile_lines(self) -> list[str]:
-        """Return the lines of the table that --profile prints."""
+        """Return the table that --profile prints, as lines of text."""
         self._close_frame()
         lines = [f"{'':24}{'mean':>9}{'p50':>9}{'p99':>9}{'max':>9}  ms"]
         rows = {"frame": self.frames, "  update": self.updates}
@@ -104,21 +106,26 @@ class RunReport:
 
 
 def solver_name(scene: Scene) -> str | None:
-    """Return the name of the solver in use, also if the scene leaves the choice to World; None if it is not yet
-    known.
+    """Return the name of the solver in use; None if it is not known yet.
+
+    If the scene leaves the choice to World, it is the world's solver.
     """
     return scene.worlds[0].solver if scene.worlds else scene.solver
 
 
 def summary(times: Histogram, wanted: Iterable[str]) -> dict[str, float]:
-    """Return the statistics named in `wanted` (of mean, p50, p99, max) in milliseconds; 0 if nothing was measured."""
+    """Return some statistics of durations in milliseconds, {name: value}; 0 if nothing was measured.
+
+    wanted: names out of mean, p50, p99 and max.
+    """
     found = {"mean": times.mean, "p50": times.quantile(0.5), "p99": times.quantile(0.99), "max": times.largest}
     return {name: round(1000.0 * found[name], 4) for name in wanted}
 
 
 def judge(scene: Scene, frames: int, extra: Iterable[str] = ()) -> Check:
-    """Check the scene's goals after `frames` frames. Return {ok, failures, pending}; extra: further failures. A goal
-    that is due later is pending, not failed.
+    """Check the scene's goals after `frames` frames, and return {ok, failures, pending}. extra: further failures.
+
+    A goal that is due later is pending, not failed.
     """
     failures, pending = list(extra), []
     for goal in scene.check():
@@ -133,7 +140,8 @@ def judge(scene: Scene, frames: int, extra: Iterable[str] = ()) -> Check:
 
 
 def not_judged(scene: Scene, extra: Iterable[str] = ()) -> Check:
-    """Return {ok, failures, pending} of a run that no bot played. All goals are pending; extra: failures of
-    --strict.
+    """Return {ok, failures, pending} of a run that no bot played: all goals are pending.
+
+    extra: failures of --strict.
     """
     return {"ok": not extra, "failures": list(extra), "pending": [goal.name for goal in scene.check()]}

@@ -1,4 +1,4 @@
-"""The finished picture of a scene: canvas, scaling, overlays, panel; the same code for a window and a screenshot."""
+"""The finished picture of a scene: canvas, scaling, overlays, panel. A window and a screenshot use the same code."""
 
 from collections.abc import Callable
 from io import BytesIO
@@ -28,15 +28,15 @@ class Drawable(Protocol):
 
 
 class Docked(Protocol):
-    """An object that is drawn beside a scene: a panel."""
+    """An object that is drawn beside a scene, such as the panel."""
 
     def draw(self, frame: Frame, rect: pygame.Rect) -> None:
-        """Draw the object into a rect of the frame."""
+        """Draw the object into a rectangle of the frame."""
         ...
 
 
 class Picture:
-    """Drawing of finished pictures onto `surface`, for example the window's; None: a new surface of screenshot size."""
+    """Drawing of finished pictures onto `surface`, such as the window's; None: onto a new one of screenshot size."""
 
     def __init__(self, surface: pygame.Surface | None = None) -> None:
         if surface is None:
@@ -52,10 +52,11 @@ class Picture:
         panel: Docked | None = None,
         reserve: Callable[[Frame], None] | None = None,
     ) -> Frame:
-        """Draw the whole picture of a scene and return the frame. If overlays show geometry, alpha is taken as 1, so
-        that sprites match the shapes.
+        """Draw the whole picture of a scene, with an optional panel beside it, and return the frame.
 
-        reserve(frame): called before text of the overlays is placed, to reserve places for drawing that comes later.
+        alpha: position (0..1) between the last two steps; it is taken as 1 if overlays show geometry, so that sprites
+        match the shapes. reserve(frame): called before text of the overlays is placed, to reserve places for drawing
+        that comes later.
         """
         if overlays.shows_geometry():
             alpha = 1.0
@@ -89,7 +90,8 @@ class Picture:
 
     def draw_without(self, draw: Callable[[Frame], None], overlays: Overlays, panel: Docked | None = None) -> Frame:
         """Make a picture with draw(frame) in place of a scene, with an optional panel beside it. Return the frame.
-        overlays: for the strip beside the panel.
+
+        overlays: those for the strip that is shown with a panel.
         """
         self.canvas.begin(INK)
         self.presenter.docked = panel is not None
@@ -106,7 +108,7 @@ class Picture:
         draw_strip(frame, self.presenter.strip_rect, overlays)
 
     def draw_screen(self, screen: Drawable, alpha: float = 1.0) -> Frame:
-        """Draw a screen that has no scene: a title, menu or message. Return the frame."""
+        """Draw a screen without a scene: a title, menu or message. Return the frame."""
         self.canvas.begin(INK)
         screen.draw(self.canvas, alpha)
         self.presenter.docked = False
@@ -114,8 +116,10 @@ class Picture:
 
 
 def draw_strip(frame: Frame, rect: pygame.Rect, overlays: Overlays) -> None:
-    """Draw the strip below a game that is shown beside a panel: legend at the left, stage times at the right,
-    invariants above; each only if its overlay is on.
+    """Draw the strip below a game that is shown beside a panel.
+
+    Its parts are the legend at the left, the stage times at the right and the invariants above; each is drawn only if
+    its overlay is on.
     """
     scale = frame.text_scale
     if rect.height < 40 * scale:
@@ -133,8 +137,9 @@ def draw_strip(frame: Frame, rect: pygame.Rect, overlays: Overlays) -> None:
 
 
 def _invariants_above(frame, rect, overlays, scale):
-    """Draw the table of invariants in the widest form that fits, if their overlay is on. Return the remaining rect
-    below it.
+    """Draw the table of invariants, if its overlay is on, in the widest form that fits.
+
+    Return the rest of `rect` below.
     """
     if "invariants" in overlays.on:
         for width, height in overlays.invariants.sizes(frame):
@@ -145,8 +150,9 @@ def _invariants_above(frame, rect, overlays, scale):
 
 
 def save_png(surface: pygame.Surface, path: str | Path) -> None:
-    """Write a surface as a PNG file, whatever the file is called. The file appears complete or not at all (atomic
-    write). Raises OSError.
+    """Write a surface as a PNG file, whatever the file is called. Raises OSError.
+
+    The write is atomic: the file appears complete or not at all.
     """
     picture = BytesIO()
     pygame.image.save(surface, picture, "picture.png")

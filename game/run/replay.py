@@ -31,7 +31,7 @@ MOST_POINTS = 10**15
 
 
 class Recorder:
-    """Recorder of the input of each step, and of a digest after every `every` frames."""
+    """Recorder of the input of each step, and of a digest of the state after every `every` frames."""
 
     def __init__(self, scene: Scene, bot: bool = False, every: int = DIGEST_EVERY) -> None:
         level = scene.level_file
@@ -65,7 +65,7 @@ class Recorder:
             self.digests.append(scene_digest(scene)[:DIGITS])
 
     def cut(self, frames: int) -> None:
-        """Keep only the first `frames` frames, because the player rewound to that frame and plays on."""
+        """Keep only the first `frames` frames. Called when the player has rewound to that frame and plays on."""
         left = self.frames - frames
         self.frames -= max(0, left)
         while left > 0:
@@ -77,7 +77,7 @@ class Recorder:
         del self.digests[self.frames // self.every :]
 
     def save(self, path: str | Path, result: Result | None = None) -> None:
-        """Write the recording to a file, with the result of the game, if any. Raises OSError."""
+        """Write the recording to a file. result: of the game, or None. Raises OSError."""
         ended = result and {"won": bool(result.won), "points": int(result.points), "seconds": float(result.seconds)}
         head = {**self.head, "result": ended, "frames": self.frames}
         lines = [json.dumps(head)[:-1] + ",", '"inputs": [']
@@ -87,8 +87,9 @@ class Recorder:
 
 
 def chosen_before(scene: Scene) -> list[tuple[str, Any]]:
-    """Return the (name, value) changes that bring a new scene to this scene's current settings. Settings that the head
-    of a recording holds are left out.
+    """Return the (name, value) changes that bring a new scene to this scene's current settings.
+
+    Settings that the head of a recording contains are left out.
     """
     changes: list[tuple[str, Any]] = [
         (f"slider:{s.name}", scene.values[s.name]) for s in scene.sliders if scene.values[s.name] != s.start
@@ -101,7 +102,7 @@ def chosen_before(scene: Scene) -> list[tuple[str, Any]]:
 
 
 class Replay:
-    """A recording that was read: next() returns the input of each step, verify() compares the scene's state."""
+    """A recording that was read. next() returns the input of each step, verify() compares the scene's state."""
 
     def __init__(self, path: str | Path, data: dict[str, Any], frames: list[InputFrame]) -> None:
         self.path = path
@@ -121,13 +122,14 @@ class Replay:
 
     @property
     def outdated(self) -> str:
-        """A sentence if the recording was made under another physics version, otherwise ""."""
+        """A sentence if the recording was made with another physics version, otherwise ""."""
         then = self.physics
         return "" if then == PHYSICS_VERSION else f"recorded under physics {then}, played under {PHYSICS_VERSION}"
 
     def level_path(self) -> Path | None:
-        """Return the level file that was played; None for the scene's built-in level. Raises FileError if the file has
-        changed since.
+        """Return the level file that was played; None for the scene's own level.
+
+        Raises FileError if the file has changed since.
         """
         if self.level is None:
             return None
@@ -142,15 +144,15 @@ class Replay:
         return path
 
     def next(self, scene: object) -> InputFrame:
-        """Return the input of the next step; after the last step, empty input."""
+        """Return the input of the next step, and empty input after the last one. scene: not used."""
         self.index += 1
         return self.inputs[self.index - 1] if self.index <= len(self.inputs) else NOTHING
 
     def verify(self, scene: Scene) -> None:
         """Compare the scene's state after a step with the recorded digest, if there is one for this frame.
 
-        Raises ReplayDiverged, which names the frame, if they differ. If the recording is of another physics version,
-        the first difference is noted in `parted` instead.
+        Raises ReplayDiverged, which names the frame, if they differ. For a recording of another physics version, the
+        first difference is recorded in `parted` instead.
         """
         frame = self.index
         if frame % self.every or frame // self.every > len(self.digests):

@@ -1,5 +1,6 @@
-"""Check that a recording can be played by its scene. Files come from friends and from other versions, so that every
-name and value is checked.
+"""Check that a scene can play a recording.
+
+Every name and value is checked, because files come from friends and from other versions.
 """
 
 from pathlib import Path
@@ -12,8 +13,9 @@ from physics import BROADPHASES
 
 
 def load_replay_for(path: str | Path, registry: Registry) -> tuple[Replay, type[Scene]]:
-    """Read a recording; return (recording, class of its scene). Raises FileError if the file is damaged or its scene
-    cannot play it.
+    """Read a recording. Return (recording, class of its scene).
+
+    Raises FileError if the file is damaged, or if its scene cannot play it.
     """
     recording = load_replay(path)
     if recording.scene not in registry.names:
@@ -26,8 +28,9 @@ def load_replay_for(path: str | Path, registry: Registry) -> tuple[Replay, type[
 
 
 def check_recording(recording: Replay, scene_class: type[Scene]) -> None:
-    """Check the values of a recording against its scene. Raises FileError, which names the first value that the scene
-    does not accept.
+    """Check the values of a recording against its scene.
+
+    Raises FileError, which names the first value that the scene does not accept.
     """
     path = recording.path
     for place, value, valid in (
@@ -53,8 +56,9 @@ def check_recording(recording: Replay, scene_class: type[Scene]) -> None:
 
 
 def is_possible(scene_class: type[Scene], name: object, value: object) -> bool:
-    """Return whether the scene accepts a change (name, value) as input. A scene whose worlds have different solvers
-    accepts no change of the solver.
+    """Return whether the scene accepts a change (name, value) as input.
+
+    A scene whose worlds have different solvers accepts no change of the solver.
     """
     if not isinstance(name, str) or isinstance(value, (list, dict)):
         return False

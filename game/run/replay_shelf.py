@@ -1,4 +1,4 @@
-"""The user's replay files: those kept by the player in replays/, and the last few runs in replays/recent/.
+"""The user's replay files: those that the player keeps, in replays/, and the last few runs, in replays/recent/.
 
 Only files in recent/ are ever deleted, the oldest first.
 """
@@ -19,25 +19,26 @@ SHORTEST = 120  # frames: shorter runs are not kept
 
 
 def replays_folder() -> Path:
-    """Return the folder of replays that the player keeps; files from friends belong here, too."""
+    """Return the folder of the replays that the player keeps. Files from friends belong there, too."""
     return data_folder() / "replays"
 
 
 def recent_folder() -> Path:
-    """Return the folder of the runs that are kept automatically."""
+    """Return the folder of the runs that are saved automatically."""
     return replays_folder() / "recent"
 
 
 def shelf() -> list[tuple[Path, bool]]:
-    """Return (path, whether the player keeps it) of all replays, newest first."""
+    """Return a list of (path, whether the player keeps it) of all replays, newest first."""
     found = [(changed, path, True) for changed, path in files_of(replays_folder())]
     found += [(changed, path, False) for changed, path in files_of(recent_folder())]
     return [(path, kept) for _, path, kept in sorted(found, key=lambda each: (-each[0], each[1].name))]
 
 
 def files_of(folder: Path) -> list[tuple[float, Path]]:
-    """Return (modification time, path) of each replay in a folder. Folders, broken links and files deleted meanwhile
-    are left out.
+    """Return a list of (modification time, path) of the replays in a folder.
+
+    Folders, broken links and files deleted meanwhile are left out.
     """
     found = []
     try:
@@ -55,10 +56,9 @@ def files_of(folder: Path) -> list[tuple[float, Path]]:
 
 
 def put_recent(recorder: Recorder, result: Result | None = None) -> Path | None:
-    """Save a run, with the result of its game if any, in recent/, and delete the oldest runs there. Return the path;
-    None if the run is too short to keep.
+    """Save a run in recent/, and delete the oldest runs there. Return its path; None if it is too short to keep.
 
-    Raises OSError.
+    result: of its game, or None. Raises OSError.
     """
     if recorder.frames < SHORTEST:
         return None
@@ -72,7 +72,7 @@ def put_recent(recorder: Recorder, result: Result | None = None) -> Path | None:
 
 
 def keep(path: Path) -> Path:
-    """Copy a replay from recent/ to replays/, so that it is not deleted, and return the copy's path. Raises OSError.
+    """Copy a replay from recent/ to replays/, so that it is not deleted. Return the copy's path. Raises OSError.
 
     If replays/ has a file of that name with the same content, that file serves as the copy. If its content differs, the
     copy gets another name.

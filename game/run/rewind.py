@@ -34,9 +34,9 @@ MOST_RAW = 2048  # chunks that wait for compression (16 MB); if there are more, 
 
 
 class Stretch:
-    """A key frame and the inputs of the steps from it to the next key frame.
+    """A key frame, and the inputs of the steps from it to the next key frame.
 
-    `start`: number of the step at the key frame. `before`: input of the step that led to the key frame.
+    start: number of the step of the key frame. before: input of the step that led to the key frame.
     """
 
     def __init__(self, start: int, key: KeyFrame, before: InputFrame) -> None:
@@ -52,22 +52,22 @@ class Stretch:
         return pickle.loads(zlib.decompress(self.packed)) if self.open is None else self.open
 
     def close(self) -> None:
-        """Compress the inputs, because no more will follow."""
+        """Compress the inputs. Called when no more will follow."""
         if self.open is not None:
             self.packed, self.open = zlib.compress(pickle.dumps(self.open, 5)), None
 
     def cut(self, steps: int) -> None:
-        """Keep the inputs of the first `steps` steps, and accept new ones after them."""
+        """Keep only the inputs of the first `steps` steps. New ones may be added after them."""
         inputs = self.inputs
         self.spent *= steps / max(1, len(inputs))
         self.open = inputs[:steps]
 
 
 class Rewind:
-    """The past steps of a session. `position`: number of the step whose result the scene shows; `end`: number of the
-    last step made. Call note() after every step of the session.
+    """The past steps of a session. Call note() after every step of the session.
 
-    prepared(): called after a key frame was restored, before steps are made from it.
+    position: number of the step whose result the scene shows; end: number of the last step made. prepared(): called
+    after a key frame was restored, before steps are made from it.
     """
 
     def __init__(self, session: Session, prepared: Callable[[], None] = lambda: None) -> None:
@@ -102,18 +102,19 @@ class Rewind:
 
     @property
     def bytes(self) -> int:
-        """Memory of the stored past [bytes]."""
+        """Memory that the stored past takes [bytes]."""
         inputs = sum(len(each.packed) + 300 * len(each.open or ()) for each in self.stretches)
         return inputs + bytes_held([each.key for each in self.stretches])
 
     @property
     def since_result(self) -> int:
-        """Number of steps from the end of the game to the current state; 0 if the game has not ended in this state."""
+        """Number of steps since the end of the game; 0 if the game has not ended in the current state."""
         return 0 if self.session.scene.result is None else self.position - self.ended_at + 1
 
     def note(self) -> None:
-        """Record a step of the session. After a seek into the past, call drop_future() before the step, otherwise
-        note() raises ValueError.
+        """Record a step of the session.
+
+        After a seek into the past, call drop_future() before the step; otherwise note() raises ValueError.
         """
         if not self.live:
             raise ValueError(f"step {self.position} of {self.end} is not the last: drop_future() before it is made")
@@ -138,11 +139,11 @@ class Rewind:
                 self.raw.pop().pack()
 
     def _is_due(self, last):
-        """Return whether to take a key frame now: the steps since the last one, in `last`, are enough, and a key frame
-        is cheap.
+        """Return whether to take a key frame now: there are enough steps since the last one, and it is cheap.
 
-        Enough: they took KEY_SECONDS (PLAIN times that while kernels run uncompiled), or there are MOST_STEPS of them.
-        Cheap: a key frame takes at most DEAREST [s], and at most half the time of these steps.
+        last: Stretch of the last key frame. Enough: its steps took KEY_SECONDS (PLAIN times that while kernels run
+        uncompiled), or there are MOST_STEPS of them. Cheap: a key frame takes at most DEAREST [s], and at most half the
+        time of these steps.
         """
         enough = KEY_SECONDS * (PLAIN if tiers.wanted else 1)
         if last.spent < enough and len(last.open) < MOST_STEPS:
@@ -150,7 +151,10 @@ class Rewind:
         return self._cost() <= min(DEAREST, 0.5 * max(last.spent, enough))
 
     def _cost(self):
-        """Return the expected time of taking a key frame [s], from the least time per byte of the last ones."""
+        """Return the expected time of taking a key frame [s].
+
+        It follows from the least time per byte of the last ones.
+        """
         return min(self.rates) * _weight(self.session.scene)
 
     def _begin_stretch(self):
@@ -171,7 +175,7 @@ class Rewind:
             del self.stretches[0]
 
     def seek(self, step: int) -> None:
-        """Restore the scene's state after step number `step`, which is clamped to `start` .. `end`."""
+        """Restore the scene's state after step number `step`, which is limited to `start` .. `end`."""
         step = max(self.start, min(self.end, step))
         self.steps_made = 0
         if step == self.position:
@@ -193,8 +197,9 @@ class Rewind:
         session.scene.cues.clear()
 
     def _put_back(self, stretch, inputs, step):
-        """Restore the last stored state at or before `step`: the key frame of `stretch`, or one of the extra key frames
-        (`stones`) from earlier seeks. inputs: those of the stretch.
+        """Restore the last stored state at or before `step`. inputs: those of the stretch.
+
+        It is the key frame of `stretch`, or one of the extra key frames (`stones`) from earlier seeks.
         """
         last = stretch.start + len(inputs)
         self.stones = {at: stone for at, stone in self.stones.items() if stretch.start < at <= last}
@@ -207,7 +212,10 @@ class Rewind:
         self.prepared()
 
     def drop_future(self) -> None:
-        """Drop the steps after the current state, also in the recorder, so that the game continues from here."""
+        """Drop the steps after the current state, in the recorder, too.
+
+        The game then continues from the current state.
+        """
         self.stones.clear()
         if self.live:
             return
@@ -222,8 +230,9 @@ class Rewind:
 
 
 def _weight(scene):
-    """Return the size of the scene's largest tables plus FIXED [bytes]; the time of a key frame is proportional to this
-    size.
+    """Return the size of the scene's largest tables plus FIXED [bytes].
+
+    The time of taking a key frame is proportional to it.
     """
     tables = ((world.bodies, world.shapes, world.contact_rows) for world in scene.worlds)
     return FIXED + sum(table.nbytes for each in tables for table in each)

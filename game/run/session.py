@@ -11,8 +11,9 @@ from game.scene import Scene
 
 
 class Session:
-    """One run of a scene. `source.next(scene)` returns the input of each step; recorder and replay are optional.
-    strict: end the run at the first broken invariant.
+    """One run of a scene. source.next(scene) returns the input of each step; recorder and replay are optional.
+
+    strict: whether the run ends at the first broken invariant.
     """
 
     def __init__(
@@ -35,8 +36,8 @@ class Session:
     def step(self) -> None:
         """Make one fixed step.
 
-        Raises ReplayDiverged if the state differs from the replay's digest. If `strict`, raises StrictFailure for a
-        broken invariant. The time for checking invariants is not counted as time of the scene.
+        Raises ReplayDiverged if the state differs from the replay's digest, and StrictFailure for a broken invariant if
+        `strict`. The time for checking invariants does not count as time of the scene.
         """
         frame = self.source.next(self.scene)
         self.inputs.set(frame)

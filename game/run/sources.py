@@ -1,4 +1,4 @@
-"""Sources of input other than devices and recordings: a script, the scene's bot, and no input."""
+"""Sources of input other than devices and recordings: a script, the scene's bot, and empty input."""
 
 from collections.abc import Iterable
 from typing import Protocol
@@ -8,7 +8,7 @@ from game.scene import Scene
 
 
 class Source(Protocol):
-    """An object that supplies the input of each step."""
+    """Interface of an object that supplies the input of each step."""
 
     def next(self, scene: Scene) -> InputFrame:
         """Return the input of the next step."""
@@ -16,7 +16,7 @@ class Source(Protocol):
 
 
 class ScriptSource:
-    """Source that supplies a list of inputs (InputFrames, or sets of actions), and empty input after its end."""
+    """Source with a list of inputs (InputFrames, or sets of actions). After its end it supplies empty input."""
 
     def __init__(self, frames: Iterable[InputFrame | Iterable[str]]) -> None:
         self.frames = [f if isinstance(f, InputFrame) else InputFrame(frozenset(f)) for f in frames]
@@ -29,15 +29,16 @@ class ScriptSource:
 
 
 class BotSource:
-    """Source that lets the scene's bot play. person: source of a person's input, of which only the changes of settings
-    are added.
+    """Source in which the scene's bot plays.
+
+    person: source of a person's input, of which only the changes of settings are added; or None.
     """
 
     def __init__(self, person: Source | None = None) -> None:
         self.person = person
 
     def next(self, scene: Scene) -> InputFrame:
-        """Return the bot's input for the next step, with the person's changes of settings."""
+        """Return the bot's input for the next step, with the person's changes of settings added."""
         played = scene.bot()
         frame = played if isinstance(played, InputFrame) else InputFrame(frozenset(played))
         if self.person is None:

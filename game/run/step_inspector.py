@@ -1,6 +1,6 @@
 """Step inspector: stop a step of a scene after any of its stages, and move forwards and backwards between stages.
 
-The scene starts from a key frame, and its rules run until they step the world; the world's step is aborted after the
+The scene starts from a key frame, and its rules run until they step the world. The world's step is aborted after the
 chosen stage, and the scene is left in that state. Every state is reached from the key frame in this way, so that going
 back gives the same bits. At the end the key frame is restored.
 """
@@ -26,11 +26,11 @@ TABLES = ("bodies", "shapes", "characters", "contact_rows", "candidates")
 
 
 class Halted(Exception):
-    """Raised to abort a step after the chosen stage."""
+    """Exception that aborts a step after the chosen stage."""
 
 
 class Done(NamedTuple):
-    """A finished stage and the changes that it made."""
+    """A finished stage, and the changes that it made."""
 
     stage: Stage
     counted: dict[str, int]  # increments of the counters
@@ -39,12 +39,11 @@ class Done(NamedTuple):
 
 
 class StepInspector:
-    """Inspector of one step of a world. before: input of the previous step; following(): returns the input of the
-    inspected step.
+    """Inspector of one step of a world. before: input of the previous step.
 
-    `stages`: the stages of all steps that the world makes in this frame, in order; empty if it makes none. `starts`:
-    index in `stages` at which each of these steps begins. `place`: number of stages that have run. `done`: the stage
-    that ran last, with its changes.
+    following(): returns the input of the inspected step. stages: stages of all steps that the world makes in this
+    frame, in order; empty if it makes none. starts: indices in `stages` at which these steps begin. place: number of
+    stages that have run. done: the stage that ran last, with its changes.
     """
 
     def __init__(
@@ -63,7 +62,7 @@ class StepInspector:
         self.go(0)
 
     def go(self, place: int) -> None:
-        """Move to the state after the first `place` stages, clamped to the number of stages."""
+        """Move to the state after the first `place` stages. `place` is limited to the number of stages."""
         self.key.restore()
         if not self.stages:
             return
@@ -79,7 +78,7 @@ class StepInspector:
             )
 
     def leave(self) -> None:
-        """End the inspection: restore the scene to its state before the step."""
+        """End the inspection: restore the scene's state before the step."""
         self.key.restore()
 
     def _run(self):
@@ -95,7 +94,7 @@ class StepInspector:
             self.world.stepped_by = None
 
     def _make(self, world, dt):
-        """Make a step of the world up to stage number `stop`. The scene calls this instead of the normal step."""
+        """Make a step of the world up to stage number `stop`. The scene calls this in place of World.step()."""
         with closing(staged_step(world, dt)) as steps:
             for stage in steps:
                 if stage is None:
@@ -120,10 +119,10 @@ class StepInspector:
 
 
 def next_input(session: Session, rewind: Rewind) -> tuple[Callable[[], InputFrame], str]:
-    """Return (function, sentence) for the next step of a session. The function returns the step's input; call it in the
-    state before that step.
+    """Return (function, sentence) for the next step of a session.
 
-    The sentence tells where the input comes from: the recorded steps of `rewind`, the bot, or the keys held now.
+    The function returns the step's input; call it in the state before that step. The sentence says where the input
+    comes from: the recorded steps of `rewind`, the bot, or the keys that are held now.
     """
     recorded, held = rewind.following, replace(session.inputs.now, wheel=0, changes=())
     if recorded is not None:
@@ -134,14 +133,15 @@ def next_input(session: Session, rewind: Rewind) -> tuple[Callable[[], InputFram
 
 
 def photographed(world: WatchedWorld) -> dict[str, np.ndarray]:
-    """Return copies of the tables that a stage may write, and of the counters ("work")."""
+    """Return copies of the tables that a stage may write, {name: array}. "work" is the array of the counters."""
     found = {name: getattr(world, name).copy() for name in TABLES if name != "characters"}
     return {**found, "characters": world.characters.rows.copy(), "work": world.profile.work.copy()}
 
 
 def compared(stage: Stage, before: dict[str, np.ndarray], after: dict[str, np.ndarray]) -> Done:
-    """Return a stage with the changes that it made. before, after: results of photographed(). Values are compared as
-    bytes: NaN equals NaN, and -0.0 differs from 0.0.
+    """Return a stage with the changes that it made. before, after: results of photographed().
+
+    Values are compared as bytes: NaN equals NaN, and -0.0 differs from 0.0.
     """
     work = (after["work"] - before["work"]).tolist()
     counted = {name: count for name, count in zip(COUNTERS, work, strict=True) if count}
@@ -163,7 +163,7 @@ def compared(stage: Stage, before: dict[str, np.ndarray], after: dict[str, np.nd
 
 
 def _differing(old, new):
-    """Return the number of rows in which two columns `old` and `new`, of the same length, differ."""
+    """Return the number of rows in which two columns of the same length differ."""
     if not len(new):
         return 0
     old, new = (np.ascontiguousarray(each).view(np.uint8).reshape(len(each), -1) for each in (old, new))

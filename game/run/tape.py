@@ -1,8 +1,7 @@
 """Playback of a recording, step by step, with seeks to any frame by means of key frames.
 
-A key frame is a deep copy of the scene and its input; copies share pictures, since game rules never paint on them. Key
-frames are KEY_SECONDS apart, or further in a long recording that would need more than MOST_KEYS of them (see
-`spacing`).
+A key frame is a deep copy of the scene and its input. Copies share pictures, because game rules never draw on them. Key
+frames are KEY_SECONDS apart, or more in a long recording that would need more than MOST_KEYS of them (see `spacing`).
 """
 
 import copy
@@ -26,7 +25,7 @@ MOST_KEYS = 48
 
 
 class Tape:
-    """Playback of a recording (a Replay). `make()` builds the scene in its initial state."""
+    """Playback of a recording (a Replay). make() builds the scene in its initial state."""
 
     def __init__(self, make: Callable[[], Scene], recording: Replay) -> None:
         self.recording = recording
@@ -57,7 +56,7 @@ class Tape:
         return self.position >= self.length
 
     def step(self) -> None:
-        """Play one frame, if any is left. A difference from the recording is noted, and playback continues."""
+        """Play one frame, if one is left. A difference from the recording is noted, and playback continues."""
         if self.ended:
             return
         try:
@@ -74,14 +73,15 @@ class Tape:
             self.keys[self.position] = copy.deepcopy((self.scene, self.session.inputs))
 
     def seek(self, frame: int) -> None:
-        """Move to a frame, however long it takes."""
+        """Move to a frame. The call takes as long as playing to it takes."""
         self.begin_seek(frame)
         while self.goal is not None:
             self.seek_on(60.0)
 
     def begin_seek(self, frame: int) -> None:
-        """Begin to move to a frame: restore the nearest key frame before it. seek_on() plays the rest. A seek under way
-        is cancelled.
+        """Begin to move to a frame: restore the nearest key frame before it. seek_on() plays the rest.
+
+        A seek that has not ended is cancelled.
         """
         frame = max(0, min(self.length, frame))
         nearest = max(key for key in self.keys if key <= frame)
@@ -91,7 +91,7 @@ class Tape:
         self.goal = frame if frame != self.position else None
 
     def seek_on(self, seconds: float) -> None:
-        """Continue a seek: play towards its frame, for at most about `seconds`."""
+        """Continue a seek: play towards its frame, for about `seconds` at most."""
         started = perf_counter()
         while self.goal is not None and self.position < self.goal:
             self.step()

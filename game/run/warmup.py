@@ -19,10 +19,10 @@ BAR = 32  # characters
 def jobs_of(
     scene_class: type[Scene], broadphase: str | None = None, solver: str | None = None, everything: bool = False
 ) -> list[Job]:
-    """Return the kernels that the worlds of one scene need at their start, as jobs: arguments of physics.warmup().
+    """Return the kernels that one scene's worlds need at the start, as jobs: dicts of arguments of physics.warmup().
 
-    broadphase, solver: the user's choices, or None. everything: all optional parts of physics and all broad phases, not
-    only those that the scene declares.
+    broadphase, solver: the user's choices, or None. everything: whether all optional parts of physics and all broad
+    phases are included, and not only those that the scene declares.
     """
     return [
         {
@@ -36,10 +36,9 @@ def jobs_of(
 
 
 def warm_up_scene(scene_class: type[Scene], broadphase: str | None = None, solver: str | None = None) -> None:
-    """Compile, with all cores, the kernels that one scene needs at its start, and load them. Progress is written to
-    standard error.
+    """Compile the kernels that one scene needs at its start, on all cores, and load them.
 
-    broadphase, solver: the user's choices, or None.
+    broadphase, solver: the user's choices, or None. Progress is written to standard error.
     """
     progress = StderrProgress()
     with tiers.collecting() as found:
@@ -50,22 +49,25 @@ def warm_up_scene(scene_class: type[Scene], broadphase: str | None = None, solve
 
 
 def strategy_of(scene_class: type[Scene], chosen: str | None = None) -> str:
-    """Return the broad phase that a scene's worlds begin with; "all" if each world has its own. chosen: the user's
-    choice, or None.
+    """Return the name of the broad phase with which a scene's worlds begin; "all" if each world has its own.
+
+    chosen: the user's choice, or None.
     """
     return (chosen or scene_class.broadphase) if scene_class.switches_broadphase else "all"
 
 
 def solvers_of(scene_class: type[Scene], chosen: str | None = None) -> tuple[str | None, ...]:
-    """Return the names of all solvers that a scene's worlds may use; None stands for World's default. chosen: the
-    user's choice, or None.
+    """Return the names of all solvers that a scene's worlds may use. None in the result stands for World's default.
+
+    chosen: the user's choice, or None.
     """
     return tuple(dict.fromkeys((chosen or scene_class.solver, *scene_class.solvers)))
 
 
 def worlds_of(scene_class: type[Scene], chosen: str | None = None) -> list[tuple[Effects, str | None]]:
-    """Return (effects, solver) of all kinds of worlds that a scene may build; solver None: World's default. chosen: the
-    user's choice of solver, or None.
+    """Return (effects, solver) of all kinds of worlds that a scene may build. A solver None stands for World's default.
+
+    chosen: the user's choice of solver, or None.
     """
     names = solvers_of(scene_class, chosen)
     others = [(each, name if each.stacking else None) for each in scene_class.other_effects for name in names]
@@ -73,8 +75,9 @@ def worlds_of(scene_class: type[Scene], chosen: str | None = None) -> list[tuple
 
 
 def pieces_of(scene_class: type[Scene]) -> tuple[str, ...] | None:
-    """Return the optional parts ("pieces") of physics that a scene declares, with "queries" if bodies can be dragged;
-    None if the scene does not restrict them.
+    """Return the optional parts ("pieces") of physics that a scene uses; None if the scene does not restrict them.
+
+    They are those that it declares, and "queries" if bodies can be dragged.
     """
     if scene_class.pieces is None:
         return None
@@ -82,8 +85,9 @@ def pieces_of(scene_class: type[Scene]) -> tuple[str, ...] | None:
 
 
 def warm_up_all(registry: Registry, out: TextIO | None = None) -> int:
-    """Run --warmup: compile the kernels of all scenes and broad phases, with all cores. Return the exit code. out:
-    stream for the progress; None: standard output.
+    """Run --warmup: compile the kernels of all scenes and broad phases, on all cores. Return the exit code.
+
+    out: stream for the progress; None: standard output.
     """
     stream: TextIO = sys.stdout if out is None else out
     started = perf_counter()
@@ -101,8 +105,9 @@ def warm_up_all(registry: Registry, out: TextIO | None = None) -> int:
 
 
 def draw_bar(out: TextIO, share: float, name: str) -> None:
-    """Draw a progress line, a bar filled to `share` 0..1 and a name, over the previous one. Nothing is written if `out`
-    is not a terminal.
+    """Write a progress line over the previous one: a bar of which `share` (0..1) is filled, and a name.
+
+    Nothing is written if `out` is not a terminal.
     """
     if not out.isatty():
         return
@@ -112,8 +117,9 @@ def draw_bar(out: TextIO, share: float, name: str) -> None:
 
 
 class StderrProgress:
-    """Progress of compilation on standard error, written once compilation has taken `quiet` seconds: one line that is
-    updated on a terminal, otherwise a line every ten seconds.
+    """Progress of compilation on standard error, written once compilation has taken `quiet` seconds.
+
+    On a terminal it is one line that is updated, otherwise a new line every ten seconds.
     """
 
     def __init__(self, quiet: float = 1.0) -> None:
