@@ -380,7 +380,8 @@ class Scene:
     def views(self) -> list[tuple[WatchedWorld, Camera]]:
         """Return a list of (world, camera), one for each picture of a world on the canvas.
 
-        Overlays use these cameras, and step() calls begin_step() of each.
+        Overlays use these cameras, and step() calls begin_step() of each. Most scenes have one world, seen by
+        self.camera.
         """
         return [(self.world, self.camera)]
 

@@ -14,7 +14,8 @@ BODY_NUMBERS = ("x", "y", "angle", "vx", "vy", "angular_velocity", "center_x", "
 class Bodies:
     """Copy of the numbers of all bodies at one moment. Sums are over the dynamic bodies.
 
-    Units: px, s, rad; mass in density px2. gravity [px/s2]: (0, 0) in a world without the effect.
+    Lengths are in px, times in s, angles in rad. A mass is density times area [px2]. gravity [px/s2]: (0, 0) in a world
+    without the effect.
     """
 
     def __init__(self, world: World) -> None:

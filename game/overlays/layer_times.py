@@ -45,7 +45,10 @@ class Table(NamedTuple):
 
 
 class Times(Layer):
-    """Stage times of a scene. Call note(scene) once per step; draw_graph() draws graph and tables into a rectangle."""
+    """Stage times of a scene. Call note(scene) once per step.
+
+    draw_graph() draws the graph and the tables into a rectangle.
+    """
 
     name, title, key, color = "times", "Stage times", "8", GOLD
 

@@ -67,7 +67,7 @@ class FixedStep:
         return 1.0 if self.paused else self.accumulator / self.step
 
     def request_step(self) -> None:
-        """Request a single step while paused; the next advance() returns it."""
+        """Request a single step while paused. The next advance() then returns 1."""
         self.requested += 1
 
     def slower(self) -> None:

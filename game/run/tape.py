@@ -91,7 +91,7 @@ class Tape:
         self.goal = frame if frame != self.position else None
 
     def seek_on(self, seconds: float) -> None:
-        """Continue a seek: play towards its frame, for about `seconds` at most."""
+        """Continue a seek: play on towards its frame, for at most about `seconds` of real time."""
         started = perf_counter()
         while self.goal is not None and self.position < self.goal:
             self.step()

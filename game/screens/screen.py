@@ -24,7 +24,7 @@ class Screen:
     """The interface of a screen, with default behaviour.
 
     outcome: (name, *arguments) of the next screen or action, see Screens.follow; None while the screen stays. cues:
-    sounds of the screen's menus to play next.
+    names of the menu sounds that are to be played next.
     """
 
     shows_pointer: bool = True

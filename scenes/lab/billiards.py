@@ -106,7 +106,7 @@ class Billiards(Scene):
 
     @property
     def offer(self):
-        """Text that offers a new run once all object balls are potted; "" otherwise."""
+        """Text that offers the player a new run once all object balls are potted; "" otherwise."""
         return "racks them again" if len(self.ball_names) == 1 else ""
 
     def update(self, inputs):
@@ -304,7 +304,7 @@ class Billiards(Scene):
             pygame.draw.line(frame.surface, SKY, lens.points(*struck), lens.points(*far), max(1, frame.scale - 1))
 
     def check(self):
-        """Return the goals of the self-check.
+        """Return the scene's goals, a list of Goal.
 
         Momentum is kept to nine digits until the first cushion, energy never grows, the rack scatters, and balls are
         potted.
@@ -354,7 +354,7 @@ class Billiards(Scene):
         return InputFrame(frozenset(), self.last_pointer)
 
     def state(self):
-        """Return the score and the measurements, for the replay digest; the balls are part of the physics state."""
+        """Return the scene's own state for the digest: score and measurements. The worlds are hashed separately."""
         budget = self.budget or (0.0, 0.0, -1)
         return (
             self.frame,

@@ -152,7 +152,7 @@ class Broadphases(Scene):
         self.curves[1].note({name: tests_of(w) for name, w in by_name.items()})
 
     def views(self):
-        """Return (world, camera) of the picture of each world."""
+        """Return a list of (world, camera), one for the picture of each world."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
@@ -190,7 +190,7 @@ class Broadphases(Scene):
         return f"{self.layout}, {SIZES[-FITTED]:,} to {LARGEST:,} bodies: a step costs {grown}"
 
     def check(self):
-        """Return the goals of the self-check.
+        """Return the scene's goals, a list of Goal.
 
         All four broad phases find the same pairs, and three of them make fewer tests than brute force.
         """
@@ -218,7 +218,7 @@ class Broadphases(Scene):
         return InputFrame(frozenset(("right",)) if turn else frozenset())
 
     def state(self):
-        """Return the settings and results for the replay digest, which contains the physics state already."""
+        """Return the scene's own state for the digest: the settings and results. The worlds are hashed separately."""
         return (
             self.frame,
             self.values["bodies"],

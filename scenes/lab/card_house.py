@@ -169,7 +169,7 @@ class CardHouse(Scene):
 
     @property
     def offer(self):
-        """Text that offers a new run once the house has fallen; "" otherwise."""
+        """Text that offers the player a new run once the house has fallen; "" otherwise."""
         return "" if self.stands(self.cards) else "builds it again"
 
     def draw(self, canvas, alpha):
@@ -216,7 +216,7 @@ class CardHouse(Scene):
                 pygame.draw.circle(frame.surface, GOLD, lens.points(*card.center), 2 * frame.scale, 1)
 
     def check(self):
-        """Return the goals of the self-check.
+        """Return the scene's goals, a list of Goal.
 
         The house stands for ten seconds, the pairs of cards stand or slide as theory predicts, and the house falls at a
         low friction.
@@ -260,7 +260,7 @@ class CardHouse(Scene):
         return InputFrame(changes=changes)
 
     def state(self):
-        """Return the measurements, for the replay digest; the cards are part of the physics state."""
+        """Return the scene's own state for the digest: the measurements. The worlds are hashed separately."""
         return (
             self.frame,
             self.since,

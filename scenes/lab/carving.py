@@ -284,7 +284,7 @@ class Carving(Scene):
         pygame.draw.lines(frame.surface, GOLD, True, points, max(1, frame.scale - 1))
 
     def check(self):
-        """Return the goals of the self-check: no pixel is lost, undermined ground fell, and all comes to rest."""
+        """Return the scene's goals: no pixel is lost, undermined ground fell, and all comes to rest."""
         bodies = self.world.bodies
         finite = all(np.isfinite(bodies[name]).all() for name in ("x", "y", "angle", "vx", "vy"))
         inside = bool((bodies["y"][bodies["inverse_mass"] > 0.0] < BOTTOM).all())
@@ -318,7 +318,7 @@ class Carving(Scene):
         return plan(self.frame)
 
     def state(self):
-        """Return the counts, for the replay digest; the pixels are part of the physics state."""
+        """Return the scene's own state for the digest: the counts. The worlds are hashed separately."""
         return (
             self.frame,
             *self.values.values(),

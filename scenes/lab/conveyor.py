@@ -216,7 +216,7 @@ class Conveyor(Scene):
                     self.play("coin", x, 0.25)
 
     def views(self):
-        """Return (world, camera) of both worlds."""
+        """Return a list of (world, camera), one for the picture of each world."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
@@ -259,7 +259,7 @@ class Conveyor(Scene):
             )
 
     def check(self):
-        """Return the goals of the self-check.
+        """Return the scene's goals, a list of Goal.
 
         All shapes reach the speed of every belt; without the effect nothing moves.
         """
@@ -309,7 +309,7 @@ class Conveyor(Scene):
         return InputFrame(frozenset(("right",))) if self.frame in (420, 424) else frozenset()
 
     def state(self):
-        """Return the measurements, for the replay digest."""
+        """Return the scene's own state for the digest: the measurements."""
         return (
             self.frame,
             self.values["speed"],

@@ -165,11 +165,11 @@ class Cradle(Scene):
 
     @property
     def offer(self):
-        """Text that offers a new run once the row of a channel is in disorder, which is permanent; "" otherwise."""
+        """Text that offers the player a new run once a row is in disorder, which is permanent; "" otherwise."""
         return "lays them in anew" if any(self.others(index) > SCATTERED for index in range(len(SOLVERS))) else ""
 
     def views(self):
-        """Return (world, camera) of the picture of each channel."""
+        """Return a list of (world, camera), one for the picture of each channel."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
@@ -240,7 +240,7 @@ class Cradle(Scene):
                     )
 
     def check(self):
-        """Return the goals of the self-check.
+        """Return the scene's goals, a list of Goal.
 
         With one and with two strikers, as many balls leave as have struck, and no momentum or energy is lost.
         """
@@ -283,7 +283,7 @@ class Cradle(Scene):
         return InputFrame(frozenset(("up",)) if self.frame == SWITCH_AT else frozenset())
 
     def state(self):
-        """Return the measurements, for the replay digest; the balls are part of the physics state."""
+        """Return the scene's own state for the digest: the measurements. The worlds are hashed separately."""
         found = [value for key in sorted(self.results) for value in (*key, *self.results[key])]
         drift = [value for key in sorted(self.drift) for value in (*key, self.drift[key])]
         return (self.frame, *self.values.values(), self.touched, *found, *drift)

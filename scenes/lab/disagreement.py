@@ -162,7 +162,7 @@ class Disagreement(Shooter):
         frame.surface.set_clip(None)
 
     def check(self):
-        """Return the goals of the self-check.
+        """Return the scene's goals, a list of Goal.
 
         Simple shapes report wrong hits, and tiers made of the outline hardly ever do.
         """
@@ -191,7 +191,7 @@ class Disagreement(Shooter):
         return super().bot()
 
     def state(self):
-        """Return the state of the game and the counts of the tiers, for the replay digest."""
+        """Return the scene's own state for the digest: the state of the game and the counts of the tiers."""
         return (*super().state(), *self.reference.state(), self.reference.lit)
 
 

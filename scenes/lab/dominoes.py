@@ -169,12 +169,12 @@ class Dominoes(Scene):
 
     @property
     def offer(self):
-        """Text that offers a new run once both waves have passed; "" otherwise."""
+        """Text that offers the player a new run once both waves have passed; "" otherwise."""
         through = all(at is not None for row in self.passed for at in row)
         return "sets them up again" if through else ""
 
     def views(self):
-        """Return (world, camera) of the picture of each row."""
+        """Return a list of (world, camera), one for the picture of each row."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
@@ -220,7 +220,7 @@ class Dominoes(Scene):
                 pygame.draw.line(frame.surface, faded(COLORS[index], 0.3), (x, y), (x, y - 52 * s))
 
     def check(self):
-        """Return the goals of the self-check.
+        """Return the scene's goals, a list of Goal.
 
         All dominoes fall, none falls before the push, and the speeds of the waves have the ratio two to one.
         """
@@ -259,5 +259,5 @@ class Dominoes(Scene):
         return InputFrame(frozenset(("fire",)) if self.frame == PUSHED_AT else frozenset())
 
     def state(self):
-        """Return the times of the waves, for the replay digest; the dominoes are part of the physics state."""
+        """Return the scene's own state for the digest: the times of the waves. The worlds are hashed separately."""
         return (self.frame, self.since, self.pushed, *self.values.values(), *(at for row in self.passed for at in row))

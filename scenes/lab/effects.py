@@ -284,7 +284,7 @@ class EffectsLab(Scene):
         frame.surface.set_clip(None)
 
     def check(self):
-        """Return the goals of the self-check: without each effect, something is missed."""
+        """Return the scene's goals: without each effect, something is missed."""
         goals = []
         for turn, name in enumerate(self.effects.names(), 1):
             outcome = self.found.get(name)
@@ -305,7 +305,7 @@ class EffectsLab(Scene):
         return frozenset({"fire"} if step == BOT_OFF else ())
 
     def state(self):
-        """Return both clocks, the digest of the hidden world, and the results, for the replay digest."""
+        """Return the scene's own state for the digest: both clocks, the digest of the hidden world, and the results."""
         hidden = (self.other if self.is_on else self.real).world
         found = (value for name in NAMES if name in self.found for value in self.found[name])
         reported = (*self.real.reported.tolist(), *self.other.reported.tolist())

@@ -199,7 +199,7 @@ class Filters(Scene):
             canvas.text(f"{value}", SIDE_X + 80, y, PAPER, SMALL, align="right")
 
     def check(self):
-        """Return the goals of the self-check: contacts are those allowed, and a click changes them."""
+        """Return the scene's goals: contacts are those allowed, and a click changes them."""
         return [
             Goal(
                 "contacts are those both sides allow",
@@ -240,7 +240,7 @@ class Filters(Scene):
         return InputFrame(frozenset(), (round(x), round(y)), True)
 
     def state(self):
-        """Return the masks and counts, for the replay digest."""
+        """Return the scene's own state for the digest: the masks and counts."""
         return (self.frame, *self.masks, *self.marked, self.clock, self.wrong, self.met, self.filtered, self.clicks)
 
 

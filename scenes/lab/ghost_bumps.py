@@ -178,7 +178,7 @@ class GhostBumps(Scene):
                 camera.place(x, 0.0)
 
     def views(self):
-        """Return (world, camera) of the picture of each floor."""
+        """Return a list of (world, camera), one for the picture of each floor."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
@@ -260,7 +260,7 @@ class GhostBumps(Scene):
             frame.fix(rect)
 
     def check(self):
-        """Return the goals of the self-check: on no floor do the seams change the motion of a slider."""
+        """Return the scene's goals: on no floor do the seams change the motion of a slider."""
         goals = []
         for floor in FLOORS:
             worst = max(self.slowed[floor, kind] for kind in KINDS)
@@ -297,7 +297,7 @@ class GhostBumps(Scene):
         return frozenset()
 
     def state(self):
-        """Return the counts, for the replay digest; the sliders are part of the physics state."""
+        """Return the scene's own state for the digest: the counts. The worlds are hashed separately."""
         tallies = (self.slowed, self.raised, self.aloft, self.set_back)
         return (
             self.frame,

@@ -158,7 +158,7 @@ class Ladder(Scene):
             world.step()
 
     def views(self):
-        """Return (world, camera) of the cell of each tier."""
+        """Return a list of (world, camera), one for the cell of each tier."""
         return [(world, camera) for world, camera, _ in self.cells.values()]
 
     def draw(self, canvas, alpha):
@@ -211,7 +211,7 @@ class Ladder(Scene):
             pygame.draw.rect(frame.surface, SLATE, rect, 1)
 
     def check(self):
-        """Return the goals of the self-check.
+        """Return the scene's goals, a list of Goal.
 
         Tiers that should contain the sprite leave no pixel out, and tiers made of the pixels have no errors.
         """
@@ -253,7 +253,7 @@ class Ladder(Scene):
         return InputFrame(frozenset({"right"}) if self.frame % BOT_LOOKS == BOT_LOOKS - 1 else frozenset())
 
     def state(self):
-        """Return the sprite and its counts, for the replay digest."""
+        """Return the scene's own state for the digest: the sprite and its counts."""
         return (self.frame, self.choice, *(count for pair in self.counts.values() for count in pair))
 
 

@@ -225,11 +225,11 @@ class MaskStack(Scene):
 
     @property
     def offer(self):
-        """Text that offers a new run once all piles have fallen; "" otherwise."""
+        """Text that offers the player a new run once all piles have fallen; "" otherwise."""
         return "" if any(self.stands_now(way) for way in WAYS) else "piles them up again"
 
     def views(self):
-        """Return (world, camera) of the picture of each collision shape."""
+        """Return a list of (world, camera), one for the picture of each collision shape."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
@@ -281,7 +281,7 @@ class MaskStack(Scene):
             frame.surface.set_clip(None)
 
     def check(self):
-        """Return the goals of the self-check.
+        """Return the scene's goals, a list of Goal.
 
         The piles with outlines stand and fall asleep. Hulls hold more air than outlines, and boxes more than hulls.
         """
@@ -323,7 +323,7 @@ class MaskStack(Scene):
         return InputFrame(frozenset(("fire",)) if self.frame == 240 else frozenset())
 
     def state(self):
-        """Return the measurements for the replay digest, which contains the physics state already."""
+        """Return the scene's own state for the digest: the measurements. The worlds are hashed separately."""
         measured = (self.sinks, self.sways, self.asleep, self.changed)
         return (
             self.frame,

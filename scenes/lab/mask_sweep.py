@@ -185,7 +185,7 @@ class MaskSweep(Scene):
         )
 
     def views(self):
-        """Return (world, camera) of both worlds."""
+        """Return a list of (world, camera), one for the picture of each world."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
@@ -264,7 +264,7 @@ class MaskSweep(Scene):
                 frame.text_if_free(f"{fraction:.2f}", *at, GOLD, SMALL, frame.plot_scale, "right", True)
 
     def check(self):
-        """Return the goals of the self-check: no swept shot passes a wall, and many of the other shots do."""
+        """Return the scene's goals: no swept shot passes a wall, and many of the other shots do."""
         passed, fired, hit = self.passed, self.fired, self.hit
         flying = {way: sum(WAYS[of] == way for of, *_ in self.shots) for way in WAYS}
         all_accounted = all(
@@ -316,7 +316,7 @@ class MaskSweep(Scene):
         return frozenset(("right",)) if self.frame in (200, 210, 220) else frozenset()
 
     def state(self):
-        """Return the counts, for the replay digest; the shots are part of the physics state."""
+        """Return the scene's own state for the digest: the counts. The worlds are hashed separately."""
         counts = (self.fired, self.hit, self.passed)
         return (self.frame, *self.values.values(), len(self.shots), *(v for count in counts for v in count.values()))
 

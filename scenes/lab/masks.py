@@ -131,7 +131,7 @@ class Masks(Scene):
         self.apart += not any(self.verdicts.values())
 
     def views(self):
-        """Return (world, camera) for the overlays: the world with the exact pixels."""
+        """Return [(world, camera)] for the overlays: the world with the exact pixels."""
         return [(self.shown["pixels"], self.camera)]
 
     def draw(self, canvas, alpha):
@@ -200,7 +200,7 @@ class Masks(Scene):
         frame.surface.set_clip(None)
 
     def check(self):
-        """Return the goals of the self-check.
+        """Return the scene's goals, a list of Goal.
 
         The verdict of the pixels is right in every step, and each simple shape reports a false hit at least once.
         """
@@ -244,7 +244,7 @@ class Masks(Scene):
         return InputFrame(frozenset(), pointer, self.frame > 0, 1 if self.frame % 10 == 0 else 0)
 
     def state(self):
-        """Return the poses and counts, for the replay digest."""
+        """Return the scene's own state for the digest: the poses and counts."""
         poses = [value for pose in self.hands.poses for value in pose]
         return (self.frame, *poses, self.hands.chosen, self.wrong, self.hits, self.apart, *self.lies.values())
 

@@ -118,10 +118,7 @@ class OneWay(Scene):
         self.disturbed = False  # a rider was dragged
 
     def change_slider(self, name, value):
-        """Set a slider.
-
-        After a change of the lift, the positions of its riders on it are recorded anew for the slip.
-        """
+        """Set a slider. After a change of the lift, the slip of its riders is measured from their new places on it."""
         super().change_slider(name, value)
         if name == "lift":
             self.offsets = None
@@ -315,7 +312,7 @@ class OneWay(Scene):
             x = canvas.text(text, x, 6, color, SMALL, align="right").left - 12
 
     def check(self):
-        """Return the goals of the self-check.
+        """Return the scene's goals, a list of Goal.
 
         Bodies and hero both pass through planks from below, both land on planks, and both stay on the lift.
         """
@@ -353,7 +350,7 @@ class OneWay(Scene):
         return InputFrame(frozenset(held))
 
     def state(self):
-        """Return the hero and the counts for the replay digest, which contains the physics state already."""
+        """Return the scene's own state for the digest: the hero and the counts. The worlds are hashed separately."""
         return (
             self.frame,
             *self.values.values(),

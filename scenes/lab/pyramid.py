@@ -191,7 +191,7 @@ class Pyramid(Scene):
 
     @property
     def offer(self):
-        """Text that offers a new run once the top crate has fallen; "" otherwise."""
+        """Text that offers the player a new run once the top crate has fallen; "" otherwise."""
         down = self.top.position[1] - self._built_at()[1] > SIZE
         return "piles them up again" if down else ""
 
@@ -259,7 +259,7 @@ class Pyramid(Scene):
             pygame.draw.polygon(frame.surface, color, [(x, y), (x - wide, y - high), (x + wide, y - high)])
 
     def check(self):
-        """Return the goals of the self-check.
+        """Return the scene's goals, a list of Goal.
 
         The pyramid stands without creep, sag or gain of energy; then the ball knocks it down.
         """
@@ -301,7 +301,7 @@ class Pyramid(Scene):
         return InputFrame(frozenset(("fire",)) if self.frame == DROP_AT else frozenset())
 
     def state(self):
-        """Return the measurements for the replay digest, which contains the physics state already."""
+        """Return the scene's own state for the digest: the measurements. The worlds are hashed separately."""
         x, y = self.still or (0.0, 0.0)
         return (
             self.frame,

@@ -213,7 +213,7 @@ class Queries(Scene):
         return self.query, float(self.values["size"]), int(self.values["bodies"]), strategy
 
     def views(self):
-        """Return (world, camera) of the selected broad phase, whose structure the overlays show."""
+        """Return [(world, camera)] of the selected broad phase, whose structure the overlays show."""
         return [(self.worlds[self.shown], self.camera)]
 
     def draw(self, canvas, alpha):
@@ -333,7 +333,7 @@ class Queries(Scene):
             frame.text_if_free(text, px + 4 * scale, py + 3 * scale, WHITE, SMALL, scale, "left", True)
 
     def check(self):
-        """Return the goals of the self-check.
+        """Return the scene's goals, a list of Goal.
 
         All four broad phases give the same answers to every query, and tree, hash and sweep visit less than brute
         force.
@@ -387,7 +387,10 @@ class Queries(Scene):
         return InputFrame(frozenset(taps), pointer)
 
     def state(self):
-        """Return the query and its answer for the replay digest. The answer must not depend on the broad phase."""
+        """Return the scene's own state for the digest: the query and its answer.
+
+        The answer must not depend on the broad phase.
+        """
         return (
             self.frame,
             *self.values.values(),

@@ -314,7 +314,7 @@ class Sensors(Scene):
         canvas.text(f"{self.unpaired}", 474, y, GREEN if self.unpaired == 0 else RED, SMALL, align="right")
 
     def check(self):
-        """Return the goals of the self-check: every entry is reported once, with one exit, and no false entry."""
+        """Return the scene's goals: every entry is reported once, with one exit, and no false entry."""
         missed, false = sum(self.missed.values()), sum(self.false.values())
         balance = all(
             self.entered[name] - self.left[name] == sum(1 for zone, _ in self.inside if zone == name) for name in ZONES
@@ -360,7 +360,7 @@ class Sensors(Scene):
         return InputFrame(frozenset((tap,))) if tap else frozenset()
 
     def state(self):
-        """Return the counts, for the replay digest; the bodies are part of the physics state."""
+        """Return the scene's own state for the digest: the counts. The worlds are hashed separately."""
         tallies = (self.entered, self.left, self.due, self.missed, self.false)
         return (
             self.frame,

@@ -290,7 +290,7 @@ class Shapes(Scene):
                 pygame.draw.circle(frame.surface, color, place, 2 * frame.scale, 1)
 
     def check(self):
-        """Return the goals of the self-check: the methods agree for all shapes and poses of the bot."""
+        """Return the scene's goals: the methods agree for all shapes and poses of the bot."""
         return [
             Goal(
                 "shapes seen apart and in each other",
@@ -352,7 +352,7 @@ class Shapes(Scene):
         return round(self.hands.poses[which][0]), round(self.hands.poses[which][1])
 
     def state(self):
-        """Return the poses and counts, for the replay digest."""
+        """Return the scene's own state for the digest: the poses and counts."""
         poses = [value for pose in self.hands.poses for value in pose]
         return (
             self.frame,

@@ -304,7 +304,7 @@ class Sleeping(Scene):
             curves.draw(frame, rect)
 
     def check(self):
-        """Return the goals of the self-check.
+        """Return the scene's goals, a list of Goal.
 
         All bodies fall asleep, and sleeping bodies are not integrated. A knock wakes first one island, then others. At
         last all sleep again.
@@ -345,7 +345,7 @@ class Sleeping(Scene):
         return InputFrame(frozenset(("fire",)) if self.frame == KNOCK else frozenset())
 
     def state(self):
-        """Return the counts for the replay digest, which contains the physics state already."""
+        """Return the scene's own state for the digest: the counts. The worlds are hashed separately."""
         return (
             self.frame,
             *self.values.values(),

@@ -148,12 +148,12 @@ class Stacks(Scene):
 
     @property
     def offer(self):
-        """Text that offers a new run once all columns have fallen; "" otherwise."""
+        """Text that offers the player a new run once all columns have fallen; "" otherwise."""
         fallen = not any(self.stands_now(index) for index in range(len(SOLVERS)))
         return "piles them up again" if fallen else ""
 
     def views(self):
-        """Return (world, camera) of the picture of each solver."""
+        """Return a list of (world, camera), one for the picture of each solver."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
@@ -200,7 +200,7 @@ class Stacks(Scene):
                 pygame.draw.line(frame.surface, PAPER, (x, y), (x + 3 * frame.scale, y))
 
     def check(self):
-        """Return the goals of the self-check.
+        """Return the scene's goals, a list of Goal.
 
         The columns of the solvers with warm starting stand, even after a nudge; that of projection does not.
         """
@@ -261,7 +261,7 @@ class Stacks(Scene):
         return InputFrame(frozenset(("fire",)) if self.frame == 240 else frozenset())
 
     def state(self):
-        """Return the measurements for the replay digest, which contains the physics state already."""
+        """Return the scene's own state for the digest: the measurements. The worlds are hashed separately."""
         measured = (self.sag, self.sway, self.calm_sway, self.depth, self.standing)
         values = (row[name] for row in measured for name in SOLVERS)
         return (self.frame, self.since, self.nudged, *self.values.values(), *values)

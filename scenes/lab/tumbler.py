@@ -183,7 +183,7 @@ class Tumbler(Scene):
         return (2.0 * self.energy / mass) ** 0.5 if mass else 0.0
 
     def check(self):
-        """Return the goals of the self-check.
+        """Return the scene's goals, a list of Goal.
 
         No shape gets out; the load is carried up, and it is not thrown about.
         """
@@ -230,7 +230,7 @@ class Tumbler(Scene):
         return InputFrame()
 
     def state(self):
-        """Return the measurements for the replay digest, which contains the physics state already."""
+        """Return the scene's own state for the digest: the measurements. The worlds are hashed separately."""
         return (
             self.frame,
             self.since,

@@ -295,7 +295,7 @@ class Tunnelling(Scene):
         pygame.draw.circle(surface, WHITE, (round(pose[0]), round(pose[1])), max(radius - 3, 1))
 
     def check(self):
-        """Return the goals of the self-check.
+        """Return the scene's goals, a list of Goal.
 
         The lane with times of impact misses nothing. Each other lane misses the shots that its method cannot find.
         """
@@ -363,7 +363,7 @@ class Tunnelling(Scene):
         return InputFrame(frozenset((tap,)) if tap else frozenset())
 
     def state(self):
-        """Return the counts for the replay digest, which contains the physics state already."""
+        """Return the scene's own state for the digest: the counts. The worlds are hashed separately."""
         counts = (self.fired, self.due, self.hit, self.missed, self.false)
         return (self.frame, *self.values.values(), *(value for count in counts for value in count.values()))
 

@@ -242,7 +242,7 @@ class Lander(Scene):
         return self.pilot.keys(self)
 
     def state(self):
-        """Return the scene's state outside the physics world, a flat tuple for the replay digest."""
+        """Return the scene's own state, a flat tuple for the digest. The world's state is hashed separately."""
         parts = (self.ship, self.course, self.score, self.gun, self.line, self.weather, self.yard, self.ground)
         return (
             self.frame,

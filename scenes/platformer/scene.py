@@ -336,7 +336,7 @@ class Platformer(Scene):
         return self.runner.keys(self)
 
     def state(self):
-        """Return the scene's state outside the physics world, a flat tuple for the replay digest."""
+        """Return the scene's own state, a flat tuple for the digest. The world's state is hashed separately."""
         return (
             self.frame,
             self.ticks,

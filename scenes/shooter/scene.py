@@ -377,7 +377,7 @@ class Shooter(Scene):
         return self.pilot.keys(self)
 
     def state(self):
-        """Return the scene's state outside the physics world, a flat tuple for the replay digest."""
+        """Return the scene's own state, a flat tuple for the digest. The world's state is hashed separately."""
         planes = [value for plane in self.fleet.planes.values() for value in plane.state()]
         parts = (self.plane, self.score, self.director, self.hits, self.bomb, self.loot, self.ending, self.wreckage)
         return (

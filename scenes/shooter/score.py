@@ -1,7 +1,7 @@
 """Points of the shooter: the values of kills and grazes, and the chain that multiplies these values.
 
-A graze is a bullet that passes close to the player without a hit. Each kill or graze adds a link to the chain. The
-chain breaks after a while without kills and grazes, or when the player is hit.
+The player grazes a bullet that passes close by without a hit. Each kill or graze adds a link to the chain. The chain
+breaks after a while without kills and grazes, or when the player is hit.
 """
 
 from scenes.shooter.cast import steps

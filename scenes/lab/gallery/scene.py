@@ -159,7 +159,7 @@ class Gallery(Scene):
         return self.page.larger.read(figures), figures
 
     def views(self):
-        """Return (world, camera) of the picture of each side."""
+        """Return a list of (world, camera), one for the picture of each side."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
@@ -241,7 +241,7 @@ class Gallery(Scene):
         frame.fix(rect)
 
     def check(self):
-        """Return the goals of the self-check, one for each page.
+        """Return the scene's goals, one for each page.
 
         The naive world's error exceeds the limit, and that of the engine's world does not. On pages with `alike`,
         neither exceeds it.
@@ -291,7 +291,7 @@ class Gallery(Scene):
         return InputFrame()
 
     def state(self):
-        """Return the page, its errors and all verdicts, for the replay digest."""
+        """Return the scene's own state for the digest: the page, its errors and all verdicts."""
         sides = (value for side in self.sides for value in (side.steps, side.now, side.worst))
         verdicts = (value for pair in self.verdicts.values() for value in pair)
         return (self.frame, self.values["page"], *sides, *self.verdicts, *verdicts)
