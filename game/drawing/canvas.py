@@ -87,9 +87,10 @@ class Canvas:
         align: str = "left",
         outline: bool = False,
     ) -> pygame.Rect:
-        """Draw one line of text with its upper edge at y, and return its rectangle. align: as in text_rect().
+        """Draw one line of text with its upper edge at y, and return its rectangle.
 
-        The caller must keep it clear of other text.
+        align: as in text_rect(); outline: with a dark edge around the letters, which lies outside the rectangle. The
+        caller must keep the rectangle clear of other text.
         """
         rect = self.text_rect(text, x, y, font, scale, align)
         load_font(font).draw(self.surface, text, rect.x, rect.y, color, scale, outline)

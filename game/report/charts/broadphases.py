@@ -33,7 +33,10 @@ Places = tuple[np.ndarray, np.ndarray]  # centres (n, 2) and radii (n,) [px]
 
 
 def even(rng: np.random.Generator, n: int) -> Places:
-    """Return (positions (n, 2), radii (n,)) [px] of n discs, spread evenly with about one overlap per disc."""
+    """Return (positions (n, 2), radii (n,)) [px] of n discs, spread evenly with about one overlap per disc.
+
+    All layouts are functions of a random generator and n.
+    """
     return rng.uniform(0, SPACING * math.sqrt(n), (n, 2)), np.full(n, RADIUS)
 
 

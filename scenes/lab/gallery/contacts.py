@@ -1,4 +1,7 @@
-"""Gallery pages about contacts that must not add speed or energy: a gate, a bowl, an eccentric wheel."""
+"""Gallery pages about contacts that must not add speed or energy: a gate, a bowl, an eccentric wheel.
+
+In all functions, `side` is a Side: one of the page's two worlds while it runs.
+"""
 
 from math import cos, hypot, pi, sin
 
@@ -23,10 +26,7 @@ SUBSTEPS, SHARE = 4, 0.2  # of the simulated wheel; the share of Box2D Lite
 
 
 def build_gates(side, speed=GATE_SPEED):
-    """Build three gates and a crate under each.
-
-    side: Side whose world gets the bodies, as in all functions of the pages; speed: of the gates [px/s].
-    """
+    """Build three gates and a crate under each. speed: of the gates [px/s]."""
     floor(side.world)
     side.kept.update(chance=np.random.default_rng(4), speed=speed, gates=[], crates=[])
     for number, (x, offset) in enumerate(zip(GATES, OFFSETS, strict=True)):

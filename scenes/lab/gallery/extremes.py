@@ -1,4 +1,7 @@
-"""Gallery pages about extremes: bodies at one point, an overfull room, great distance, a wrong scale, sleep."""
+"""Gallery pages about extremes: bodies at one point, an overfull room, great distance, a wrong scale, sleep.
+
+In all functions, `side` is a Side: one of the page's two worlds while it runs.
+"""
 
 import numpy as np
 

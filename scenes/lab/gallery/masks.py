@@ -1,4 +1,7 @@
-"""Gallery pages about pixel masks: a ball in the hole of a ring, and squares that overlap by less than a pixel."""
+"""Gallery pages about pixel masks: a ball in the hole of a ring, and squares that overlap by less than a pixel.
+
+In all functions, `side` is a Side: one of the page's two worlds while it runs.
+"""
 
 from math import cos, hypot, sin
 

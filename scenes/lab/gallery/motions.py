@@ -1,4 +1,7 @@
-"""Gallery pages about motions with a known result: bounces, glancing collisions, a slope, seams of the ground."""
+"""Gallery pages about motions with a known result: bounces, glancing collisions, a slope, seams of the ground.
+
+In all functions, `side` is a Side: one of the page's two worlds while it runs.
+"""
 
 from math import cos, hypot, pi, radians, sin, sqrt, tan
 

@@ -1,4 +1,7 @@
-"""Gallery pages about loads: crooked columns, mass ratios, cards, a load that is removed."""
+"""Gallery pages about loads: crooked columns, mass ratios, cards, a load that is removed.
+
+In all functions, `side` is a Side: one of the page's two worlds while it runs.
+"""
 
 from math import cos, radians, sin
 

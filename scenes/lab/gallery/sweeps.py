@@ -1,4 +1,7 @@
-"""Gallery pages about fast bodies: a thin wall, spinning rods, bullets that meet, a sensor one pixel wide."""
+"""Gallery pages about fast bodies: a thin wall, spinning rods, bullets that meet, a sensor one pixel wide.
+
+In all functions, `side` is a Side: one of the page's two worlds while it runs.
+"""
 
 import numpy as np
 
