@@ -12,10 +12,14 @@ from game.screens.parts.rows import LINE, Row, RowList
 from game.screens.screen import CanvasScreen
 
 WIDTH = 192
+HIGHEST = 46  # [canvas px] of the rows; leaves room for a message of three lines below them
 
 
 class PauseMenu(CanvasScreen):
-    """The pause menu. `outcome`: ("back",), ("restart",), ("settings", page), ("save_replay",), ("tour",) or ("menu",).
+    """The pause menu.
+
+    `outcome`: ("back",), ("restart",), ("settings", page), ("save_replay",), ("costs",), ("effects",), ("tour",) or
+    ("menu",).
 
     can_save: whether a replay of this run can be saved. message: the reason if the game paused by itself, otherwise "".
     pairs: (key, function) of the game's keys, shown under the menu.
@@ -39,6 +43,8 @@ class PauseMenu(CanvasScreen):
             ("Settings", ("settings", None)),
             ("Keys", ("settings", "Keyboard")),
             ("Save replay", ("save_replay",)),
+            ("What accuracy costs", ("costs",)),
+            ("Only what is needed", ("effects",)),
             ("Tour of the overlays", ("tour",)),
             ("Leave", ("menu",)),
         ]
@@ -53,7 +59,7 @@ class PauseMenu(CanvasScreen):
 
     def _place(self):
         high = len(self._rows()) * LINE
-        return (480 - WIDTH) // 2 + 16, (270 - high) // 2 + 14, WIDTH - 32, high
+        return (480 - WIDTH) // 2 + 16, min(HIGHEST, (270 - high) // 2 + 14), WIDTH - 32, high
 
     def report(self, message: str) -> None:
         """Show a message under the menu."""

@@ -20,6 +20,7 @@ from game.screens.arcade import Arcade
 from game.screens.attract import Attract
 from game.screens.menu import Menu
 from game.screens.message_screen import error_message
+from game.screens.near_misses import NearMisses
 from game.screens.parts.background import SceneBackground
 from game.screens.pause_menu import PauseMenu
 from game.screens.play import Play
@@ -34,6 +35,7 @@ from game.screens.watch import Watch
 from game.startup import say
 
 AnyScreen = CanvasScreen | SceneScreen
+PLOTTED, EFFECTS_LAB = "shooter", "lab/effects"  # scenes that the title's entries open
 
 
 class Screens:
@@ -54,6 +56,9 @@ class Screens:
             "watch": self.watch,
             "file": self.open_file,
             "tour": self.tour,
+            "costs": self.costs,
+            "plot": self.plot,
+            "effects": self.effects,
             "attract": self.attract,
             "play": self.play,
             "pause": self.pause,
@@ -184,6 +189,37 @@ class Screens:
         arcade = self.arcade
         accessibility = arcade.settings.accessibility()
         self.stack.append(Tour(self._make_shown, arcade.registry.names, arcade.devices, accessibility))
+
+    def costs(self) -> None:
+        """Open the split screen of near misses, which leads to the plot of accuracy and cost."""
+        self.stack.append(NearMisses())
+
+    def plot(self) -> None:
+        """Open the plot of accuracy and cost: beside the paused game, or else beside the shooter, played by its bot."""
+        self.stack.pop().close()
+        if self.played is None:
+            arcade, names = self.arcade, self.arcade.registry.names
+            scene = arcade.registry.scene_class(PLOTTED if PLOTTED in names else names[0])(arcade.options.seed or 0)
+            self._begin(Play(scene, arcade.devices, arcade.sounds, bot=True, settings=arcade.settings))
+        self._open_in_game(Play.toggle_costs, "costs_open")
+
+    def effects(self) -> None:
+        """Open the panel of the paused game, which shows what each effect costs; without a game, the lab of effects."""
+        if self.played is not None:
+            self._open_in_game(Play.toggle_panel, "panel_open")
+        elif EFFECTS_LAB in self.arcade.registry.names:
+            self.play(EFFECTS_LAB)
+        else:
+            self.menu()
+
+    def _open_in_game(self, toggle, name):
+        """Return to the game, and open one of its panels. toggle: method of Play; name: attribute, True if open."""
+        play = self._game()
+        while self.top is not play:
+            self.stack.pop().close()
+        play.resume()
+        if not getattr(play, name):
+            toggle(play)
 
     def attract(self) -> None:
         """Start the demonstration. Any input ends it."""

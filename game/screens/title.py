@@ -19,9 +19,11 @@ from game.screens.screen import CanvasScreen
 LOOP = 9.0  # [s] one pass of the planes
 IDLE = 10.0  # [s] without input before the demonstration
 LOGO_Y, LINE_Y, WORD_Y, FOOT_Y = 6, 82, 104, 256
-MENU = pygame.Rect(24, 112, 128, 6 * LINE)
+MENU = pygame.Rect(24, 112, 136, 8 * LINE)
 ENTRIES = (
     ("Play", ("menu",)),
+    ("What accuracy costs", ("costs",)),
+    ("Only what is needed", ("effects",)),
     ("Replays", ("replays",)),
     ("High scores", ("scores",)),
     ("Tour of the overlays", ("tour",)),

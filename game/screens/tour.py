@@ -5,11 +5,12 @@ the scene continue.
 """
 
 from collections.abc import Callable, Sequence
+from functools import cached_property
 from time import perf_counter
 
 import pygame
 
-from game.drawing.canvas import SMALL, TEXT
+from game.drawing.canvas import CANVAS_SIZE, SMALL, TEXT
 from game.drawing.colors import DUSK, FOG, GOLD, INK, PAPER, SLATE
 from game.drawing.presenter import Frame
 from game.errors import UsageError
@@ -17,14 +18,16 @@ from game.files.accessibility import Accessibility
 from game.input.devices import DeviceSource
 from game.run.loop import FixedStep
 from game.run.picture import Picture
-from game.scene import Scene
+from game.scene import STEP_SECONDS, Scene
+from game.screens.near_misses import COUNTS, NearMisses
 from game.screens.parts.demo import Demo
 from game.screens.parts.panel import HEAD, NOTE, Panel, Row
 from game.screens.parts.panel_rows import layer_rows
 from game.screens.parts.subjects import SUBJECTS, subject_of
 from game.screens.screen import SceneScreen
 
-SECONDS, STILL = 5, 3  # duration of each of the twelve stops; the step is frozen for STILL of them
+SECONDS, STILL = 5, 3  # duration of each stop; the step is frozen for STILL of them
+MISSES = "near misses"  # in place of a layer: the split screen of game/screens/near_misses.py
 PATIENCE = 900  # steps that a stop waits for an example of its layer
 MARGIN = 6  # [canvas px] between an example and the ring around it
 EDGE = 6  # [text px] between the card and the border of the picture
@@ -62,6 +65,12 @@ STOPS = (
         "masks",
         "5  Masks",
         ("The pixels that decide. Yellow: shared ones.", "Boxes may meet and it is still a miss."),
+    ),
+    (
+        GAME,
+        MISSES,
+        "M  What accuracy costs",
+        ("The same flight: by boxes the plane dies, by", "pixels it lives. M measures it in any scene."),
     ),
     (
         HEAPS,
@@ -153,6 +162,11 @@ class Tour(SceneScreen):
         self.panel = Panel(self._panel_rows)
         self.panel.focused = False
 
+    @cached_property
+    def misses(self) -> NearMisses:
+        """The split screen of near misses, which flies on from stop to stop."""
+        return NearMisses()
+
     @property
     def demo(self) -> Demo:
         """The scene of this stop, played by its bot."""
@@ -181,13 +195,18 @@ class Tour(SceneScreen):
     @property
     def waits(self) -> bool:
         """True while the bot plays at high speed until an example of this stop's layer appears."""
+        if self.stops[self.at][1] == MISSES:
+            return False
         return not self.shown and self.subject is None and (self.begins_in > 0 or self.waited < PATIENCE)
 
     def advance(self, now: float) -> None:
         """Make the steps due at `now` [s]. After SECONDS of a stop, go to the next one."""
         try:
             due = self.demo.clock.advance(now)
-            if self.waits:
+            if self.stops[self.at][1] == MISSES:
+                for _ in range(due):
+                    self.misses.advance(STEP_SECONDS)
+            elif self.waits:
                 self._play_ahead()
             elif self.subject is None or self.shown >= STILL * 60:
                 self.subject = None
@@ -253,6 +272,12 @@ class Tour(SceneScreen):
         """Draw the scene with this stop's layer, a ring around the example, and the card beside the ring."""
         layer = self.stops[self.at][1]
         demo = self.demo
+        if layer == MISSES:
+            frame = picture.draw_screen(self.misses)
+            self.ring = None
+            self.card = docked(frame, frame.from_canvas((0, 0, *CANVAS_SIZE)), frame.from_canvas(COUNTS))
+            self._draw_card(frame)
+            return frame
         with_panel = layer == "panel"
         demo.overlays.on = {"contacts"} if with_panel else {layer}
         frame = demo.draw(picture, self.panel if with_panel else None, self._reserve)

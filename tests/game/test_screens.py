@@ -151,7 +151,7 @@ def test_pause_menu(message):
     menu = PauseMenu(
         Race(), True, message, (("arrows", "drive"), ("L shift", "a very long thing to do"), ("X", "bomb")) * 3
     )
-    for mark in range(7):
+    for mark in range(len(menu.list.rows())):
         menu.list.mark = mark
         check(menu)
 

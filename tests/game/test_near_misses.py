@@ -1,0 +1,165 @@
+"""The split screen that opens "What accuracy costs": boxes kill, pixels never; and the way to it from every menu."""
+
+from itertools import combinations
+
+import pygame
+import pytest
+
+from game.drawing.sprites import load_atlas
+from game.run.picture import Picture
+from game.screens.near_misses import CLEAR, HITS, NearMisses, corner, course
+from game.screens.play import Play
+from game.screens.tour import MISSES, STOPS
+from scenes import SCENES
+from tests.game.reading import Reader, assert_text_is_apart
+
+DTS = (1 / 30, 1 / 60, 1 / 75, 1 / 120)
+
+
+@pytest.fixture(autouse=True)
+def display():
+    pygame.display.init()
+    pygame.display.set_mode((480, 270))
+
+
+@pytest.mark.parametrize("dt", DTS)
+def test_boxes_kill_at_nearly_every_pass_and_pixels_never(dt):
+    shown = NearMisses(dt)
+    for _ in range(3 * round(shown.length / dt)):
+        shown.advance(dt)
+    boxes, pixels = shown.flights
+    assert boxes.deaths >= 2 * len(shown.misses) and pixels.deaths == 0
+
+
+@pytest.mark.parametrize("dt", DTS)
+def test_the_sprites_as_drawn_never_come_closer_than_a_stranger_can_see(dt):
+    """Another look than the one that placed them: distance of the nearest pixels at every step of a loop."""
+    shown, planes = NearMisses(dt), load_atlas("planes")
+    flight = shown.flights[1]
+    solid = {name: pygame.mask.from_surface(planes[name]).outline() for name in {m.sprite for m in shown.misses}}
+    own = pygame.mask.from_surface(planes["player"]).outline()
+    nearest = {}
+    for _ in range(round(shown.length / dt)):
+        shown.advance(dt)
+        a = corner(planes["player"], *flight.plane.position)
+        for number, (miss, body) in enumerate(zip(shown.misses, flight.others, strict=True)):
+            b = corner(planes[miss.sprite], *body.position)
+            if abs(body.position.y - flight.plane.position.y) < 40:
+                found = min(
+                    max(abs(b[0] + x - a[0] - u), abs(b[1] + y - a[1] - v))
+                    for x, y in solid[miss.sprite]
+                    for u, v in own
+                )
+                nearest[number] = min(nearest.get(number, 99), found)
+    assert len(nearest) == len(shown.misses)
+    assert all(CLEAR < gap <= CLEAR + 8 for gap in nearest.values()), nearest
+
+
+def test_nothing_is_said_of_the_price_before_it_is_measured_and_noise_is_no_price():
+    shown = NearMisses()
+    boxes, pixels = shown.flights
+    assert shown.price() == ""
+    boxes.deaths = HITS
+    boxes.seconds = [1e-5] * HITS
+    for seconds, wanted in (
+        ([1.5e-5] * HITS, "for 1.50 x the time"),
+        ([0.5e-5] * HITS, "for 0.50 x the time"),
+        ([0.9e-5, 1.1e-5] + [1.0e-5] * (HITS - 2), "for the same time"),
+    ):
+        pixels.seconds = seconds
+        assert shown.price() == wanted
+    boxes.deaths = HITS - 1
+    assert shown.price() == ""
+
+
+@pytest.mark.parametrize("size", ((480, 270), (960, 540), (1440, 810), (1920, 1080)))
+@pytest.mark.parametrize("steps", (1, 90, 700))
+def test_every_text_is_whole_at_every_size(size, steps):
+    shown = NearMisses()
+    for _ in range(steps):
+        shown.advance(1 / 60)
+    with Reader() as reader:
+        frame = Picture(pygame.Surface(size)).draw_screen(shown)
+        assert_text_is_apart(frame.boxes, frame.rect)
+        reader.assert_readable()
+    words = " ".join(text for _, text in frame.boxes)
+    assert ("by pixels never" in words) == (steps == 700) and ("measuring" in words) == (steps == 1)
+
+
+def test_the_course_is_the_same_each_time():
+    assert course(1 / 60) == course(1 / 60)
+    assert all(a.start != b.start for a, b in combinations(course(1 / 60)[0], 2))
+
+
+@pytest.fixture
+def driver(drive):
+    driver = drive(listing=SCENES)
+    yield driver
+    if driver.app.screens.played is not None:
+        driver.app.screens.played.close()
+
+
+def press(driver, *keys):
+    for key in keys:
+        driver.key(key)
+        driver.turns(40)
+
+
+def test_three_keys_lead_a_stranger_from_the_title_to_the_false_hits_of_boxes(driver):
+    """Down, Enter: the split screen. Enter: the plot in the shooter, which opens with the sentence."""
+    press(driver, pygame.K_DOWN, pygame.K_RETURN)
+    assert driver.name == "NearMisses"
+    press(driver, pygame.K_RETURN)
+    play = driver.screen
+    assert isinstance(play, Play) and play.costs_open and play.scene.name == "shooter" and not play.person
+    survey = play.measuring.surveyor.survey
+    for _ in range(1200):
+        driver.turns(10)
+        play.measuring.surveyor.wait(0.05)
+        if survey.boxes_and_pixels():
+            break
+    assert survey.boxes_and_pixels().startswith("Boxes")
+    play.costs.sheet = None
+    driver.turns(2)
+    words = " ".join(text for _, text in driver.app.arcade.picture.presenter.frame.boxes)
+    assert "Boxes" in words and "hits" in words
+    press(driver, pygame.K_m, pygame.K_ESCAPE)
+    assert driver.name in ("Menu", "Title")
+
+
+def test_escape_leads_back_to_the_title(driver):
+    press(driver, pygame.K_DOWN, pygame.K_RETURN, pygame.K_ESCAPE)
+    assert driver.name == "Title"
+
+
+def test_the_title_opens_the_lab_of_effects(driver):
+    press(driver, pygame.K_DOWN, pygame.K_DOWN, pygame.K_RETURN)
+    assert isinstance(driver.screen, Play) and driver.screen.scene.name == "lab/effects"
+
+
+@pytest.mark.parametrize("downs, opened", ((0, "costs_open"), (1, "panel_open")))
+def test_the_pause_menu_opens_both_beside_the_game_that_was_paused(driver, downs, opened):
+    driver.app.screens.play("platformer")
+    driver.turns(20)
+    play = driver.screen
+    press(driver, pygame.K_ESCAPE)
+    assert driver.name == "PauseMenu"
+    labels = [row.label for row in driver.screen.list.rows()]
+    for _ in range(labels.index("What accuracy costs") + downs):
+        press(driver, pygame.K_DOWN)
+    press(driver, pygame.K_RETURN)
+    if not downs:
+        assert driver.name == "NearMisses"
+        press(driver, pygame.K_RETURN)
+    assert driver.screen is play and getattr(play, opened)
+
+
+def test_it_is_a_stop_of_the_tour(driver):
+    driver.app.screens.tour()
+    tour = driver.screen
+    tour.at = [stop[1] for stop in STOPS].index(MISSES)
+    driver.turns(120)
+    assert tour.misses.flights[0].steps > 60
+    frame = driver.app.arcade.picture.presenter.frame
+    words = " ".join(text for _, text in frame.boxes)
+    assert "What accuracy costs" in words and "boxes" in words and "pixels" in words
