@@ -1,6 +1,7 @@
 """Queries of two shapes without a world: collide, distance and time_of_impact."""
 
 import math
+import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 from struct import Struct
@@ -31,7 +32,7 @@ from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, MASK, SHAPE
 # Two shapes at two poses as the rows that kernels read, without a world.
 #
 # Data that depend only on a shape are cached with the shape, which is immutable. Convex shapes need little more than
-# their corners; a pair with another shape gets a library of its own.
+# their corners; a pair with another shape has a library of its own, see KeptPair.
 
 At = tuple[float, float, float]  # x, y, angle
 Kept = TypeVar("Kept")
@@ -118,13 +119,41 @@ def hull_pair(a: HullRow, pose_a: At, b: HullRow, pose_b: At) -> PairRows:
     return PairRows(Geometry(spans, corners, *NOTHING[2:]), np.frombuffer(bodies, BODY), shapes)
 
 
-def any_pair(shape_a: Shape, pose_a: At, shape_b: Shape, pose_b: At) -> tuple[Library, PairRows]:
-    """Return (library that holds the geometry, PairRows) of any two shapes at two poses (x, y, angle)."""
-    library, bodies, shapes = Library(), np.zeros(2, BODY), np.zeros(2, SHAPE)
-    for row, (shape, pose) in enumerate(((shape_a, pose_a), (shape_b, pose_b))):
-        place(library, shape, bodies, shapes, row, pose)
-    refresh_aabbs(np.arange(2), library.tables, bodies, shapes)
-    return library, PairRows(library.tables, bodies, shapes)
+class KeptPair:
+    """The library, the rows and the narrow phase of two shapes, of which at least one is not a convex shape.
+
+    Building them takes thirty times as long as a test of two sprites of 32 px. So those of the last KEPT_PAIRS pairs of
+    each thread are kept, see kept_pair.
+    """
+
+    def __init__(self, shape_a: Shape, shape_b: Shape) -> None:
+        self.shapes = shape_a, shape_b
+        self.library, self.bodies, self.rows = Library(), np.zeros(2, BODY), np.zeros(2, SHAPE)
+        self.narrow = NarrowPhase(full_masks=True, one_way=True, boxes_only=False)
+
+    def at(self, pose_a: At, pose_b: At) -> PairRows:
+        """Return the PairRows at two poses (x, y, angle). The next call overwrites them."""
+        for row, (shape, pose) in enumerate(zip(self.shapes, (pose_a, pose_b), strict=True)):
+            place(self.library, shape, self.bodies, self.rows, row, pose)
+        refresh_aabbs(BOTH_ROWS, self.library.tables, self.bodies, self.rows)
+        return PairRows(self.library.tables, self.bodies, self.rows)
+
+
+KEPT_PAIRS = 16
+BOTH_ROWS = np.arange(2)
+THREAD = threading.local()
+
+
+def kept_pair(shape_a: Shape, shape_b: Shape) -> KeptPair:
+    """Return the KeptPair of two shapes, made anew unless it is one of the last KEPT_PAIRS that this thread used."""
+    kept: dict[tuple[int, int], KeptPair] = vars(THREAD).setdefault("pairs", {})
+    bare = shape_a.bare, shape_b.bare
+    key = id(bare[0]), id(bare[1])  # unique while the pair is kept, because the pair refers to both shapes
+    pair = kept.pop(key, None) or KeptPair(*bare)
+    kept[key] = pair  # the last one used is the last one in the dict
+    if len(kept) > KEPT_PAIRS:
+        del kept[next(iter(kept))]
+    return pair
 
 
 # ---- pair manifold ---------------------------------------------------------------------------------------------------
@@ -201,11 +230,13 @@ def _collide_hulls(rows, margin, swapped) -> Manifold:
 
 
 def _collide_any(shape_a, pose_a, shape_b, pose_b, margin, swapped) -> Manifold:
-    library, rows = any_pair(shape_a, pose_a, shape_b, pose_b)
-    narrow = NarrowPhase(full_masks=True, one_way=True, boxes_only=False)
+    pair = kept_pair(shape_a, shape_b)
+    rows = pair.at(pose_a, pose_b)
 
     def points_of(swapped):
-        return contacts_of(narrow.collide(library, rows.bodies, rows.shapes, PAIRS[swapped], margin, no_work()))
+        return contacts_of(
+            pair.narrow.collide(pair.library, rows.bodies, rows.shapes, PAIRS[swapped], margin, no_work())
+        )
 
     contacts = points_of(swapped)
     if not len(contacts):
@@ -358,7 +389,7 @@ def _separate_any(shape_a, pose_a, shape_b, pose_b, workspace):
 
 def parts_of_pair(shape_a: Shape, pose_a: At, shape_b: Shape, pose_b: At, x: float, y: float) -> tuple[Parts, ...]:
     """Return the convex parts of both shapes at poses (x, y, angle), relative to the point (x, y) [px]."""
-    geometry, bodies, shapes = any_pair(shape_a, pose_a, shape_b, pose_b)[1]
+    geometry, bodies, shapes = kept_pair(shape_a, shape_b).at(pose_a, pose_b)
     return tuple(
         shape._parts_at(Placed(geometry, bodies, shapes, row, x, y, float(shapes[1 - row]["max_y"])))
         for row, shape in enumerate((shape_a, shape_b))
