@@ -31,6 +31,9 @@ from physics.outline import kept
 kept.use(OUTLINES)
 STEP_SECONDS = 1.0 / 60.0
 SUBSTEPS = (1, 2, 4, 8, 16, 32, "auto")  # the player's choices
+# What labs are about, in the order of the menu.
+FAIR, STANDS, FAST, COSTS = "Which hits are fair?", "What stands?", "What is fast?", "What does it cost?"
+QUESTIONS = (FAIR, STANDS, FAST, COSTS)
 ASSISTS = {"invincible": False, "hit_stop": True}  # name -> initial value; they affect the game, so they are input
 
 
@@ -107,6 +110,7 @@ class Scene:
     name = ""  # as in scenes/__init__.py
     title = ""
     about = ""  # one sentence for the menu
+    question = ""  # the heading in the menu under which a lab stands, one of QUESTIONS; "": a game
     effects = Effects()
     other_effects: tuple[Effects, ...] = ()  # that worlds may switch to; compiled before the start
     broadphase = "hash"

@@ -12,13 +12,14 @@ from game.files.own_levels import own_levels
 from game.files.records import Records, table_of
 from game.input.inputs import InputState
 from game.registry import Registry
+from game.scene import QUESTIONS
 from game.screens.parts.background import MARGIN, DuskBackground, draw_page
 from game.screens.parts.rows import Row, RowList
 from game.screens.screen import CanvasScreen
 
 LIST = pygame.Rect(MARGIN, MARGIN, 184, 254)
 ABOUT = pygame.Rect(LIST.right + MARGIN, MARGIN, 272, 254)
-GROUPS = {"": "GAMES", "lab": "LAB"}  # by the part of a scene's name before the slash
+HEADINGS = {"": "GAMES"} | {question: question for question in QUESTIONS}  # by Scene.question
 FOOT = "\u2191 \u2193 choose   Enter plays   Esc back"
 
 
@@ -44,11 +45,11 @@ class Menu(CanvasScreen):
     def _entries(self):
         """Rebuild self.rows, and return a list of (scene class or None, level file or None), one for each row."""
         entries, self.rows, group = [], [], None
-        for scene_class in self.registry.all_classes():
-            own = scene_class.name.split("/")[0] if "/" in scene_class.name else ""
-            if own != group and own in GROUPS:
-                self._put(entries, Row(GROUPS[own], head=True), None, None)
-            group = own
+        order = list(HEADINGS)
+        for scene_class in sorted(self.registry.all_classes(), key=lambda each: order.index(each.question)):
+            if scene_class.question != group:
+                self._put(entries, Row(HEADINGS[scene_class.question], head=True), None, None)
+            group = scene_class.question
             self._put(entries, Row(scene_class.title, press=self._play), scene_class, None)
             for path in own_levels(scene_class.level_suffixes()):
                 self._put(entries, Row(f"  {path.stem}", press=self._play, color=SKY), scene_class, path)

@@ -23,7 +23,7 @@ from game.drawing.number_text import count_text
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
-from game.scene import Goal, Scene, Slider
+from game.scene import STANDS, Goal, Scene, Slider
 from physics import Circle, Effects, Material
 from scenes.lab.billiard_table import BALL, CLOTH, HEAD_SPOT, HOLES, MOUTH, best_point, cushions, first_in_the_way, rack
 from scenes.lab.piles import kinetic_energy
@@ -44,6 +44,7 @@ class Billiards(Scene):
 
     name = "lab/billiards"
     title = "Billiards"
+    question = STANDS
     about = "Break fifteen balls and pot them: momentum until the first cushion, energy, and pockets that are sensors."
     effects = Effects(response=True, restitution=True, drag=True, continuous=True, sensors=True)
     pieces = ("circles", "capsules", "queries")

@@ -1,7 +1,8 @@
 """Four broad phases on the same bodies: do they find the same pairs, and what does each pay for it?
 
-What to see: each layout has another cheapest strategy. The hash suits evenly spread bodies of one size; the sweep suits
-slow movers along the ground; the tree suits many still bodies and few movers. Brute force tests all n squared pairs.
+What to see: each layout has another cheapest strategy. The hash suits slow bodies of one size; the sweep suits fast
+bodies, because speed costs it little; the tree suits many still bodies and few movers. Brute force tests all n squared
+pairs.
 
 Why it matters: Without it n bodies are n (n - 1) / 2 pairs a step, too many for any narrow phase.
 
@@ -19,7 +20,7 @@ from game.drawing.colors import BROADPHASE_COLORS, FOG, GOLD, NIGHT, PAPER, RED,
 from game.input.inputs import InputFrame
 from game.measure.power_law import fit_power_law
 from game.measurement_requests import MeasuredRun, Recipe, RunRequest
-from game.scene import Goal, Scene, Slider
+from game.scene import FAST, Goal, Scene, Slider
 from physics import JIT, Effects
 from scenes.lab import layouts
 from scenes.lab.costs import cost_text
@@ -51,6 +52,7 @@ class Broadphases(Scene):
 
     name = "lab/broadphases"
     title = "Broad phases"
+    question = FAST
     about = "The same bodies in four worlds: what does each strategy pay to find the same pairs?"
     effects = Effects(narrowphase=False)
     pieces = ("circles", "boxes")

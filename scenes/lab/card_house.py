@@ -21,7 +21,7 @@ from game.drawing.colors import FOG, GOLD, GREEN, ORANGE, PAPER, RED, SKY
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
-from game.scene import Goal, Scene, Slider
+from game.scene import STANDS, Goal, Scene, Slider
 from physics import Capsule, Circle, Effects, Material, Polygon
 from scenes.lab.yard import HEAD, Yard, plate
 
@@ -51,6 +51,7 @@ class CardHouse(Scene):
 
     name = "lab/card_house"
     title = "House of cards"
+    question = STANDS
     about = "Thin cards held up by nothing but friction: how much of it does the house need?"
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True)
     pieces = ("boxes", "capsules", "circles")

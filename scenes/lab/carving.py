@@ -21,7 +21,7 @@ from game.drawing.colors import FOG, GOLD, INK, PAPER, SLATE
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas, load_backdrop
 from game.measurement_requests import STEPS, Act, MeasuredRun, RunRequest
-from game.scene import Goal, Scene, Slider
+from game.scene import STANDS, Goal, Scene, Slider
 from physics import Circle, Effects, Material, PixelMask, Polygon
 from physics.tables.shape import PART
 from scenes.lab.costs import cost_text
@@ -58,6 +58,7 @@ class Carving(Scene):
 
     name = "lab/carving"
     title = "Carving"
+    question = STANDS
     about = "Blast and dig with the mouse: pieces come loose, fall, roll and rest by their own pixels."
     effects = Effects(
         response=True,

@@ -22,7 +22,7 @@ from game.drawing.number_text import count_text
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas, load_backdrop
 from game.input.inputs import InputFrame
-from game.scene import Goal, Scene, Slider
+from game.scene import STANDS, Goal, Scene, Slider
 from physics import Capsule, Circle, Effects, Material, Polygon
 from scenes.lab.pieces import piece
 from scenes.lab.yard import HEAD
@@ -61,6 +61,7 @@ class Conveyor(Scene):
 
     name = "lab/conveyor"
     title = "Conveyor"
+    question = STANDS
     about = "Belts carry crates of every shape up, along and down; without the effect the same crates lie still."
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True, conveyor=True)
     pieces = ("boxes", "circles", "capsules", "queries")

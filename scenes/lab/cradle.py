@@ -22,7 +22,7 @@ from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
 from game.measurement_requests import MeasuredRun, RunRequest
-from game.scene import Goal, Scene, Slider
+from game.scene import STANDS, Goal, Scene, Slider
 from physics import Circle, Effects, Material, Polygon
 from scenes.lab.costs import cost_text
 from scenes.lab.piles import SOLVERS, kinetic_energy
@@ -49,6 +49,7 @@ class Cradle(Scene):
 
     name = "lab/cradle"
     title = "Cradle"
+    question = STANDS
     about = "Newton's cradle in a channel: strike a row of five with one or two balls, under three solvers."
     effects = Effects(response=True, restitution=True, stacking=True)
     pieces = ("circles",)

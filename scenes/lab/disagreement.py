@@ -21,7 +21,7 @@ from game.drawing.colors import BLUE, DUSK, FOG, GOLD, INK, NIGHT, PAPER, RED, S
 from game.drawing.sprites import load_atlas
 from game.measure.reference_tier import ReferenceTier
 from game.overlays.outlines import draw_outline
-from game.scene import Goal
+from game.scene import FAIR, Goal
 from physics import BROADPHASES, Circle, World
 from scenes.lab.masks import COLORS, NAMES
 from scenes.lab.yard import HEAD
@@ -46,6 +46,7 @@ class Disagreement(Shooter):
 
     name = "lab/disagreement"
     title = "Disagreement"
+    question = FAIR
     about = "The shooter's traffic, judged by nine tiers: who says hit where no pixel is shared, and who misses one."
     features = (
         "nine tiers asked about the same moments of a real game",

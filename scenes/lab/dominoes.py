@@ -21,7 +21,7 @@ from game.drawing.colors import FOG, GREEN, ORANGE, PAPER, RED, SKY, faded
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
-from game.scene import Goal, Scene, Slider
+from game.scene import STANDS, Goal, Scene, Slider
 from physics import Effects, Material, Polygon
 from scenes.lab.piles import SOLVERS
 from scenes.lab.yard import HEAD, Yard, plate
@@ -48,6 +48,7 @@ class Dominoes(Scene):
 
     name = "lab/dominoes"
     title = "Dominoes"
+    question = STANDS
     about = "The same row of dominoes at two sizes. Four times as large, the wave should run twice as fast."
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True)
     pieces = ("boxes",)

@@ -24,7 +24,7 @@ from game.drawing.number_text import plain_name
 from game.input.inputs import InputFrame
 from game.measure.errors import VISIBLE
 from game.measurement_requests import MeasuredRun, RunRequest
-from game.scene import Goal, Scene, Slider
+from game.scene import COSTS, Goal, Scene, Slider
 from physics import Effects
 from scenes.lab.busy_picture import BusyPicture, draw_ghost
 from scenes.lab.busy_yard import DRAG, WIND, BusyYard, apart, rms
@@ -65,6 +65,7 @@ class EffectsLab(Scene):
     name = "lab/effects"
     keeps = {"substeps": "by load, as a World has them by itself: the cost of each effect is that in such a world"}
     title = "Effects"
+    question = COSTS
     about = "A busy yard, with and without each of seventeen effects: what would be missed, and what does it cost?"
     effects = ALL
     other_effects = tuple(ALL.without(name) for name in NAMES)

@@ -19,7 +19,7 @@ import pygame
 from game.drawing.canvas import SMALL, TEXT
 from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED, SERIES, SLATE, WHITE, YELLOW, faded
 from game.input.inputs import InputFrame
-from game.scene import Goal, Scene, Slider
+from game.scene import FAIR, Goal, Scene, Slider
 from physics import Circle, Effects, Filter
 from scenes.lab.yard import HEAD
 
@@ -46,6 +46,7 @@ class Filters(Scene):
 
     name = "lab/filters"
     title = "Filters"
+    question = FAIR
     about = "Six kinds of thing in all pairs. Click a cell to let two kinds meet or not: it takes a yes from both."
     effects = Effects()
     keeps = {"narrowphase": "it judges where discs touch, and boxes around them meet before they do"}

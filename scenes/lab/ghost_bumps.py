@@ -22,7 +22,7 @@ from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED, SKY, S
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas, load_backdrop
 from game.measurement_requests import MeasuredRun, RunRequest
-from game.scene import Goal, Scene, Slider
+from game.scene import STANDS, Goal, Scene, Slider
 from physics import Capsule, Chain, Circle, Effects, Filter, Polygon, TileGrid
 from scenes.lab.costs import cost_text
 from scenes.lab.pieces import piece
@@ -55,6 +55,7 @@ class GhostBumps(Scene):
 
     name = "lab/ghost_bumps"
     title = "Ghost bumps"
+    question = STANDS
     about = "Box, disc and capsule slide over boxes, tiles and a chain, and feel no seam."
     keeps = {"solver": "what a seam takes off a slider is asked of the solver that a World has by itself"}
     effects = Effects(response=True, gravity=True, rotation=True, stacking=True)

@@ -26,7 +26,7 @@ from game.files.pictures import png_size
 from game.input.inputs import InputFrame
 from game.measurement_requests import SpriteRequest
 from game.overlays.outlines import draw_outline
-from game.scene import Goal, Scene
+from game.scene import FAIR, Goal, Scene
 from physics import TIERS, Effects, PixelMask, debug, fit
 from scenes.lab.coverage import covered
 from scenes.lab.yard import HEAD
@@ -65,6 +65,7 @@ class Ladder(Scene):
 
     name = "lab/ladder"
     title = "Ladder"
+    question = FAIR
     about = "One sprite at nine tiers, from circle to exact pixels: what each covers wrongly, weighs and costs."
     effects = Effects(narrowphase=False)  # a sprite alone in its world has no contacts
     pieces = ("masks", "boxes", "circles", "contacts")

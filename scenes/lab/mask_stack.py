@@ -26,7 +26,7 @@ from game.input.inputs import InputFrame
 from game.measurement_requests import MeasuredRun, RunRequest
 from game.overlays.mask_edges import mask_edges
 from game.overlays.outlines import draw_lines, draw_outline
-from game.scene import Goal, Scene, Slider
+from game.scene import STANDS, Goal, Scene, Slider
 from physics import Effects, PixelMask, Polygon, debug, fit, measure
 from physics.settings import SMOOTH
 from physics.tables.shape import PART, WHOLE
@@ -63,6 +63,7 @@ class MaskStack(Scene):
 
     name = "lab/mask_stack"
     title = "Mask stack"
+    question = STANDS
     about = (
         "The same sprites as box, hull, parts, outline and exact pixels: how they lie, sink, sway and what they cost."
     )

@@ -25,7 +25,7 @@ from game.drawing.sprites import load_atlas, load_backdrop
 from game.measure.rates import Rate
 from game.overlays.mask_edges import mask_edges
 from game.overlays.outlines import draw_lines, moved
-from game.scene import Goal, Scene, Slider
+from game.scene import FAIR, Goal, Scene, Slider
 from physics import Effects, PixelMask, debug
 from scenes.lab.thin_walls import SHAPES, is_beyond, wall_of
 from scenes.lab.yard import HEAD, draw_head, plate
@@ -55,6 +55,7 @@ class MaskSweep(Scene):
 
     name = "lab/mask_sweep"
     title = "Mask sweep"
+    question = FAIR
     about = "Bullets and spinning swords at walls of one pixel, with and without continuous collision."
     effects = Effects(response=True, rotation=True, stacking=True, continuous=True)
     pieces = ("masks", "boxes", "circles")

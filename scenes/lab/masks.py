@@ -23,7 +23,7 @@ from game.input.inputs import InputFrame
 from game.measure.tiers import POSES
 from game.measurement_requests import SpriteRequest
 from game.overlays.outlines import draw_outline
-from game.scene import Goal, Scene
+from game.scene import FAIR, Goal, Scene
 from physics import TIERS, Effects, World, collide, debug
 from scenes.lab.hands import Hands
 from scenes.lab.yard import HEAD
@@ -59,6 +59,7 @@ class Masks(Scene):
 
     name = "lab/masks"
     title = "Masks"
+    question = FAIR
     about = "Drag and turn two planes: nine tiers, from circle to exact pixels, give their verdicts side by side."
     effects = Effects()  # there is no response; depths are those of collide()
     pieces = ("masks", "boxes", "circles", "contacts")

@@ -21,7 +21,7 @@ from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
-from game.scene import Goal, Scene, Slider
+from game.scene import FAIR, Goal, Scene, Slider
 from physics import Character, Circle, Effects, Material, Polygon, TileGrid
 from scenes.lab.pieces import piece
 from scenes.lab.yard import HEAD
@@ -71,6 +71,7 @@ class OneWay(Scene):
 
     name = "lab/one_way"
     title = "One-way platforms"
+    question = FAIR
     about = "Crates and the hero pass the same planks from below, land on them, and ride the same lift."
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True, one_way=True)
     pieces = ("tiles", "boxes", "circles", "queries", "characters")

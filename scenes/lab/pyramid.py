@@ -21,7 +21,7 @@ from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
 from game.measure.setting import SUBSTEPPED
 from game.measurement_requests import MeasuredRun, RunRequest
-from game.scene import Goal, Scene, Slider
+from game.scene import STANDS, Goal, Scene, Slider
 from physics import BROADPHASES, Circle, Effects, Material, Polygon, World
 from scenes.lab.costs import cost_text
 from scenes.lab.curves import Curves
@@ -51,6 +51,7 @@ class Pyramid(Scene):
 
     name = "lab/pyramid"
     title = "Pyramid"
+    question = STANDS
     about = "Up to 210 crates in a pyramid: overlap, speed, energy and milliseconds, and a ball to knock it down."
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True)
     pieces = ("boxes", "circles")

@@ -27,7 +27,7 @@ from game.input.inputs import InputFrame
 from game.measurement_requests import Act, MeasuredRun, RunRequest
 from game.overlays.layer_impulses import arrow
 from game.overlays.outlines import draw_outline
-from game.scene import Goal, Scene, Slider
+from game.scene import FAIR, Goal, Scene, Slider
 from physics import Capsule, Circle, Effects, PixelMask, Polygon, debug
 from scenes.lab.costs import cost_text
 from scenes.lab.curves import Curves
@@ -71,6 +71,7 @@ class Queries(Scene):
 
     name = "lab/queries"
     title = "Queries"
+    question = FAIR
     about = "Rays, casts, overlaps, the closest point among hundreds of shapes: what is looked at to find the answer?"
     effects = Effects(narrowphase=False)
     keeps = {"narrowphase": "it is asked, not stepped: rays, casts and overlaps judge the shapes themselves"}

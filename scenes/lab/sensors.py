@@ -21,7 +21,7 @@ from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, PIN
 from game.drawing.rotated import RotatedPicture
 from game.drawing.sprites import load_atlas, load_backdrop
 from game.input.inputs import InputFrame
-from game.scene import Goal, Scene, Slider
+from game.scene import FAIR, Goal, Scene, Slider
 from physics import Circle, Effects, Filter, Polygon
 from scenes.lab.yard import HEAD
 
@@ -52,6 +52,7 @@ class Sensors(Scene):
 
     name = "lab/sensors"
     title = "Sensors"
+    question = FAIR
     about = "Zones count who enters and leaves, however fast or thin; geometry checks every count."
     effects = Effects(narrowphase=False, sensors=True, continuous=True)  # sensors test shapes by themselves
     pieces = ("circles", "boxes", "capsules")

@@ -23,7 +23,7 @@ from game.input.inputs import InputFrame
 from game.measure.shape_traces import gjk_steps, sat_axes
 from game.overlays.layer_impulses import arrow
 from game.overlays.outlines import ring
-from game.scene import Goal, Scene, Slider
+from game.scene import FAIR, Goal, Scene, Slider
 from physics import Capsule, Circle, Effects, Polygon, Segment, collide, distance
 from scenes.lab.hands import Hands
 from scenes.lab.pieces import hull
@@ -61,6 +61,7 @@ class Shapes(Scene):
 
     name = "lab/shapes"
     title = "Shapes"
+    question = FAIR
     about = "Drag any two convex shapes: SAT, GJK and EPA step by step, with distance and depth compared."
     pieces = ("circles", "boxes", "masks", "tiles", "chains", "capsules", "queries", "casts")
     effects = Effects()  # contacts are found and drawn; there is no response

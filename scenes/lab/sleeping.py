@@ -24,7 +24,7 @@ from game.drawing.number_text import count_text
 from game.drawing.rotated import RotatedPicture, poses_between
 from game.input.inputs import InputFrame
 from game.measurement_requests import MeasuredRun, RunRequest
-from game.scene import Goal, Scene, Slider
+from game.scene import FAST, Goal, Scene, Slider
 from physics import Capsule, Circle, Effects, Material, Polygon, debug
 from scenes.lab.costs import cost_of, cost_text, microseconds
 from scenes.lab.curves import Curves
@@ -61,6 +61,7 @@ class Sleeping(Scene):
 
     name = "lab/sleeping"
     title = "Sleeping"
+    question = FAST
     about = "Heaps fall asleep, a knock wakes one, and what falls wakes the next: who is awake, and what does it cost?"
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True, sleeping=True)
     pieces = ("boxes", "circles", "capsules")

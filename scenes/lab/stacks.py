@@ -23,7 +23,7 @@ from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
 from game.measurement_requests import MeasuredRun, RunRequest
-from game.scene import Goal, Scene, Slider
+from game.scene import STANDS, Goal, Scene, Slider
 from physics import Effects, Material, Polygon
 from scenes.lab.costs import cost_text
 from scenes.lab.piles import SOLVERS, deepest
@@ -45,6 +45,7 @@ class Stacks(Scene):
 
     name = "lab/stacks"
     title = "Stacks"
+    question = STANDS
     about = "One column of crates under three solvers: height, sway and overlap, measured live."
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True)
     pieces = ("boxes",)

@@ -24,7 +24,7 @@ from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
 from game.measure.setting import SUBSTEPPED
 from game.measurement_requests import MeasuredRun, RunRequest
-from game.scene import Goal, Scene, Slider
+from game.scene import FAST, Goal, Scene, Slider
 from physics import Capsule, Circle, Effects, Polygon
 from scenes.lab.costs import cost_of, cost_text, microseconds
 from scenes.lab.piles import deepest, kinetic_energy, with_substeps
@@ -69,6 +69,7 @@ class Tumbler(Scene):
 
     name = "lab/tumbler"
     title = "Tumbler"
+    question = FAST
     about = "A turning drum of boxes with up to 160 mixed shapes in it. Not one may get out."
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True)
     pieces = ("boxes", "circles", "capsules")

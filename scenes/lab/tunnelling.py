@@ -5,7 +5,7 @@ finds the plate, but misses it if the ball only grazes the edge. The sweep finds
 spinning rod reaches the plate with an end that was elsewhere when the step began. Bullets that fly at each other are
 each other's plate.
 
-Why it matters: A cheaper sweep misses more; the lanes show the price, and what each kind of shot needs.
+Why it matters: Each sweep misses the shots that it does not model. The lanes show which ones, and what each costs.
 
 To try: turn up the speed or thin the plate, then Space for rods: see which lane misses first.
 
@@ -22,7 +22,7 @@ from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, RED
 from game.drawing.sprites import load_atlas, load_backdrop
 from game.input.inputs import InputFrame
 from game.measurement_requests import STEPS, MeasuredRun, RunRequest
-from game.scene import Goal, Scene, Slider
+from game.scene import FAIR, Goal, Scene, Slider
 from physics import BROADPHASES, Effects, World
 from scenes.lab.costs import cost_text
 from scenes.lab.shots import (
@@ -68,6 +68,7 @@ class Tunnelling(Scene):
 
     name = "lab/tunnelling"
     title = "Tunnelling"
+    question = FAIR
     about = "Fast balls, spinning rods and bullets: off, ray, swept and time of impact, every missed hit counted."
     effects = Effects(response=True, rotation=True, stacking=True, continuous=True)
     pieces = ("circles", "boxes", "capsules")

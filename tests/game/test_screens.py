@@ -17,7 +17,7 @@ from game.run.picture import Picture
 from game.run.replay import load_replay
 from game.run.replay_shelf import recent_folder, replays_folder
 from game.run.tape import Tape
-from game.scene import Result
+from game.scene import QUESTIONS, Result
 from game.screens.attract import Attract
 from game.screens.menu import Menu
 from game.screens.message_screen import error_message
@@ -111,6 +111,19 @@ def test_every_entry_of_the_menu(listing, tmp_path):
             menu.list.show_marked()
             assert menu.list.place(mark) is not None
             check(menu)
+
+
+def test_labs_stand_under_the_question_that_they_answer():
+    registry = Registry(SCENES)
+    menu = Menu(registry)
+    headings, found = "", {}
+    for row, (scene_class, _) in zip(menu.rows, menu.entries, strict=True):
+        headings = row.label if row.head else headings
+        if scene_class is not None:
+            found.setdefault(headings, []).append(scene_class.name)
+    assert list(found) == ["GAMES", *QUESTIONS]
+    assert sorted(name for names in found.values() for name in names) == sorted(registry.names)
+    assert all(name.startswith("lab/") == (heading != "GAMES") for heading, names in found.items() for name in names)
 
 
 @pytest.mark.parametrize("inside", [False, True])

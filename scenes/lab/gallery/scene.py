@@ -24,7 +24,7 @@ from game.drawing.sprites import load_backdrop
 from game.drawing.typical import Typical
 from game.input.inputs import InputFrame
 from game.measurement_requests import MeasuredRun, Recipe, RunRequest
-from game.scene import Goal, Scene, Slider
+from game.scene import STANDS, Goal, Scene, Slider
 from physics import Effects
 from scenes.lab.gallery.page import MARKED, Side
 from scenes.lab.gallery.pages import PAGES
@@ -49,6 +49,7 @@ class Gallery(Scene):
 
     name = "lab/gallery"
     title = "Gallery"
+    question = STANDS
     about = (
         "Twenty-five hard cases, the naive way and ours side by side: what goes wrong, by how much, and what it costs."
     )
