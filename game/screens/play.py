@@ -78,7 +78,7 @@ class Play(SceneScreen):
         self.panel = Panel(lambda: play_rows(self))
         self.panel_open = False
         self.measuring = Measuring(scene, devices, lambda: self.recorder)
-        self.costs = CostPanel(self.measuring, self.try_setting, self.start_race)
+        self.costs = CostPanel(self.measuring, self.try_setting, self.start_race, self.save_costs)
         self.costs_open = False
         self.contact_inspector = ContactInspectorView(scene)
         self.lighter = Lighter(scene, devices) if self.person else None
@@ -356,6 +356,22 @@ class Play(SceneScreen):
     def try_setting(self, setting: Setting) -> None:
         """Apply a setting chosen in the plot of accuracy and cost."""
         self.switches.report(self.measuring.apply(setting))
+
+    def save_costs(self) -> None:
+        """Save the measurements of the plot of accuracy and cost as a CSV file, and report its name."""
+        try:
+            self.switches.report(self.measuring.save_csv())
+        except OSError as error:
+            self.switches.report(f"it could not be saved: {error.strerror or error}")
+
+    def toggle_split(self) -> None:
+        """Toggle the split screen of a race. Without a race, start one of pixels against boxes if there are sprites."""
+        rival = self.measuring.boxes_or_pixels()
+        if self.measuring.race is None and rival is not None:
+            self.start_race(rival)
+            self.measuring.toggle_split()
+            return
+        self.switches.report(self.measuring.toggle_split())
 
     def start_race(self, setting: Setting) -> None:
         """Restart the scene in a race against a copy of the scene under this setting."""

@@ -293,3 +293,15 @@ def test_it_can_be_run_in_every_scene(played, name):
     frame = play.draw(Picture(pygame.Surface((960, 540))))
     assert any("px apart" in text for _, text in frame.boxes)
     assert [w.digest() for w in race.rival.worlds] == [w.digest() for w in play.scene.worlds]
+
+
+@needs_speed
+def test_k_races_pixels_against_boxes_at_once_where_there_are_sprites(played):
+    play = played("shooter", BotSource())
+    play.feed(pygame.event.Event(pygame.KEYDOWN, key=pygame.K_k, mod=0, unicode="k"))
+    race = play.measuring.race
+    assert race is not None and play.measuring.split is not None
+    assert {race.rival.tier, play.scene.tier} == {"aabb", "pixels"}
+    steps(play, 30)
+    play.feed(pygame.event.Event(pygame.KEYDOWN, key=pygame.K_k, mod=0, unicode="k"))
+    assert play.measuring.race is race and play.measuring.split is None, "again it toggles the view"

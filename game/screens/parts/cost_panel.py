@@ -34,8 +34,8 @@ LOOKS: dict[str, tuple[str, Color, str]] = {
 }
 NEAR = 7  # [text px] from a dot at which its name is shown
 FEET = (
-    "click or Enter: play with it, Shift: race it   \u2191 \u2193 choose   \u2190 \u2192 other error   M closes",
-    "click: play with it   Shift+click: race it   M closes",
+    "click or Enter: play with it, Shift: race it   \u2191 \u2193 choose   \u2190 \u2192 error   F9 CSV   M closes",
+    "click: play with it   Shift+click: race it   F9 CSV   M closes",
     "click: play with it   \u2190 \u2192 other error   M closes",
     "click: play with it   M closes",
     "M closes",
@@ -49,11 +49,17 @@ class CostPanel:
     """Panel of accuracy and cost.
 
     measuring: the measurements of the played scene; apply(setting): apply a setting to the scene, or report why that is
-    impossible; race(setting): race the scene against a copy under that setting.
+    impossible; race(setting): race the scene against a copy under that setting; save(): save the measurements.
     """
 
-    def __init__(self, measuring: Measuring, apply: Callable[[Setting], None], race: Callable[[Setting], None]) -> None:
-        self.measuring = measuring
+    def __init__(
+        self,
+        measuring: Measuring,
+        apply: Callable[[Setting], None],
+        race: Callable[[Setting], None],
+        save: Callable[[], None],
+    ) -> None:
+        self.measuring, self.save = measuring, save
         self.surveyor, self.now, self.apply, self.race = measuring.surveyor, measuring.now, apply, race
         self.survey = self.surveyor.survey
         self.advice = AdviceRows(measuring, apply)
@@ -101,7 +107,7 @@ class CostPanel:
         """Process a key. Return whether it was used.
 
         Up and down choose a setting, Enter applies it, and Shift+Enter races it. Left and right change the kind of
-        error.
+        error. F9 saves the measurements.
         """
         ranking = self.ranking()
         if key in (pygame.K_UP, pygame.K_DOWN) and ranking:
@@ -109,6 +115,8 @@ class CostPanel:
             self.hovered = following(ranking, self.hovered, way)
         elif key in (pygame.K_LEFT, pygame.K_RIGHT):
             self.turn_kind(1 if key == pygame.K_RIGHT else -1)
+        elif key == pygame.K_F9:
+            self.save()
         elif key in (pygame.K_RETURN, pygame.K_KP_ENTER) and self.hovered is not None:
             (self.race if shift else self.apply)(self.hovered)
         else:

@@ -4,10 +4,12 @@ from collections.abc import Callable, Hashable, Sequence
 from operator import is_
 from typing import NamedTuple
 
+from game.files.data_folder import data_folder, free_name, write_atomically
 from game.input.devices import DeviceSource
 from game.measure.advice import advised, share
 from game.measure.moment import here_of
 from game.measure.setting import Setting, settings_around
+from game.measure.survey_csv import csv_of
 from game.measure.surveyor import Surveyor
 from game.measure.tuner import Tuner
 from game.measurement_requests import RunRequest, SpriteRequest
@@ -20,6 +22,7 @@ from game.screens.parts.race import Race
 from game.screens.parts.race_split import SplitScreen
 from physics import World
 
+RIVALS_NAMED = 4  # settings named in a message
 LINGER = 0.5  # [s] for which the panel must be open before the effects are measured, so that a glance starts no process
 EVERY = 8.0  # [s] between two moments (measured states of the world), if the last one is done and the game runs
 
@@ -218,9 +221,30 @@ class Measuring:
         Return "", or a line to show if there is no race.
         """
         if self.race is None:
-            return "no race: the panel starts one, or Shift and a click in the plot of costs"
+            names = [setting.label(self.now()) for setting in self.rivals()]
+            return f"no race: the panel starts one, against {', '.join(names[:RIVALS_NAMED])}" if names else "no race"
         self.split = None if self.split is not None else SplitScreen(self.race)
         return ""
+
+    def boxes_or_pixels(self) -> Setting | None:
+        """Return the setting to race against at once: boxes if the scene runs by pixels, otherwise pixels; None without
+        sprites, or if the scene cannot play with it.
+        """
+        now = self.now()
+        if now.tier is None:
+            return None
+        rival = now._replace(tier="aabb" if now.tier in ("pixels", "mask") else "pixels")
+        return None if isinstance(changes_to(rival, self.scene), str) else rival
+
+    def save_csv(self) -> str:
+        """Save the survey as a CSV file in the user's folder. Return a line with its name. Raises OSError."""
+        survey, scene, recorder = self.surveyor.survey, self.scene, self.recorder()
+        if not survey.dots:
+            return "nothing is measured yet"
+        path = free_name(data_folder() / "measurements", scene.name, ".csv")
+        steps = scene.frame if recorder is None else recorder.frames
+        write_atomically(path, csv_of(survey, scene.name, scene.seed, steps))
+        return f"saved as {path.name} in {path.parent}"
 
     def rivals(self) -> list[Setting]:
         """Return the settings against which the scene can be raced: each differs from the current one by one change."""

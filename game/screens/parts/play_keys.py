@@ -46,7 +46,7 @@ def press(play: Played, key: int) -> bool:
     elif key == pygame.K_e:
         play.toggle_step_inspector()
     elif key == pygame.K_k:
-        play.switches.report(play.measuring.toggle_split())
+        play.toggle_split()
     elif key == pygame.K_MINUS:
         play.clock.slower()
     elif key in (pygame.K_EQUALS, pygame.K_PLUS):

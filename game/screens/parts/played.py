@@ -60,6 +60,10 @@ class Played(Protocol):
         """Start or end the inspection of the next step."""
         ...
 
+    def toggle_split(self) -> None:
+        """Toggle the split screen of a race, or start a race of pixels against boxes."""
+        ...
+
     def start_race(self, setting: Setting) -> None:
         """Restart the scene in a race against a copy of the scene under this setting."""
         ...

@@ -144,3 +144,16 @@ def test_a_process_that_dies_is_reported(driver):
     driver.turns(1)
     assert "has ended" in words(driver.app.arcade.picture.presenter.frame)
     assert isinstance(play, Play)
+
+
+def test_f9_saves_what_is_measured_as_csv(driver, tmp_path):
+    open_scene(driver, "lab/filters")
+    driver.key(pygame.K_F9)
+    driver.turns(2)
+    assert "nothing is measured yet" in words(driver.app.arcade.picture.presenter.frame)
+    look(driver, lambda survey: len(survey.known("verdict")) > 1)
+    driver.key(pygame.K_F9)
+    driver.turns(2)
+    (saved,) = (tmp_path / "measurements").glob("lab-filters-*.csv")
+    assert len(saved.read_text().splitlines()) > 2
+    assert "saved as lab-filters" in words(driver.app.arcade.picture.presenter.frame)

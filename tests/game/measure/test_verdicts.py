@@ -1,5 +1,7 @@
 """Errors of tiers are wrong answers per 100 encounters: pooled over moments, with intervals, and put into sentences."""
 
+import csv
+import io
 import json
 from itertools import pairwise
 
@@ -9,6 +11,7 @@ from game.measure.advice import settings_within
 from game.measure.errors import Error, Verdicts
 from game.measure.setting import Setting
 from game.measure.survey import LEAST_HITS, Survey
+from game.measure.survey_csv import COLUMNS, csv_of
 from game.measure.surveyor import error_of
 from game.measure.timing import RUNS
 from game.measure.worker import sent
@@ -113,3 +116,19 @@ def test_verdicts_survive_the_way_between_the_processes():
     assert error_of(json.loads(json.dumps(sent(Error(0.25, 0.1, 30, {"cap_hits": 2}))))) == Error(
         0.25, 0.1, 30, {"cap_hits": 2}
     )
+
+
+def test_the_csv_file_holds_every_dot_with_its_command():
+    exact = error(pairs(0, 80), pairs(0, 80), own=True)
+    survey = survey_of({HERE: [exact], BOXES: [error(pairs(0, 100), pairs(0, 80))]}, {HERE: 2e-4, BOXES: 1e-4})
+    rows = list(csv.DictReader(io.StringIO(csv_of(survey, "shooter", 7, 900))))
+    assert [(row["tier"], row["false_hits"], row["reported_hits"]) for row in rows] == [
+        ("pixels", "0", "80"),
+        ("aabb", "20", "100"),
+    ]
+    assert all(
+        set(row) == set(COLUMNS) and row["command"].startswith("python main.py --advise shooter") for row in rows
+    )
+    assert all("--seed 7 --frames 900" in row["command"] for row in rows)
+    assert [float(row["us_least"]) for row in rows] == [200.0, 100.0]
+    assert float(rows[1]["error_low"]) < float(rows[1]["error"]) < float(rows[1]["error_high"])

@@ -1,0 +1,51 @@
+"""A survey as CSV: each measured setting in a row for each kind of error, with the command that measures it again."""
+
+import csv
+import io
+import json
+
+from game.measure.machine import machine
+from game.measure.survey import Survey
+
+COLUMNS = (
+    "scene, broadphase, narrowphase, solver, substeps, tier, moments, runs, us_least, us_median, us_upper, error_kind, "
+    "error, error_low, error_high, floor, false_hits, reported_hits, missed_hits, true_hits, failures, command, machine"
+).split(", ")
+
+
+def csv_of(survey: Survey, scene: str, seed: int, steps: int) -> str:
+    """Return the text of the CSV file.
+
+    scene, seed, steps: of the measured run, for the command. Times are in microseconds per step. Errors are in pixels,
+    for tiers in wrong answers per 100 encounters. A number that does not apply is an empty field.
+    """
+    file = io.StringIO()
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    command = f"python main.py --advise {scene} --seed {seed} --frames {max(60, steps)} --json"
+    system = ", ".join(f"{name} {value}" for name, value in machine().items())
+    for kind in survey.kinds:
+        for setting, (cost, error) in survey.known(kind).items():
+            low, high = error.interval
+            false, missed = error.wrong, error.missed
+            row: dict[str, object] = {
+                **{name: "" if value is None else value for name, value in setting._asdict().items()},
+                "scene": scene,
+                "moments": survey.moments,
+                "runs": cost.runs,
+                **{f"us_{name}": f"{1e6 * getattr(cost, name):.3f}" for name in ("least", "median", "upper")},
+                "error_kind": kind,
+                "error": error.value,
+                "error_low": low,
+                "error_high": high,
+                "floor": error.floor,
+                "false_hits": "" if false is None else false.count,
+                "reported_hits": "" if false is None else false.total,
+                "missed_hits": "" if missed is None else missed.count,
+                "true_hits": "" if missed is None else missed.total,
+                "failures": json.dumps(error.failures),
+                "command": command,
+                "machine": system,
+            }
+            writer.writerow([row[name] for name in COLUMNS])
+    return file.getvalue()
