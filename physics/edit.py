@@ -401,7 +401,7 @@ def _weigh(world, at, used):
 
 
 def refresh_mass(world: WorldState, identity: int) -> None:
-    """Recompute mass and inertia of a body after its shapes, kind or material changed. Disturb the body."""
+    """Recompute mass and inertia of a body after its shapes, kind or material changed. Disturb the body (see sleep)."""
     at = world._row_number(identity)
     _weigh(world, at, world._shapes_of[identity])
     refresh_pose(world, identity, at)
@@ -432,7 +432,7 @@ def shape_ids(world: WorldState, identity: int) -> tuple[int, ...]:
 
 
 def set_shapes(world: WorldState, identity: int, shapes: Sequence[Shape]) -> None:
-    """Replace the shapes of a body, and end its tier.
+    """Replace the shapes of a body. Its tier (collision shape that replaces a PixelMask) becomes None.
 
     The body's values stay, and contacts on unchanged surface keep impulses. If all old and all new shapes are masks,
     and equally many, the ids stay; otherwise the shapes get new ids. Raises TypeError or ValueError for invalid shapes.
@@ -537,7 +537,7 @@ def rebuild_masks(world: WorldState) -> None:
 
 
 def shapes_for_tier(shapes: Sequence[Shape], tier: str | None) -> tuple:
-    """Return the shapes that replace one PixelMask at a tier; `shapes` if the tier is None."""
+    """Return the shapes that replace one PixelMask at a tier, such as "hull"; `shapes` if the tier is None."""
     if tier is None:
         return tuple(shapes)
     if len(shapes) != 1 or not isinstance(shapes[0], PixelMask):
@@ -546,7 +546,7 @@ def shapes_for_tier(shapes: Sequence[Shape], tier: str | None) -> tuple:
 
 
 def set_tier(world: WorldState, identity: int, tier: str | None) -> None:
-    """Set the tier of a body made from one PixelMask. Raises ValueError for an unknown tier or other bodies."""
+    """Set Body.tier of a body made from one PixelMask. Raises ValueError for an unknown tier or other bodies."""
     world._row_number(identity)
     source = world._sources.get(identity, world._shapes_of[identity])
     set_shapes(world, identity, shapes_for_tier(source, tier))

@@ -101,7 +101,7 @@ def compare_pairs(before, contacts, fell_asleep, sensors, persisting, slop, hit_
     these pairs still touch, are not reported, and are written to `aside`. sensors: 1 to read only contacts of sensors,
     0 to read only the other contacts. persisting: 1 to report pairs that continue to touch. slop [px]: greatest
     separation at which a pair that touched in the last step still touches. hit_speed [px/s]: approach speed above which
-    a hit is reported. O(before + contacts).
+    a hit is reported. O(before + contacts). comparison_inout: see Comparison.
     """
     counts = comparison_inout.counts
     now = comparison_inout.now

@@ -424,7 +424,7 @@ class Joint:
         return self._world._joints.data[self._must_exist()]
 
     def _set(self, **columns) -> None:
-        """Write these columns of the JOINT row, and wake the two bodies."""
+        """Write the given columns (keyword arguments) of the JOINT row, and wake the two bodies."""
         self._world._unlocked()
         at = self._must_exist()
         rows = self._world.joints[at : at + 1]

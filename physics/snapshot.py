@@ -357,7 +357,8 @@ def _sleepers(arrays) -> SleepingSet:
 def _unpack(arrays, facts, geometry):
     """Check the data of a snapshot. Return (library, shapes by body id, original masks by body id, random generator).
 
-    Bodies with a tier have an original mask. Raises one of the errors in DAMAGE for invalid data.
+    Bodies whose mask was replaced by simpler shapes (Body.tier) have an original mask. Raises one of the errors in
+    DAMAGE for invalid data.
     """
     library = Library.of(geometry)
     shapes_of: dict[int, tuple[Shape, ...]] = {identity: () for identity in arrays["bodies"]["id"].tolist()}

@@ -95,7 +95,7 @@ def place_bodies(rows, motions, runs, shapes, bodies_inout, proxies_inout):
 
     Return the number of bodies whose shape rows are not consecutive (SCATTERED). If it is not 0, the caller must mark
     the proxies of these bodies. rows: row numbers in BODY; runs: RUN table. O(shapes of these bodies) if no shape was
-    ever removed, otherwise O(log shapes) more for each body.
+    ever removed, otherwise O(log shapes) more for each body. proxies_inout: PROXY table.
     """
     scattered = 0
     for k in range(len(rows)):

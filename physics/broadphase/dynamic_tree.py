@@ -59,7 +59,10 @@ def joined_outline(nodes, a, b):
 
 @subkernel
 def refit(index, nodes_inout):
-    """Write the box and the height of node number `index` from the boxes and heights of its children."""
+    """Write the box and the height of node number `index` from the boxes and heights of its children.
+
+    nodes_inout: NODE rows.
+    """
     n = nodes_inout[index]
     p, q = nodes_inout[n.child_a], nodes_inout[n.child_b]
     n.lower_x, n.lower_y = min(p.lower_x, q.lower_x), min(p.lower_y, q.lower_y)
@@ -71,7 +74,8 @@ def refit(index, nodes_inout):
 def replace_child(parent, old, new, root, nodes_inout, state_inout):
     """Put the node `new` in the place of the node `old`: as a child of `parent`, or as the root if `parent` is -1.
 
-    parent, old, new: indices of nodes; root: index of the root in state_inout, ROOT_MOVING or ROOT_STILL.
+    parent, old, new: indices of nodes; root: index of the root in state_inout, ROOT_MOVING or ROOT_STILL. nodes_inout:
+    NODE rows.
     """
     nodes_inout[new].parent = parent
     if parent < 0:
@@ -137,7 +141,8 @@ def swap_pays(upper, lower_parent, lower, nodes):
 def improve(index, nodes_inout):
     """Swap a child of a node with a grandchild below its other child, if that shrinks boxes and keeps the AVL balance.
 
-    index: the node. Source: Catto, GDC 2019, after Kopta et al. 2012, with the balance test added.
+    index: the node. Source: Catto, GDC 2019, after Kopta et al. 2012, with the balance test added. nodes_inout: NODE
+    rows.
     """
     n = nodes_inout[index]
     best = 0.0
@@ -178,7 +183,8 @@ def improve(index, nodes_inout):
 def repair_upward(index, root, nodes_inout, state_inout, work_inout):
     """Refit, balance and improve all nodes from number `index` up to the root. O(height).
 
-    root: index of the root in state_inout, ROOT_MOVING or ROOT_STILL; work_inout: counters, see COUNTERS.
+    root: index of the root in state_inout, ROOT_MOVING or ROOT_STILL; work_inout: counters, see COUNTERS. nodes_inout:
+    NODE rows.
     """
     while index >= 0:
         work_inout[NODES_VISITED] += 1
@@ -192,7 +198,7 @@ def repair_upward(index, root, nodes_inout, state_inout, work_inout):
 def take_node(nodes_inout, state_inout):
     """Take a node from the list of free nodes, or the next unused node. Return its index.
 
-    The caller ensures that there is one.
+    The caller ensures that there is one. nodes_inout: NODE rows; state_inout: see place_changed.
     """
     index = state_inout[FREE]
     if index >= 0:
@@ -205,7 +211,10 @@ def take_node(nodes_inout, state_inout):
 
 @subkernel
 def insert_leaf(leaf, nodes_inout, state_inout, work_inout):
-    """Insert a leaf as the sibling of a node, chosen so that the perimeters of all nodes grow little. O(height)."""
+    """Insert a leaf as the sibling of a node, chosen so that the perimeters of all nodes grow little. O(height).
+
+    nodes_inout: NODE rows; state_inout: see place_changed; work_inout: counters, see COUNTERS.
+    """
     root = ROOT_STILL if nodes_inout[leaf].still else ROOT_MOVING
     at = state_inout[root]
     if at < 0:
@@ -240,7 +249,10 @@ def insert_leaf(leaf, nodes_inout, state_inout, work_inout):
 
 @subkernel
 def remove_leaf(leaf, nodes_inout, state_inout, work_inout):
-    """Remove a leaf from its tree: the leaf's sibling takes the place of their parent. O(height)."""
+    """Remove a leaf from its tree: the leaf's sibling takes the place of their parent. O(height).
+
+    nodes_inout: NODE rows; state_inout: see place_changed; work_inout: counters, see COUNTERS.
+    """
     root = ROOT_STILL if nodes_inout[leaf].still else ROOT_MOVING
     parent = nodes_inout[leaf].parent
     if parent < 0:
@@ -308,6 +320,7 @@ def rebuild(leaf_of, still, leaves_out, spans_out, twice_x_out, twice_y_out, nod
 
     The inner nodes of the old tree are freed first. leaf_of (slots,): node of each proxy, or -1. Scratch: leaves_out
     (slots,); spans_out (slots, 4); twice_x_out, twice_y_out (nodes,): twice the centre of each leaf's box [px].
+    nodes_inout: NODE rows; state_inout: see place_changed.
     """
     root = ROOT_STILL if still == 1 else ROOT_MOVING
     count = 0
@@ -464,7 +477,7 @@ def place_changed(proxies, changed, margins, loose, leaf_of_inout, nodes_inout, 
     margin of a fat box in px, and as a share of the box's size; the smaller of the two is used. loose: one flag each
     for the moving and the static tree, 1 if the caller rebuilds this tree next, so that leaves need not be linked or
     unlinked here. leaf_of_inout (slots,): node of each proxy, or -1. state_inout: first free node, number of used
-    nodes, both roots.
+    nodes, both roots. nodes_inout: NODE rows; work_inout: counters, see COUNTERS.
     """
     moved = 0
     for i in range(len(changed)):

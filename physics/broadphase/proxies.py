@@ -194,7 +194,7 @@ def _corners(name, value):
 def tell_rows(shapes, proxies_inout):
     """Write the SHAPE row number of each shape to its proxy, after rows have moved. O(shapes).
 
-    Shapes without a proxy, or whose proxy has no swept AABB yet, are skipped.
+    Shapes without a proxy, or whose proxy has no swept AABB yet, are skipped. proxies_inout: PROXY table.
     """
     for k in range(len(shapes)):
         slot = shapes[k].proxy
@@ -305,7 +305,7 @@ def merge_pairs(shapes, kept, kept_rows, kept_count, keys, new_count, pairs_out,
 
 @kernel
 def mark_settled(changed, proxies_inout):
-    """Clear the changed flag of the proxies in the slots `changed`. O(changed)."""
+    """Clear the changed flag of the proxies in the slots `changed`. O(changed). proxies_inout: PROXY table."""
     for i in range(len(changed)):
         proxies_inout[changed[i]].changed = False
 
@@ -338,7 +338,7 @@ def update_rectangles(rows, geometry, bodies, reach, shapes_inout, proxies_inout
     """Write the AABBs of the shapes in `rows`, and new swept AABBs for those that no longer fit. O(rows).
 
     Return the number of new swept AABBs. rows: row numbers in SHAPE; changed_out: slots of the proxies whose swept
-    AABBs were written.
+    AABBs were written. shapes_inout: SHAPE table; proxies_inout: PROXY table.
     """
     refresh_boxes(rows, geometry, bodies, shapes_inout)
     rasters = geometry.rasters
@@ -417,9 +417,9 @@ def update_rectangles(rows, geometry, bodies, reach, shapes_inout, proxies_inout
 
 @kernel
 def list_outside(rows, bodies, shapes, proxies, rows_out):
-    """List the shapes whose AABB, as drawn, extends beyond their swept AABB. Return their number. O(rows).
+    """List the shapes whose AABB, or the drawn pixels of a mask, extend beyond their swept AABB. Return their number.
 
-    rows: row numbers in SHAPE to test; rows_out: row numbers found.
+    rows: row numbers in SHAPE to test; rows_out: row numbers found. O(rows).
     """
     found = 0
     for k in range(len(rows)):

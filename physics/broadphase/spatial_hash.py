@@ -97,7 +97,10 @@ def write_box(proxy, entry_out):
 
 @subkernel
 def take_out(slot, cells_inout, work_inout):
-    """Unlink a proxy (slot) from the lists of its cells, at most four, and from the list of its level. O(1)."""
+    """Unlink a proxy (slot) from the lists of its cells, at most four, and from the list of its level. O(1).
+
+    cells_inout: Cells; work_inout: counters, see COUNTERS.
+    """
     entries = cells_inout.entries
     lists = cells_inout.lists
     level = cells_inout.levels[slot]
@@ -131,7 +134,7 @@ def put_in(proxies, slot, level, base, cells_inout, work_inout):
     """Link a proxy (slot) into the lists of the cells that its box touches, at most four, and of its level. O(1).
 
     level: level whose cells are at least as large as the box; base [px]: cell size on level 0; work_inout: counters,
-    see COUNTERS.
+    see COUNTERS. cells_inout: see Cells.
     """
     p = proxies[slot]
     heads = cells_inout.heads
@@ -172,7 +175,7 @@ def place_changed(proxies, changed, base, cells_inout, work_inout):
 
     changed: slots of the changed proxies; base [px]: cell size on level 0; work_inout: counters, see COUNTERS. If a
     proxy is still in the same cells, only the copies of its box in these cells are updated. A box whose ends lie on
-    cell borders may span three cells along an axis; such a box goes to the next coarser level.
+    cell borders may span three cells along an axis; such a box goes to the next coarser level. cells_inout: see Cells.
     """
     entries = cells_inout.entries
     for i in range(len(changed)):

@@ -174,7 +174,7 @@ def find_impacts(dt, only_straight, sweep_inout, scratch, impacts_out):
     if the body stops, -1; the last two are not written. The body does not stop if its motion into the obstacle within
     dt is at most a quarter of its smallest half extent. Then the contact solver resolves the overlap, so that a body
     that slides on the ground is not held. only_straight: leave out bodies in mode "auto", which are swept with
-    rotation. scratch: a Workspace.
+    rotation. scratch: a Workspace. sweep_inout: see Sweep.
     """
     bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
     found = 0
@@ -312,7 +312,7 @@ def is_swept(moving, a, b, sweep_inout):
     """Return whether a pair of shapes is to be swept: one body is fast relative to the other.
 
     a, b: SHAPE rows. moving: 0 selects pairs in which a body that is not dynamic rests, 1 selects all other pairs. With
-    a stacking solver, two dynamic bodies are swept only if at least one is a bullet.
+    a stacking solver, two dynamic bodies are swept only if at least one is a bullet. sweep_inout: see Sweep.
     """
     bodies, paths, fast = sweep_inout.bodies, sweep_inout.paths, sweep_inout.fast
     rest_where_it_is(bodies, a.body_row, paths, fast)
@@ -346,6 +346,7 @@ def find_rotational_impacts(moving, rotation, sweep_inout, impacts_out):
     body stops, feature. moving: see is_swept. Without a stacking solver, a small motion into the obstacle does not stop
     a body, because the contact resolves the overlap in the same step. Small means at most a quarter of the smallest
     half extent. rotation: whether bodies rotate; if not, pairs with a closed form are left to find_impacts.
+    sweep_inout: see Sweep.
     """
     bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
     stacking, slack = sweep_inout.stacking, sweep_inout.slack
@@ -395,7 +396,7 @@ def lose_fall(lost, path_x, path_y, gravity_x, gravity_y, dt, body_inout):
     The velocity includes the gravity of the whole step, but the body does not move along the last part of its path. A
     body in free fall gets the velocity of the time at which it stopped. Any other body loses as much kinetic energy as
     it would have gained by falling along the lost part. lost: this part as a share of the path; path_x, path_y [px]:
-    the whole path; gravity_x, gravity_y [px/s2]; dt [s].
+    the whole path; gravity_x, gravity_y [px/s2]; dt [s]. body_inout: BODY row.
     """
     b = body_inout
     pull = norm(gravity_x, gravity_y) * abs(b.gravity_scale)
@@ -476,7 +477,7 @@ def write_impacts(bodies, shapes, candidates, impacts, dt, response, manifolds_o
     impacts (n, 8): candidate, fraction, normal from A to B, stops, feature, point x and y [px]. A point that is nan is
     estimated by impact_point: for the shape that is swept as a ray, otherwise for the shape with the smaller AABB.
     response 1: the separation [px] is that of the final poses, from the motion after the impact. response 0: the
-    separation is 0. dt [s]: step length.
+    separation is 0. dt [s]: step length. manifolds_out: CONTACT rows.
     """
     found = 0
     for i in range(len(impacts)):

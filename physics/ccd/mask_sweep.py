@@ -1,8 +1,8 @@
 """Sweep of masks by their pixels, for worlds without contact response and for sensors: the time of the first overlap.
 
-A mask is the union of its solid pixel squares at the exact pose, even if it is drawn snapped. The pixels are grouped
-into rectangles. If a motion leads no deeper than the overlap at the start, it is not an impact. This is the rule of
-rotational.py, but without a slop. So grazing contacts and seams between two rectangles are not impacts.
+A mask is the union of its solid pixel squares at the exact pose, even if it is drawn on whole pixels (snap=True). The
+pixels are grouped into rectangles. If a motion leads no deeper than the overlap at the start, it is not an impact. This
+is the rule of rotational.py, but without a slop. So grazing contacts and seams between two rectangles are not impacts.
 """
 
 import math
@@ -68,7 +68,7 @@ def squares_of(library: Library, masks: np.ndarray, known: Squares) -> Squares:
 def write_square(boxes, k, body, corners_out):
     """Write the corners [px] of rectangle k of a mask, relative to the body's centre of mass at angle 0.
 
-    boxes: see Squares; body: BODY row. Return the number of corners, 4.
+    boxes: see Squares; body: BODY row. Return the number of corners, 4. corners_out (16, 2): the result.
     """
     for corner in range(4):
         corners_out[corner, 0] = boxes[k, 2 if corner == 1 or corner == 2 else 0] - body.local_center_x
@@ -251,7 +251,7 @@ def first_shared(row, other, squares, sweep_inout, best_out):
     """Write the first overlap in the step of two shapes, at least one of them a mask, to best_out (5,).
 
     best_out: as in sweep_squares, but with the fraction of the step. Each body moves along its path up to its
-    BODY.fraction of the step, and then rests. row, other: row numbers in SHAPE.
+    BODY.fraction of the step, and then rests. row, other: row numbers in SHAPE. sweep_inout: see Sweep.
     """
     bodies, paths, cuts = sweep_inout.bodies, sweep_inout.paths, sweep_inout.cuts
     p, q = sweep_inout.shapes[row].body_row, sweep_inout.shapes[other].body_row
@@ -278,7 +278,7 @@ def find_shared_areas(moving, squares, sweep_inout, best_out, impacts_out):
 
     impacts_out (n, 8), columns: index of the candidate pair, fraction of the step, nx and ny from A to B, 0 (no body is
     stopped), -1, point x and y. moving: see impacts.is_swept; squares: Squares of all masks among the candidates;
-    best_out (5,): scratch.
+    best_out (5,): scratch. sweep_inout: see Sweep.
     """
     shapes, candidates = sweep_inout.shapes, sweep_inout.candidates
     found = 0

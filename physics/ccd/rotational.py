@@ -108,7 +108,7 @@ def write_local(geometry, bodies, shapes, row, motion_inout, corners_out):
     """Write the corners [px] of a hull relative to its body's centre of mass at angle 0. Return their number.
 
     A shape of kind BOUNDS never rotates: its corners are the corners at the start angle, and the rotation in
-    motion_inout (6,) is set to 0. row: row number in SHAPE.
+    motion_inout (6,) is set to 0. row: row number in SHAPE. corners_out (16, 2): the result.
     """
     b = bodies[shapes[row].body_row]
     if shapes[row].kind != BOUNDS:

@@ -160,7 +160,7 @@ def push_ahead(sweep_inout, moves_inout):
 
     A push is along one normal, so in a corner one call is not enough: the caller repeats the call until the result is
     0. moves_inout (bodies, 2) [px]: translation of each stopped body from the place where it stopped, to which each
-    push is added. O(candidates).
+    push is added. O(candidates). sweep_inout: see Sweep.
     """
     bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
     cuts, slack = sweep_inout.cuts, sweep_inout.slack

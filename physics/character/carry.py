@@ -80,7 +80,11 @@ def find_stirred(bodies, shapes, characters, pairs, count, stirred_out):
 
 
 def near_characters(state: StepState) -> tuple[np.ndarray, np.ndarray]:
-    """Return (near, spans) for a Walk: rows of the shapes that may carry, push or stop each character in this step."""
+    """Return (near, spans) for a Walk: rows of the shapes that may carry, push or stop each character in this step.
+
+    near: SHAPE rows, character after character; spans (characters, 2): first index in `near` and number of rows of
+    each.
+    """
     rows, pairs = state.characters, state.pairs.rows
     dirty = np.zeros(len(rows), bool)
     motion = find_stirred(state.bodies, state.shapes, rows, pairs, len(pairs), dirty)
@@ -112,7 +116,7 @@ def shift_aside(me, without, pixels, walk_inout, rows_out):
     """Move a character along x by up to `pixels` (negative: left). Return how many of these pixels were blocked.
 
     The character also moves up and down walkable slopes. me: CHARACTER row; without: body row to ignore, or -1;
-    rows_out: scratch array for the nearby solids.
+    rows_out: scratch array for the nearby solids. walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     reach = 2.0 + abs(pixels)
@@ -138,7 +142,8 @@ def shift_aside(me, without, pixels, walk_inout, rows_out):
 def shift_along_y(me, without, pixels, walk_inout, rows_out):
     """Move a character along y by up to `pixels` (negative: up). Return how many of these pixels were blocked.
 
-    me: CHARACTER row; without: body row to ignore, or -1; rows_out: scratch array for the nearby solids.
+    me: CHARACTER row; without: body row to ignore, or -1; rows_out: scratch array for the nearby solids. walk_inout:
+    see solids.Walk.
     """
     c = walk_inout.characters[me]
     reach = 2.0 + abs(pixels)
@@ -157,7 +162,8 @@ def shift(me, without, pixels, along_x, walk_inout, rows_out):
     """Move a character and its body by up to `pixels` along one axis. Return how many of these pixels were blocked.
 
     along_x: 1 for the x axis, along which the character also moves up and down walkable slopes, 0 for the y axis. me:
-    CHARACTER row; without: body row to ignore, or -1; rows_out: scratch array for the nearby solids.
+    CHARACTER row; without: body row to ignore, or -1; rows_out: scratch array for the nearby solids. walk_inout: see
+    solids.Walk.
     """
     if along_x == 1:
         stopped = shift_aside(me, without, pixels, walk_inout, rows_out)
@@ -177,7 +183,7 @@ def carried_by(way, stopped):
 def carry_riders(along_x, walk_inout):
     """Move each character that stands on a carried character by the same pixels, and so on up a stack.
 
-    along_x: 1 for the x axis, 0 for the y axis.
+    along_x: 1 for the x axis, 0 for the y axis. walk_inout: see solids.Walk.
     """
     characters = walk_inout.characters
     for _ in range(len(characters)):
@@ -218,7 +224,10 @@ def loose_under(walk, me):
 
 @kernel
 def note_feet(shapes, characters_inout):
-    """Store the point [px] under the feet of each rider before its support moves it. O(characters · log shapes)."""
+    """Store the point [px] under the feet of each rider before its support moves it. O(characters · log shapes).
+
+    characters_inout: CHARACTER table.
+    """
     for me in range(len(characters_inout)):
         c = characters_inout[me]
         row = row_of(shapes, c.riding_shape) if c.riding >= 0 else -1
@@ -230,7 +239,7 @@ def note_feet(shapes, characters_inout):
 def take_back(characters_inout, bodies_inout):
     """Move the bodies of characters back to the characters' pixel boxes, after the step has moved them.
 
-    O(characters).
+    O(characters). characters_inout: CHARACTER table; bodies_inout: BODY table.
     """
     for me in range(len(characters_inout)):
         c = characters_inout[me]
@@ -259,7 +268,7 @@ def pixels_carried(me, row, along_x, walk_inout):
     """Return the whole pixels by which the ground and its conveyor carry a character along an axis.
 
     me: CHARACTER row; row: shape row of the ground, -1 if its motion does not carry the character; along_x: 1 for the x
-    axis, 0 for the y axis. The fractions are kept for the next step.
+    axis, 0 for the y axis. The fractions are kept for the next step. walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     way = 0
@@ -288,7 +297,7 @@ def pixels_carried(me, row, along_x, walk_inout):
 def step_down(me, walk_inout):
     """Move a character down to ground that has sunk, by no more than it may drop when it walks one pixel.
 
-    me: CHARACTER row.
+    me: CHARACTER row. walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     gather(walk_inout, me, -1, 1.0, 1.0, 3.0 + c.climb, walk_inout.found)
@@ -302,7 +311,8 @@ def step_down(me, walk_inout):
 def ride_bodies(walk_inout):
     """Carry characters by the motion of the ground under their feet, in whole pixels with a remainder.
 
-    Then move them down to ground that rotated or was pushed down. O(characters · nearby solids).
+    Then move them down to ground that rotated or was pushed down. O(characters · nearby solids). walk_inout: see
+    solids.Walk.
     """
     for axis in range(2):
         along_x = 1 - axis
@@ -327,7 +337,7 @@ def ride_bodies(walk_inout):
 def move_out(me, row, walk_inout):
     """Move a character out of a loose shape until it is blocked, and store the depth of overlap that remains.
 
-    me, row: row numbers in CHARACTER and SHAPE.
+    me, row: row numbers in CHARACTER and SHAPE. walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     depth, nx, ny = depth_in(me, row, walk_inout)
@@ -358,7 +368,7 @@ def give_way(walk_inout):
 
     A body that has just fallen onto a character overlaps it until the solver has separated them. So an overlap with a
     loose body squeezes a character only if it was deeper than GIVE and is at least as deep one step later. O(characters
-    · nearby solids).
+    · nearby solids). walk_inout: see solids.Walk.
     """
     for me in range(len(walk_inout.characters)):
         c = walk_inout.characters[me]
@@ -417,6 +427,7 @@ def in_swept(me, row, shifted, along_x, box, walk_inout):
 
     me, row: row numbers of the character in CHARACTER and of the solid in SHAPE; along_x: 1 for the x axis, 0 for the y
     axis; box: result of swept_box for the solid. A tile grid is tested at its pose after the motion along this axis.
+    walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     left, top, right, bottom, moved = box
@@ -490,7 +501,7 @@ def carry_and_push(movers, walk_inout):
     """Let kinematic solids that moved by whole pixels carry their riders and push characters in front of them.
 
     movers: row numbers in SHAPE, ascending. Only axis-aligned boxes and tile grids are used; ride_bodies handles other
-    shapes. O(moved solids · characters).
+    shapes. O(moved solids · characters). walk_inout: see solids.Walk.
     """
     for k in range(len(movers)):
         row = movers[k]
@@ -512,7 +523,10 @@ def carry_and_push(movers, walk_inout):
 
 @kernel
 def carry_all(movers, walk_inout):
-    """Carry and push characters by all motion of solids in the step. movers: row numbers in SHAPE, ascending."""
+    """Carry and push characters by all motion of solids in the step. movers: row numbers in SHAPE, ascending.
+
+    walk_inout: see solids.Walk.
+    """
     carry_and_push(movers, walk_inout)
     ride_bodies(walk_inout)
     give_way(walk_inout)

@@ -575,7 +575,7 @@ def find_own_rows(bodies, shapes, characters_inout):
 
 @subkernel
 def place_body(c, body_inout):
-    """Move the body of a character (row c) to where the character's pixel box is."""
+    """Move the body of a character (row c) to where the character's pixel box is. body_inout: BODY row."""
     body_inout.x, body_inout.y = c.left + c.offset_x, c.top + c.offset_y
     body_inout.center_x = body_inout.x + body_inout.local_center_x
     body_inout.center_y = body_inout.y + body_inout.local_center_y
@@ -583,7 +583,7 @@ def place_body(c, body_inout):
 
 @subkernel
 def settle(me, walk_inout):
-    """Move the body of a character to where its pixel box is. me: CHARACTER row."""
+    """Move the body of a character to where its pixel box is. me: CHARACTER row. walk_inout: see Walk."""
     c = walk_inout.characters[me]
     place_body(c, walk_inout.bodies[c.body_row])
 

@@ -138,7 +138,7 @@ def slide_gently(me, rows, pixels, slope, walk_inout):
     """Slide down ground that is too steep to walk on but flatter than 45 degrees, in place of a fall of `pixels`.
 
     The character moves pixel by pixel along x. me: CHARACTER row; rows: nearby solids, see solids.gather; slope: rise
-    of the ground per px to the right. Return True if nothing stopped the character.
+    of the ground per px to the right. Return True if nothing stopped the character. walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     aside, down = slide_of(slope)
@@ -278,7 +278,7 @@ def feel(me, walk_inout):
 def depth_in(me, row, walk_inout):
     """Return (depth [px], nx, ny) of the overlap of a character with a loose shape (solids.is_loose).
 
-    nx, ny: unit normal from the character; me: CHARACTER row; row: row number in SHAPE.
+    nx, ny: unit normal from the character; me: CHARACTER row; row: row number in SHAPE. walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     if walk_inout.shapes[row].kind == CHAIN:
@@ -292,7 +292,7 @@ def depth_in(me, row, walk_inout):
 def is_in_drawn(me, row, walk_inout):
     """Return whether a shape overlaps a character on the pixel grid, so that it would block a move in some direction.
 
-    me, row: row numbers in CHARACTER and SHAPE.
+    me, row: row numbers in CHARACTER and SHAPE. walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     for side in range(-1, 2, 2):
@@ -309,7 +309,8 @@ def is_in_drawn(me, row, walk_inout):
 def is_crushed(me, all_kinds, walk_inout):
     """Return whether a moving solid overlaps a character; if the solid is loose, by more than GIVE. O(nearby solids).
 
-    me: CHARACTER row; all_kinds: True to test dynamic bodies too, False for kinematic bodies only.
+    me: CHARACTER row; all_kinds: True to test dynamic bodies too, False for kinematic bodies only. walk_inout: see
+    solids.Walk.
     """
     gather(walk_inout, me, -1, 0.0, 0.0, 0.0, walk_inout.found)
     for k in range(1, walk_inout.found[0] + 1):
@@ -370,7 +371,7 @@ def lead_out(me, reach, walk_inout, moved_inout):
 
     Of equally near positions, up comes before sideways, and sideways before down. The character does not move if there
     is no free position within `reach` [px]. me: CHARACTER row; moved_inout: the pixels moved are added, see walk.
-    O(reach · nearby solids).
+    O(reach · nearby solids). walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     rows = walk_inout.found
@@ -412,6 +413,7 @@ def push_body(me, row, direction, speed, left, walk_inout):
     """Push one body towards a speed [px/s] along x, by an impulse of at most `left`. Return the unused part of `left`.
 
     me, row: row numbers of the character in CHARACTER and of the body's shape in SHAPE; direction: -1 left, 1 right.
+    walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     b = walk_inout.bodies[walk_inout.shapes[row].body_row]
@@ -440,7 +442,7 @@ def shove(me, direction, speed, walk_inout):
     """Push the bodies next to a character until they have the speed [px/s] of its move, as far as its strength allows.
 
     The push is a force over the coming step, so sufficient friction holds a body in place. me: CHARACTER row;
-    direction: -1 left, 1 right.
+    direction: -1 left, 1 right. walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     speed += walk_inout.bodies[c.body_row].vx  # the speed of its carrier
@@ -471,7 +473,7 @@ def knock(me, row, direction, speed, walk_inout):
     """Apply the inelastic impact of a character that lands on a body, or hits it from below with its head.
 
     me, row: row numbers of the character in CHARACTER and of the body's shape in SHAPE; direction: 1 for a landing, -1
-    for the head; speed [px/s]: speed of the character along y, positive down.
+    for the head; speed [px/s]: speed of the character along y, positive down. walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     x, y = foot_of(c, walk_inout.shapes[row])
@@ -495,7 +497,7 @@ def press(shapes, gravity_x, gravity_y, slow, characters_inout, bodies_inout):
 
     Store the point under the feet [px] of each character, and give its body the velocity of the ground there. Ground
     that is slower than `slow` [px/s] is an exception: it is coming to rest, and must not be kept awake. gravity_x,
-    gravity_y [px/s2].
+    gravity_y [px/s2]. characters_inout: CHARACTER table; bodies_inout: BODY table.
     """
     for me in range(len(characters_inout)):
         c = characters_inout[me]
@@ -531,7 +533,7 @@ def write_weight(characters, weight_rate, manifolds_inout):
     """Write the weight of characters as normal impulses to their contacts with the ground.
 
     weight_rate [px/s]: gravity times the length of the step. All points of a character's contacts share its weight
-    equally. O(characters · contacts).
+    equally. O(characters · contacts). manifolds_inout: CONTACT rows.
     """
     for me in range(len(characters)):
         c = characters[me]
@@ -567,7 +569,7 @@ def way_for_pushed(by, direction, walk_inout):
     """Return (row of the character that blocks a move, pixels that it must rise to be pushed one pixel along x).
 
     by: shape row that blocks the move; direction: -1 left, 1 right. The first value is -1 if `by` does not belong to a
-    character; the second is -1 if this character cannot move.
+    character; the second is -1 if this character cannot move. walk_inout: see solids.Walk.
     """
     other = character_of(walk_inout.characters, walk_inout.shapes[by].body)
     if other < 0:
@@ -582,7 +584,7 @@ def step_sideways(me, direction, follow, walk_inout):
     """Move a character one pixel along x, and push a pushable character in front of it. Return whether it moved.
 
     The character also moves up a slope, and if `follow` is 1 down a slope. me: CHARACTER row; direction: -1 left, 1
-    right.
+    right. walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     rows = walk_inout.found
@@ -615,8 +617,8 @@ def step_sideways(me, direction, follow, walk_inout):
 def walk_along(me, dx, follow, walk_inout, moved_out):
     """Move a character along x by dx [px], pixel by pixel, and push bodies in front of it by impulses.
 
-    me: CHARACTER row; follow: 1 to stay on ground that goes down. moved_out[2] is set to 1 if the character was
-    stopped.
+    me: CHARACTER row; follow: 1 to stay on ground that goes down; walk_inout: see solids.Walk; moved_out (4,): see
+    walk, its element 2 is set to 1 if the character was stopped.
     """
     c = walk_inout.characters[me]
     c.remainder_x += dx
@@ -638,7 +640,8 @@ def walk_along(me, dx, follow, walk_inout, moved_out):
 def slide_pixel(me, slope, walk_inout):
     """Move a character one pixel sideways, down a slope that is too steep to walk on.
 
-    me: CHARACTER row; slope: rise of the ground per px to the right. Return whether the pixel was free.
+    me: CHARACTER row; slope: rise of the ground per px to the right. Return whether the pixel was free. walk_inout: see
+    solids.Walk.
     """
     c = walk_inout.characters[me]
     side = -1 if slope > 0.0 else 1
@@ -652,8 +655,8 @@ def slide_pixel(me, slope, walk_inout):
 def fall_or_rise(me, dy, walk_inout, moved_out):
     """Move a character along y by dy [px], pixel by pixel, with impacts on bodies that it hits.
 
-    On ground too steep to walk on the character slides down, by the component of dy along the slope. me: CHARACTER row.
-    moved_out[3] is set to 1 if the character was stopped.
+    On ground too steep to walk on the character slides down, by the component of dy along the slope. me: CHARACTER row;
+    walk_inout: see solids.Walk; moved_out (4,): see walk, its element 3 is set to 1 if the character was stopped.
     """
     c = walk_inout.characters[me]
     rows = walk_inout.found
@@ -706,7 +709,7 @@ def walk(me, dx, dy, walk_inout, moved_out):
     """Move a character by (dx, dy) [px], x first, and write its contacts. Return whether it overlaps a static solid.
 
     In that case the caller must lead it out, see lead_out. me: CHARACTER row. moved_out (4,): pixels moved along x,
-    along y; 1 if the character was stopped along x, along y. O(pixels · nearby solids).
+    along y; 1 if the character was stopped along x, along y. O(pixels · nearby solids). walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     reach = 3.0 + abs(dx) + abs(dy)
@@ -731,7 +734,7 @@ def walk(me, dx, dy, walk_inout, moved_out):
 def is_stopped(me, along_x, along_y, walk_inout):
     """Return whether a character could not move by (along_x, along_y) pixels, each -1, 0 or 1. It stays in place.
 
-    me: CHARACTER row.
+    me: CHARACTER row. walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     gather(walk_inout, me, -1, 3.0, 3.0 + STEEPEST_CLIMB, 3.0, walk_inout.found)

@@ -137,9 +137,9 @@ def time_of_closest_approach(dx, dy, vx, vy):
 def toi_hulls(a, vx, vy, target, most, b_inout):
     """Return the time [s] at which the gap of two Hulls has shrunk to `target` [px] (conservative advancement).
 
-    Hull B moves at vx, vy [px/s] relative to Hull A. Its corners are moved to their place at the returned time. If the
-    gap stops shrinking before, the time of least distance is returned. If the target is not reached within `most` [s],
-    NEVER is returned. O(corners²) an iteration.
+    a, b_inout: the Hulls; Hull B moves at vx, vy [px/s] relative to Hull A. Its corners are moved to their place at the
+    returned time. If the gap stops shrinking before, the time of least distance is returned. If the target is not
+    reached within `most` [s], NEVER is returned. O(corners²) an iteration.
     """
     time = 0.0
     corners = b_inout.corners
@@ -170,10 +170,10 @@ def toi_hulls(a, vx, vy, target, most, b_inout):
 def advance_to_contact(margin, lookahead, p, q, a, b_inout):
     """Move the corners of Hull B to its predicted contact with Hull A. Slow pairs are not moved.
 
-    p, q: BODY rows of A and B; margin [px]: gap at the predicted contact; lookahead [s]: greatest time. Return (time,
-    vx, vy, reach). time [s]: time of the contact, 0 for slow pairs, or NEVER; vx, vy [px/s]: velocity of B relative to
-    A; reach [px]: largest separation of a contact point at the moved place. It exceeds the margin if rotation may close
-    a wider gap.
+    a, b_inout: the Hulls; p, q: BODY rows of A and B; margin [px]: gap at the predicted contact; lookahead [s]:
+    greatest time. Return (time, vx, vy, reach). time [s]: time of the contact, 0 for slow pairs, or NEVER; vx, vy
+    [px/s]: velocity of B relative to A; reach [px]: largest separation of a contact point at the moved place. It
+    exceeds the margin if rotation may close a wider gap.
     """
     if lookahead == 0.0:
         return 0.0, 0.0, 0.0, margin
@@ -275,7 +275,7 @@ def advance_to_piece(travel, margin, piece, hull, corners_out):
     """Write the corners [px] of a Hull at its predicted contact with a piece of ground. Return the time [s] or NEVER.
 
     margin [px]: gap at the predicted contact; piece: Hull of a run of tiles or of a link. If travel.time is 0, there is
-    no prediction: the Hull is not moved, and the time is 0.
+    no prediction: the Hull is not moved, and the time is 0. corners_out (16, 2): the result.
     """
     corners = hull.corners
     for k in range(hull.count):
@@ -387,7 +387,7 @@ def add_points_on_piece(batch, pair, meeting, workspace, manifolds_out, found):
 
 @inlined
 def collide_circle_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-    """Append the contact of two circles. Return the new number of manifolds."""
+    """Append the contact of two circles. Return the new number of contacts. Arguments: see manifold.make_pass."""
     bodies, shapes = batch.bodies, batch.shapes
     row_a = batch.candidates[pair, 0]
     row_b = batch.candidates[pair, 1]
@@ -422,7 +422,10 @@ def collide_circle_pair(batch, pair, workspace, manifolds_out, found, work_inout
 
 @inlined
 def collide_polygon_circle_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-    """Append the contact of a hull of two or more corners and a circle. Return the new number of manifolds."""
+    """Append the contact of a hull of two or more corners and a circle. Return the new number of contacts.
+
+    Arguments: see manifold.make_pass.
+    """
     bodies, shapes, margin = batch.bodies, batch.shapes, batch.margin
     side, circle, polygon = sides_by_kind(batch, pair, CIRCLE)
     p, q = bodies[shapes[polygon].body_row], bodies[shapes[circle].body_row]
@@ -484,10 +487,10 @@ def overlaps_narrowly(a, b, most, far, manifold):
 def is_grazing(a, b, batch, p, q, manifold):
     """Return whether to drop the contact of two Hulls because they only pass each other in this step.
 
-    Two conditions must hold. The path of B must miss A, up to an overlap of batch.graze [px]. And the contact must be
-    between corners, or have a normal mainly along the motion, or be on a patch no wider than graze. Without this rule,
-    a tile that stands slightly above its neighbour would stop a sliding body. a, b: the Hulls; p, q: BODY rows of A and
-    B; manifold (11,): see clip_edges in hulls.py.
+    Two conditions must hold. The path of B must miss A, up to an overlap of batch.graze [px], a tolerance. And the
+    contact must be between corners, or have a normal mainly along the motion, or be on a patch no wider than
+    batch.graze. Without this rule, a tile that stands slightly above its neighbour would stop a sliding body. a, b: the
+    Hulls; p, q: BODY rows of A and B; manifold (11,): see clip_edges in hulls.py.
     """
     graze = batch.graze
     least = manifold[5] if manifold[0] == 1.0 else min(manifold[5], manifold[9])
@@ -505,7 +508,10 @@ def is_grazing(a, b, batch, p, q, manifold):
 
 @inlined
 def collide_polygon_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-    """Append the contact of two hulls of two or more corners each. Return the new number of manifolds."""
+    """Append the contact of two hulls of two or more corners each. Return the new number of contacts.
+
+    Arguments: see manifold.make_pass.
+    """
     geometry = batch.geometry
     bodies, shapes, candidates, margin = batch.bodies, batch.shapes, batch.candidates, batch.margin
     manifold = workspace.points

@@ -187,7 +187,8 @@ def add_manifold(shapes, candidates, pair, point, manifolds_out, found):
     """Append a contact with one point. Return the new number of contacts, which is counted on past the capacity.
 
     pair: index of the candidate; point: (unit normal x and y from A to B, x, y, separation [px], shared area [px2],
-    feature); found: number of contacts before. The approach speed is written later, by `approach`.
+    feature); found: number of contacts before. The approach speed is written later, by `approach`. manifolds_out:
+    CONTACT rows.
     """
     if found < len(manifolds_out):
         nx, ny, x, y, separation, area, feature = point
@@ -226,7 +227,7 @@ def add_points(shapes, candidates, pair, sign, points, part, manifolds_out, foun
     """Append the manifold in `points` (11,), see hulls.clip_edges. Return the new number of contacts.
 
     sign: -1.0 if A and B were swapped for the test, else 1.0; part: offset added to the feature ids; pair, found: see
-    add_manifold.
+    add_manifold. manifolds_out: CONTACT rows.
     """
     for k in range(int(points[0])):
         at = 3 + 4 * k
@@ -289,7 +290,7 @@ def make_pass(kind: int, collide_pair: Callable, may_touch: Callable = always) -
     def collide_pairs(batch, workspace, manifolds_out, found, work_inout):
         """Append the contacts of all pairs of this kind at row `found`. Return the new number of contacts.
 
-        O(candidates).
+        Arguments: see make_pass. O(candidates).
         """
         kinds = batch.kinds
         block = workspace.block
@@ -333,7 +334,7 @@ def copy_manifold(contacts, source, target, contacts_out):
 def drop_empty(count, manifolds_inout):
     """Remove the contacts without points from the first `count` rows. Return the number of contacts left.
 
-    The others keep their order. O(count).
+    The others keep their order. O(count). manifolds_inout: CONTACT rows.
     """
     kept = 0
     for i in range(count):

@@ -126,7 +126,7 @@ def write_fallback(batch, pairs, last_x, last_y, workspace, starts_out, faces_ou
 
     Return 1, or 0 if no such contact exists. pairs: indices of the candidates whose sides are overlapping parts of A
     and B; last_x, last_y: unit normal of the last step, or (0, 0); starts_out (pairs + 1,), faces_out (FACES · pairs,
-    4): scratch. O(faces²).
+    4): scratch. O(faces²). manifolds_out: CONTACT rows.
     """
     starts_out[0] = 0
     for k in range(len(pairs)):
@@ -190,6 +190,7 @@ def drop_opposed_rows(order, deep, manifolds_inout):
 
     The remaining contacts are moved to the front. Return their number. order: row numbers of the contacts, sorted by
     the ids of the whole shapes; deep (contacts,) bool: flags of find_deep. O(contacts · contacts of a pair).
+    manifolds_inout: CONTACT rows.
     """
     first = 0
     count = len(order)
@@ -280,7 +281,8 @@ def _pair_keys(shapes, pairs):
 def _is_found(manifold, found) -> bool:
     """Return whether `found` contains a contact of the same candidate as `manifold`, with nearly the same normal.
 
-    All are CONTACT rows. The normals may differ slightly, because a recycled contact has rotated with its body.
+    All are CONTACT rows. The normals may differ slightly, because a contact kept from the last step has rotated with
+    its body.
     """
     same = found["candidate"] == manifold["candidate"]
     along = found["normal_x"] * manifold["normal_x"] + found["normal_y"] * manifold["normal_y"]

@@ -299,7 +299,7 @@ def collide_mask_circle(raster, hull, depths_out):
 
     The area is the number of overlapping pixels; 0 means no contact. The normal points from mask to disc; x, y [px]:
     centroid of these pixels; feature: pixel_feature of the first. The separation [px] is minus the length of the disc's
-    move along the normal that clears all pixels. O(pixels in the disc's AABB).
+    move along the normal that clears all pixels. O(pixels in the disc's AABB). depths_out (16,): scratch.
     """
     r = raster.rasters[raster.row]
     cx = hull.corners[0, 0]
@@ -541,7 +541,7 @@ def collide_mask_rounded(raster, hull, depths_out):
     Return (area, nx, ny, x, y, separation, feature). The normal is opposite to that of a face, or points from the
     centroid of the overlapping pixels to the hull's core. Of these directions, the one with the shortest move that
     clears the pixels is used. The separation is minus this move. Other values as in collide_mask_circle. O(pixels in
-    the hull's AABB · corners).
+    the hull's AABB · corners). depths_out (16,): scratch.
     """
     corners = hull.corners
     count = hull.count
@@ -584,7 +584,10 @@ def collide_mask_hull(raster, hull, depths_out):
 
 @inlined
 def bounds_overlap(batch, pair):
-    """Return whether the bounds of the solid pixels of two snapped masks overlap. pair: index of the candidate."""
+    """Return whether the bounds of the solid pixels of two masks overlap, both drawn on whole pixels (snap=True).
+
+    pair: index of the candidate.
+    """
     a = batch.shapes[batch.candidates[pair, 0]]
     b = batch.shapes[batch.candidates[pair, 1]]
     rasters = batch.geometry.rasters
@@ -593,7 +596,7 @@ def bounds_overlap(batch, pair):
 
 
 def make_mask_pass(full: bool) -> Any:
-    """Return the kernel that collides all pairs of snapped masks.
+    """Return the kernel that collides all pairs of masks drawn on whole pixels (snap=True).
 
     full: True to compute area, centroid, normal and depth. False to find only the first shared pixel; then the normal
     is the direction between the centres, and the separation is -1.
@@ -601,7 +604,10 @@ def make_mask_pass(full: bool) -> Any:
 
     @inlined
     def collide_mask_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-        """Append the contact of two snapped masks, by AND of bit words. Return the new number of manifolds."""
+        """Append the contact of two masks drawn on whole pixels, by AND of bit words.
+
+        Arguments: see manifold.make_pass. Return the new number of contacts.
+        """
         shapes = batch.shapes
         candidates, rasters, words = batch.candidates, batch.geometry.rasters, batch.geometry.words
         a = shapes[candidates[pair, 0]]

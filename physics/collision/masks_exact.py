@@ -1,4 +1,4 @@
-"""Collision of masks at their exact poses (not snapped to whole pixels) with masks, hulls and tiles."""
+"""Collision of masks at their exact poses (snap=False, not on whole pixels) with masks, hulls and tiles."""
 
 import math
 from typing import Any
@@ -135,9 +135,9 @@ def least_area(raster):
 
 @subkernel
 def move_into_raster(raster, body, count, corners_inout):
-    """Transform the first `count` corners [px] from the world into the raster space of a mask that is not snapped.
+    """Transform the first `count` corners [px] from the world into the raster space of a mask at its exact pose.
 
-    raster: RASTER row; body: BODY row of the mask.
+    raster: RASTER row of the mask, which has snap=False; body: its BODY row.
     """
     cosine, sine = cosine_and_sine(body.angle, body.angle)
     for k in range(count):
@@ -148,7 +148,7 @@ def move_into_raster(raster, body, count, corners_inout):
 
 @subkernel
 def hull_in_raster(geometry, bodies, shapes, mask, other, corners_out):
-    """Return the Hull of shape `other` in the raster space of shape `mask`, which is not snapped.
+    """Return the Hull of shape `other` in the raster space of shape `mask`, a mask at its exact pose (snap=False).
 
     mask, other: row numbers in SHAPE; corners_out (16, 2) receives the corners. The angles are subtracted before their
     sine and cosine are computed, so that two bodies at multiples of 90 degrees stay exact.
@@ -198,7 +198,7 @@ def collide_in_raster(rasters, words, mask, hull, depths_out):
 def out_of_mask(geometry, body, shape, nx, ny, x, y):
     """Transform a normal and a point from a mask's raster space to the world. Return (nx, ny, x, y).
 
-    body, shape: BODY and SHAPE rows of the mask, which is not snapped.
+    body, shape: BODY and SHAPE rows of the mask, which is at its exact pose (snap=False).
     """
     cosine, sine = cosine_and_sine(body.angle, body.angle)
     wx, wy = rotate(nx, ny, cosine, sine)
@@ -208,10 +208,10 @@ def out_of_mask(geometry, body, shape, nx, ny, x, y):
 
 @subkernel
 def collide_as_drawn(geometry, shape, hull, depths_out):
-    """Collide a snapped mask with a Hull in the world. Return (area, nx, ny, x, y, separation, feature).
+    """Collide a mask drawn on whole pixels (snap=True) with a Hull. Return (area, nx, ny, x, y, separation, feature).
 
-    shape: SHAPE row of the mask. The area is the number of pixels that the Hull overlaps. Other values as in
-    collide_in_raster, but in the world.
+    shape: SHAPE row of the mask; hull: the Hull in the world; depths_out (16,): scratch. The area is the number of
+    pixels that the Hull overlaps. Other values as in collide_in_raster, but in the world.
     """
     raster = PlacedRaster(geometry.rasters, geometry.words, shape.raster, shape.left, shape.top)
     pixels, nx, ny, x, y, separation, first = collide_mask_hull(raster, hull, depths_out)
@@ -220,7 +220,7 @@ def collide_as_drawn(geometry, shape, hull, depths_out):
 
 @subkernel
 def collide_mask_part(geometry, body, shape, hull, scratch, depths_out):
-    """Collide a mask, snapped or not, with a convex polygon. Return (area, nx, ny, x, y, separation, feature).
+    """Collide a mask, with any `snap`, with a convex polygon. Return (area, nx, ny, x, y, separation, feature).
 
     The values are those of collide_in_raster, but in the world. body, shape: BODY and SHAPE rows of the mask; hull: the
     polygon in the world; scratch (16, 2), depths_out (16,): scratch.
@@ -240,7 +240,7 @@ def collide_mask_part(geometry, body, shape, hull, scratch, depths_out):
 
 @subkernel
 def collide_mask_shape(geometry, bodies, shapes, mask, other, workspace):
-    """Collide a mask, snapped or not, with a hull. Return (area, nx, ny, x, y, separation, feature).
+    """Collide a mask, with any `snap`, with a hull. Return (area, nx, ny, x, y, separation, feature).
 
     The values are those of collide_in_raster, but in the world. mask, other: row numbers in SHAPE of the mask and of
     the hull.
@@ -357,7 +357,7 @@ def share_no_area(geometry, a, b):
 def is_first_the_frame(geometry, a, b):
     """Return whether two masks are tested in A's raster space rather than in B's. a, b: SHAPE rows.
 
-    The space of the unsnapped mask is used. If neither is snapped, it is the space of the mask with the greater area.
+    The space of the mask with snap=False is used. If both have it, it is the space of the mask with the greater area.
     """
     if a.snap or b.snap:
         return not a.snap
@@ -367,7 +367,7 @@ def is_first_the_frame(geometry, a, b):
 
 @subkernel
 def squares_pair(geometry, bodies, frame, other):
-    """Return the SquaresPair of two masks (SHAPE rows) in the raster space of `frame`, which is not snapped."""
+    """Return the SquaresPair of two masks (SHAPE rows) in the raster space of `frame`, which has snap=False."""
     u, v, cosine, sine = raster_in_raster(geometry, bodies[frame.body_row], frame, bodies[other.body_row], other)
     rows = raster_of_shape(geometry, frame), raster_of_shape(geometry, other)
     return SquaresPair(geometry.rasters, geometry.words, rows[0], rows[1], u, v, cosine, sine)
@@ -375,7 +375,7 @@ def squares_pair(geometry, bodies, frame, other):
 
 @subkernel
 def exact_mask_area(geometry, bodies, a, b):
-    """Return the area [px2] that two masks (SHAPE rows) share; at least one of them is not snapped."""
+    """Return the area [px2] that two masks (SHAPE rows) share; at least one of them has snap=False (exact pose)."""
     if share_no_area(geometry, a, b):
         return 0.0
     first = is_first_the_frame(geometry, a, b)
@@ -386,7 +386,7 @@ def exact_mask_area(geometry, bodies, a, b):
 
 
 def make_exact_mask_pass(full: bool) -> Any:
-    """Return the kernel that collides all pairs of masks of which at least one is not snapped.
+    """Return the kernel that collides all pairs of masks of which at least one is at its exact pose (snap=False).
 
     full: True to compute area, centroid, normal and depth. False to find only two overlapping pixels; then the normal
     is the direction between the centres of the AABBs, and the separation is -1.
@@ -394,7 +394,10 @@ def make_exact_mask_pass(full: bool) -> Any:
 
     @inlined
     def collide_exact_mask_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-        """Append the contact of two masks at their exact poses. Return the new number of manifolds."""
+        """Append the contact of two masks at their exact poses. Return the new number of contacts.
+
+        Arguments: see manifold.make_pass.
+        """
         geometry, bodies, shapes, candidates = batch.geometry, batch.bodies, batch.shapes, batch.candidates
         rasters = geometry.rasters
         work_inout[MASK_TESTS] += 1
@@ -436,7 +439,7 @@ collide_exact_mask_pairs_hit = make_exact_mask_pass(full=False)
 
 @inlined
 def collide_mask_hull_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-    """Append the contact of a mask and a hull. Return the new number of manifolds."""
+    """Append the contact of a mask and a hull. Return the new number of contacts. Arguments: see manifold.make_pass."""
     work_inout[MASK_TESTS] += 1
     sign, mask, other = sides_by_kind(batch, pair, MASK)
     area, nx, ny, x, y, separation, feature = collide_mask_shape(

@@ -64,9 +64,10 @@ def may_change(a, b):
 
 @inlined
 def is_wanted(which, a, b):
-    """Return whether `which` selects a pair of shapes by their sensor flags.
+    """Return whether the sensor flags of two shapes allow their pair in the selection `which`.
 
-    The other condition of SOLIDS is not tested. which: ALL, NO_SENSORS, SOLIDS or SENSORS; a, b: SHAPE rows.
+    which: ALL, NO_SENSORS, SOLIDS or SENSORS; a, b: SHAPE rows. The other condition of SOLIDS, see may_change, is not
+    tested.
     """
     return which == ALL or (a.sensor or b.sensor) == (which == SENSORS)
 
@@ -87,7 +88,7 @@ def collide_boxes(batch, which, manifolds_out, work_inout):
     """Write the contacts of the candidates from their AABBs alone. Return the number of contacts. O(candidates).
 
     The normal is the axis along which the AABBs overlap least, the point is the middle of the overlap. which: ALL,
-    NO_SENSORS, SOLIDS or SENSORS.
+    NO_SENSORS, SOLIDS or SENSORS. manifolds_out: CONTACT rows; work_inout: counters, see COUNTERS.
     """
     shapes, candidates = batch.shapes, batch.candidates
     found = 0
@@ -144,10 +145,10 @@ def kind_of_pair(low, high):
 
 @inlined
 def as_snapped(kind, a, b):
-    """Return the kind of a pair with regard to snapping and one-way surfaces. kind: result of kind_of_pair.
+    """Return the kind of a pair after regard to masks drawn on whole pixels (snap=True), and to one-way surfaces.
 
-    Two masks of which at least one is not snapped are MASKS_EXACT. A pair with a chain that is the one-way surface of a
-    mask is SURFACE_ANY. All other kinds are unchanged. a, b: SHAPE rows.
+    kind: result of kind_of_pair. Two masks of which at least one has snap=False are MASKS_EXACT. A pair with a chain
+    that is the one-way surface of a mask is SURFACE_ANY. All other kinds are unchanged. a, b: SHAPE rows.
     """
     if kind == CHAIN_ANY:
         chain = a if a.kind == CHAIN else b
@@ -208,7 +209,7 @@ def classify(batch, which, kinds_out, counts_out, work_inout):
     which: ALL, NO_SENSORS, SOLIDS or SENSORS; pairs that are not selected get the kind NOTHING. With SOLIDS and
     SENSORS, pairs whose AABBs are farther apart than batch.margin also get NOTHING, unless they may meet within
     batch.lookahead. counts_out[WITH_CHILD]: number of pairs with a part of a larger shape; counts_out[DRAWN_PAIRS]:
-    number of pairs with a mask that must be rasterized first.
+    number of pairs with a mask that must be rasterized first. work_inout: counters, see COUNTERS.
     """
     bodies, shapes, candidates = batch.bodies, batch.shapes, batch.candidates
     for i in range(len(counts_out)):
@@ -343,8 +344,8 @@ class NarrowPhase:
     def complete(self, batch: Batch, previous: np.ndarray | None, recycled: int, work: np.ndarray) -> np.ndarray:
         """Test all pairs that `classify` has selected. Return the contacts in the order of the candidates.
 
-        previous: CONTACT rows of the last step, or None; recycled: number of recycled contacts. The caller has written
-        them to the beginning of self.raw, and they are part of the result.
+        previous: CONTACT rows of the last step, or None; recycled: number of contacts that are kept from the last step
+        without a test. The caller has written them to the beginning of self.raw, and they are part of the result.
         """
         workspace, counts = self.workspace, self.counts
         if self.one_way and (counts[GRID_ANY] or counts[SURFACE_ANY]):
@@ -368,10 +369,10 @@ class NarrowPhase:
         return self.ordered[:found]
 
     def _detect(self, batch, workspace, previous, counts, recycled, work) -> tuple[int, int]:
-        """Run the passes, and append their contacts to self.raw after the first `recycled` rows.
+        """Run the passes, and append their contacts to self.raw after the first `recycled` rows (kept contacts).
 
-        Return (number of contacts including the recycled ones, number of passes made). The fallback counts as a pass if
-        it added a contact. The contacts of one pass are in the order of the candidates, so that sorting is needed only
+        Return (number of contacts including the kept ones, number of passes made). The fallback counts as a pass if it
+        added a contact. The contacts of one pass are in the order of the candidates, so that sorting is needed only
         after several passes.
         """
         used = [run for kind, run in self.passes if counts[kind]]
@@ -436,7 +437,7 @@ class NarrowPhase:
         return drop_seams(batch, previous, found, self.workspace, self.lists, self.ground, self.raw)
 
     def room_for(self, count: int) -> np.ndarray:
-        """Return an array for at least `count` CONTACT rows, to which the caller writes recycled contacts.
+        """Return an array for `count` CONTACT rows, to which the caller writes contacts kept from the last step.
 
         The caller passes their number to the next call of `complete` as `recycled`.
         """

@@ -180,8 +180,8 @@ def distance_to_hull(hull, x, y):
 def is_behind_plane(batch, seam, support, workspace):
     """Return whether the piece of ground in contact `seam` lies behind the contact plane of contact `support`.
 
-    Near the body, the piece may rise above the plane by batch.graze. seam, support: CONTACT rows of the same dynamic
-    body with two pieces of ground.
+    Near the body, the piece may rise above the plane by the tolerance batch.graze [px]. seam, support: CONTACT rows of
+    the same dynamic body with two pieces of ground.
     """
     shapes = batch.shapes
     side = ground_side(batch.bodies, shapes, seam)
@@ -219,7 +219,7 @@ def is_behind_plane(batch, seam, support, workspace):
 
 @subkernel
 def is_on_piece(batch, row, x, y, own_part, workspace):
-    """Return whether the point (x, y) is on a shape of the ground, or within batch.graze of it.
+    """Return whether the point (x, y) is on a shape of the ground, or within the tolerance batch.graze [px] of it.
 
     row: row number in SHAPE; own_part: a part of the shape to ignore (index of a link, or of a run's first cell), or
     NONE.
@@ -336,7 +336,10 @@ def is_recycled(batch, contact):
 
 @subkernel
 def link_contact(batch, contact, place, lists_inout):
-    """Add a contact with ground to the linked list of its dynamic body. place: number that is listed for it."""
+    """Add a contact with ground to the linked list of its dynamic body.
+
+    contact: CONTACT row; place: the number to list for it; lists_inout: BodyLists.
+    """
     side = ground_side(batch.bodies, batch.shapes, contact)
     if side != NONE:
         row = contact.body_row_b if side == 0 else contact.body_row_a
@@ -349,8 +352,8 @@ def drop_seams(batch, previous, count, workspace, contacts_out, ground_out, mani
     """Drop the contacts of dynamic bodies at seams between pieces of ground. Return the number of remaining contacts.
 
     manifolds_inout: CONTACT rows, of which the first `count` are in use and keep their order. previous: CONTACT rows of
-    the last step, of which the recycled ones also count as supporting contacts. contacts_out, ground_out: scratch,
-    BodyLists for contacts and candidates. O(contacts · contacts of a body).
+    the last step; those that are kept without a test in this step (see is_recycled) also count as supporting contacts.
+    contacts_out, ground_out: scratch, BodyLists for contacts and candidates. O(contacts · contacts of a body).
     """
     bodies = batch.bodies
     shapes = batch.shapes

@@ -93,7 +93,7 @@ def run_at(geometry, grid, x, y, row, column, under, corners_out):
     The run is one rectangle, without seams between its cells. Return (number of corners, bits of touchable edges and
     corners, see tile_at). The top (bottom) edge is touchable if some cell of the run, within the columns `under`, has
     no neighbour above (below) that covers the edge. grid: row number in GRID; x, y [px]: the grid's origin; under:
-    first and last column under the other shape.
+    first and last column under the other shape. corners_out (16, 2): the result.
     """
     grids, cells = geometry.grids, geometry.cells
     low, high = under
@@ -247,7 +247,10 @@ def make_grid_pass(one_way: bool) -> Any:
 
     @inlined
     def collide_grid_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-        """Append the contacts of a tile grid and another shape. Return the new number of manifolds."""
+        """Append the contacts of a tile grid and another shape. Return the new number of contacts.
+
+        Arguments: see manifold.make_pass.
+        """
         geometry = batch.geometry
         bodies = batch.bodies
         shapes, candidates, margin, cells = batch.shapes, batch.candidates, batch.margin, geometry.cells

@@ -197,7 +197,7 @@ def reset_impulses(contact_out):
 def write_caches(geometry, bodies, shapes, contacts_inout):
     """Write the cache fields of newly detected contacts, and clear all their forces. O(contacts).
 
-    The bodies must still have the poses at which the contacts were detected.
+    The bodies must still have the poses at which the contacts were detected. contacts_inout: CONTACT rows.
     """
     for i in range(len(contacts_inout)):
         reset_impulses(contacts_inout[i])
@@ -273,7 +273,7 @@ def update_contact(a, turn_a, b, turn_b, wander, contact_inout):
     Return (moved, rolled, corrected). moved [px]: greatest relative motion of a point since detection, along the face
     or the normal. rolled [px]: motion of the contact around a rounding since detection. corrected: whether clipped_gap
     corrected a point. a, b: BODY rows; turn_a, turn_b: (cosine, sine) of their angles; wander [px]: smaller corrections
-    of a clipped point are omitted; inf omits all.
+    of a clipped point are omitted; inf omits all. contact_inout: CONTACT row.
     """
     c = contact_inout
     two = c.count == 2
@@ -317,7 +317,10 @@ def update_contact(a, turn_a, b, turn_b, wander, contact_inout):
 
 @kernel
 def update_contacts(bodies, contacts_inout):
-    """Update the points, normals and separations of all contacts to the present poses of the bodies. O(contacts)."""
+    """Update the points, normals and separations of all contacts to the present poses of the bodies. O(contacts).
+
+    contacts_inout: CONTACT rows.
+    """
     row_a, row_b = -1, -1
     turn_a = (1.0, 0.0)
     turn_b = (1.0, 0.0)
@@ -353,11 +356,12 @@ def is_finite(contact):
 
 @inlined
 def recycle_distance(contact, distance):
-    """Return the greatest relative motion [px] since detection up to which a contact may be recycled.
+    """Return the greatest relative motion [px] at which a contact is kept without a new narrow phase (recycled).
 
-    It is `distance` [px], or RECYCLE_MOVE times as much for a loaded contact with two points and without roundings,
-    whose points are updated exactly. If the two points are close together (see RECYCLE_SHARE), it remains `distance`.
-    Unloaded contacts are detected again earlier, because the shortest way out of an overlap may change.
+    The motion counts from the detection of the contact. The result is `distance` [px], or RECYCLE_MOVE times as much
+    for a loaded contact with two points and without roundings, whose points are updated exactly. If the two points are
+    close together (see RECYCLE_SHARE), it remains `distance`. Unloaded contacts are detected again earlier, because the
+    shortest way out of an overlap may change.
     """
     c = contact
     loaded = c.normal_force_1 > 0.0 or c.normal_force_2 > 0.0
@@ -374,7 +378,7 @@ def can_recycle(shapes, a, turn_a, b, turn_b, distance, wander, contact_inout):
 
     Three conditions must hold. The points have moved by at most recycle_distance. Relative rotation has moved them by
     at most `distance` [px]. No clipped point needs a correction of more than `wander` [px]. shapes: SHAPE rows; a, b:
-    BODY rows; turn_a, turn_b: (cosine, sine) of their angles.
+    BODY rows; turn_a, turn_b: (cosine, sine) of their angles. contact_inout: CONTACT row.
     """
     c = contact_inout
     moved, rolled, wandered = update_contact(a, turn_a, b, turn_b, wander, c)
@@ -413,7 +417,8 @@ def is_unmoved(body):
 def update_and_flag(shapes, distance, bodies_inout, contacts_inout):
     """Update all contacts to the present poses, and write CONTACT.can_recycle for the next step. O(contacts).
 
-    Also write BODY.has_current_contacts of the bodies in contact. distance [px]: see can_recycle.
+    Also write BODY.has_current_contacts of the bodies in contact. distance [px]: see can_recycle. contacts_inout:
+    CONTACT rows.
     """
     row_a, row_b = -1, -1
     turn_a = (1.0, 0.0)
@@ -440,7 +445,8 @@ def update_and_flag(shapes, distance, bodies_inout, contacts_inout):
 def update_final_poses(shape_rows, geometry, distance, bodies_inout, shapes_inout, contacts_inout):
     """Update the AABBs of the given shapes, and all contacts, to the present poses. O(rows + contacts).
 
-    shape_rows: row numbers in SHAPE; distance [px]: see can_recycle.
+    shape_rows: row numbers in SHAPE; distance [px]: see can_recycle. bodies_inout: BODY table; shapes_inout: SHAPE
+    table; contacts_inout: CONTACT rows.
     """
     refresh_boxes(shape_rows, geometry, bodies_inout, shapes_inout)
     update_and_flag(shapes_inout, distance, bodies_inout, contacts_inout)

@@ -1,4 +1,8 @@
-"""Narrow phase of worlds with a stacking solver: contacts are recycled, or detected and matched with the last step."""
+"""Narrow phase of worlds with a stacking solver: contacts are recycled, or detected and matched with the last step.
+
+A contact is recycled if the step uses it without a new narrow phase: its points and normal are only moved with the
+bodies. All other contacts are stale: they are detected again.
+"""
 
 import math
 from typing import NamedTuple
@@ -39,6 +43,7 @@ def transfer_impulses(previous, first, contact_inout):
     """Copy the cached forces of the last step to the points of a new contact that have the same feature id.
 
     previous: CONTACT rows of the last step; first: index in `previous` of the first contact of the same pair of shapes.
+    contact_inout: CONTACT row.
     """
     c = contact_inout
     for point in range(c.count):
@@ -77,7 +82,7 @@ def touches(contact):
 def begin_step(geometry, p, q, a, b, contact_inout):
     """Prepare a contact for a new step: reset impulses and colour, write mixed materials and approach speeds.
 
-    p, q: BODY rows of A and B; a, b: SHAPE rows of A and B.
+    p, q: BODY rows of A and B; a, b: SHAPE rows of A and B. contact_inout: CONTACT row.
     """
     c = contact_inout
     c.normal_impulse_1, c.tangent_impulse_1 = 0.0, 0.0
@@ -99,7 +104,7 @@ def complete_contact(geometry, bodies, shapes, previous, first, contact_inout):
     """Write the cache of a contact detected in this step, and the forces of equal features in the last step.
 
     previous: CONTACT rows of the last step; first: index in previous of the first row of the same pair of shapes, or of
-    the row that follows the place of the pair, if the pair had no contact.
+    the row that follows the place of the pair, if the pair had no contact. contact_inout: CONTACT row.
     """
     c = contact_inout
     reset_impulses(c)
@@ -116,12 +121,12 @@ def complete_contact(geometry, bodies, shapes, previous, first, contact_inout):
 
 @kernel
 def match_contacts(geometry, bodies, shapes, previous, stale, found, contacts_out):
-    """Merge recycled and newly detected contacts into contacts_out. Return their number. O(previous + found).
+    """Merge contacts kept from the last step and newly detected ones into contacts_out. Return their number.
 
-    previous: CONTACT rows of the last step. stale: int32 rows of `previous` that are not recycled, ascending; all other
-    rows of `previous` are kept. found: CONTACT rows of this step. If `previous` of such a row is -1, it is new, and
-    takes the forces of old points with the same feature id. Otherwise it is recycled and keeps its cache. All three
-    tables are in the order of the candidate pairs.
+    previous: CONTACT rows of the last step. stale: int32 rows of `previous` that are not recycled (kept without a new
+    narrow phase), ascending; all other rows of `previous` are kept. found: CONTACT rows of this step. If `previous` of
+    such a row is -1, it is new, and takes the forces of old points with the same feature id. Otherwise it is recycled
+    and keeps its cache. All three tables are in the order of the candidate pairs. O(previous + found).
     """
     count = 0
     kept = 0
@@ -155,8 +160,9 @@ def replace_contacts(geometry, bodies, shapes, stale, found_inout, previous_inou
     """Replace the stale contacts by those detected, if each pair has as many as before. Return whether it was done.
 
     Nothing else is copied, unlike in match_contacts: O(found). 5,050 boxes that settle: 5 % of a step (bench solvers).
-    stale: int32 rows of `previous_inout` that are not recycled, ascending; found_inout: CONTACT rows of this step, in
-    the order of the candidate pairs, used as scratch; previous_inout: CONTACT rows of the last step.
+    stale: int32 rows of `previous_inout` that must not be kept without a new narrow phase, ascending; found_inout:
+    CONTACT rows of this step, in the order of the candidate pairs, used as scratch; previous_inout: CONTACT rows of the
+    last step.
     """
     found, previous = found_inout, previous_inout
     if len(found) != len(stale):
@@ -179,7 +185,7 @@ def replace_contacts(geometry, bodies, shapes, stale, found_inout, previous_inou
 def copy_recycled(previous, stale, contacts_out):
     """Copy all contacts of the last step to contacts_out, except the stale ones. O(previous).
 
-    previous: CONTACT rows; stale: int32 rows of `previous` that are not copied, ascending.
+    previous: CONTACT rows; stale: int32 rows of `previous` that were detected again and are not copied, ascending.
     """
     count = 0
     passed = 0
@@ -199,10 +205,10 @@ def copy_recycled(previous, stale, contacts_out):
 
 @inlined
 def refresh_recycled(a, b, row_a, row_b, candidate, place, contact_inout):
-    """Write the fields of a recycled contact that may have changed since the last step: table rows, candidate, flags.
+    """Write the fields of a contact that is kept without a new narrow phase: table rows, candidate, flags.
 
     a, b: SHAPE rows of A and B; row_a, row_b: numbers of these rows; candidate: index of the candidate pair; place: row
-    of the contact in the table of the last step.
+    of the contact in the table of the last step; contact_inout: CONTACT row.
     """
     c = contact_inout
     c.body_row_a, c.body_row_b = a.body_row, b.body_row
@@ -216,14 +222,14 @@ def refresh_recycled(a, b, row_a, row_b, candidate, place, contact_inout):
 
 @kernel
 def recycle_contacts(batch, distance, previous_inout, kinds_out, counts_out, stale_out, work_inout):
-    """Recycle contacts of the last step where possible, and classify the other pairs by kind. Sensors are left out.
+    """Keep contacts of the last step without a new narrow phase where possible, and classify the other pairs by kind.
 
-    Return (number of stale rows, number of pairs left to test plus number of pairs with a part of a larger shape). If
-    neither body has moved since the last step, CONTACT.can_recycle of that step decides. Otherwise can_recycle decides,
-    with `distance` [px]. previous_inout: CONTACT rows of the last step, sorted by shape ids like the candidates;
-    recycled rows are updated to the present poses. kinds_out: kind of each pair, NOTHING if its contacts are recycled.
-    counts_out: number of pairs of each kind that are left. stale_out (previous,): int32 rows that are not recycled,
-    including all contacts of masks. O(candidates + contacts).
+    Sensors are left out. Return (number of stale rows, number of pairs left to test plus number of pairs with a part of
+    a larger shape). If neither body has moved since the last step, CONTACT.can_recycle of that step decides. Otherwise
+    can_recycle decides, with `distance` [px]. previous_inout: CONTACT rows of the last step, sorted by shape ids like
+    the candidates; kept rows are updated to the present poses. kinds_out: kind of each pair, NOTHING if its contacts
+    are kept. counts_out: number of pairs of each kind that are left. stale_out (previous,): int32 rows that are not
+    kept, including all contacts of masks. work_inout: counters, see COUNTERS. O(candidates + contacts).
     """
     bodies = batch.bodies
     shapes = batch.shapes
@@ -286,10 +292,10 @@ def recycle_contacts(batch, distance, previous_inout, kinds_out, counts_out, sta
 
 
 class Found(NamedTuple):
-    """Result of ContactCache.find: contacts found in a step, and rows of the last step that are not recycled."""
+    """Result of ContactCache.find: contacts of this step, and the contacts of the last step that they replace."""
 
     rows: np.ndarray  # CONTACT rows in the order of the candidate pairs; valid until the next call
-    stale: np.ndarray  # int32 rows of the last step that are not recycled, ascending
+    stale: np.ndarray  # int32 rows of the contacts of the last step that are replaced, ascending
 
 
 class ContactCache:
@@ -310,10 +316,10 @@ class ContactCache:
     def find(
         self, narrow: NarrowPhase, batch: Batch, previous: np.ndarray, distance: float, work: np.ndarray
     ) -> Found | None:
-        """Find the contacts of all pairs without sensors. Contacts of the last step are recycled where possible.
+        """Find the contacts of all pairs without sensors. Contacts whose bodies have hardly moved are kept (recycled).
 
-        Return the new contacts and the stale rows of `previous`, or None if all contacts are recycled and no pair is
-        left to test. batch: candidate pairs; previous: CONTACT rows of the last step, of which recycled rows are
+        Return the new contacts and the stale rows of `previous` (those not kept), or None if all contacts are kept and
+        no pair is left to test. batch: candidate pairs; previous: CONTACT rows of the last step, of which kept rows are
         updated in place; distance [px]: see recycle_contacts; work: counters of work done, indexed by constants as
         NARROW_TESTS.
         """
@@ -346,7 +352,8 @@ class ContactCache:
 def find_contacts(state: StepState) -> None:
     """Write the contacts at the start of the step to state.contact_rows, with warm-start forces.
 
-    They include gaps up to the speculative distance. Contacts of the last step are recycled where possible.
+    They include gaps up to the speculative distance. Contacts of the last step whose bodies have hardly moved are kept
+    without a new narrow phase.
     """
     if not len(state.awake.bodies):
         state.contact_rows = NO_CONTACTS
@@ -409,7 +416,7 @@ class KeptImpulses:
                 self.others = np.unique(np.where(at_a, found["shape_b"], found["shape_a"])[kept])
 
     def transfer(self, tables: WorldTables, new: np.ndarray) -> None:
-        """Detect the contacts of new shapes with the partners of the old ones, and copy the kept forces to them.
+        """Detect the contacts of new shapes with bodies that touched the old shapes, and copy the kept forces to them.
 
         O(pairs). new: row numbers of the new shapes. Call this method after the removal of the old shapes.
         """
@@ -456,9 +463,9 @@ class KeptImpulses:
         return found
 
     def _take(self, contact, k, reach):
-        """Copy the forces of the nearest kept point with a similar normal to point k (1 or 2) of a new contact.
+        """Copy the forces of the nearest kept contact point with a similar normal to point k (1 or 2) of a new contact.
 
-        Only kept points of the same two bodies within `reach` [px] are considered.
+        contact: CONTACT row. Only kept points of the same two bodies within `reach` [px] are considered.
         """
         old = self.contacts
         same = (old["body_a"] == contact["body_a"]) & (old["body_b"] == contact["body_b"])

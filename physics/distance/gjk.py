@@ -62,7 +62,10 @@ def difference_edge(a, b, i, j, k, m):
 
 @subkernel
 def write_corner(a, b, i, j, k, simplex_out):
-    """Write the corner a[i] - b[j] of the Minkowski difference to row k of the simplex. a, b (n, 2) [px]: corners."""
+    """Write the corner a[i] - b[j] of the Minkowski difference to row k of the simplex. a, b (n, 2) [px]: corners.
+
+    simplex_out: array of a GapWorkspace.
+    """
     simplex_out[k, 0] = float(i)
     simplex_out[k, 1] = float(j)
     simplex_out[k, 2] = a[i, 0] - b[j, 0]
@@ -71,7 +74,7 @@ def write_corner(a, b, i, j, k, simplex_out):
 
 @subkernel
 def copy_corner(source, target, simplex_inout):
-    """Copy the corner in row `source` of the simplex to row `target`."""
+    """Copy the corner in row `source` of the simplex to row `target`. simplex_inout: array of a GapWorkspace."""
     for k in range(4):
         simplex_inout[target, k] = simplex_inout[source, k]
 
@@ -121,7 +124,7 @@ def drop_corner(a, b, simplex_inout):
     """Reduce a triangle to one of the two edges at its newest corner (row 2): the edge nearer to the origin.
 
     Return False, without a change, if the origin lies in the triangle, else True. The third edge is not tested, because
-    the search has just crossed it. a, b (n, 2) [px]: corners of the hulls.
+    the search has just crossed it. a, b (n, 2) [px]: corners of the hulls. simplex_inout: array of a GapWorkspace.
     """
     ex, ey = edge_of(a, b, 0, 1, simplex_inout)
     fx, fy = edge_of(a, b, 0, 2, simplex_inout)
@@ -200,6 +203,7 @@ def walk_on(a, a_count, b, b_count, state_inout, simplex_inout):
 
     a, b (n, 2) [px]: corners, a_count and b_count of them. Return SEARCHING if a support point was added, APART if no
     support point is nearer to the origin than the feature, and TOUCHING if the origin lies in the simplex. O(corners).
+    state_inout, simplex_inout: arrays of a GapWorkspace.
     """
     state_inout[ROUNDS] += 1.0
     if reduce_simplex(a, b, state_inout, simplex_inout) == TOUCHING:
@@ -294,7 +298,10 @@ EPA_CAP = 60  # rounds; less than the capacity of the polytope
 
 @subkernel
 def write_polytope_corner(i, j, k, polytope_out):
-    """Write the indices i, j of a corner a[i] - b[j] of the Minkowski difference to row k of the polytope."""
+    """Write the indices i, j of a corner a[i] - b[j] of the Minkowski difference to row k of the polytope.
+
+    polytope_out: array of a GapWorkspace.
+    """
     polytope_out[k, 0] = float(i)
     polytope_out[k, 1] = float(j)
 
@@ -303,7 +310,7 @@ def write_polytope_corner(i, j, k, polytope_out):
 def measure_edge(a, b, k, count, polytope_inout):
     """Write the outward normal of the polytope edge that starts in row k, and the origin's depth [px] behind it.
 
-    count: number of corners of the polytope.
+    count: number of corners of the polytope. polytope_inout: array of a GapWorkspace.
     """
     n = k + 1 if k + 1 < count else 0
     i = int(polytope_inout[k, 0])
@@ -320,7 +327,7 @@ def start_polytope(a, a_count, b, b_count, polytope_out):
     """Start the polytope with the two corners of the Minkowski difference that are farthest apart along x.
 
     If the difference has no width, the corners farthest apart along y are used. Return the number of corners: 2, or 1
-    if the difference is a point.
+    if the difference is a point. polytope_out: array of a GapWorkspace.
     """
     for axis in range(2):
         x, y = 1.0 - axis, float(axis)
@@ -356,7 +363,7 @@ def grow_polytope(a, a_count, b, b_count, count, polytope_inout):
 
     Return the new number of corners. It is unchanged if no corner of the Minkowski difference lies beyond the edge.
     Then the edge belongs to the difference. a_count, b_count, count: numbers of corners of A, B and the polytope.
-    O(corners).
+    O(corners). polytope_inout: array of a GapWorkspace.
     """
     k = shallowest_edge(polytope_inout, count)
     n = k + 1 if k + 1 < count else 0

@@ -70,7 +70,8 @@ def make_position_pass(rotation: bool) -> Callable:
     def integrate_positions(rows, dt, bodies_inout, work_inout):
         """Move bodies by their velocities over dt [s], up to their first impact, and store the old poses. O(rows).
 
-        rows: row numbers in BODY. The fraction of the motion before the impact is BODY.fraction.
+        rows: row numbers in BODY. The fraction of the motion before the impact is BODY.fraction. work_inout: counters,
+        see COUNTERS.
         """
         for k in range(len(rows)):
             b = bodies_inout[rows[k]]
@@ -125,7 +126,10 @@ def refresh_center(body_inout):
 
 @kernel
 def refresh_centers(rows, bodies_inout):
-    """Write the world centres of mass [px] of the bodies in `rows` (row numbers) at their present poses. O(rows)."""
+    """Write the world centres of mass [px] of the bodies in `rows` (row numbers) at their present poses. O(rows).
+
+    bodies_inout: BODY table.
+    """
     for k in range(len(rows)):
         refresh_center(bodies_inout[rows[k]])
 
@@ -234,7 +238,7 @@ WRITES = (
 
 @subkernel
 def disable_body(body_inout):
-    """Quarantine a body at its present pose, and clear its velocity and forces."""
+    """Quarantine a body at its present pose, and clear its velocity and forces. body_inout: BODY row."""
     b = body_inout
     b.previous_x, b.previous_y = b.x, b.y
     b.previous_angle = b.angle
@@ -304,7 +308,7 @@ class Course(NamedTuple):
 def take_body(row, reason, found, bodies_inout, broken_out):
     """Quarantine a body, and write its row number and the reason to row `found` of broken_out. Return found + 1.
 
-    reason: index of REASONS.
+    reason: index of REASONS. bodies_inout: BODY table.
     """
     disable_body(bodies_inout[row])
     broken_out[found, 0] = row

@@ -354,7 +354,7 @@ def is_free(body):
 def start_groups(rows, bodies, fall, groups_out):
     """Make each body a group of its own, and write the force on it in free fall: mass times acceleration. O(rows).
 
-    rows: awake body rows; bodies: BODY table.
+    rows: awake body rows; bodies: BODY table. groups_out: Groups.
     """
     g = groups_out
     for k in range(len(rows)):
@@ -499,7 +499,7 @@ def hold_groups(rows, bodies, groups_inout):
     """Sum the pivots and rails of each group, and its centre of mass, at its root row. O(rows).
 
     A group with two pivots, or with a pivot and a rail, can hardly move and is marked as anchored. rows: awake body
-    rows.
+    rows. groups_inout: Groups.
     """
     g = groups_inout
     for k in range(len(rows)):
@@ -553,7 +553,7 @@ def way_of_hung(root, body, groups, fall):
 def sum_groups(rows, bodies, fall, groups_inout):
     """Write the total mass, mean acceleration and anchored flag of each group at its root row. O(rows).
 
-    The mean is weighted by mass. rows: awake body rows.
+    The mean is weighted by mass. rows: awake body rows. groups_inout: Groups.
     """
     g = groups_inout
     for k in range(len(rows)):
@@ -581,7 +581,7 @@ def sum_groups(rows, bodies, fall, groups_inout):
 def choose_surface(root, nx, ny, groups_inout):
     """Keep the surface into which a group accelerates most: replace the present one if this one is pressed on more.
 
-    root: root row of the group; nx, ny: normal of the new surface, towards the group.
+    root: root row of the group; nx, ny: normal of the new surface, towards the group. groups_inout: Groups.
     """
     g = groups_inout
     into = -(g.ax[root] * nx + g.ay[root] * ny)
@@ -595,7 +595,7 @@ def choose_surface(root, nx, ny, groups_inout):
 def mark_blocked(root, nx, ny, fall, groups_inout):
     """Mark a group as blocked if sliding along its own surface would take it into this other surface by over a slop.
 
-    root: root row of the group; nx, ny: normal of the other surface, towards the group.
+    root: root row of the group; nx, ny: normal of the other surface, towards the group. groups_inout: Groups.
     """
     g = groups_inout
     into = -(g.ax[root] * nx + g.ay[root] * ny)
@@ -607,7 +607,7 @@ def mark_blocked(root, nx, ny, fall, groups_inout):
 def find_surfaces(rows, bodies, contacts, fall, groups_inout):
     """Find the surface on which each group presses most, and remove the acceleration into it. Mark blocked groups.
 
-    rows: awake body rows. O(rows + contacts).
+    rows: awake body rows. O(rows + contacts). groups_inout: Groups.
     """
     g = groups_inout
     for turn in range(2):

@@ -51,7 +51,7 @@ class SleepingSet:
         self.sensing_pairs = np.zeros(0, EVENT)
 
     def put(self, key: int, island: Island) -> None:
-        """Store an island under its key."""
+        """Add a sleeping Island to the set. key: the lowest id of its bodies."""
         self.islands[key] = island
         self._link(self._named(island), [key])
 
@@ -569,6 +569,7 @@ def advance_sleep_times(
     rocking time restarts when it is further than rocking_range [px] from its own, see settings.ROCKING_RANGE. rows:
     rows of the awake bodies; edges, count, parents_inout: see graph.join. least_out, excess_out (bodies,): at the root
     of each island, the least sleep time [s] of its bodies, and the sum of speed² - slow² [px²/s²] over its bodies.
+    bodies_inout: BODY table.
     """
     distance = slow * patience
     islands = 0
@@ -630,7 +631,7 @@ def fall_asleep(
 
     Return the number of bodies that fell asleep. The mean square speed of the island must also be at most the square of
     the sleep speed. So a few bodies may tremble, but an island that has just begun to fall, or was pushed, stays awake.
-    rows: rows of the awake bodies; parents, least, excess: see advance_sleep_times.
+    rows: rows of the awake bodies; parents, least, excess: see advance_sleep_times. bodies_inout: BODY table.
     """
     slept = 0
     for k in range(len(rows)):

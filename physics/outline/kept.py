@@ -47,7 +47,7 @@ def forget() -> None:
 
 
 def fitted(name: str, pixels: np.ndarray, smooth: float, fit: Callable[[], Parts]) -> Parts:
-    """Return the stored parts for these pixels, or the result of fit() if none are stored.
+    """Return the stored convex parts for these pixels, or the result of fit() if none are stored.
 
     name: method by which fit() computes the parts, which is part of the key; pixels[row, col] bool; smooth [px]: see
     contour.outline.

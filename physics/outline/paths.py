@@ -217,7 +217,11 @@ PLACE = np.dtype(
 
 
 class Prices(NamedTuple):
-    """Costs of the errors of a line. The unit is the cost of one corner."""
+    """Weights of a line's errors in the line search, relative to the cost of one corner.
+
+    An outline of pixels is replaced by few straight lines. Each line costs 1 for its corner, plus its errors times
+    these weights.
+    """
 
     area: float  # [1/px2] cost of the area that the line adds or removes
     angle: float  # [1/(rad2 px)] cost of the line's squared angles to the curve at both ends, times the line's length
@@ -253,7 +257,7 @@ def put_place(n, x, y, at, run, corner, allowed, places_inout):
     """Write row n of places: a candidate (x, y) for a corner of the outline.
 
     run: the RUN row it lies on; at: position along the path, in pixel edges; corner: whether the path turns there;
-    allowed: whether a line may end there.
+    allowed: whether a line may end there. places_inout: PLACE rows.
     """
     place = places_inout[n]
     place.x, place.y = x, y

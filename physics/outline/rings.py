@@ -35,6 +35,7 @@ def put_side(n, first, x, y, inner, sides_inout):
 
     A side that starts where the last side starts is not added; only the last side's flag is replaced by `inner`. n:
     number of sides before; first: row of the ring's first side; inner: whether the polygon continues beyond the side.
+    sides_inout: SIDE rows.
     """
     if n > first and sides_inout[n - 1].x == x and sides_inout[n - 1].y == y:
         sides_inout[n - 1].inner = inner
@@ -56,7 +57,7 @@ def close_ring(n, first, sides_inout):
     """Close a ring: link its last side to its first, and remove collinear corners between sides of equal `inner`.
 
     Return the number of sides. A ring of fewer than three sides is removed. n: number of sides before; first: row of
-    the ring's first side.
+    the ring's first side. sides_inout: SIDE rows.
     """
     if n - 1 > first and sides_inout[n - 1].x == sides_inout[first].x and sides_inout[n - 1].y == sides_inout[first].y:
         n -= 1
@@ -168,7 +169,7 @@ def sees_through(sides, count, a, b):
 def put_cut(n, a, b, sides_inout):
     """Append a cut between corners a and b, as two sides linked into their rings. Return the new number of sides.
 
-    n: number of sides before.
+    n: number of sides before. sides_inout: SIDE rows.
     """
     there = sides_inout[n]
     back = sides_inout[n + 1]
@@ -196,7 +197,7 @@ def put_cut(n, a, b, sides_inout):
 
 @subkernel
 def take_out(k, sides_inout):
-    """Remove the cut that side k belongs to. The two pieces on its sides become one."""
+    """Remove the cut that side k belongs to. The two pieces on its sides become one. sides_inout: SIDE rows."""
     m = sides_inout[k].twin
     for a, b in ((k, m), (m, k)):
         before = sides_inout[a].previous
@@ -232,7 +233,7 @@ def bridge(n, sides_inout):
     """Join each hole to the ring around it by a bridge: a cut along the shortest line that meets no side.
 
     Return the new number of sides, or -1 if a hole sees no other ring; then the rings are not a polygon. n: number of
-    sides before.
+    sides before. sides_inout: SIDE rows.
     """
     while True:
         waiting = 0
@@ -314,7 +315,10 @@ def best_partner(sides, a, both):
 
 @subkernel
 def cut_reflex(n, sides_inout):
-    """Add cuts until no reflex corner is left. Return the number of sides, or -1 if a corner sees no other corner."""
+    """Add cuts until no reflex corner is left. Return the number of sides, or -1 if a corner sees no other corner.
+
+    sides_inout: SIDE rows.
+    """
     for both in (True, False):
         k = 0
         while k < n:
@@ -331,7 +335,7 @@ def cut_reflex(n, sides_inout):
 
 @subkernel
 def cut_large(n, most, sides_inout):
-    """Halve convex pieces until each has at most `most` corners. Return the number of sides."""
+    """Halve convex pieces until each has at most `most` corners. Return the number of sides. sides_inout: SIDE rows."""
     k = 0
     while k < n:
         if sides_inout[k].alive:
@@ -384,7 +388,7 @@ def is_needless(sides, k, most):
 def merge(n, most, sides_inout):
     """Remove the cuts that are not needed for convex pieces of at most `most` corners, the longest first.
 
-    n: number of sides.
+    n: number of sides. sides_inout: SIDE rows.
     """
     while True:
         best = -1
@@ -410,6 +414,7 @@ def put_parts(count, low, sides_inout, corners_out, inner_out, counts_out):
 
     count: number of sides; low [px]: subtracted from all coordinates; corners_out (n, 2) [px]: corners part after part;
     inner_out (n,): whether the side after each corner is inner; counts_out (parts,): number of corners of each part.
+    sides_inout: SIDE rows.
     """
     sides = sides_inout
     n = 0
@@ -447,7 +452,8 @@ def put_parts(count, low, sides_inout, corners_out, inner_out, counts_out):
 def write_parts(n, most, low, sides_inout, corners_out, inner_out, counts_out):
     """Decompose a polygon with holes into convex parts. Return their number, or -1 if the rings are not a polygon.
 
-    n: number of sides; most: largest number of corners of a part; low and the arrays: see put_parts.
+    n: number of sides; most: largest number of corners of a part; low and the arrays: see put_parts. sides_inout: SIDE
+    rows.
     """
     n = bridge(n, sides_inout)
     if n < 0:

@@ -376,7 +376,7 @@ def put_end(n, runs, count, at, off_x, off_y, places_inout):
     """Write row n of places: a border crossing, at a position along a path and an offset [px] from it.
 
     runs: RUN rows, of which the first `count` are the path; at: position along the path, in pixel edges; off_x, off_y
-    [px]: the offset.
+    [px]: the offset. places_inout: PLACE rows.
     """
     k = 0
     while k + 1 < count and runs[k + 1].at <= at:
@@ -539,7 +539,7 @@ def put_piece(n, first, piece, points, sides_inout):
     """Append the sides of a piece (PIECE row) to a ring. Return the number of sides.
 
     In an open piece the side that starts at its last point is inner, because it follows the tile's border. n: number of
-    sides before; first: row of the ring's first side; points: POINT rows.
+    sides before; first: row of the ring's first side; points: POINT rows. sides_inout: SIDE rows.
     """
     for k in range(piece.count):
         point = points[piece.first + k]
@@ -573,7 +573,7 @@ def put_border(window, n, first, start, length, sides_inout):
     """Append the tile's corners on a section of its border to a ring. Return the number of sides.
 
     n: number of sides before; first: row of the ring's first side; start [px]: start of the section along the border;
-    length [px]: its length. Corners of the tile at the ends of the section are not added.
+    length [px]: its length. Corners of the tile at the ends of the section are not added. sides_inout: SIDE rows.
     """
     size = float(window.high - window.low)
     number = math.floor(start / size) + 1
@@ -588,7 +588,7 @@ def put_border(window, n, first, start, length, sides_inout):
 def put_open(window, n, number, workspace, sides_inout):
     """Append the ring that contains open piece `number`: pieces of the outline and the tile's border between them.
 
-    Return the number of sides. n: number of sides before; workspace: Paths.
+    Return the number of sides. n: number of sides before; workspace: Paths. sides_inout: SIDE rows.
     """
     around = 4.0 * (window.high - window.low)
     pieces = workspace.pieces

@@ -144,7 +144,7 @@ def cast_ray_at_rows(geometry, bodies, shapes, rows, ray, corners_inout, hits_ou
     """Write (row, fraction, normal) of every listed shape that a ray hits to hits_out (rows, 4). Return their number.
 
     rows: indices of SHAPE rows; ray: start and vector (x, y, dx, dy) [px]; corners_inout (16, 2): scratch. The fraction
-    is the part of the vector up to the hit.
+    is the part of the vector up to the hit. work_inout: counters, see COUNTERS.
     """
     found = 0
     for k in range(len(rows)):
@@ -160,7 +160,7 @@ def cast_ray_at_parts(parts, dx, dy, corners_inout, hit_out, work_inout):
     """Write (fraction, normal) of the nearest hit of a ray on convex parts to hit_out[1:]. Return whether there is one.
 
     The ray starts at the origin. dx, dy [px]: its vector; parts: Parts; corners_inout (16, 2): scratch; hit_out (4,).
-    O(parts).
+    O(parts). work_inout: counters, see COUNTERS.
     """
     hit_out[1] = MISS
     for k in range(len(parts.counts)):
@@ -184,7 +184,8 @@ def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out,
 
     The normal points from the shape to the hull. A shape that touches the hull at the start is hit at fraction 0 if the
     hull approaches it. rows: indices of SHAPE rows, without masks; hull: a Hull with corners relative to its centre of
-    rotation; workspace: RotationalWorkspace that holds the hull's motion; hits_out (rows, 4).
+    rotation; workspace: RotationalWorkspace that holds the hull's motion; hits_out (rows, 4). work_inout: counters, see
+    COUNTERS.
     """
     r = workspace.advance
     corners, count, radius, _ = hull
@@ -228,7 +229,7 @@ def nearest_hull(geometry, bodies, shapes, rows, point, workspace, nearest_out, 
 
     nearest_out (3,) receives (distance, x, y) [px]. If `point` lies in a hull, the distance is 0 and the nearest point
     is `point` itself. rows: indices of SHAPE rows in ascending order, of which tiles, masks and chains are skipped;
-    workspace: AdvanceWorkspace.
+    workspace: AdvanceWorkspace. work_inout: counters, see COUNTERS.
     """
     x, y = point
     own, corners = workspace.local_a, workspace.local_b

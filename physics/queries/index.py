@@ -95,7 +95,7 @@ def rows_meeting(shapes, row_of_slot, slots, loose, box, rows_out, work_inout):
     """List the shape rows whose AABBs meet a closed box (lower x, y, upper x, y) [px]. Return their number.
 
     slots: slots of proxies that the broad phase found; row_of_slot: SHAPE row of each slot, or -1; loose: further SHAPE
-    rows to test; rows_out: the result.
+    rows to test; rows_out: the result. work_inout: counters, see COUNTERS.
     """
     lower_x, lower_y, upper_x, upper_y = box
     found = 0

@@ -379,6 +379,7 @@ def place_mask(rasters, raster_of, body, shape_inout):
     """Place a mask with snap=True at its body's pose: write its raster, left and top, and the AABB of its pixels.
 
     rasters, raster_of: tables of the geometry, passed separately because passing the whole Geometry takes longer.
+    shape_inout: SHAPE row.
     """
     s = shape_inout
     s.raster = raster_of[s.geometry, bucket_at(body.angle, raster_of.shape[1])]
@@ -396,7 +397,8 @@ def place_mask(rasters, raster_of, body, shape_inout):
 def place_masks(rows, geometry, bodies, shapes_inout):
     """Write the columns raster, left and top of masks for the poses of their bodies. O(rows).
 
-    left and top are the pixel column and row where the raster is drawn. rows: indices of SHAPE rows.
+    left and top are the pixel column and row where the raster is drawn. rows: indices of SHAPE rows. shapes_inout:
+    SHAPE table.
     """
     for k in range(len(rows)):
         s = shapes_inout[rows[k]]
@@ -411,7 +413,7 @@ def place_masks(rows, geometry, bodies, shapes_inout):
 def refresh_boxes(rows, geometry, bodies, shapes_inout):
     """Write the tight AABBs of shapes at their bodies' poses; for drawn masks (snap=True) also raster, left and top.
 
-    rows: indices of SHAPE rows. O(rows).
+    rows: indices of SHAPE rows. O(rows). shapes_inout: SHAPE table.
     """
     polygons = geometry.polygons
     table = geometry.corners
@@ -449,7 +451,7 @@ def refresh_boxes(rows, geometry, bodies, shapes_inout):
 def refresh_aabbs(rows, geometry, bodies, shapes_inout):
     """Write the tight AABBs of shapes at their bodies' poses. O(rows).
 
-    This is refresh_boxes for callers outside of kernels. rows: indices of SHAPE rows.
+    This is refresh_boxes for callers outside of kernels. rows: indices of SHAPE rows. shapes_inout: SHAPE table.
     """
     refresh_boxes(rows, geometry, bodies, shapes_inout)
 

@@ -34,7 +34,7 @@ def stay_behind(bodies_inout, manifolds_inout, work_inout):
 
     Return how many bodies were moved back. Manifolds that stopped a body are marked as `swept`. A body that did not
     move is left alone, and a manifold with a separation of 0 stops no body. manifolds_inout: CONTACT rows; work_inout:
-    work counters.
+    work counters. bodies_inout: BODY table.
     """
     put_back = 0
     for i in range(len(manifolds_inout)):
@@ -80,7 +80,10 @@ def stop_at_point(x, y, nx, ny, a_inout, b_inout):
 
 @kernel
 def stop_approach(bodies_inout, manifolds_inout):
-    """Remove the approach speed at all points of CONTACT rows marked as `swept`, except sensors. O(manifolds)."""
+    """Remove the approach speed at all points of CONTACT rows marked as `swept`, except sensors. O(manifolds).
+
+    bodies_inout: BODY table.
+    """
     for i in range(len(manifolds_inout)):
         m = manifolds_inout[i]
         if not m.swept or m.sensor:

@@ -271,7 +271,7 @@ def list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, pla
     Return (number of contacts to solve, whether edges and colours are unchanged since the last step). The function also
     finds islands that are squeezed between faces (see energy.find_squeezed). It sets MOTION.halves to False for bodies
     with contacts. contacts, bodies: CONTACT and BODY rows; dt [s]: step length; limits: see settings.Limits;
-    lists_inout: MotionLists; plan_out: see Plan.
+    lists_inout: MotionLists; plan_out: see Plan. motions_inout: MOTION rows.
     """
     nodes = len(motions_inout)
     count, may_squeeze, deepest, unchanged = list_contact_edges(
@@ -416,7 +416,8 @@ def add_estimates(blocks, count, substeps, rules, motions_inout):
     """Raise MOTION.estimate of each body to the square of the number of substeps that its contacts need. O(contacts).
 
     Also set MOTION.capped if a load needs more substeps than both the present number and rules.most_by_load. blocks,
-    count: the contacts, in the first `count` blocks; substeps: the present number; rules: see LoadRules.
+    count: the contacts, in the first `count` blocks; substeps: the present number; rules: see LoadRules. motions_inout:
+    MOTION rows.
     """
     reach = max(substeps, rules.most_by_load)
     reach_squared = float(reach * reach)
@@ -493,7 +494,8 @@ def estimate_substeps(state: StepState, motions: Motions, plan: Plan, group: Gro
 def limit_friction(count, motions_inout, blocks_inout):
     """Limit the friction impulses of the step to the friction coefficient times the final normal impulse. O(lanes).
 
-    The excess is undone in the velocities of both bodies. blocks_inout: the contacts, in the first `count` blocks.
+    The excess is undone in the velocities of both bodies. motions_inout: MOTION rows; blocks_inout: the contacts, in
+    the first `count` blocks.
     """
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
@@ -545,7 +547,8 @@ def make_finish_lanes(restitution: bool, friction: bool) -> Callable:
         """Apply restitution, limit friction, and write the impulses from the lanes to the CONTACT rows. O(lanes).
 
         count: number of blocks; context: see StepContext; impacts_inout: IMPACT rows for scratch use, at least as many
-        as contacts.
+        as contacts. motions_inout: MOTION rows; blocks_inout: the contacts, see lanes.Blocks; work_inout: counters, see
+        COUNTERS.
         """
         if restitution:
             # Impact speeds are measured at the start of the step, so its normals and moment arms are used.
@@ -585,7 +588,10 @@ class ContactLanes:
         return self.selection.choose(state, motions, substeps)
 
     def prepare(self, state: StepState, motions: Motions, group: Group, context: StepContext) -> tuple[Blocks, int]:
-        """Write the contacts of a group into SIMD lanes. Return (Blocks, number of blocks in use)."""
+        """Write the contacts of a group into SIMD lanes. Return (Blocks, number of blocks in use).
+
+        motions: Motions of the world; group: see Group; context: see StepContext.
+        """
         needed = blocks_needed(group.count, group.uncolored)
         if len(self.blocks.contact) < needed:
             self.blocks = make_blocks(2 * needed)
@@ -603,7 +609,11 @@ class ContactLanes:
         return self.trees.build(group.joints, state.joints, motions.used, state.joint_solver)
 
     def store(self, state: StepState, motions: Motions, count: int, context: StepContext) -> None:
-        """Apply restitution, limit friction, and write the impulses of `count` blocks back to the contacts."""
+        """Apply restitution, limit friction, and write the impulses of `count` blocks back to the CONTACT rows.
+
+        motions: Motions of the world; count: number of blocks in use, as `prepare` returned it; context: see
+        StepContext.
+        """
         if len(self.impacts) < len(state.contact_rows):
             self.impacts = make_impacts(2 * len(state.contact_rows))
         finish = FINISH[state.effects.restitution, state.effects.friction]

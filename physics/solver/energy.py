@@ -489,7 +489,7 @@ def remove_gains(blocks, count, group, links_islands, moving, context, plan_inou
 
     blocks, count: the contacts, in the first `count` blocks; group, plan_inout: see contact_lanes.Group and Plan;
     links_islands: see MotionLists; moving: number of kinematic bodies that move; context: see StepContext;
-    balance_inout: BALANCE rows, one for each MOTION row.
+    balance_inout: BALANCE rows, one for each MOTION row. motions_inout: MOTION rows.
     """
     plan, motions, parents_out = plan_inout, motions_inout, plan_inout.touching
     joints = plan.joints[: plan.joint_count[0]]
@@ -535,7 +535,7 @@ def limit_energy(blocks, count, group, links_islands, moving, context, plan_inou
 
     blocks, count: the contacts, in the first `count` blocks; group, plan_inout: see contact_lanes.Group and Plan;
     links_islands: see MotionLists; moving: number of kinematic bodies that move; context: see StepContext;
-    balance_inout: BALANCE rows, one for each MOTION row.
+    balance_inout: BALANCE rows, one for each MOTION row. motions_inout: MOTION rows.
     """
     plan = plan_inout
     floor = 0.5 * context.limits.calm_speed * context.limits.calm_speed

@@ -261,6 +261,7 @@ def add_inertia(rows, order, h, joints_inout, motions_inout):
     F r per radian. With an inertia of at least h² Σ F r, the oscillation advances by at most one radian in a substep of
     h [s]. F is the greatest recent force, and fades within a quarter of a second, because a chain that jerks is slack
     in between. Source: geometric stiffness, Andrews, Teichmann and Kövecses, 2017. rows, order: see JointSet. O(order).
+    joints_inout: JOINT rows; motions_inout: MOTION rows.
     """
     fade = max(1.0 - h / FADING, 0.0)
     for k in range(len(order)):
@@ -387,7 +388,8 @@ def solve_all_trees(biased, context, joints_inout, motions_inout):
 def solve_once(biased, context, joints_inout, motions_inout):
     """Solve all joints of a JointSet once. The trees come last, so that their joints are exact at the end.
 
-    biased: True to also remove errors of position; context: see StepContext; motions_inout: MOTION rows.
+    biased: True to also remove errors of position; context: see StepContext; motions_inout: MOTION rows. joints_inout:
+    JOINT rows.
     """
     s = joints_inout
     solve_joints(s.rows, biased, context, s.table, motions_inout)

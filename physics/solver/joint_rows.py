@@ -472,7 +472,7 @@ def impulse_of(joint):
 def warm_joints(rows, joints_inout, motions_inout):
     """Compute the geometry of joints at the present poses, and apply the impulses of the last substep (warm start).
 
-    rows: indices of JOINT rows. O(rows).
+    rows: indices of JOINT rows. O(rows). motions_inout: MOTION rows.
     """
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
@@ -489,7 +489,7 @@ def solve_joints(rows, biased, context, joints_inout, motions_inout):
     """Solve every joint once, except for the parts that trees solve. O(rows).
 
     rows: indices of JOINT rows; biased: True to also remove errors of position, False to solve only the velocities at
-    the present poses; context: see StepContext.
+    the present poses; context: see StepContext. motions_inout: MOTION rows.
     """
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
@@ -552,7 +552,7 @@ def estimate_joints(rows, joints, rate, dt, accuracy, motions_inout):
     In the iterative tier, the spring of a joint has twice the frequency of the spring of a contact, so the joint sags
     by a quarter as much. In both tiers, an anchor on an arm r that rotates by an angle φ in a substep leaves the joint
     by r φ² / 2. rows: indices of JOINT rows; rate: see substeps.estimate_rate; dt [s]: step length; accuracy [px]:
-    greatest accepted error.
+    greatest accepted error. motions_inout: MOTION rows.
     """
     for k in range(len(rows)):
         j = joints[rows[k]]

@@ -567,7 +567,8 @@ def place_body(motion, body_out):
 def sweep_trees(count, forest_inout, joint_rows_inout):
     """Solve all trees for the velocities of the first `count` TREE_BODY rows, in O(joints).
 
-    One pass leads from the leaves to the roots, a second one back to the leaves.
+    One pass leads from the leaves to the roots, a second one back to the leaves. forest_inout: see Forest;
+    joint_rows_inout: JOINT_ROW rows.
     """
     f = forest_inout
     for slot in range(count - 1, -1, -1):

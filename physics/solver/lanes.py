@@ -173,7 +173,7 @@ def lay_out(starts, blocks_out):
 
     starts (colours + 2) int64: index of the first contact of each slot, then the number of contacts. Slot 0 holds the
     contacts without a colour, each of which gets a block of its own. Slot k + 1 holds the contacts of colour k.
-    O(blocks).
+    O(blocks). blocks_out: the contacts, see Blocks.
     """
     found = 0
     for slot in range(len(starts) - 1):
@@ -196,7 +196,10 @@ def lay_out(starts, blocks_out):
 
 @inlined
 def next_lane(slot, blocks_inout):
-    """Return the (block, lane) for the next contact of a slot, and advance the slot by one lane. slot: see lay_out."""
+    """Return the (block, lane) for the next contact of a slot, and advance the slot by one lane. slot: see lay_out.
+
+    blocks_inout: the contacts, see Blocks.
+    """
     block = blocks_inout.block_of[slot]
     lane = blocks_inout.lane_of[slot]
     last = slot == 0 or lane == LANES - 1
@@ -296,7 +299,8 @@ def measure_gaps(lane, s, c_inout):
     """Write the separations [px] of both points of a contact at the present poses to GAP_1 and GAP_2.
 
     The core of a rounded shape is the shape without its radius. A point on the core rotates with its body. The surface
-    stays one radius away from it along the normal. s: gathered poses, see GATHERED.
+    stays one radius away from it along the normal. s: gathered poses, see GATHERED. lane: lane of the contact in the
+    block c_inout.
     """
     c = c_inout
     nx = c[NX + lane]
@@ -338,7 +342,8 @@ def write_arms(lane, cos_a, sin_a, cos_b, sin_b, c_inout):
     """Write the moment arms of both points of a contact, for bodies that have rotated since the start of the step.
 
     (cos_a, sin_a), (cos_b, sin_b): rotations of A and B. The core of a shape (the shape without its radius) rotates
-    with its body. The surface stays one radius away from the core along the normal.
+    with its body. The surface stays one radius away from the core along the normal. lane: lane of the contact in the
+    block c_inout.
     """
     c = c_inout
     nx = c[NX + lane]
@@ -399,7 +404,8 @@ def make_friction(second: bool, rotation: bool, sums: bool) -> Any:
         """Apply Coulomb friction at the point. Return (x, y of the change of impulse on B, new wa, new wb).
 
         vx, vy [px/s]: velocity of B's centre relative to A's centre. wa, wb [rad/s]: angular velocities of A and B.
-        normal_impulse: accumulated normal impulse of the point, which limits the friction.
+        normal_impulse: accumulated normal impulse of the point, which limits the friction. lane: lane of the contact in
+        the block c_inout.
         """
         c = c_inout
         nx, ny = c[NX + lane], c[NY + lane]

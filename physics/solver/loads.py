@@ -45,6 +45,7 @@ def forget_below(rows, size, bodies, blow, stamp, lists_inout, contacts_inout):
 
     Return the greatest stamp used. stamp: a number not less than any mark in lists_inout (see Lists); rows: BODY rows
     of the groups, `size` rows per group; bodies: all BODY rows. O(contacts of the groups and of the connected bodies).
+    contacts_inout: CONTACT rows.
     """
     heads, nexts = lists_inout.heads, lists_inout.nexts
     marks, reached = lists_inout.marks, lists_inout.reached

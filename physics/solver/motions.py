@@ -57,7 +57,10 @@ def reset_motion(motion_out):
 
 @subkernel
 def write_fixed(motions_out, lists_out):
-    """Write row 0 of MOTION, which represents all bodies that do not move in this step."""
+    """Write row 0 of MOTION, which represents all bodies that do not move in this step.
+
+    motions_out: MOTION rows; lists_out: MotionLists.
+    """
     m = motions_out[0]
     reset_motion(m)
     m.vx, m.vy, m.angular_velocity = 0.0, 0.0, 0.0
@@ -285,6 +288,7 @@ def scatter_motions(rows, motions, speed_limit, lists_inout, bodies_inout):
 
     Return how many bodies are not usable, see is_usable. The poses before the step are stored in BODY.previous_…. rows:
     indices of BODY rows, in the order of the MOTION rows from 1 on; speed_limit [px/s]: greatest permitted speed.
+    lists_inout: MotionLists.
     """
     non_finite_count = 0
     for k in range(len(rows)):

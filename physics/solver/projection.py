@@ -229,7 +229,8 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> C
     ):
         """Separate overlapping bodies, stop or reflect their approach, and apply friction. O(contacts).
 
-        first: 1 in the first pass of a step, else 0. Impulses accumulate in the PUSH rows.
+        first: 1 in the first pass of a step, else 0. Impulses accumulate in the PUSH rows. bodies_inout: BODY table;
+        work_inout: counters, see COUNTERS.
         """
         for i in range(len(pushes_inout)):
             c = pushes_inout[i]

@@ -74,10 +74,7 @@ def points_of(blocks, impact):
 
 @subkernel
 def list_impacts(blocks, count, impacts_out):
-    """Write contacts that had an impulse and have restitution as IMPACT rows.
-
-    Return their number. count: blocks in use.
-    """
+    """Write contacts with an impulse and restitution as IMPACT rows. Return their number. count: blocks in use."""
     found = 0
     for block in range(count):
         c = blocks.lines[block * SIZE : (block + 1) * SIZE]
@@ -148,6 +145,7 @@ def link_impacts(blocks, count, impacts_inout, motions_inout):
     MOTION.last_impact is the index of the body's last impact, plus one; other functions take it as `last`.
     IMPACT.before is the index of the previous impact of the same body, plus one. last_impact is LEFT_OUT for a body
     that also hits a body of finite mass, or that has a resting contact among its impacts. count: number of IMPACT rows.
+    motions_inout: MOTION rows.
     """
     for i in range(count):
         r = impacts_inout[i]
@@ -351,6 +349,7 @@ def solve_together(blocks, last, hit_speed, motions, impacts_inout):
     last: see link_impacts; hit_speed [px/s]: approach speed of the soonest hit. Each point separates at least at
     restitution times its approach speed. The points are solved in pairs, in rounds. On level ground, the first pair
     with the centre of mass between its points is already the solution, and the other pairs leave it unchanged.
+    impacts_inout: IMPACT rows.
     """
     for _ in range(MOST_ROUNDS):
         changed = 0.0
@@ -399,6 +398,7 @@ def simulate_impacts(blocks, last, dt, contacts, motions, impacts_inout):
 
     Return (time [s] of the step that is left after the last hit, whether MOST_IMPACTS and MOST_ROUNDS were enough).
     last: see link_impacts; the IMPACT row last - 1 receives the displacement of the body up to the last hit.
+    impacts_inout: IMPACT rows.
     """
     k = last
     while k != NO_IMPACT:
@@ -431,7 +431,7 @@ def rub(impact, second, to_rest, motions_inout, blocks_inout):
 
     Return the change of the tangential speed [px/s]. second: True for the second point; to_rest: True to apply
     friction, False to remove it. The friction limit uses only the part of the normal impulse that stops the approach,
-    as in substeps.
+    as in substeps. motions_inout: MOTION rows; blocks_inout: the contacts, see lanes.Blocks.
     """
     r = impact
     lane = r.lane
@@ -466,7 +466,7 @@ def apply_simulated(last, hit_speed, impacts_inout, motions_inout, blocks_inout)
     """Replace a body's impulses of the substeps by the impulses of its simulated impacts, with friction.
 
     last: see link_impacts; hit_speed [px/s]: greatest impact speed of the body. The impulses are not cached for the
-    next step.
+    next step. impacts_inout: IMPACT rows; motions_inout: MOTION rows; blocks_inout: the contacts, see lanes.Blocks.
     """
     k = last
     while k != NO_IMPACT:
@@ -556,7 +556,7 @@ def bounce_once(wanted, c, lane, second, total, a_inout, b_inout):
     """Apply an impulse at one point of a contact, so that the point separates at `wanted` [px/s].
 
     Return the change of the impulse. c, lane: the contact's lane in a block; second: True for the second point; total:
-    impulse of the point before.
+    impulse of the point before. a_inout, b_inout: MOTION rows.
     """
     mass = c[(at.MASS_2 if second else at.MASS_1) + lane]
     missing = wanted - relative_speed(c, lane, second, a_inout, b_inout)

@@ -96,7 +96,8 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
 
         count: number of blocks; context: see StepContext; passes: see Passes. Overlaps of loaded contacts are removed
         through the velocities of their bodies, not through pseudo-velocities. The impulses for this act in every pass
-        and are cached, otherwise columns would sag.
+        and are cached, otherwise columns would sag. motions_inout: MOTION rows; blocks_inout: the contacts, see
+        lanes.Blocks.
         """
         s = blocks_inout.gathered
         for block in range(count):
@@ -239,7 +240,8 @@ def make_push_pass(rotation: bool) -> Callable:
         """Give bodies pseudo-velocities that separate their unloaded contacts. O(count).
 
         count: number of blocks; context: see StepContext; rate [1/s]: see separation_speed. The impulses behind the
-        pseudo-velocities are accumulated separately from the contact impulses.
+        pseudo-velocities are accumulated separately from the contact impulses. motions_inout: MOTION rows;
+        blocks_inout: the contacts, see lanes.Blocks.
         """
         s = blocks_inout.gathered
         for block in range(count):
@@ -278,7 +280,7 @@ def stop_impacts(count, motions_inout, blocks_inout):
 
     Only points with a normal impulse are changed: if they still approached, they would hit again in the next step. Slow
     contacts are excluded: in loaded stacks the passes leave a small approach speed, which the next step removes. count:
-    number of blocks.
+    number of blocks. motions_inout: MOTION rows; blocks_inout: the contacts, see lanes.Blocks.
     """
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
@@ -297,7 +299,7 @@ def stop_impacts(count, motions_inout, blocks_inout):
 def sum_up(count, blocks_inout):
     """Copy the contact impulses to the totals of the step, because this step has only one substep. O(lanes).
 
-    count: number of blocks.
+    count: number of blocks. blocks_inout: the contacts, see lanes.Blocks.
     """
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
@@ -322,7 +324,7 @@ def foresee_turns(members, kinematic, time, count, motions_inout, blocks_inout):
     """Write normals and moment arms of round contacts at the poses predicted for `time` [s] later. O(members + lanes).
 
     members, kinematic: MOTION rows; count: number of blocks. For this the bodies are moved to the predicted poses, and
-    then back to the poses at the start of the step.
+    then back to the poses at the start of the step. blocks_inout: the contacts, see lanes.Blocks.
     """
     for k in range(len(members)):
         m = motions_inout[members[k]]

@@ -161,7 +161,10 @@ def make_warm_lanes(rotation: bool) -> Callable:
         motions_inout,
         blocks_inout,
     ):
-        """Apply the cached impulses of all contacts to their bodies (warm start). count: number of blocks. O(count)."""
+        """Apply the cached impulses of all contacts to their bodies (warm start). O(count).
+
+        count: number of blocks; motions_inout: MOTION rows; blocks_inout: the contacts, see lanes.Blocks.
+        """
         s = blocks_inout.gathered
         for block in range(count):
             c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
@@ -205,7 +208,7 @@ def make_warm_lanes(rotation: bool) -> Callable:
 def clear_impulses(members, count, motions_inout, blocks_inout):
     """Clear the impulses from which a substep would start, to measure the effect of warm starting. O(members + count).
 
-    members: MOTION rows; count: number of blocks.
+    members: MOTION rows; count: number of blocks. blocks_inout: the contacts, see lanes.Blocks.
     """
     for i in range(len(members)):
         m = motions_inout[members[i]]
@@ -243,7 +246,11 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
         motions_inout,
         blocks_inout,
     ):
-        """Solve every contact once. count: number of blocks; context: see StepContext. O(count)."""
+        """Solve every contact once. O(count).
+
+        count: number of blocks; context: see StepContext; motions_inout: MOTION rows; blocks_inout: the contacts, see
+        lanes.Blocks.
+        """
         calm_speed = CALM_SHARE * context.push_speed
         s = blocks_inout.gathered
         for block in range(count):
@@ -439,7 +446,8 @@ def turn_arms(count, motions_inout, blocks_inout):
     """Write the normals, moment arms and effective masses of round contacts at the present poses. O(count).
 
     The next substep then starts with impulses at the new arms, and along the new normals (see turn_impulses). With the
-    former ones, torques and forces would lag behind the motion and add energy. count: number of blocks.
+    former ones, torques and forces would lag behind the motion and add energy. count: number of blocks. motions_inout:
+    MOTION rows; blocks_inout: the contacts, see lanes.Blocks.
     """
     s = blocks_inout.gathered
     for block in range(count):
@@ -480,7 +488,7 @@ def turn_impulses(count, motions_inout, blocks_inout):
 
     The next substep starts with these impulses. The relaxing pass removed part of the impulses along the present
     normals, although they had been applied along the former normals. The velocities are corrected by the difference.
-    count: number of blocks.
+    count: number of blocks. motions_inout: MOTION rows; blocks_inout: the contacts, see lanes.Blocks.
     """
     for block in range(count):
         if not blocks_inout.turns[block]:
@@ -553,7 +561,7 @@ def make_substeps(
 
         members, kinematic: MOTION rows; count: number of blocks; context: see StepContext; joints_inout: a JointSet, or
         0 in a world without joints. All substeps are in one kernel: with ten boxes, calls from Python took five sixths
-        of the time of a substep.
+        of the time of a substep. blocks_inout: the contacts, see lanes.Blocks.
         """
         h = context.h
         if joints:
