@@ -84,7 +84,8 @@ def shown(value: Any) -> str:
 def vector(name: str, value: Any) -> Vec2:
     """Return a pair of numbers as a Vec2 of finite floats.
 
-    Raises TypeError for a value that is not a pair of numbers, and ValueError for a number that is not finite.
+    Raises TypeError for a value that is not a pair of numbers, and ValueError for a number that is not finite. name: of
+    the argument, for messages.
     """
     if type(value) in PLAIN_PAIRS and len(value) == 2:
         x, y = value
@@ -107,7 +108,7 @@ def position(name: str, value: Any) -> Vec2:
     """Return a pair of numbers as a Vec2 whose coordinates [px] are within POSITION_LIMIT.
 
     Up to this limit a double resolves a pixel. Raises TypeError for a value that is not a pair of numbers, and
-    ValueError for a coordinate at or beyond the limit.
+    ValueError for a coordinate at or beyond the limit. name: of the argument, for messages.
     """
     found = vector(name, value)
     if max(abs(found[0]), abs(found[1])) >= POSITION_LIMIT:
@@ -119,6 +120,7 @@ def ids(name: str, value: Any, repeats: bool = False) -> np.ndarray:
     """Return ids as a flat int64 array.
 
     Raises TypeError for values that are not whole numbers, and ValueError for a repeated id unless `repeats` is True.
+    name: of the argument, for messages.
     """
     array = np.asarray(value)
     if array.size and array.dtype.kind not in "iu":
@@ -133,7 +135,7 @@ def whole(name: str, value: Any, low: int, high: int) -> int:
     """Return a value as an int from low to high, inclusive.
 
     Raises TypeError for a value that is not a whole number or is a bool, and ValueError for a number outside the
-    limits.
+    limits. name: of the argument, for messages.
     """
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
         raise TypeError(f"{name} must be a whole number (got {shown(value)})")
@@ -144,7 +146,7 @@ def whole(name: str, value: Any, low: int, high: int) -> int:
 
 
 def flag(name: str, value: Any) -> bool:
-    """Return True or False as a bool. Raises TypeError for any other value."""
+    """Return True or False as a bool. Raises TypeError for any other value. name: of the argument, for messages."""
     if not isinstance(value, (bool, np.bool_)):
         raise TypeError(f"{name} must be True or False (got {shown(value)})")
     return bool(value)
@@ -153,7 +155,8 @@ def flag(name: str, value: Any) -> bool:
 def choice(name: str, value: Any, allowed: Sequence[str]) -> str:
     """Return the value if it is one of the allowed strings.
 
-    Raises TypeError for a value that is not a string, and ValueError for another string.
+    Raises TypeError for a value that is not a string, and ValueError for another string. name: of the argument, for
+    messages.
     """
     if not isinstance(value, str):
         raise TypeError(f"{name} must be one of {', '.join(allowed)} (got {shown(value)})")
@@ -166,7 +169,8 @@ def columns(name: str, value: Any, count: int | None = None, width: int = 2, lik
     """Return numbers as a C-ordered float64 copy of shape (n, width), or (n,) for width 1. All must be finite.
 
     count: the n that is required, because the argument named `like` has as many rows; None: any n. Raises TypeError for
-    a value that is not an array of numbers, and ValueError for another shape or a number that is not finite.
+    a value that is not an array of numbers, and ValueError for another shape or a number that is not finite. name: of
+    the argument, for messages.
     """
     try:
         array = np.array(value)
@@ -193,7 +197,7 @@ def pose(name: str, value: Any) -> tuple[float, float, float]:
     """Return (x, y, angle) as floats. An omitted angle is 0.
 
     Raises TypeError for a value that is not a pose, and ValueError for a number that is not finite or a position beyond
-    POSITION_LIMIT.
+    POSITION_LIMIT. name: of the argument, for messages.
     """
     try:
         x, y, angle = value if len(value) == 3 else (*value, 0.0)

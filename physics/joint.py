@@ -308,7 +308,7 @@ def drop_of_bodies(world: WorldState, ids: np.ndarray) -> None:
 
 
 def told(rows: np.ndarray, reason: str | np.ndarray) -> np.ndarray:
-    """Return a BROKEN row, for reports, for each JOINT row.
+    """Return a BROKEN row, which reports a broken joint, for each JOINT row.
 
     reason: "force", "torque" or "removed"; one value for all rows, or one per row.
     """

@@ -145,7 +145,7 @@ def _kind_of(shape):
 
 
 def _seams(effects, solver):
-    """Run a box that slides across the seam of two flush ground boxes."""
+    """Step a world in which a box slides across the seam of two flush ground boxes."""
     world, box = World(effects, solver=solver), Polygon.box(8, 8)
     for x in (-4, 4):
         world.add_body(box, kind="static", position=(x, 0))
@@ -173,7 +173,10 @@ def _small_world(effects, solver, strategy, pair):
 
 
 def _together(effects, solver, pairs):
-    """Run a step in which pairs of several kinds collide, so that the contacts must be sorted."""
+    """Step a world in which pairs of several kinds collide, so that the contacts must be sorted.
+
+    pairs: pairs of shapes.
+    """
     world = World(effects, solver=solver)
     for number, pair in enumerate(pairs):
         for shape in pair:
@@ -182,7 +185,7 @@ def _together(effects, solver, pairs):
 
 
 def _ground(effects, solver, tiles):
-    """Run three steps of a box that slides on `tiles`."""
+    """Make three steps of a world in which a box slides on `tiles`."""
     world = World(effects, solver=solver)
     world.add_body(tiles, kind="static")
     world.add_body(BOX, position=(8.0, -4.0), velocity=(120.0, 0.0))
@@ -191,7 +194,7 @@ def _ground(effects, solver, tiles):
 
 
 def _rest(effects, solver):
-    """Run touching circles: contacts are kept and added, and circles are put to sleep and woken.
+    """Step a world with touching circles: contacts are kept and added, and circles are put to sleep and woken.
 
     The last step has fixed substeps, all others adaptive substeps.
     """
@@ -225,7 +228,7 @@ def _carve(effects, solver):
 
 
 def _sensor(effects, solver):
-    """Run a sensor while a body overlaps it, and after the body has left."""
+    """Step a world with a sensor while a body overlaps it, and after the body has left."""
     world = World(effects, solver=solver)
     world.add_body(BOX, kind="static", sensor=True)
     body = world.add_body(BOX, position=(1, 0))
@@ -235,14 +238,14 @@ def _sensor(effects, solver):
 
 
 def _crowd(effects):
-    """Run a world with so many bodies that its dynamic tree is rebuilt."""
+    """Step a world with so many bodies that its dynamic tree is rebuilt."""
     world = World(effects, DynamicTree())
     world.add_bodies(Circle(1), np.array([(40.0 * number, 0.0) for number in range(2 * REBUILD_FROM)]))
     world.step()
 
 
 def _impacts(effects, solver):
-    """Run each mode of continuous collision: fast bodies that hit a static body and each other."""
+    """Step a world in each mode of continuous collision: fast bodies hit a static body and each other."""
     for way in ("ray", "swept", "toi"):
         world = World(effects, solver=solver)
         world.add_body(BOX, kind="static")
@@ -254,7 +257,7 @@ def _impacts(effects, solver):
 
 
 def _amid(effects, solver):
-    """Run a box in the middle of a cross-shaped mask, and a box above the mask.
+    """Step a world with a box in the middle of a cross-shaped mask, and a box above the mask.
 
     No single part of the mask's outline can push out the first box.
     """
@@ -275,7 +278,10 @@ def _fit():
 
 
 def _zone(effects, solver):
-    """Run masks that overlap a sensor, one of them at high speed. With response, masks collide by their outlines."""
+    """Step a world in which masks overlap a sensor, one of them at high speed.
+
+    With response, masks collide by their outlines.
+    """
     world = World(effects, solver=solver)
     world.add_body(BOX, kind="static", sensor=True)
     world.add_body(MASK, position=(1, 0))

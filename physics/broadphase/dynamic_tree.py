@@ -74,8 +74,8 @@ def refit(index, nodes_inout):
 def replace_child(parent, old, new, root, nodes_inout, state_inout):
     """Put the node `new` in the place of the node `old`: as a child of `parent`, or as the root if `parent` is -1.
 
-    parent, old, new: indices of nodes; root: index of the root in state_inout, ROOT_MOVING or ROOT_STILL. nodes_inout:
-    NODE rows.
+    parent, old, new: indices of nodes; root: index of the root in state_inout, ROOT_MOVING or ROOT_STILL; nodes_inout:
+    NODE rows; state_inout: see place_changed.
     """
     nodes_inout[new].parent = parent
     if parent < 0:
@@ -88,13 +88,15 @@ def replace_child(parent, old, new, root, nodes_inout, state_inout):
 
 @subkernel
 def rotate(index, root, nodes_inout, state_inout):
-    """Raise the higher child C of a node A if it is two levels higher than the other child. Return the node now on top.
+    """Raise the higher child C of node number `index` (A) if it is two levels higher than the other child.
 
-         A                  C
-        / \\                / \\
-       B   C      ->      A   F      F: the higher child of C. If both are equally high,
-          / \\            / \\       G is the child whose joint box with B is smaller.
-         F   G          B   G
+    Return the number of the node that is now on top. root, nodes_inout, state_inout: see replace_child.
+
+      A                  C
+     / \                / \
+    B   C      ->      A   F      F: the higher child of C. If both are equally high,
+       / \            / \       G is the child whose joint box with B is smaller.
+      F   G          B   G
     """
     a = nodes_inout[index]
     difference = nodes_inout[a.child_b].height - nodes_inout[a.child_a].height

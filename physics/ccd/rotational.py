@@ -256,6 +256,7 @@ def place_tile(geometry, grid, line, column, local, stood, workspace):
 
     line, column: row and column of the cell; local: see sweep_tiles. stood [px]: y of the mover's lowest point at the
     start, minus its slack. Only the top line of a one-way tile is written, and only if the mover started above it.
+    grid: row of geometry.grids.
     """
     g = geometry.grids[grid]
     kind = geometry.cells[g.offset + line * g.columns + column].kind

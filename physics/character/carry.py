@@ -212,7 +212,8 @@ def carry_riders(along_x, walk_inout):
 def loose_under(walk, me):
     """Return the row of the loose shape (solids.is_loose) on which a character stands; -1 if there is none.
 
-    Such a shape carries the character by the motion of its point under the feet. me: CHARACTER row.
+    Such a shape carries the character by the motion of its point under the feet. me: CHARACTER row; walk: see
+    solids.Walk.
     """
     c = walk.characters[me]
     row = row_of(walk.shapes, c.riding_shape) if c.riding >= 0 else -1
@@ -397,7 +398,7 @@ def swept_box(walk, row, along_x):
     """Return the area that a box sweeps along one axis in a step: (left, top, right, bottom, pixels moved) [px].
 
     All values are whole pixels. row: shape row of the box, which moves along x first, then along y; along_x: 1 for the
-    x axis, 0 for the y axis.
+    x axis, 0 for the y axis; walk: see solids.Walk.
     """
     b = walk.bodies[walk.shapes[row].body_row]
     old_left, old_top, old_right, old_bottom = aabb_at(

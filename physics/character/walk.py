@@ -60,7 +60,7 @@ def way_aside(walk, me, rows, direction):
     """Return (pixels up, blocking shape row or -1, slope of the ground) for a character's move by one pixel to a side.
 
     Pixels up: 0 on level ground, -1 if the move is blocked. me: CHARACTER row; rows: nearby solids, see solids.gather;
-    direction: -1 left, 1 right.
+    direction: -1 left, 1 right; walk: see solids.Walk.
     """
     c = walk.characters[me]
     what, by, slope = blocked_at(walk, me, rows, c.left + direction, c.top, direction, 0, 0.0)
@@ -99,7 +99,7 @@ def drop_onto(walk, me, rows, left, onto):
 def is_wedged(walk, me, rows, slope):
     """Return whether a solid at the foot of a slope stops a character that slides down the slope.
 
-    me: CHARACTER row; rows: nearby solids, see solids.gather; slope: rise per px to the right.
+    me: CHARACTER row; rows: nearby solids, see solids.gather; slope: rise per px to the right; walk: see solids.Walk.
     """
     c = walk.characters[me]
     side = -1 if slope > 0.0 else 1
@@ -168,7 +168,7 @@ def slide_gently(me, rows, pixels, slope, walk_inout):
 def tile_slope(walk, row, x, y):
     """Return the slope (rise per px to the right) of a tile grid at a point [px]; 0 if there is no slope tile.
 
-    row: row number of the grid in SHAPE.
+    row: row number of the grid in SHAPE; walk: see solids.Walk.
     """
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -185,7 +185,7 @@ def tile_slope(walk, row, x, y):
 def slope_under_box(walk, me, row):
     """Return the slope of the tile under the middle of a box's feet or, if that is 0, under an end of the feet.
 
-    me: CHARACTER row of the box; row: row number of the tile grid in SHAPE.
+    me: CHARACTER row of the box; row: row number of the tile grid in SHAPE; walk: see solids.Walk.
     """
     c = walk.characters[me]
     bottom = c.top + c.height + 0.5
@@ -202,7 +202,7 @@ def speed_under(walk, row, x, y):
     """Return the surface speed [px/s] of a shape at the point (x, y) [px] where a character stands on it.
 
     row: row number in SHAPE. The speed is along the tangent, and positive to the right on a floor (Box2D's tangent
-    speed).
+    speed). walk: see solids.Walk.
     """
     s = walk.shapes[row]
     if s.kind != CHAIN:
@@ -342,7 +342,7 @@ PACE = 2  # [px] moved out of a solid in one move: about the push-out of overlap
 def keep_still(walk, rows_inout):
     """Remove all shapes but those of static bodies from a list of shape rows.
 
-    The first entry is the length of the list.
+    The first entry is the length of the list. walk: see solids.Walk.
     """
     kept = 0
     for k in range(1, rows_inout[0] + 1):

@@ -568,7 +568,7 @@ def lies_across(geometry, chain, x, y, angle, hull, most, line_out):
 def was_across(batch, surface, other, most, workspace):
     """Return whether a shape lay across a one-way surface by more than `most` [px], at the poses before the step.
 
-    surface, other: row numbers in SHAPE of the surface and of the shape.
+    surface, other: row numbers in SHAPE of the surface and of the shape; batch: see manifold.Batch.
     """
     s, o = batch.shapes[surface], batch.shapes[other]
     p, q = batch.bodies[s.body_row], batch.bodies[o.body_row]
@@ -592,7 +592,7 @@ def admit_to_surfaces(batch, known, workspace, kinds_inout, counts_inout):
 
     They may collide if they touched in the last step, or if the other shape was not across the one-way surface at the
     previous poses. known: whether workspace.memory holds the contacts of the last step. kinds_inout (candidates,): kind
-    of each pair; counts_inout: number of pairs of each kind. O(candidates + nearby links).
+    of each pair; counts_inout: number of pairs of each kind. O(candidates + nearby links). batch: see manifold.Batch.
     """
     for i in range(batch.count):
         if kinds_inout[i] != SURFACE_ANY:

@@ -260,7 +260,7 @@ def travel_of(batch, ground, body):
     """Return the Travel of a body relative to the ground. ground, body: BODY rows.
 
     Two kinds of bodies get no prediction (reach is the margin, time is 0): slow bodies, and fast bodies that are left
-    to continuous collision detection.
+    to continuous collision detection. batch: see manifold.Batch.
     """
     if batch.lookahead == 0.0:
         return Travel(0.0, 0.0, batch.margin, 0.0)
@@ -350,7 +350,7 @@ def add_circle_on_piece(batch, pair, meeting, disc, contact, workspace, manifold
 
     meeting: the predicted contact; disc: (x, y, radius) at this contact; contact: the tuple returned by
     hulls.collide_hull_circle or chains.collide_link_circle for this position. pair, manifolds_out, found: see
-    manifold.add_manifold.
+    manifold.add_manifold. batch: see manifold.Batch.
     """
     travel, sign = meeting.travel, meeting.sign
     hit, nx, ny, x, y, separation, feature = contact
@@ -373,7 +373,7 @@ def add_points_on_piece(batch, pair, meeting, workspace, manifolds_out, found):
     """Append the manifold in workspace.points, of a hull and a piece of ground. Return the new number of contacts.
 
     The manifold was computed at the predicted contact `meeting` and is converted to the present position. pair,
-    manifolds_out, found: see manifold.add_manifold.
+    manifolds_out, found: see manifold.add_manifold. batch: see manifold.Batch.
     """
     sign = meeting.sign
     tangential = 0.0

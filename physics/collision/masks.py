@@ -1,4 +1,4 @@
-"""Collision of masks snapped to whole pixels: with other masks, by AND of their bit words, and with hulls."""
+"""Collision of masks drawn on whole pixels (snap=True): with other masks, by AND of their bit words, and with hulls."""
 
 import math
 from collections.abc import Callable
@@ -91,8 +91,8 @@ class Remainders(NamedTuple):
 def separation_along(pair, remainders, nx, ny, most):
     """Return the least whole number of pixels to move along the normal (nx, ny) that ends the overlap of two rasters.
 
-    The overlap must end if B moves along the normal, and also if A moves against the normal. A result above `most` [px]
-    means that no move up to `most` is enough.
+    pair: see RasterPair; remainders: see Remainders. The overlap must end if B moves along the normal, and also if A
+    moves against the normal. A result above `most` [px] means that no move up to `most` is enough.
     """
     rasters = pair.rasters
     words = pair.words
@@ -127,7 +127,7 @@ def separation_along(pair, remainders, nx, ny, most):
 
 @subkernel
 def mask_contact(pair, remainders):
-    """Return (area, x, y, nx, ny, separation) of a RasterPair that shares pixels.
+    """Return (area, x, y, nx, ny, separation) of a RasterPair that shares pixels. remainders: see Remainders.
 
     The area is the number of shared pixels; x, y [px]: their centroid in A's raster. The normal points from A to B. The
     separation [px] is negative: minus the length of the move along the normal that ends the overlap.
@@ -356,7 +356,8 @@ def square_in_polygon(corners, count, x, y):
 def square_depths(hull, x, y, depths_out):
     """Return whether the unit square at (x, y) shares area with a convex polygon, and record how deep it is in it.
 
-    depths_out (16,): for each edge of the polygon, the greatest depth [px] behind this edge of all squares so far.
+    hull: the polygon; depths_out (16,): for each of its edges, the greatest depth [px] behind this edge of all squares
+    so far.
     """
     corners = hull.corners
     if not square_in_polygon(corners, hull.count, x, y):

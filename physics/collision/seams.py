@@ -85,7 +85,7 @@ def is_at_corner(shapes, manifold):
 def piece_at(batch, row, feature, corners_out):
     """Return the Hull of the piece of ground that a feature id names: a run of tiles, a link, or the whole shape.
 
-    row: row number in SHAPE; corners_out (16, 2) receives the corners [px].
+    row: row number in SHAPE; corners_out (16, 2) receives the corners [px]; batch: see manifold.Batch.
     """
     geometry = batch.geometry
     s = batch.shapes[row]
@@ -112,7 +112,7 @@ def may_be_seam(batch, side, manifold, corners_out):
     """Return whether a contact with ground may be at a seam: near an end of its piece of ground, or not yet touching.
 
     side: 0 if A is the ground, 1 if B is; manifold: CONTACT row; corners_out (16, 2): scratch. The result is False for
-    a contact over a wide face, and for a contact of a disc with a face.
+    a contact over a wide face, and for a contact of a disc with a face. batch: see manifold.Batch.
     """
     m = manifold
     row = m.row_a if side == 0 else m.row_b
@@ -267,7 +267,7 @@ def is_covered(batch, seam, first, others, workspace):
     """Return whether each touching point of a contact also lies on another piece of ground.
 
     seam: CONTACT row of a dynamic body. first, others: linked list of this body's candidate pairs with ground: index of
-    the first pair, and array with the index of the next pair for each pair.
+    the first pair, and array with the index of the next pair for each pair; batch: see manifold.Batch.
     """
     shapes = batch.shapes
     side = ground_side(batch.bodies, shapes, seam)
@@ -297,7 +297,7 @@ def is_covered(batch, seam, first, others, workspace):
 def list_ground(batch, lists_out):
     """Write for each dynamic body the linked list of its candidate pairs with ground (bodies that are not dynamic).
 
-    lists_out: BodyLists of candidate indices. O(bodies + candidates).
+    lists_out: BodyLists of candidate indices. O(bodies + candidates). batch: see manifold.Batch.
     """
     for row in range(len(batch.bodies)):
         lists_out.heads[row] = NONE
@@ -338,7 +338,7 @@ def is_recycled(batch, contact):
 def link_contact(batch, contact, place, lists_inout):
     """Add a contact with ground to the linked list of its dynamic body.
 
-    contact: CONTACT row; place: the number to list for it; lists_inout: BodyLists.
+    contact: CONTACT row; place: the number to list for it; lists_inout: BodyLists; batch: see manifold.Batch.
     """
     side = ground_side(batch.bodies, batch.shapes, contact)
     if side != NONE:
@@ -353,7 +353,8 @@ def drop_seams(batch, previous, count, workspace, contacts_out, ground_out, mani
 
     manifolds_inout: CONTACT rows, of which the first `count` are in use and keep their order. previous: CONTACT rows of
     the last step; those that are kept without a test in this step (see is_recycled) also count as supporting contacts.
-    contacts_out, ground_out: scratch, BodyLists for contacts and candidates. O(contacts · contacts of a body).
+    contacts_out, ground_out: scratch, BodyLists for contacts and candidates. O(contacts · contacts of a body). batch:
+    see manifold.Batch.
     """
     bodies = batch.bodies
     shapes = batch.shapes

@@ -229,7 +229,8 @@ def recycle_contacts(batch, distance, previous_inout, kinds_out, counts_out, sta
     can_recycle decides, with `distance` [px]. previous_inout: CONTACT rows of the last step, sorted by shape ids like
     the candidates; kept rows are updated to the present poses. kinds_out: kind of each pair, NOTHING if its contacts
     are kept. counts_out: number of pairs of each kind that are left. stale_out (previous,): int32 rows that are not
-    kept, including all contacts of masks. work_inout: counters, see COUNTERS. O(candidates + contacts).
+    kept, including all contacts of masks. work_inout: counters, see COUNTERS. O(candidates + contacts). batch: see
+    manifold.Batch.
     """
     bodies = batch.bodies
     shapes = batch.shapes

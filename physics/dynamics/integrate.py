@@ -321,7 +321,7 @@ def take_broken_bodies(rows, course, bodies_inout, broken_out):
     """Quarantine bodies whose numbers are not finite or out of range, and list them. Return their number.
 
     A body whose pose is out of range is moved back to its last finite pose. rows: row numbers in BODY; broken_out
-    (bodies, 2): row number and reason (index of REASONS).
+    (bodies, 2): row number and reason (index of REASONS); course: see Course.
     """
     found = 0
     for k in range(len(rows)):
@@ -353,7 +353,7 @@ def take_broken(rows, shape_rows, grid_rows, shapes, characters, course, bodies_
     Also quarantine rotated or rotating bodies with a TileGrid; only a direct write to the table can rotate them. rows:
     row numbers in BODY; shape_rows: row numbers in SHAPE; grid_rows: row numbers in SHAPE to test for TileGrids.
     broken_out (bodies, 2): row number of the body and reason (index of REASONS), each body once. O(rows + shape_rows +
-    grid_rows + characters).
+    grid_rows + characters). course: see Course.
     """
     found = take_broken_bodies(rows, course, bodies_inout, broken_out)
     for k in range(len(shape_rows)):

@@ -529,7 +529,7 @@ def way_of_hung(root, body, groups, fall):
 
     A pivoted group under an acceleration swings like a pendulum: the result is SWING times the amplitude, computed from
     the present displacement and speed. It is infinite if the centre of mass is above the pivot. Without acceleration
-    the group rotates on about the pivot. root: root row of the group; body: BODY row.
+    the group rotates on about the pivot. root: root row of the group; body: BODY row; fall: see FreeFall.
     """
     g = groups
     ax, ay = g.ax[root], g.ay[root]
@@ -553,7 +553,7 @@ def way_of_hung(root, body, groups, fall):
 def sum_groups(rows, bodies, fall, groups_inout):
     """Write the total mass, mean acceleration and anchored flag of each group at its root row. O(rows).
 
-    The mean is weighted by mass. rows: awake body rows. groups_inout: Groups.
+    The mean is weighted by mass. rows: awake body rows. groups_inout: Groups; fall: see FreeFall.
     """
     g = groups_inout
     for k in range(len(rows)):
@@ -579,9 +579,9 @@ def sum_groups(rows, bodies, fall, groups_inout):
 
 @subkernel
 def choose_surface(root, nx, ny, groups_inout):
-    """Keep the surface into which a group accelerates most: replace the present one if this one is pressed on more.
+    """Keep the surface into which a group accelerates most: take the new surface if it is pressed on more than the old.
 
-    root: root row of the group; nx, ny: normal of the new surface, towards the group. groups_inout: Groups.
+    root: root row of the group; nx, ny: normal of the new surface, towards the group; groups_inout: Groups.
     """
     g = groups_inout
     into = -(g.ax[root] * nx + g.ay[root] * ny)
@@ -595,7 +595,8 @@ def choose_surface(root, nx, ny, groups_inout):
 def mark_blocked(root, nx, ny, fall, groups_inout):
     """Mark a group as blocked if sliding along its own surface would take it into this other surface by over a slop.
 
-    root: root row of the group; nx, ny: normal of the other surface, towards the group. groups_inout: Groups.
+    root: root row of the group; nx, ny: normal of the other surface, towards the group. groups_inout: Groups; fall: see
+    FreeFall.
     """
     g = groups_inout
     into = -(g.ax[root] * nx + g.ay[root] * ny)
@@ -607,7 +608,7 @@ def mark_blocked(root, nx, ny, fall, groups_inout):
 def find_surfaces(rows, bodies, contacts, fall, groups_inout):
     """Find the surface on which each group presses most, and remove the acceleration into it. Mark blocked groups.
 
-    rows: awake body rows. O(rows + contacts). groups_inout: Groups.
+    rows: awake body rows. O(rows + contacts). groups_inout: Groups; fall: see FreeFall.
     """
     g = groups_inout
     for turn in range(2):
@@ -641,7 +642,7 @@ def keep_free_awake(rows, bodies, groups, fall, islands, least_out):
     """Set the least sleep time of an island to 0 if the free motion of one of its bodies exceeds the slop. O(rows).
 
     rows: awake body rows; islands (bodies,) int32: root row of the island of each body; least_out (bodies,): least
-    sleep time [s] of an island, at its root row.
+    sleep time [s] of an island, at its root row; fall: see FreeFall.
     """
     g = groups
     for k in range(len(rows)):
@@ -710,7 +711,7 @@ def keep_awake_what_moves_freely(
     """Keep islands awake in which a body that friction does not hold would move further than the slop in FREE_TIME.
 
     rows: awake body rows; friction: whether the world applies friction; groups: scratch Groups with room for all BODY
-    rows; islands, least_out: see keep_free_awake.
+    rows; islands, least_out: see keep_free_awake; fall: see FreeFall.
     """
     start_groups(rows, bodies, fall, groups)
     join_groups(bodies, contacts, int(friction), groups)

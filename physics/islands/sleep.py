@@ -80,7 +80,7 @@ class SleepingSet:
 
     @staticmethod
     def _named(island) -> list:
-        """Return the ids of the outside bodies in the contacts of an island."""
+        """Return the ids of the bodies outside an island that its contacts touch."""
         named = np.union1d(island.contacts["body_a"], island.contacts["body_b"])
         return np.setdiff1d(named, island.bodies).tolist()
 

@@ -166,7 +166,8 @@ def choose_substeps(members, degrees, substeps, rules, motions_inout):
     """Write the number of substeps that each body of a group needs in the next step. O(members).
 
     Return whether every body needs the same number as in this step. Then the caller need not determine the islands.
-    members: MOTION rows of the group; degrees: number of contacts of each body; substeps: number in this step.
+    members: MOTION rows of the group; degrees: number of contacts of each body; substeps: number in this step; rules:
+    see LoadRules.
     """
     content = True
     for k in range(len(members)):

@@ -614,7 +614,7 @@ def _sides(piece):
 def _tidy(corners, inner, flat):
     """Return a part's corners and `inner` flags without collinear corners, its topmost, then leftmost corner first.
 
-    A collinear corner at which `inner` changes is kept.
+    A collinear corner at which `inner` changes is kept. flat: see Walls.
     """
     before, after = corners - np.roll(corners, 1, axis=0), np.roll(corners, -1, axis=0) - corners
     keep = (np.abs(cross(before, after)) > flat) | (inner != np.roll(inner, 1))
@@ -628,7 +628,7 @@ def _tidy(corners, inner, flat):
 def _halved(points, rings, flat):
     """Split rings by cuts until each is convex or has at most LARGEST corners. Return the rings.
 
-    points (n, 2) [px]; rings: arrays of indices of points.
+    points (n, 2) [px]; rings: arrays of indices of points; flat: see Walls.
     """
     todo, found = list(rings), []
     while todo:
@@ -673,7 +673,7 @@ def _halving(sides):
 def _joined(points, pieces, flat):
     """Return convex pieces after merging them across common sides, if the union is convex with at most 16 corners.
 
-    The longest common side is tried first. points (n, 2) [px]; pieces: lists of indices of points.
+    The longest common side is tried first. points (n, 2) [px]; pieces: lists of indices of points; flat: see Walls.
     """
     owner = {side: number for number, piece in enumerate(pieces) for side in _sides(piece)}
     common = [side for side in owner if side[0] < side[1] and side[::-1] in owner]

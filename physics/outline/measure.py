@@ -344,7 +344,7 @@ def _farthest(a, b, best):
 
 
 def _looked_at(some, other, best):
-    """Return (largest distance [px] so far, stretches that may contain a farther point).
+    """Return (largest distance [px] so far, stretches that may contain a point that is farther away).
 
     The latter are [(upper bound [px] of the distance, stretch)]. some: stretches whose ends and middles are measured
     now; other: _Figure from which distances are measured; best [px]: largest distance found before.

@@ -99,7 +99,7 @@ def is_joined(window, x, y):
     """Return whether paths connect the two diagonal solid pixels at corner (x, y), by passing from one to the other.
 
     The result is False where two long runs meet, because such a corner is fixed. It is also False on the border of the
-    tile, because the neighbouring tile would find another path.
+    tile, because the neighbouring tile would find another path. window: see Window.
     """
     if not window.joins or x == window.low or x == window.high or y == window.low or y == window.high:
         return False
@@ -132,7 +132,7 @@ def backward(window, x, y, direction):
 def walked_back(window, x, y, direction, cracks):
     """Return the (x, y, direction) that a path has `cracks` pixel edges before corner (x, y).
 
-    direction: the direction in which the path leaves the corner.
+    direction: the direction in which the path leaves the corner; window: see Window.
     """
     for _ in range(cracks):
         direction = backward(window, x, y, direction)
@@ -146,7 +146,7 @@ def follow(window, x, y, direction, marks_inout):
     """Return for how many pixel edges a path stays in the tile, starting at corner (x, y).
 
     For a loop it is the loop's length. direction: the direction in which the path leaves the corner; marks_inout [row,
-    col] uint8: set for each solid pixel below a horizontal pixel edge of the path.
+    col] uint8: set for each solid pixel below a horizontal pixel edge of the path; window: see Window.
     """
     first_x, first_y = x, y
     first = direction
@@ -167,7 +167,7 @@ def follow(window, x, y, direction, marks_inout):
 def record(window, x, y, direction, cracks, runs_out):
     """Write the runs (RUN rows) of a path of `cracks` pixel edges that starts at corner (x, y). Return their number.
 
-    direction: the direction in which the path leaves the corner.
+    direction: the direction in which the path leaves the corner; window: see Window.
     """
     count = -1
     turned = True

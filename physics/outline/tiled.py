@@ -59,7 +59,7 @@ def whole_grains(length):
 def to_border(window, x, y, direction):
     """Return the distance [px] from a corner on the tile's border to the next border line in a direction.
 
-    The result is KNOWN + 1 if no border line is ahead.
+    The result is KNOWN + 1 if no border line is ahead. window: see paths.Window.
     """
     at = y if direction & 1 else x
     ahead = window.high - at if direction < 2 else at - window.low
@@ -235,7 +235,7 @@ def room_in(window, runs, count, k, x, y, after):
     """Return how far [px] a border crossing is moved from corner (x, y) along run k of a path.
 
     runs: RUN rows, of which the first `count` are the path; after: True if run k starts at the corner, False if it ends
-    there.
+    there; window: see paths.Window.
     """
     run = runs[k]
     direction = run.direction if after else (run.direction + 2) & 3
@@ -286,7 +286,7 @@ def crossing(window, runs, count, at, after):
     The result is (position along the path, offset x, offset y from the path) [px]. runs: RUN rows, of which the first
     `count` are the path, with SEEN edges on either side of the corner; at: number of pixel edges before the corner.
     after: used only at a corner of the tile, whether the crossing moves along the run after the path's corner or before
-    it.
+    it; window: see paths.Window.
     """
     k = 0
     while k + 1 < count and runs[k + 1].at <= at:
@@ -392,7 +392,7 @@ def put_points(window, found, path, workspace):
     """Append the lines found along a path as a piece of the outline (PIECE row) with its points (POINT rows).
 
     Return whether a piece was appended: False if found is 0. found: number of places in the chain of workspace.lines,
-    see paths.cheapest; path: Path; workspace: Paths.
+    see paths.cheapest; path: Path; workspace: Paths; window: see paths.Window.
     """
     if found == 0:
         return False
@@ -414,7 +414,8 @@ def put_points(window, found, path, workspace):
 def path_within(window, count, cracks, begin, end):
     """Return the Path of a path in the tile. count: number of runs; cracks: number of pixel edges.
 
-    begin, end: range of the path inside the tile, in pixel edges along the path; infinite for a loop.
+    begin, end: range of the path inside the tile, in pixel edges along the path; infinite for a loop; window: see
+    paths.Window.
     """
     low, high = float(window.low), float(window.high)
     return Path(count, cracks, math.isinf(end), window.reach, low, high, begin, end, window.joins)
@@ -425,7 +426,8 @@ def add_open(window, x, y, direction, cracks, workspace):
     """Append the outline along a path from border to border of the tile. Return whether lines were found.
 
     x, y, direction: corner at which the path enters the tile, and its direction there; cracks: number of the path's
-    pixel edges inside the tile, 0 if the path only passes the tile's corner, from one border to another.
+    pixel edges inside the tile, 0 if the path only passes the tile's corner, from one border to another; window: see
+    paths.Window.
     """
     runs, places = workspace.lines.runs, workspace.lines.places
     x, y, direction = walked_back(window, x, y, direction, SEEN)
@@ -453,7 +455,8 @@ def add_open(window, x, y, direction, cracks, workspace):
 def add_closed(window, x, y, direction, cracks, workspace):
     """Append the outline along a loop of `cracks` pixel edges in the tile. Return whether lines were found.
 
-    x, y, direction: a corner where the loop turns, and the direction in which it leaves the corner.
+    x, y, direction: a corner where the loop turns, and the direction in which it leaves the corner; window: see
+    paths.Window.
     """
     lines = workspace.lines
     count = record(window, x, y, direction, cracks, lines.runs)
@@ -467,7 +470,7 @@ def add_closed(window, x, y, direction, cracks, workspace):
 def add_at_corner(window, x, y, workspace):
     """Append all pieces of the outline that enter the tile at border point (x, y).
 
-    Return whether lines were found for each.
+    Return whether lines were found for each. window: see paths.Window.
     """
     pixels = window.pixels
     done = True
@@ -573,7 +576,8 @@ def put_border(window, n, first, start, length, sides_inout):
     """Append the tile's corners on a section of its border to a ring. Return the number of sides.
 
     n: number of sides before; first: row of the ring's first side; start [px]: start of the section along the border;
-    length [px]: its length. Corners of the tile at the ends of the section are not added. sides_inout: SIDE rows.
+    length [px]: its length. Corners of the tile at the ends of the section are not added. sides_inout: SIDE rows;
+    window: see paths.Window.
     """
     size = float(window.high - window.low)
     number = math.floor(start / size) + 1
@@ -588,7 +592,8 @@ def put_border(window, n, first, start, length, sides_inout):
 def put_open(window, n, number, workspace, sides_inout):
     """Append the ring that contains open piece `number`: pieces of the outline and the tile's border between them.
 
-    Return the number of sides. n: number of sides before; workspace: Paths. sides_inout: SIDE rows.
+    Return the number of sides. n: number of sides before; workspace: Paths. sides_inout: SIDE rows; window: see
+    paths.Window.
     """
     around = 4.0 * (window.high - window.low)
     pieces = workspace.pieces
@@ -621,7 +626,7 @@ def is_hole(piece, points):
 def put_regions(window, workspace, sides_out):
     """Write the rings around the solid part of a tile as SIDE rows. Return their number. Holes are separate rings.
 
-    workspace: Paths, filled by find_paths.
+    workspace: Paths, filled by find_paths; window: see paths.Window.
     """
     n = 0
     holes = 0

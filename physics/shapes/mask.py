@@ -165,7 +165,7 @@ class PixelMask(Shape):
     ) -> "PixelMask":
         """Return a mask of the array solid[row, col]. origin [px]: origin of body space in the image; None: its centre.
 
-        Raises TypeError or ValueError for arguments that PixelMask rejects.
+        Raises TypeError or ValueError for arguments that PixelMask rejects. snap, smooth, one_way: see PixelMask.
         """
         return cls(solid, origin, snap, smooth, one_way)
 
@@ -183,6 +183,7 @@ class PixelMask(Shape):
 
         origin [px]: origin of body space in the image; None: its centre. Raises TypeError if surface is not a
         pygame.Surface, ValueError for a threshold outside 0..255, and both for arguments that PixelMask rejects.
+        snap, smooth, one_way: see PixelMask.
         """
         import pygame  # pygame is needed only for this import of sprites
 
@@ -206,6 +207,7 @@ class PixelMask(Shape):
         """Return a mask of a pygame Mask. origin [px]: origin of body space in the image; None: its centre.
 
         Raises TypeError if mask is not a pygame.Mask, TypeError or ValueError for arguments that PixelMask rejects.
+        snap, smooth, one_way: see PixelMask.
         """
         import pygame
 

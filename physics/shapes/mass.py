@@ -308,7 +308,7 @@ def _layered(group: Sequence[Weighed], found_of: Callable[[list], Moments]) -> M
 
 @lru_cache(maxsize=256)
 def _union_mass(group: tuple[Hull, ...]) -> Mass:
-    """Return the mass of overlapping hulls. Shared area counts once, and results are cached."""
+    """Return the mass of overlapping hulls. Shared area counts once, and results are cached. group: the Hulls."""
     return _layered(group, lambda hulls: moments(_outline(hulls)))
 
 

@@ -196,10 +196,7 @@ def lay_out(starts, blocks_out):
 
 @inlined
 def next_lane(slot, blocks_inout):
-    """Return the (block, lane) for the next contact of a slot, and advance the slot by one lane. slot: see lay_out.
-
-    blocks_inout: the contacts, see Blocks.
-    """
+    """Return the (block, lane) for the next contact of a slot, and advance the slot by one lane. slot: see lay_out."""
     block = blocks_inout.block_of[slot]
     lane = blocks_inout.lane_of[slot]
     last = slot == 0 or lane == LANES - 1
@@ -441,7 +438,10 @@ def resist_rolling(lane, wa, wb, normal_impulse, c_inout):
 
 @subkernel
 def relative_speed(c, lane, second, a, b):
-    """Return the speed [px/s] of B relative to A along the normal, at a point of a contact; negative: they approach."""
+    """Return the speed [px/s] of B relative to A along the normal, at a point of a contact; negative: they approach.
+
+    c, lane: the contact's lane in a block; second: True for the second point; a, b: MOTION rows.
+    """
     speed = (b.vx - a.vx) * c[NX + lane] + (b.vy - a.vy) * c[NY + lane]
     speed += b.angular_velocity * c[(B_2 if second else B_1) + lane]
     return speed - a.angular_velocity * c[(A_2 if second else A_1) + lane]
