@@ -65,7 +65,7 @@ class Canvas:
         self.surface.blit(image, (whole(x) - width // 2, whole(y) - height // 2))
 
     def measure(self, text: str, font: str = TEXT, scale: int = 1) -> tuple[int, int]:
-        """Return (width, height) of a line of text [px]."""
+        """Return (width, height) of a line of text [px]. scale: enlargement of the letters, a whole number."""
         return load_font(font).measure(text, scale)
 
     def text_rect(
@@ -90,7 +90,7 @@ class Canvas:
         """Draw one line of text with its upper edge at y, and return its rectangle.
 
         align: as in text_rect(); outline: with a dark edge around the letters, which lies outside the rectangle. The
-        caller must keep the rectangle clear of other text.
+        caller must keep the rectangle clear of other text. scale: enlargement of the letters, a whole number.
         """
         rect = self.text_rect(text, x, y, font, scale, align)
         load_font(font).draw(self.surface, text, rect.x, rect.y, color, scale, outline)
@@ -110,8 +110,8 @@ class Canvas:
     ) -> bool:
         """Draw a line of text only if it is on the canvas and touches no other text. Return whether it was drawn.
 
-        This is for labels that follow moving objects. The caller counts the labels that were not drawn, and shows the
-        count in a fixed place.
+        The arguments are those of text(). This is for labels that follow moving objects. The caller counts the labels
+        that were not drawn, and shows the count in a fixed place.
         """
         rect = self.text_rect(text, x, y, font, scale, align)
         if not self.is_free(rect.inflate(2 * scale, 2 * scale) if outline else rect):

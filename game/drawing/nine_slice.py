@@ -1,4 +1,4 @@
-"""Framed boxes from the sheet "ui". A box consists of nine slices, of which the middle ones are stretched."""
+"""Framed boxes from the sprite sheet "ui". A box consists of nine slices, of which the middle ones are stretched."""
 
 from functools import lru_cache
 

@@ -44,20 +44,20 @@ class Animation:
 
 
 class Atlas:
-    """One sheet: images by name, animations by name, and a PixelMask for each image, made at its first use."""
+    """One sprite sheet: images by name, animations by name, and a PixelMask for each image, made at its first use."""
 
     def __init__(self, path: Path, images: dict[str, pygame.Surface], animations: dict[str, Animation]) -> None:
         self.path, self.images, self.animations = path, images, animations
         self.masks = {}
 
     def __getitem__(self, name):
-        """Return the image `name`. Raises ValueError, which names the sheet, for an unknown name."""
+        """Return the image `name`. Raises ValueError, which names the sprite sheet, for an unknown name."""
         if name not in self.images:
             raise ValueError(f"{self.path} has no frame {name!r}; it has {', '.join(self.images)}")
         return self.images[name]
 
     def animation(self, name: str) -> Animation:
-        """Return the Animation `name`. Raises ValueError, which names the sheet, for an unknown name."""
+        """Return the Animation `name`. Raises ValueError, which names the sprite sheet, for an unknown name."""
         if name not in self.animations:
             raise ValueError(f"{self.path} has no animation {name!r}; it has {', '.join(self.animations)}")
         return self.animations[name]

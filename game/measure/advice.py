@@ -38,9 +38,9 @@ Report = Callable[[int, int], object]  # called with (runs done, runs in all)
 def measure_settings(
     survey: Survey, moments: Sequence[Moment], settings: Iterable[Setting], report: Report, seed: int
 ) -> None:
-    """Measure the errors and times of `settings` at every moment, and add them to the survey.
+    """Measure the errors and times of `settings` at several states of a world, and add them to the survey.
 
-    moments: snapshots of a world; seed: for the random order of the runs. report(number of runs done, number of all
+    moments: snapshots of the world; seed: for the random order of the runs. report(number of runs done, number of all
     runs) is called after each run.
     """
     settings, chance, done = list(settings), Random(seed), 0
@@ -66,10 +66,10 @@ def measure_settings(
 def advise(
     moments: Sequence[Moment], error: float, report: Report = lambda done, of: None, seed: int = 0
 ) -> tuple[Advice, Survey]:
-    """Measure the settings around the current one at some moments. Return the advice and the measurements.
+    """Measure the settings around the current one, starting from some snapshots.
 
-    error: largest error [px] of an advised setting; report, seed: as in measure_settings(). Raises ValueError if there
-    is no moment.
+    moments: the snapshots of a world; error: largest error [px] of an advised setting; report, seed: as in
+    measure_settings(). Raises ValueError if there is no snapshot. Return the advice and the measurements.
     """
     if not moments:
         raise ValueError("moments must be one at least (got none)")
@@ -91,7 +91,7 @@ def advised(survey: Survey, here: Setting, error: float = VISIBLE) -> Setting | 
     """Return the fastest measured setting whose error of every kind is at most `error` [px].
 
     Return None if no setting is certainly faster than the current one (`here`), or if `here` is the only one within the
-    error. Only settings with enough runs at every moment are compared.
+    error. Only settings with enough runs from every snapshot are compared.
     """
     within = [each for each in settings_within(survey, error) if survey.dots[each].sure]
     if here not in survey.dots or not survey.dots[here].sure or not within or within[0] == here:
@@ -114,8 +114,9 @@ def share(survey: Survey, setting: Setting, here: Setting) -> float:
 def settings_within(survey: Survey, error: float) -> list[Setting]:
     """Return the settings of the survey without failures whose error of every kind is within `error`, fastest first.
 
-    error: in pixels, and for tiers in wrong answers per 100 encounters. Another tier must be within at the upper end of
-    its interval, the present tier at the lower end: few encounters neither recommend a tier nor condemn the present.
+    error: in pixels; for collision tiers (kinds of collision shape of the sprites), in wrong answers per 100
+    encounters. Of another tier, the upper end of its interval must be within the error, of the present tier the lower
+    end. So a few encounters neither recommend a tier nor condemn the present one.
     """
     found = {}
     for setting, dot in survey.dots.items():
@@ -128,7 +129,7 @@ def settings_within(survey: Survey, error: float) -> list[Setting]:
 
 
 def _end(survey, setting, error):
-    """Return the index of the end of an error's interval that must be within the limit."""
+    """Return which end of an error's interval must be within the limit: 0 for the lower end, 1 for the upper end."""
     first = survey.first
     same = error.verdicts is not None and (setting.tier, setting.narrowphase) == (first.tier, first.narrowphase)
     return 0 if same else 1

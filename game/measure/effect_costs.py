@@ -66,7 +66,7 @@ def sides_of(effects: Effects) -> dict[str, tuple[Side, Side]]:
 
 
 def world_under(moment: Moment, side: Side) -> World:
-    """Return a world in the state of `moment`, with the effects of `side` and all bodies awake."""
+    """Return a world in the state of the snapshot `moment`, with the effects of `side` and all bodies awake."""
     world = moment.world(moment.here)
     world.set_effects(side.effects)
     if side.idle:
@@ -75,7 +75,7 @@ def world_under(moment: Moment, side: Side) -> World:
 
 
 def can_be(moment: Moment, side: Side) -> bool:
-    """Return whether a world in the state of `moment` is valid with the effects of `side`."""
+    """Return whether a world in the state of the snapshot `moment` is valid with the effects of `side`."""
     try:
         world_under(moment, side)
     except ValueError:
@@ -84,7 +84,7 @@ def can_be(moment: Moment, side: Side) -> bool:
 
 
 def time_side(moment: Moment, side: Side, steps: int = STEPS) -> float:
-    """Return the mean time of a step [s] over `steps` steps from `moment`, with the effects of `side`.
+    """Return the mean time of a step [s] over `steps` steps from the snapshot `moment`, with the effects of `side`.
 
     The first run also compiles kernels: do not count it.
     """
@@ -94,10 +94,11 @@ def time_side(moment: Moment, side: Side, steps: int = STEPS) -> float:
 def measure_effects(
     moment: Moment, report: Callable[[str, Cost, Cost], object], goes_on: Callable[[], bool], seed: int = 0
 ) -> None:
-    """Time a step from `moment` with and without every effect, in several rounds of random order.
+    """Time a step from the snapshot `moment` with and without every effect, in several rounds of random order.
 
     report(effect, cost with the effect, cost without it) is called after each round. An effect that the world cannot be
-    without is left out (characters need response). The function returns early when goes_on() is False.
+    without is left out (characters need response). The function returns early when goes_on() is False. seed: for the
+    order.
     """
     sides = {
         name: pair for name, pair in sides_of(moment.effects).items() if all(can_be(moment, each) for each in pair)

@@ -111,7 +111,7 @@ class Reference(NamedTuple):
 
 
 class References:
-    """The reference run from one moment, computed at first use, and the errors of settings against this run."""
+    """The reference run from one snapshot of a world, computed at first use, and the errors of settings against it."""
 
     def __init__(self, moment: Moment) -> None:
         self.moment = moment
@@ -123,12 +123,12 @@ class References:
 
     @property
     def kinds(self) -> tuple[str, ...]:
-        """The kinds of error that are measured at this moment, the most important first."""
+        """The kinds of error that are measured from this snapshot, the most important first."""
         return ("overlap", "way") if self.moment.effects.response else ("verdict",)
 
     @cached_property
     def reference(self) -> Reference:
-        """The reference run: that with the finest steps, its horizon in steps, and the floor [px]."""
+        """The reference run, with the finest steps; the number of steps for which it is valid; and the floor [px]."""
         if self.moment.effects.stacking:
             fine = self.moment.way(self.truth)
             coarse = self.moment.way(self.truth._replace(substeps=COARSE * PLAIN))
@@ -142,7 +142,7 @@ class References:
         return Reference(fine, last, float(max(unsure[last - 1] / AGREED, softness[last - 1])))
 
     def errors(self, setting: Setting) -> dict[str, Error]:
-        """Return {kind: Error} of a setting at this moment."""
+        """Return {kind: Error} of a setting, measured in a run from this snapshot."""
         if not self.moment.effects.response:
             return {"verdict": self._verdict(setting)}
         (fine, last, floor), way = self.reference, self.moment.way(setting)
@@ -171,10 +171,11 @@ class References:
 
 
 def exact_tier(tier: str) -> str:
-    """Return the tier whose answers are right in a world that runs under this tier: the pixels as they are drawn.
+    """Return the collision tier (kind of collision shape) whose answers are right in a world that runs under this tier.
 
-    "mask" tests the pixels at their exact poses. It is right where a scene plays with it. Elsewhere sprites are drawn
-    on whole pixels, and two sprites that overlap by less than half a pixel are drawn side by side.
+    It is the tier that tests the pixels as they are drawn. "mask" tests the pixels at their exact poses. It is right
+    where a scene plays with it. Elsewhere sprites are drawn on whole pixels, and two sprites that overlap by less than
+    half a pixel are drawn side by side.
     """
     return "mask" if tier == "mask" else "pixels"
 
@@ -182,7 +183,8 @@ def exact_tier(tier: str) -> str:
 def pairs_of(world: World) -> set[tuple[int, int]]:
     """Return the touching pairs of bodies, a set of (id, id) with the smaller id first.
 
-    The order allows worlds at different tiers to be compared: which body of a contact is body A depends on the shapes.
+    The order allows worlds with different collision shapes to be compared: which body of a contact is body A depends on
+    the shapes.
     """
     contacts = world.contacts[world.contacts["separation"] <= 0.0]  # contacts include pairs about to meet
     ids = np.sort(np.stack([contacts["body_a"], contacts["body_b"]], axis=1), axis=1)

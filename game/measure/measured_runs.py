@@ -17,8 +17,8 @@ WARM_STEPS = 2  # steps before the first run, which compile
 class RunFigures(NamedTuple):
     """The figures of one measured run so far.
 
-    cost: seconds per step over the repetitions. overlap: deepest overlap in the judged steps [px]. farthest: greatest
-    distance that a body moved in one step [px]. `overlap` and `farthest` are None if not requested.
+    cost: seconds per step over the repetitions. overlap: deepest overlap [px]. farthest: greatest distance that a body
+    moved in one step [px]. Both count the steps that MeasuredRun.judged selects, and are None if it selects none.
     """
 
     cost: Cost
@@ -70,9 +70,9 @@ def _snapshot(given, made):
 
 
 def _judge(moment, judged):
-    """Return (deepest overlap, greatest motion of a body in one step) [px] over the judged steps.
+    """Return (deepest overlap, greatest motion of a body in one step) [px] over some steps from a Moment (snapshot).
 
-    judged: (first, last) step; if it is None, (None, None) is returned.
+    judged: the (first, last) step that counts; if it is None, (None, None) is returned.
     """
     if judged is None:
         return None, None

@@ -49,7 +49,7 @@ class Moment:
         return world
 
     def time_run(self, setting: Setting, steps: int = STEPS, stage: str | None = None, act: Act | None = None) -> float:
-        """Return the mean time of a step [s] in one run from this moment.
+        """Return the mean time of a step [s] in one run that starts from this snapshot.
 
         The first run of a setting also compiles kernels: do not count it.
 
@@ -68,7 +68,7 @@ class Moment:
         return seconds_a_step(do, steps)
 
     def way(self, setting: Setting, steps: int = STEPS, divided: int = 1) -> "Way":
-        """Return the motion of the bodies from this moment under a setting.
+        """Return the motion of the bodies in a run from this snapshot under a setting, a Way.
 
         divided: number of shorter steps that replace each step.
         """
@@ -127,6 +127,9 @@ def here_of(world: World, tier: str | None) -> Setting:
 
 
 def setting_of(effects: Effects, broadphase: str, solver: str, substeps: int | str, tier: str | None) -> Setting:
-    """Return the Setting of a world. The fields `solver` and `substeps` are None if the effects do not use them."""
+    """Return the Setting of a world with these values. tier: collision tier of its sprites, None if there are none.
+
+    The fields `solver` and `substeps` are None if the effects do not use them.
+    """
     used = solver if effects.response else None
     return Setting(broadphase, effects.narrowphase, used, substeps if used in SUBSTEPPED else None, tier)

@@ -19,12 +19,12 @@ Pairs = set[tuple[int, int]]  # ids of bodies
 
 
 class ReferenceTier:
-    """Comparison of all tiers with the tier "mask". Call ask(world) once per step.
+    """Comparison of all collision tiers of sprites (circle, box, ... pixels) with the tier "mask", the exact pixels.
 
-    `wrong`, `missed`: rates of false hits among the reported hits, and of missed hits among the true hits, by tier.
-    They count encounters over all snapshots at which every tier was tested: a pair of bodies counts once. lit: the tier
-    whose errors are drawn. `seen`: the errors of that tier at the last snapshot, each (True for a false hit, False for
-    a missed hit; outlines of both bodies).
+    Call ask(world) once per step. `wrong`, `missed`: rates of false hits among the reported hits, and of missed hits
+    among the true hits, by tier. They count encounters over all snapshots at which every tier was tested: a pair of
+    bodies counts once. lit: the tier whose errors are drawn. `seen`: the errors of that tier at the last snapshot, each
+    (True for a false hit, False for a missed hit; outlines of both bodies).
     """
 
     def __init__(self, lit: str, tiers: Sequence[str] = TIERS) -> None:
@@ -38,10 +38,10 @@ class ReferenceTier:
         self._hits: dict[str, Pairs] = {}
 
     def ask(self, world: World) -> bool:
-        """Find the colliding pairs with the next tier. All tiers take their turn at the same snapshot of the world.
+        """Find the colliding pairs with the next collision tier.
 
-        The call for the first tier takes the snapshot. Return whether this was the last tier; then the next call takes
-        a new snapshot.
+        All tiers take their turn at the same snapshot of the world. The call for the first tier takes the snapshot.
+        Return whether this was the last tier; then the next call takes a new snapshot.
         """
         if self._moment is None:
             self._moment, self._hits = Moment(world.snapshot(), world.broadphase.name), {}

@@ -19,8 +19,9 @@ LEAST_HITS = 20  # hits that boxes must have reported before their rate of false
 class Dot:
     """Measurements of one setting, drawn as a dot in the plot of cost and error.
 
-    spent: {number of the moment: seconds per step of each run}. errors: {number of the moment: {kind: Error}}. Values
-    pooled over the moments are cached, because the plot reads each several times per frame.
+    A moment is a snapshot from which runs start. spent: {number of the moment: seconds per step of each run}. errors:
+    {number of the moment: {kind: Error}}. Values pooled over the moments are cached, because the plot reads each
+    several times per frame.
     """
 
     setting: Setting
@@ -30,24 +31,27 @@ class Dot:
     _known: dict[Any, Any] = field(default_factory=dict)  # cached results: "cost", and ("error", kind)
 
     def took(self, moment: int, seconds: float) -> None:
-        """Add the result of one timed run. moment: number of its moment; seconds: mean time of its steps [s]."""
+        """Add the result of one timed run.
+
+        moment: number of the snapshot from which it started; seconds: mean time of its steps [s].
+        """
         self.spent.setdefault(moment, []).append(seconds)
         self._known.clear()
 
     def erred(self, moment: int, errors: dict[str, Error]) -> None:
-        """Set the errors at moment number `moment`, {kind: Error}."""
+        """Set the errors of runs from snapshot number `moment`, {kind: Error}."""
         self.errors[moment] = errors
         self._known.clear()
 
     @property
     def cost(self) -> Cost | None:
-        """Seconds per step, the mean over the moments, a Cost; None before the first run."""
+        """Seconds per step, the mean over the snapshots from which runs started, a Cost; None before the first run."""
         if "cost" not in self._known:
             self._known["cost"] = self._pooled_cost()
         return self._known["cost"]
 
     def error(self, kind: str) -> Error | None:
-        """Return the Error of a kind, pooled over all moments; None while there is none."""
+        """Return the Error of a kind, pooled over all snapshots from which runs started; None while there is none."""
         if ("error", kind) not in self._known:
             self._known["error", kind] = self._pooled_error(kind)
         return self._known["error", kind]
@@ -62,7 +66,7 @@ class Dot:
 
     @property
     def sure(self) -> bool:
-        """True if the setting has RUNS runs or more at every moment."""
+        """True if the setting has RUNS runs or more from every snapshot."""
         return bool(self.spent) and all(len(runs) >= RUNS for runs in self.spent.values())
 
     def _pooled_error(self, kind):
@@ -100,7 +104,10 @@ class Survey:
         return self.dots.setdefault(setting, Dot(setting))
 
     def error(self, setting: Setting, kind: str) -> Error | None:
-        """Return the error of a measured setting, pooled over all moments or over the whole run; None if unknown."""
+        """Return the Error of a kind of a measured setting; None if unknown.
+
+        It is pooled over all snapshots from which runs started, or taken over the whole recorded run.
+        """
         error = self.dots[setting].error(kind)
         verdicts = self.encounters.get(setting.tier or "") if setting.narrowphase else None
         if error is None or error.verdicts is None or verdicts is None:
@@ -155,7 +162,7 @@ class Survey:
         return f"nothing measured here is as exact ({shown(error)}) for less time"
 
     def boxes_and_pixels(self) -> str:
-        """Return one sentence on the false hits of boxes, and on the price of pixels; "" in a scene without tiers.
+        """Return one sentence on the false hits of boxes, and on the price of pixels; "" without collision tiers.
 
         Until boxes have reported LEAST_HITS encounters, it says how far the measuring is.
         """
@@ -175,7 +182,7 @@ class Survey:
         return f"Boxes: {false}. Pixels: none, for {price}."
 
     def _is_tier_alone(self, setting):
-        """Return whether a setting differs from the first one, under which the scene ran, by its tier at most."""
+        """Return whether a setting differs from the one that was measured first by no more than its collision tier."""
         return set(setting.differs(self.first)) <= {"tier"}
 
 

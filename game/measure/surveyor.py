@@ -89,7 +89,7 @@ class Surveyor:
         self._hand_on_beside(order, partial(_save_run, order["run"], run))
 
     def measure_sprites(self, first: PixelMask, second: PixelMask) -> None:
-        """Order measurements of every tier for the pair of sprites `first` and `second`.
+        """Order measurements of every collision tier (kind of collision shape) for the sprites `first` and `second`.
 
         The results go to `figures`.
         """

@@ -50,7 +50,7 @@ class Poses(NamedTuple):
 
 
 def poses_around(first: PixelMask, second: PixelMask, count: int = POSES, seed: int = 0) -> Poses:
-    """Return `count` random poses of two sprites, of which about half are hits.
+    """Return `count` random Poses of two sprites (PixelMasks), of which about half are hits.
 
     Raises ValueError for a sprite without solid pixels.
     """
@@ -87,9 +87,10 @@ def measure_tiers(
     tiers: Sequence[str] = TIERS,
     seed: int = 0,
 ) -> None:
-    """Measure the tiers for two sprites over random relative poses, and call report(TierFigures) for each tier.
+    """Measure the collision tiers for two sprites (PixelMasks) over random relative poses.
 
-    seed: for the poses and the order of the runs. Raises ValueError for a sprite without solid pixels.
+    report(TierFigures) is called for each tier. tiers: their names; seed: for the poses and the order of the runs.
+    Raises ValueError for a sprite without solid pixels.
     """
     measure_at(first, second, poses_around(first, second, seed=seed), report, tiers, seed)
 
@@ -102,9 +103,10 @@ def measure_at(
     tiers: Sequence[str] = TIERS,
     seed: int = 0,
 ) -> None:
-    """Measure the tiers for two sprites at given poses, and call report(TierFigures) for each tier.
+    """Measure the collision tiers for two sprites (PixelMasks) at given poses.
 
-    The poses must include hits and misses.
+    report(TierFigures) is called for each tier. poses: Poses, which must include hits and misses; tiers: their names;
+    seed: for the order of the runs.
     """
     shapes = {tier: (fit(first, tier), fit(second, tier)) for tier in tiers}
     verdicts, batches = {tier: np.zeros(len(poses.met), bool) for tier in tiers}, {}
@@ -128,7 +130,10 @@ def measure_at(
 
 
 def _build(mask, tier):
-    """Fit the shapes of a tier without the cache. A new PixelMask is made, because each mask caches its fits."""
+    """Fit the shapes of a collision tier to a mask without the cache. Return the shapes.
+
+    A new PixelMask is made, because each mask caches its fits.
+    """
     return fit(PixelMask(mask.solid, mask.origin), tier)
 
 

@@ -70,7 +70,7 @@ class Orders:
 
 
 def measure(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure every setting at the moment of an order, which names a snapshot file of a world.
+    """Measure every setting of a world, starting from the snapshot file that an order names.
 
     First, the errors and one timed run of each setting are reported, then further timed runs in random order while
     goes_on() is True. report(line of JSON) is called for each result.
@@ -101,7 +101,7 @@ def measure(order: dict[str, Any], report: Callable[[str], object], goes_on: Cal
 
 
 def measure_sprites(order: dict[str, Any], report: Callable[[str], object]) -> None:
-    """Measure every tier of the two sprites of an order, which names an .npz file.
+    """Measure every collision tier of the two sprites of an order, which names an .npz file.
 
     The file contains solid_0, origin_0, solid_1, origin_1. report(line of JSON) is called for each tier.
     """
@@ -140,7 +140,7 @@ def measure_stored_runs(order: dict[str, Any], report: Callable[[str], object], 
 
 
 def measure_costs(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure the cost of each effect at the moment of an order, and count the kernels compiled for each effect.
+    """Measure the cost of each effect from the snapshot of an order, and count the kernels compiled for each effect.
 
     report(line of JSON) is called for each result. The timing ends when goes_on() is False.
     """

@@ -112,7 +112,7 @@ class Masks(Layer):
         """Return the image of a block of a large mask; None if the block is empty.
 
         left, top: first column and row of the block in `solid`. Images are cached by place and pixels, since carving
-        changes few blocks.
+        changes few blocks. palette: name of the colours.
         """
         # With a margin of one pixel, so that no edge is drawn at the border of the block.
         part = solid[max(top - 1, 0) : top + BLOCK + 1, max(left - 1, 0) : left + BLOCK + 1]
@@ -129,7 +129,7 @@ class Masks(Layer):
     def _tinted(self, solid, palette):
         """Return the image of a mask, cached by the id of the array `solid`.
 
-        The cache also holds the array itself, so that no other array gets the same id.
+        The cache also holds the array itself, so that no other array gets the same id. palette: name of the colours.
         """
         kept, image = self.tinted.get((id(solid), palette), (None, None))
         if kept is not solid:

@@ -47,7 +47,10 @@ class Structure(Layer):
         draw_boxes(frame, lens, rows[seen], DEPTHS, found.depth[seen] % len(DEPTHS))
 
     def _intervals(self, frame, lens, rows):
-        """Draw the sweep's intervals as bars along the top of the view (x axis) and along its left side (y axis)."""
+        """Draw the sweep's intervals as bars along the top of the view (x axis) and along its left side (y axis).
+
+        rows (n, 3): axis (0 for x, 1 for y), low and high end [px] of each interval.
+        """
         self.total += len(rows)
         if len(rows) == 0:
             return

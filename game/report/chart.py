@@ -85,9 +85,10 @@ def time(key: str, unit: str = "us") -> Reading:
 
 
 def value(key: str, scale: float = 1.0) -> Reading:
-    """Return a reading of a number times `scale`: a function of a row that returns (low, middle, high).
+    """Return a reading of the number `key` of a row, times `scale`.
 
-    A row stores one number, which is used three times, or a list of three.
+    The reading is a function of a row that returns (low, middle, high). A row stores one number, which is used three
+    times, or a list of three.
     """
 
     def read(row):
@@ -101,7 +102,7 @@ def value(key: str, scale: float = 1.0) -> Reading:
 
 
 def percent(key: str) -> Reading:
-    """Return a reading of a rate in percent: a function of a row that returns (low, middle, high).
+    """Return a reading of the rate `key` of a row in percent: a function of a row that returns (low, middle, high).
 
     A row stores the rate as [count, total]. low and high are the ends of the confidence interval (Wilson).
     """

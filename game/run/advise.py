@@ -70,9 +70,10 @@ class Progress:
 
 
 def lines_of(options: Options, error: float, proven: Proven) -> list[str]:
-    """Return what was looked at, the measured settings of the survey, and the advice as lines of text.
+    """Return the report as lines of text: the measured run, the measured settings, and the advice.
 
-    error: the allowed error, in pixels, or in wrong answers per 100 encounters where tiers are measured.
+    error: the allowed error, in pixels, or in wrong answers per 100 encounters where collision tiers are measured;
+    proven: Proven, the advice with its measurements.
     """
     advice, tried, survey, overview = proven
     here, best = advice.here, advice.best
@@ -108,7 +109,7 @@ def _encounters(overview):
 
 
 def _tried(applied: Applied, here: Setting) -> str:
-    """Return a line on a setting that was applied to the whole run."""
+    """Return a line of text on a setting that was applied to the whole run. here: the present setting."""
     if applied.refused:
         return f"tried   {applied.setting.label(here)}: {applied.refused}"
     least, most = applied.interval
@@ -118,7 +119,10 @@ def _tried(applied: Applied, here: Setting) -> str:
 
 
 def as_json(options: Options, error: float, proven: Proven) -> dict:
-    """Return the allowed error, the advice, the survey and what was looked at as a dict for JSON."""
+    """Return the report as a dict for JSON: the measured run, the allowed error, the advice, and the measured settings.
+
+    proven: Proven, the advice with its measurements.
+    """
     advice, tried, survey, overview = proven
     best, here = advice.best, advice.here
     applied = tried[-1] if tried and best != here else None

@@ -45,7 +45,7 @@ class Applied(NamedTuple):
 
 
 class Proven(NamedTuple):
-    """Advice with all that it stands on."""
+    """Advice that was tried on a whole run, with the measurements on which it is based."""
 
     advice: Advice
     applied: tuple[Applied, ...]  # the settings that were tried on the whole run; the last one counts
@@ -54,7 +54,7 @@ class Proven(NamedTuple):
 
 
 def advise_on_run(run: RecordedRun, error: float, report: Report = lambda done, of: None, seed: int = 0) -> Proven:
-    """Return the advice on a recorded run, tried on the whole of it.
+    """Return advice on the settings of a recorded run. The advised setting is tried on the whole run before.
 
     error: as in advise. An advice that does not hold is withdrawn, and the setting that was next best is tried. Raises
     ValueError for a run without steps.
@@ -79,7 +79,7 @@ def advise_on_run(run: RecordedRun, error: float, report: Report = lambda done, 
 def apply_to_run(run: RecordedRun, setting: Setting, predicted: float) -> Applied:
     """Play a whole run with the present setting and with another one in turns, APPLIED_RUNS times each.
 
-    predicted: time of the setting at the moments, as a share of the present time.
+    predicted: time of the setting in runs from snapshots, as a share of the present time.
     """
     changes = changes_to(setting, run.make())
     if isinstance(changes, str):

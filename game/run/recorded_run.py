@@ -132,7 +132,7 @@ def _change(scene, name, value):
 
 
 class Overview(NamedTuple):
-    """A look over a whole run."""
+    """Result of look_over: snapshots to measure from, the busiest second of the run, and the encounters of bodies."""
 
     moments: list[Moment]  # in the middle of each of STRATA parts, and at the start of the busiest second
     at: list[int]  # the steps after which they were taken
@@ -141,7 +141,7 @@ class Overview(NamedTuple):
 
 
 def look_over(run: RecordedRun, report: Report = lambda done, of: None) -> Overview:
-    """Play a run twice: first to find its busiest second, then to take the moments and to count the encounters.
+    """Play a run twice: first to find its busiest second, then to take snapshots and to count the encounters of bodies.
 
     Raises ValueError for a run without steps.
     """
@@ -168,7 +168,7 @@ def look_over(run: RecordedRun, report: Report = lambda done, of: None) -> Overv
 
 
 def touching(moment: Moment) -> dict[str, Pairs]:
-    """Return {tier: pairs of touching bodies} at a moment, for every tier."""
+    """Return {tier: pairs of touching bodies} at a snapshot, for every collision tier (kind of collision shape)."""
     found = {}
     for tier in TIERS:
         world = moment.world(moment.here._replace(tier=tier, narrowphase=True))

@@ -25,7 +25,7 @@ LOOK_EVERY = 12  # steps between two looks at the touching pairs
 
 
 class Follower:
-    """Plays a recorded run as far as it goes, and counts the encounters under every tier."""
+    """Plays a recorded run as far as it goes, and counts the encounters of bodies under every collision tier."""
 
     def __init__(self) -> None:
         self.run: RecordedRun | None = None
@@ -35,9 +35,10 @@ class Follower:
         self.exact = ""
 
     def follow(self, run: RecordedRun, goes_on: Callable[[], bool]) -> dict[str, Verdicts]:
-        """Play on to the end of `run` while goes_on() is True. Return the encounters by tier; {} without tiers.
+        """Play on to the end of `run` while goes_on() is True.
 
-        A run that does not continue the last one, because of a restart or a rewind, is played from its start.
+        A run that does not continue the last one, because of a restart or a rewind, is played from its start. Return
+        the encounters by collision tier; {} without tiers.
         """
         if self.run is None or self.player is None or not run.continues(self.run, self.steps):
             self.player, self.steps, self.met = Player(run), 0, {}
@@ -60,7 +61,10 @@ class Follower:
 def measure_played(
     follower: Follower, order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]
 ) -> None:
-    """Report the encounters of the recorded run of an order, then measure its moment."""
+    """Report the encounters of the recorded run of an order, then measure its snapshot as worker.measure does.
+
+    follower: Follower of the run; report(line of JSON) is called for each result, while goes_on() is True.
+    """
     met = follower.follow(_loaded(order), goes_on)
     found = {tier: sent_verdicts(verdicts) for tier, verdicts in met.items()}
     report(json.dumps({"moment": order["moment"], "encounters": found}))
@@ -68,7 +72,10 @@ def measure_played(
 
 
 def prove(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Apply the setting of an order to its whole run, and report the measured times."""
+    """Apply the setting of an order to its whole run, and report the measured times.
+
+    report(line of JSON) is called with the result; goes_on: not used.
+    """
     setting, predicted = order["prove"]
     applied = apply_to_run(_loaded(order), Setting(*setting), predicted)
     report(json.dumps({"moment": order["moment"], "applied": applied}))

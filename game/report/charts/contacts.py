@@ -76,7 +76,7 @@ def offsets(truth: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]], count:
 
 
 def measure(body: str, count: int) -> list[Row]:
-    """Return a row for each tier, with both shapes in this tier, and a row for the exact shapes.
+    """Return a row for each tier (kind of collision shape) of both bodies, and a row for the exact shapes.
 
     body: key of BODIES; count: number of poses.
     """

@@ -25,9 +25,9 @@ AROUND, NEAR = "poses all around", "within 2 px of touching"
 
 
 def poses_near(first: PixelMask, second: PixelMask, tried: int) -> Poses:
-    """Return the poses of two sprites, out of `tried` random ones, at which their exact distance is less than BAND.
+    """Return the poses of two sprites (PixelMasks) at which their exact distance is less than BAND.
 
-    Raises ValueError for fewer than LEAST_EACH hits or misses.
+    They are selected from `tried` random poses. Raises ValueError for fewer than LEAST_EACH hits or misses.
     """
     poses = poses_around(first, second, tried, seed=1)
     a, b = fit(first, "mask")[0], fit(second, "mask")[0]
@@ -43,7 +43,10 @@ def poses_near(first: PixelMask, second: PixelMask, tried: int) -> Poses:
 
 
 def measure(atlas: str, name: str, tried: int) -> list[Row]:
-    """Return two rows for each tier of a sprite against itself, one for each set of poses. tried: see poses_near()."""
+    """Return two rows for each tier (kind of collision shape) of a sprite against itself, one for each set of poses.
+
+    atlas, name: of the sprite; tried: see poses_near().
+    """
     mask, rows = mask_of(atlas, name), []
     for panel, poses in ((AROUND, poses_around(mask, mask)), (NEAR, poses_near(mask, mask, tried))):
         measure_at(mask, mask, poses, lambda figures, panel=panel: rows.append(_row(name, panel, figures)))
@@ -108,7 +111,10 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
 
 
 def _fit_claims(rows: Sequence[Row]) -> list[Claim]:
-    """Return claims about the tiers that fit every sprite within a pixel: least memory, and fastest to build."""
+    """Return claims about the tiers that fit every sprite within a pixel: least memory, and fastest to build.
+
+    A tier is a kind of collision shape. rows: of the chart.
+    """
     rows = [row for row in rows if row["panel"] == AROUND]
     fits = {}
     for row in rows:

@@ -48,7 +48,7 @@ class Switches:
         self._switch("substeps", "substeps", following(SUBSTEPS, now, way), now)
 
     def tier(self, way: int) -> None:
-        """Change to the next tier of the sprites' shapes (`way` 1) or the previous one (-1)."""
+        """Change to the next tier (kind of collision shape) of all sprites (`way` 1) or the previous one (-1)."""
         if self.scene.tiers:
             self._switch("tier", "tested as", following(self.scene.tiers, self.scene.tier, way), self.scene.tier)
         else:
