@@ -35,7 +35,7 @@ MOST = 20000  # frames within which every moment of a game must occur
 
 @dataclass(frozen=True)
 class Shot:
-    """A picture to take: the frame number or moment of a run, and the part of the canvas to show.
+    """A picture to take: the frame number, or the Moment (event) of a run, and the part of the canvas to show.
 
     The part is 160 x 90 px times `zoom`, with its top left corner at (left, top) [canvas px].
     """
@@ -118,7 +118,7 @@ def film(name, seed, frames, layers=()):
 
 
 def film_moments(name, seed, moments):
-    """Run a scene. Return a list with one picture for each moment.
+    """Run a scene, and take a picture at each of the `moments` (see scenes/moments.py). Return the list of pictures.
 
     The moments must occur in the given order. Raises ValueError, which names the first moment that does not occur.
     """
@@ -168,8 +168,9 @@ def write_pictures(folder):
 
 
 def write_moments(game, folder):
-    """Write the pictures of a game's moments into a folder as 00.png, 01.png, ..., and their captions as the list
-    captions.json.
+    """Write the pictures of a game's moments (events, see scenes/moments.py) into a folder as 00.png, 01.png, ...
+
+    Their captions are written as the list captions.json.
     """
     for number, picture in enumerate(film_moments(game, SEED, MOMENTS[game])):
         (folder / f"{number:02}.png").write_bytes(png.encode(reduced(picture)))

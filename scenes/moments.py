@@ -12,7 +12,7 @@ SEED = 1
 
 @dataclass(frozen=True)
 class Moment:
-    """A moment of a game. It occurs when when(scene) is true, and its picture is taken `after` steps later."""
+    """An event in a game of which a picture is taken, `after` steps after when(scene) has become true."""
 
     caption: str
     when: Callable
@@ -65,7 +65,10 @@ def bombed(frame):
 
 
 def done(feat, times=1):
-    """Return a function of the scene: whether the hero has done `feat` at least `times` times."""
+    """Return a function of the scene: whether the hero has done the feat (see Feats) at least `times` times.
+
+    feat: its name.
+    """
     return lambda scene: scene.feats.done[feat] >= times
 
 

@@ -179,7 +179,7 @@ def _gems(picture, moon, depth):
 
 
 def _gem(picture, solid, row, column, size):
-    """Draw one cut stone around (column, row), lit from the upper left, only where `solid` is True. size [px]."""
+    """Draw one cut crystal around (column, row), lit from the upper left, only where `solid` is True. size [px]."""
     height, width = solid.shape
     for dy in range(-size - 1, size + 2):
         half = size - abs(dy) * size // (size + 1) - (abs(dy) == size + 1)

@@ -115,5 +115,5 @@ def near_pillars():
 
 
 def cave_layers():
-    """Return {name: pixels} of both layers."""
+    """Return {name: pixels} of the two background layers of the cave: the far wall and the near pillars."""
     return {"cave_far": far_wall(), "cave_near": near_pillars()}

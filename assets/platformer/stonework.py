@@ -115,7 +115,7 @@ def _open(sprite, column):
 
 
 def gem(frame):
-    """Return a rotating cut stone, 14 x 14 px. frame: 0..3; the highlight stays in place."""
+    """Return a rotating gem, 14 x 14 px. frame: 0..3; the highlight stays in place."""
     sprite = Sprite(14, 14)
     x, y, half = sprite.x, sprite.y, GEM_WIDTHS[frame]
     ramp = RAMPS["teal"]

@@ -104,7 +104,7 @@ def _midboss_side(sprite, side, frame):
 
 
 def boss(look, frame):
-    """Return the flying fortress. look: one of LOOKS, from whole to burning; frame: 0..1."""
+    """Return the flying fortress. look: one of LOOKS, its states from whole to burning; frame: 0..1."""
     sprite = Sprite(*BOSS)
     hurt = LOOKS.index(look)
     hot = (0.15, 0.5, 0.85)[hurt] + 0.15 * frame

@@ -42,7 +42,7 @@ HOLDING = ("circle", "obb", "capsule", "hull")  # tiers that contain all pixels 
 
 
 class Disagreement(Shooter):
-    """The shooter game, in which eight collision tiers are compared with the reference tier, the exact pixels."""
+    """The shooter game, in which eight collision tiers (kinds of shape) are compared with the exact pixels."""
 
     name = "lab/disagreement"
     title = "Disagreement"
@@ -82,7 +82,7 @@ class Disagreement(Shooter):
         return "hull"
 
     def update(self, inputs):
-        """Step the game, then test the current moment with one more tier."""
+        """Step the game, then test one more collision tier against the last snapshot of the world."""
         super().update(inputs)
         reference = self.reference
         if inputs.wheel:
@@ -97,7 +97,7 @@ class Disagreement(Shooter):
             self.curves, self.apart = self.curves[1::2], 2 * self.apart
 
     def draw(self, canvas, alpha):
-        """Draw the game, and the rates of all tiers beside it."""
+        """Draw the game, and beside it the rates of wrong and missed hits of all collision tiers."""
         super().draw(canvas, alpha)
         for rect, color in ((HEADING, INK), (SIDE, NIGHT)):
             canvas.boxes[:] = [each for each in canvas.boxes if not rect.colliderect(each[0])]  # now hidden
@@ -114,7 +114,7 @@ class Disagreement(Shooter):
         canvas.text(f"{self.reference.moments:,} moments, {hits:,} true hits", SIDE.x + 6, 260, FOG, SMALL)
 
     def _draw_row(self, canvas, tier, y):
-        """Draw the rates of one tier: wrong hits as a bar with its confidence interval, and missed hits as a number."""
+        """Draw the rates of a collision tier: wrong hits as a bar with the confidence interval, and missed hits."""
         wrong, missed, color = self.reference.wrong[tier], self.reference.missed[tier], COLORS[tier]
         if tier == self.reference.lit:
             canvas.surface.fill(DUSK, (SIDE.x + 2, y - 3, SIDE.width - 3, ROW - 1))
@@ -130,7 +130,7 @@ class Disagreement(Shooter):
         canvas.text(f"{100 * missed.share:.0f} %", SIDE.right - 4, y, PAPER, SMALL, align="right")
 
     def _draw_curves(self, canvas):
-        """Draw each tier's share of wrong hits among its hits, over time."""
+        """Draw the share of wrong hits among the hits of each collision tier, over time."""
         area = CURVES
         canvas.surface.fill(INK, area)
         top = max([0.1, *(share for shares in self.curves[len(self.curves) // 8 :] for share in shares)])
@@ -150,7 +150,7 @@ class Disagreement(Shooter):
             pygame.draw.lines(canvas.surface, COLORS[tier], False, points)
 
     def draw_on_frame(self, frame):
-        """Draw the wrong hits and the missed hits of the chosen tier in the last tested moment."""
+        """Draw the wrong hits and the missed hits of the chosen collision tier in the last test of all tiers."""
         lens = frame.lens(self.camera)
         clip = frame.from_canvas(pygame.Rect(0, 0, SIDE.x, SIDE.height))
         frame.surface.set_clip(clip)
@@ -165,7 +165,7 @@ class Disagreement(Shooter):
     def check(self):
         """Return the scene's goals, a list of Goal.
 
-        Simple shapes report wrong hits, and tiers made of the outline hardly ever do.
+        Simple collision shapes report wrong hits, and shapes made of the outline hardly ever do.
         """
         wrong, missed = self.reference.wrong, self.reference.missed
         caught = [tier for tier in LIARS if wrong[tier].count]
@@ -178,7 +178,7 @@ class Disagreement(Shooter):
         ]
 
     def finding(self):
-        """Return a sentence with the share of the chosen tier's hits that are wrong, with its confidence interval."""
+        """Return a sentence with the share of wrong hits of the chosen collision tier, with its confidence interval."""
         lit = self.reference.lit
         wrong, missed = self.reference.wrong[lit], self.reference.missed[lit]
         if not wrong.total:
@@ -197,7 +197,7 @@ class Disagreement(Shooter):
 
 
 def rehearse(effects):
-    """Evaluate every tier once, so that all kernels are compiled before the game begins.
+    """Evaluate every collision tier once, so that all kernels are compiled before the game begins.
 
     It uses two planes and a disc in a world with these effects.
     """

@@ -58,7 +58,7 @@ MIX = 0.6  # of red and blue over the picture
 
 
 class Ladder(Scene):
-    """Scene that shows one sprite at every collision tier.
+    """Scene that shows one sprite at every collision tier (kind of collision shape).
 
     Each tier has its own world and its own cell of the picture.
     """
@@ -90,7 +90,7 @@ class Ladder(Scene):
         self._show(0)
 
     def _show(self, choice):
-        """Show sprite number `choice`: make a world for each tier with the sprite in it."""
+        """Show sprite number `choice`: make a world for each collision tier, with the sprite in it."""
         self.choice, self.worlds = choice, []
         self.image, self.mask = self._sprite()
         self.shapes = {tier: fit(self.mask, tier) for tier in TIERS}
@@ -147,7 +147,7 @@ class Ladder(Scene):
         return picture, (left + shift_x, top + shift_y)
 
     def measured(self):
-        """Return the request to measure the sprite against itself at every tier."""
+        """Return the request to measure the sprite against itself at every collision tier."""
         return SpriteRequest(self.mask, self.mask)
 
     def update(self, inputs):
@@ -159,7 +159,7 @@ class Ladder(Scene):
             world.step()
 
     def views(self):
-        """Return a list of (world, camera), one for the cell of each tier."""
+        """Return a list of (world, camera), one for each collision tier. Each world is drawn in its own cell."""
         return [(world, camera) for world, camera, _ in self.cells.values()]
 
     def draw(self, canvas, alpha):
@@ -214,7 +214,7 @@ class Ladder(Scene):
     def check(self):
         """Return the scene's goals, a list of Goal.
 
-        Tiers that should contain the sprite leave no pixel out, and tiers made of the pixels have no errors.
+        Collision shapes that should contain the sprite leave no pixel out, and those made of the pixels have no errors.
         """
         held = [tier for counts in self.seen.values() for tier in HOLDING if counts[tier][1]]
         exact = [tier for counts in self.seen.values() for tier in ("pixels", "mask") if any(counts[tier])]
@@ -245,7 +245,7 @@ class Ladder(Scene):
         return f"{sentence}; a hit takes {times} ns"
 
     def _balance(self, tier):
-        """Return the number of pixels that a tier covers in excess, minus the number that it leaves out."""
+        """Return the number of pixels that a collision tier covers in excess, minus the number that it leaves out."""
         over, missed = self.counts[tier]
         return over - missed
 

@@ -81,7 +81,7 @@ class Masks(Scene):
     hides_pointer = False
 
     def build(self):
-        """Build a world with both planes for each tier."""
+        """Build a world with both planes for each collision tier (kind of collision shape)."""
         atlas = load_atlas("planes")
         self.masks = [atlas.mask(name) for name in SPRITES]
         self.planes = [RotatedSprites(atlas[name], mask) for name, mask in zip(SPRITES, self.masks, strict=True)]
@@ -93,7 +93,7 @@ class Masks(Scene):
         self.wrong = self.steps = self.apart = self.hits = 0
 
     def measured(self):
-        """Return the request to measure the two planes against each other at every tier."""
+        """Return the request to measure the two planes against each other at every collision tier."""
         return SpriteRequest(self.masks[0], self.masks[1])
 
     def _world(self, tier):
@@ -103,7 +103,7 @@ class Masks(Scene):
         return world
 
     def update(self, inputs):
-        """Move the planes by the input, copy their poses into every world, and test all tiers."""
+        """Move the planes by the input, copy their poses into every world, and test all collision tiers."""
         if inputs.pointer_pressed and ARENA.collidepoint(inputs.pointer):
             self._press(*inputs.pointer)
         self.hands.move(inputs)

@@ -59,7 +59,7 @@ def knock(particles, x, y, force):
 
 
 def trickle(particles, box):
-    """Emit grit from the underside of a shaking stone. box: (left, top, right, bottom) of the stone."""
+    """Emit grit from the underside of a crumbling stone that shakes. box: (left, top, right, bottom) of the stone."""
     left, _, right, bottom = box
     x = left + (right - left) * particles.random.uniform(0, 1)
     particles.burst(
@@ -68,7 +68,7 @@ def trickle(particles, box):
 
 
 def rubble(particles, x, y):
-    """Emit small pieces of a breaking stone."""
+    """Emit small pieces of a crumbling stone that breaks."""
     particles.burst(x, y, 18, GRIT, speed=(20, 90), life=(0.3, 0.7), spread=6.28, gravity=200.0)
 
 

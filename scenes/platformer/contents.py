@@ -63,8 +63,8 @@ class Contents:
     def step(self, tick, seen):
         """Make one step of the platforms, crumbling stones, bombs and enemies.
 
-        tick: number of the step; seen: the hero's position [px]. Return a list of events (name, object), such as
-        ("break", stone) or ("wake", bat).
+        tick: number of the step; seen: the hero's position [px], to which enemies react. Return a list of events (name,
+        object), such as ("break", stone) or ("wake", bat).
         """
         news = []
         for platform in self.platforms:
@@ -135,7 +135,7 @@ class Contents:
                 crumble.press()
 
     def take(self, trigger):
-        """Remove a coin or a gem from the world. trigger: its Trigger."""
+        """Remove a coin or a gem, which the hero has taken, from the world. trigger: its Trigger."""
         self.world.remove_body(trigger.body)
         del self.triggers[trigger.body.id]
 

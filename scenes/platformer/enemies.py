@@ -69,7 +69,7 @@ class Walker(Creature):
         return self.kind == "walker"
 
     def step(self, seen):
-        """Walk for one step. Return False: a walker has no events. seen: not used."""
+        """Walk for one step. Return False: unlike a bat, a walker reports no event. seen: not used."""
         x, _ = self.character.position
         if self.character.surface_speed == 0.0:
             self.home += x - self.left_at  # a platform moves its range along; a belt moves only the walker

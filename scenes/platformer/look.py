@@ -234,7 +234,7 @@ class Look:
                 bursts.launch(self.scene.particles, *self._feet())
 
     def show(self, word, thing):
-        """Show an event of a stone ("shake", "break", "back"), of a bat ("wake") or of a bomb.
+        """Show an event of a crumbling stone ("shake", "break", "back"), of a bat ("wake") or of a bomb.
 
         word: name of the event; thing: the stone, bat or bomb.
         """

@@ -57,7 +57,7 @@ class Leader(Enemy):
         return self.clock / 60
 
     def _take_up(self):
-        """Begin phase `self.number`: set its health, timer, guns and picture."""
+        """Begin phase `self.number` of the fight: set its health, timer, guns and picture."""
         self.health = self.full = float(self.phase.health)
         self.clock = steps(self.phase.seconds)
         self.guns = [Gun(pattern) for pattern in self.phase.patterns]

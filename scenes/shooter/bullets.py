@@ -135,7 +135,7 @@ class Bullets:
 
 
 def mask_of(look):
-    """Return the pixel mask of a bullet of the given look."""
+    """Return the pixel mask of a bullet. look: key of LOOKS."""
     return load_atlas("effects").mask(LOOKS[look][0])
 
 

@@ -109,7 +109,7 @@ def _draw_air(surface, time, off, storm):
 
 @cache
 def stretch(name):
-    """Return the picture of the ground called `name`."""
+    """Return the picture of the ground with the name `name`."""
     return load_backdrop(name)
 
 
@@ -178,7 +178,7 @@ def scar(size):
 
 
 def tile(surface, picture, x, y):
-    """Fill the surface with copies of a picture. (x, y): corner of one of the copies [px]."""
+    """Fill the surface with copies of a picture side by side. (x, y): corner of one of the copies [px]."""
     width, height = picture.get_size()
     wide, high = surface.get_size()
     start = whole(y) % height - height

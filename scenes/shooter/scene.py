@@ -79,7 +79,10 @@ class Shooter(Scene):
         self.beaten = {"midboss": False, "boss": False}
 
     def set_tier(self, name):
-        """Use another collision tier (pixels, obb, aabb, circle) for all sprites, including those added later."""
+        """Use another collision tier for all sprites, including those added later.
+
+        name: kind of collision shape: pixels, obb, aabb or circle.
+        """
         super().set_tier(name)
         self.fleet.tier = self.plane.tier = name
 
@@ -123,9 +126,9 @@ class Shooter(Scene):
         self._read_events()
 
     def _last_moment(self, inputs):
-        """Make one of the steps after a hit, in which a bomb still saves the plane.
+        """Make one of the steps between a hit and the loss of the plane, in which a bomb still saves it.
 
-        After the last, the plane is lost.
+        After the last of these steps, the plane is lost.
         """
         self.stricken -= 1
         if inputs.pressed("bomb") and self.plane.bombs and self.bomb.body is None:

@@ -215,7 +215,7 @@ class Spectacle:
     def piece_down(self, identity, piece):
         """Show that a piece of wreckage falls into water or on the ground. Larger pieces give more and louder effects.
 
-        identity: body id of the piece.
+        identity: body id of the piece; piece: its Piece.
         """
         x, y = self.scene.world.body(identity).center
         count, loud = min(4 + piece.mask.area // 12, 24), min(0.2 + piece.mask.area / 900, 0.7)

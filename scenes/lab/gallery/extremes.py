@@ -88,7 +88,7 @@ def build_pyramid(side, origin):
 
 
 def apart(side):
-    """Return the greatest difference between the two worlds in the position of the same body, along x or y [mm].
+    """Return the greatest difference between the page's two worlds in the position of the same body, along x or y [mm].
 
     Positions count from the origin of each world's pyramid.
     """

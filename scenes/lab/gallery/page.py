@@ -52,8 +52,8 @@ PLAIN = Way("projection", PUSHED.world, without=("stacking",))
 class Larger:
     """A larger case of a page, too large for real time, which the measuring process runs during the game.
 
-    maker: "module:function", whose function makes the snapshot from a Way's `world`; steps: number of steps that are
-    judged, from the first on.
+    maker: "module:function", a function that takes the keyword arguments of a World as a dict and returns a Snapshot;
+    steps: number of steps, from the snapshot on, over which the error is measured.
     """
 
     name: str  # "1,000 boxes"
@@ -133,7 +133,7 @@ class Side:
 
     @property
     def error(self):
-        """Error that is compared with the limit: the worst so far or the last one, as Page.judged says."""
+        """Error that is compared with the page's limit: the worst so far, or the last one, as Page.judged says."""
         return self.worst if self.page.judged == WORST else self.now
 
     @property

@@ -83,7 +83,7 @@ class Gallery(Scene):
         self.open()
 
     def open(self):
-        """Make both worlds of the page, at the page's start."""
+        """Make both worlds of the open page anew, in the state in which the page starts."""
         page = self.page
         self.worlds, self.sides = [], []
         for way in (page.naive, page.ours):
@@ -138,7 +138,7 @@ class Gallery(Scene):
             cost.note(step_seconds(side.world) * 1e6)
 
     def measured(self):
-        """Return the runs that the measuring process times: the page's larger case, or None if it has none."""
+        """Return the runs that the measuring process times: those of the page's larger case, or None if it has none."""
         if self.page.larger is None:
             return None
         return RunRequest([self._run_name(side) for side in self.sides], self._make)
@@ -153,7 +153,7 @@ class Gallery(Scene):
         return MeasuredRun([made], self.broadphase, STEPS_OF_LARGER, judged=(1, larger.steps))
 
     def larger(self, side):
-        """Return (error, RunFigures) of a side's larger case, or None until it has run."""
+        """Return (error, RunFigures) of the larger case of a side (see page.Larger), or None until it has run."""
         figures = self.figures.get(self._run_name(side))
         if self.page.larger is None or figures is None:
             return None
@@ -281,7 +281,7 @@ class Gallery(Scene):
     def bot(self):
         """Return the bot's input for the next step.
 
-        The bot opens each page for a moment; then it opens them again and stays on each until the page is judged.
+        The bot opens each page for a moment; then it opens them again and stays on each until its result is known.
         """
         if self.frame < TOURED:
             number = GLANCES.get(self.frame)
