@@ -280,9 +280,9 @@ def pair_keys(proxies, pairs, count, pairs_inout, keys_out):
 def merge_pairs(shapes, kept, kept_rows, kept_count, keys, new_count, pairs_out, candidates_out):
     """Merge the kept pairs with the new pairs, in the order of their SHAPE rows. O(pairs).
 
-    kept, kept_rows (n, 2): slots and SHAPE row numbers of the kept pairs; kept_count: their number. keys int64: sorted
-    keys (low row << 32 | high row) of the new pairs; new_count: their number. pairs_out (capacity, 2) int32: slots;
-    candidates_out (capacity, 2) int64: row numbers in SHAPE.
+    kept (n, 2): slots of the kept pairs; kept_rows (n, 2): their row numbers in SHAPE; kept_count: their number. keys
+    int64: sorted keys (low row << 32 | high row) of the new pairs; new_count: their number. The result is written to
+    pairs_out (capacity, 2) int32: slots; and candidates_out (capacity, 2) int64: row numbers in SHAPE.
     """
     i = 0
     at = 0

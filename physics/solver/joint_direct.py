@@ -409,9 +409,9 @@ def start_joints(context, joints_inout, motions_inout):
 
 @subkernel
 def finish_joints(context, joints_inout, motions_inout):
-    """Solve the velocities of the joints at the poses after a substep, and add the impulses to the totals of the step.
+    """Solve all joints once after a substep, for velocities only, and add the impulses to the totals of the step.
 
-    context: see StepContext; joints_inout: JointSet; motions_inout: MOTION rows.
+    The trees are solved at the new poses. context: see StepContext; joints_inout: JointSet; motions_inout: MOTION rows.
     """
     s = joints_inout
     begin_trees(context, s, motions_inout)

@@ -604,10 +604,10 @@ SUBSTEPS = {
 
 
 def solve(state: StepState, contacts: ContactLanes, kernels: Mapping = SUBSTEPS) -> float:
-    """Solve the constraints of a step, group by group, and move the bodies. Return the length [s] of a substep.
+    """Solve the constraints of a step, one group of islands after the other, and move the bodies.
 
-    The result is that of the last group, which has the shortest substeps. contacts: ContactLanes of the world; kernels:
-    functions of make_substeps by (drag, rotation, friction, joints).
+    Return the length [s] of a substep of the last group, which has the shortest substeps. contacts: ContactLanes of the
+    world; kernels: {(drag, rotation, friction, joints): result of make_substeps}.
     """
     effects, motions, dt = state.effects, state.workspace.motions, state.dt
     run, h = kernels[effects.drag, effects.rotation, effects.friction, effects.joints], dt
