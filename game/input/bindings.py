@@ -115,7 +115,7 @@ def rivals(action: str, other: str) -> bool:
 
 
 def key_codes(names: Table) -> dict[int, tuple[str, ...]]:
-    """Return {key code: actions} for some bindings and the fixed keys.
+    """Return {key code: actions} for the given bindings, and for the keys that cannot be rebound.
 
     names: {action: names of keys}. Raises ValueError for an unknown name.
     """
@@ -123,7 +123,7 @@ def key_codes(names: Table) -> dict[int, tuple[str, ...]]:
 
 
 def button_actions(names: Table) -> dict[str, tuple[str, ...]]:
-    """Return {button name: actions} for some bindings and the fixed buttons.
+    """Return {button name: actions} for the given bindings, and for the buttons that cannot be rebound.
 
     names: {action: names of buttons}. Raises ValueError for an unknown name.
     """

@@ -1,4 +1,4 @@
-"""The errors of a setting at a moment, against reference runs and exact tests.
+"""The errors of a setting, measured in runs from a snapshot ("moment"), against reference runs and exact tests.
 
 There are three kinds of error. `way` [px]: distance of the bodies from their positions in a reference run. `overlap`
 [px]: how deep rigid bodies overlap, which is 0 in an exact solution. `verdict`: wrong answers (false hits and missed

@@ -30,9 +30,9 @@ def called(effects: Effects, broadphase: str, pieces: tuple[str, ...] | None) ->
 
 
 def counts(effects: Effects, broadphase: str, pieces: Iterable[str] | None) -> Iterable[tuple[str, int]]:
-    """Yield (effect, number of kernels that are compiled for this effect alone) for every effect.
+    """Yield (effect, number of kernels that are compiled only because of this effect) for every effect.
 
-    effects, broadphase, pieces: of the world, as for called().
+    effects, broadphase: of the world; pieces: shape pairs and queries that it uses, as in physics.warmup.
     """
     wanted = None if pieces is None else tuple(pieces)
     known = cache(lambda each: called(each, broadphase, wanted))

@@ -141,7 +141,7 @@ class Side:
         self.worked += sum(world.profile.counters[name] for world in self.scene.worlds for name in WORK)
 
     def moved(self) -> list[Any]:
-        """Return the ids, poses and velocities of all bodies, as bytes to compare."""
+        """Return the ids, poses and velocities of all bodies as bytes, to be compared with those of the other copy."""
         return [
             world.bodies[name].tobytes()
             for world in self.scene.worlds
@@ -149,7 +149,7 @@ class Side:
         ]
 
     def reported(self) -> list[Any]:
-        """Return the events of the last step, each table as bytes to compare."""
+        """Return the events of the last step, each table as bytes, to be compared with those of the other copy."""
         return [
             np.ascontiguousarray(getattr(world.events, name)).tobytes()
             for world in self.scene.worlds

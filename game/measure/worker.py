@@ -1,4 +1,4 @@
-"""`python -m game.measure.worker`: the measuring process, which measures moments, sprites, runs and effects.
+"""`python -m game.measure.worker`: the measuring process, which measures settings of worlds, sprites, runs and effects.
 
 Each line of JSON on standard input is an order that replaces the one before. Lines of JSON on standard output are
 results. The process ends when its standard input closes, so it never outlives the program that started it.

@@ -1,8 +1,8 @@
 """`python -m game.run.run_worker`: the measuring process of a played scene, which also plays its recorded run.
 
 Besides the orders of game.measure.worker it takes two with a recorded run. "prove": apply a setting to the whole run. A
-moment with a run: count the encounters of the run so far under every tier, then measure the moment as usual. A run that
-goes on is not played from its start again.
+snapshot ("moment") with a run: count the encounters of bodies in the run so far under every collision tier, then
+measure from the snapshot as usual. A run that goes on is not played from its start again.
 """
 
 import json

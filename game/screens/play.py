@@ -333,7 +333,7 @@ class Play(SceneScreen):
             self.outcome = ("result",) if self.scene.result is not None else ("pause", "")
 
     def toggle_panel(self) -> None:
-        """Open the panel, or close the open one."""
+        """Open the side panel; if a panel is open, close it."""
         was_open = self.open_panel is not None
         self.close_costs()
         self.panel_open = not was_open

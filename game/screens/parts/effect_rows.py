@@ -26,7 +26,7 @@ def effect_rows(measuring: Measuring) -> list[Row]:
 
 
 def price_text(known: EffectCost, busy: bool) -> str:
-    """Return the time per step that an effect costs, as text [us].
+    """Return the time per step that an effect costs, as text [us]. known: EffectCost of the effect.
 
     "0": not greater than the scatter of the runs; "-": unknown; "...": being measured (`busy`).
     """
@@ -37,14 +37,20 @@ def price_text(known: EffectCost, busy: bool) -> str:
 
 
 def kernels_text(known: EffectCost, busy: bool) -> str:
-    """Return the number of kernels compiled for an effect as text; "-" if unknown, "..." while counted (`busy`)."""
+    """Return the number of kernels compiled for an effect as text; "-" if unknown, "..." while counted (`busy`).
+
+    known: EffectCost of the effect.
+    """
     if known.kernels is None:
         return WAITS if busy else UNKNOWN
     return f"{known.kernels}"
 
 
 def hint_of(known: EffectCost) -> str:
-    """Return a short text about an effect: whether the scene declares it, and its measured time with the scatter."""
+    """Return a short text about an effect: whether the scene declares it, and its measured time with the scatter.
+
+    known: EffectCost of the effect.
+    """
     price, noise = known.price, known.noise
     if price is None:
         return "declared" if known.declared else "absent"

@@ -77,7 +77,7 @@ class Played(Protocol):
         ...
 
     def toggle_panel(self) -> None:
-        """Open the panel, or close the open one."""
+        """Open the side panel; if a panel is open, close it."""
         ...
 
     def switch_solver(self, way: int) -> None:

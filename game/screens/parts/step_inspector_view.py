@@ -264,7 +264,10 @@ class StepInspectorView:
 
 
 def described(done: Done) -> list[tuple[str, str]]:
-    """Return (heading, text) pairs about a stage: its changes, its counters, and its declared fields."""
+    """Return (heading, text) pairs about a finished stage: its changes, its counters, and its declared fields.
+
+    done: the Done of the stage.
+    """
     changes = [f"{name} {new}, were {old}" for name, old, new in done.rows]
     for name, rows, columns in done.changed:
         of = f" ({' '.join(columns)}) of" if columns else ""
