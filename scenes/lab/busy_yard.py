@@ -185,7 +185,7 @@ class BusyYard:
 
 
 def apart(one, other):
-    """Return (numbers, distances) of the bodies that exist in both yards.
+    """Return (numbers, distances) of the bodies that exist in both of two yards.
 
     numbers: list of keys of `ids`; distances: array (n,) [px] between the two positions of each body.
     """

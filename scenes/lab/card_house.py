@@ -165,7 +165,7 @@ class CardHouse(Scene):
         return hypot(card.center[0] - x, card.center[1] - y)
 
     def stands(self, cards):
-        """Return whether each of these bodies is less than REACH / 2 away from its starting position."""
+        """Return whether each of the bodies `cards` is less than REACH / 2 away from its starting position."""
         return all(self.moved(card) < REACH / 2 for card in cards)
 
     @property

@@ -31,13 +31,19 @@ def dust(particles, x, y, count, speed):
 
 
 def slide(particles, x, y, side):
-    """Emit the dust of a hero who slides down a wall. side: where the wall is, -1 left, 1 right."""
+    """Emit the dust of a hero who slides down a wall. side: where the wall is, -1 left, 1 right.
+
+    particles: the scene's Particles.
+    """
     x, y, heading = x + 5 * side, y + 4, DOWN * (1 + side)
     particles.burst(x, y, 2, DUST, speed=(5, 26), life=(0.2, 0.4), angle=heading, spread=1.6, gravity=60.0)
 
 
 def wall_jump(particles, x, y, away):
-    """Emit the dust of a hero who jumps off a wall. away: direction of the jump, -1 left, 1 right."""
+    """Emit the dust of a hero who jumps off a wall. away: direction of the jump, -1 left, 1 right.
+
+    particles: the scene's Particles.
+    """
     x, y, heading = x - 6 * away, y + 4, 0.0 if away > 0 else pi
     particles.burst(x, y, 10, DUST, speed=(20, 90), life=(0.2, 0.45), angle=heading, spread=1.8, gravity=120.0)
 
@@ -59,7 +65,10 @@ def knock(particles, x, y, force):
 
 
 def trickle(particles, box):
-    """Emit grit from the underside of a crumbling stone that shakes. box: (left, top, right, bottom) of the stone."""
+    """Emit grit from the underside of a crumbling stone that shakes. box: (left, top, right, bottom) of the stone.
+
+    particles: the scene's Particles.
+    """
     left, _, right, bottom = box
     x = left + (right - left) * particles.random.uniform(0, 1)
     particles.burst(
@@ -68,12 +77,15 @@ def trickle(particles, box):
 
 
 def rubble(particles, x, y):
-    """Emit small pieces of a crumbling stone that breaks."""
+    """Emit small pieces of a crumbling stone that breaks. particles: the scene's Particles."""
     particles.burst(x, y, 18, GRIT, speed=(20, 90), life=(0.3, 0.7), spread=6.28, gravity=200.0)
 
 
 def mote(particles, view, act):
-    """Emit one floating speck in the colours of an act. view: (left, top, width, height) in which it appears."""
+    """Emit one floating speck in the colours of an act. view: (left, top, width, height) in which it appears.
+
+    particles: the scene's Particles.
+    """
     left, top, width, height = view
     x = left + width * particles.random.uniform(0, 1)
     y = top + height * particles.random.uniform(0.2, 1)
@@ -81,19 +93,19 @@ def mote(particles, view, act):
 
 
 def ember(particles, x, y):
-    """Emit one spark that rises from a flame."""
+    """Emit one spark that rises from a flame. particles: the scene's Particles."""
     particles.burst(
         x, y - 1, 1, EMBER, speed=(6, 20), life=(0.3, 0.8), angle=UP, spread=1.2, size=(1, 1), gravity=-30.0
     )
 
 
 def kindle(particles, x, y):
-    """Emit sparks when a lantern is lit."""
+    """Emit sparks when a lantern is lit. particles: the scene's Particles."""
     particles.burst(x, y, 26, EMBER, speed=(20, 110), life=(0.3, 0.9), drag=3.0, gravity=-20.0)
 
 
 def coin(particles, x, y):
-    """Emit sparkles when a coin is taken."""
+    """Emit sparkles when a coin is taken. particles: the scene's Particles."""
     particles.burst(x, y, 9, GOLDEN, speed=(20, 90), life=(0.25, 0.6), size=(1, 1), gravity=120.0)
 
 
@@ -109,18 +121,18 @@ def hurt(particles, x, y):
 
 
 def vanish(particles, x, y):
-    """Emit a puff where the hero was before he was moved back to safe ground."""
+    """Emit a puff where the hero was before he was moved back to safe ground. particles: the scene's Particles."""
     particles.burst(x, y, 20, GEM, speed=(20, 110), life=(0.25, 0.6))
 
 
 def confetti(particles, x, y):
-    """Emit confetti when the level is won."""
+    """Emit confetti when the level is won. particles: the scene's Particles."""
     for ramp in CONFETTI:
         particles.burst(x, y, 34, ramp, speed=(60, 240), life=(0.8, 2.0), angle=UP, spread=2.2, drag=1.6, gravity=150.0)
 
 
 def fuse(particles, x, y):
-    """Emit sparks of a burning fuse."""
+    """Emit sparks of a burning fuse. particles: the scene's Particles."""
     particles.burst(x, y, 2, EMBER, speed=(20, 80), life=(0.1, 0.3), angle=UP, spread=3.0, size=(1, 1), gravity=120.0)
 
 

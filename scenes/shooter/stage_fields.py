@@ -19,7 +19,10 @@ class Number:
         self.low, self.high, self.default, self.whole = low, high, default, whole
 
     def read(self, reader, place, value):
-        """Return the number. Raises FileError if it is invalid."""
+        """Return `value` if it is a valid number. Raises FileError, which names `place`, if it is not.
+
+        reader: Reader of the file; place: of the field in the file.
+        """
         kind = "a whole number" if self.whole else "a number"
         whole = isinstance(value, int) and not isinstance(value, bool)
         if not whole and (self.whole or not isinstance(value, float) or not isfinite(value)):
@@ -36,7 +39,10 @@ class Text:
         self.most, self.default = most, default
 
     def read(self, reader, place, value):
-        """Return the text. Raises FileError if it is invalid."""
+        """Return `value` if it is a valid text. Raises FileError, which names `place`, if it is not.
+
+        reader: Reader of the file; place: of the field in the file.
+        """
         if not isinstance(value, str):
             reader.fail(place, f"must be text (got {value!r:.60})")
         if not 1 <= len(value) <= self.most:
@@ -54,7 +60,11 @@ class Choice:
         self.names, self.default = tuple(names), default
 
     def read(self, reader, place, value):
-        """Return the text. Raises FileError for another value; the message suggests the most similar name."""
+        """Return `value` if it is one of the texts.
+
+        Raises FileError otherwise; the message suggests the most similar one. reader: Reader of the file; place: of the
+        field in the file.
+        """
         if value not in self.names:
             reader.fail(place, f"must be one of {', '.join(self.names)} (got {value!r:.60}){guess(value, self.names)}")
         return value
@@ -67,7 +77,10 @@ class List:
         self.entry, self.fewest, self.most, self.default = entry, fewest, most, default
 
     def read(self, reader, place, value):
-        """Return the entries as a tuple. Raises FileError if the list or an entry is invalid."""
+        """Return the entries of the list `value` as a tuple. Raises FileError if the list or an entry is invalid.
+
+        reader: Reader of the file; place: of the field in the file.
+        """
         if not isinstance(value, list):
             reader.fail(place, f"must be a list (got {value!r:.40})")
         if not self.fewest <= len(value) <= self.most:
@@ -83,7 +96,11 @@ class Record:
         self.make, self.fields, self.default = make, fields, default
 
     def read(self, reader, place, value):
-        """Return the result of make(). Raises FileError if a field is invalid, missing or unknown."""
+        """Return make() of the fields of the object `value`.
+
+        Raises FileError if a field is invalid, missing or unknown. reader: Reader of the file; place: of the field in
+        the file.
+        """
         return self.make(**reader.fields(place, value, self.fields))
 
 
@@ -97,7 +114,10 @@ class Variant:
         self.tag, self.shared, self.records = tag, shared, records
 
     def read(self, reader, place, value):
-        """Return the result of the selected record's make(). Raises FileError if a field is invalid."""
+        """Return make() of the record that `value` selects by its tag. Raises FileError if a field is invalid.
+
+        reader: Reader of the file; place: of the field in the file.
+        """
         tag = Choice(self.records)
         if not isinstance(value, dict) or self.tag not in value:
             reader.fields(place, value, {self.tag: tag}, others=True)

@@ -26,7 +26,7 @@ SUBSTEPS, SHARE = 4, 0.2  # of the simulated wheel; the share of Box2D Lite
 
 
 def build_gates(side, speed=GATE_SPEED):
-    """Build three gates and a crate under each. speed: of the gates [px/s]."""
+    """Build three gates and a crate under each. speed: of the gates [px/s]. side: see page.Side."""
     floor(side.world)
     side.kept.update(chance=np.random.default_rng(4), speed=speed, gates=[], crates=[])
     for number, (x, offset) in enumerate(zip(GATES, OFFSETS, strict=True)):
@@ -41,7 +41,7 @@ def move_gates(side):
     """Set the velocities of the gates, which sink onto the crates and rise again, once per round of ROUND steps.
 
     At the start of a round everything returns to its place, with a random shift of the gates. So the gates meet the
-    crates at another time within a step in each round.
+    crates at another time within a step in each round. side: see page.Side.
     """
     step, speed = side.steps % ROUND, side.kept["speed"]
     if step == 0:
@@ -59,12 +59,18 @@ def move_gates(side):
 
 
 def step_crates(side):
-    """Step the crates with a naive solver, which removes the whole overlap in one step by a velocity that they keep."""
+    """Step the crates with a naive solver, which removes the whole overlap in one step by a velocity that they keep.
+
+    side: see page.Side.
+    """
     step_naively(side, side.kept["crates"], 1, 1.0)
 
 
 def thrown(side):
-    """Return the speed of the fastest crate [px/s], and mark crates that are faster than the limit."""
+    """Return the speed of the fastest crate [px/s], and mark crates that are faster than the limit.
+
+    side: see page.Side.
+    """
     speeds = [hypot(*crate.velocity) for crate in side.kept["crates"]]
     for crate, speed in zip(side.kept["crates"], speeds, strict=True):
         if speed > side.page.limit:
@@ -75,7 +81,8 @@ def thrown(side):
 def build_bowl(side, radius=20.0, turn=0.7):
     """Build a bowl, a chain of 240 links, and a disc at rest on its inside.
 
-    radius: of the disc [px]; turn: place of the disc on the half circle, 0 (right end) .. 1 (left end).
+    radius: of the disc [px]; turn: place of the disc on the half circle, 0 (right end) .. 1 (left end). side: see
+    page.Side.
     """
     corners = [(RIM * cos(at), RIM * sin(at)) for at in np.linspace(pi, 0.0, LINKS + 1)]
     side.world.add_body(Chain(corners), kind="static")
@@ -85,7 +92,10 @@ def build_bowl(side, radius=20.0, turn=0.7):
 
 
 def build_wheel(side, angle=1.3):
-    """Build a wheel with a heavy part off its middle, rotated by `angle` [rad] from its equilibrium."""
+    """Build a wheel with a heavy part off its middle, rotated by `angle` [rad] from its equilibrium.
+
+    side: see page.Side.
+    """
     floor(side.world)
     heavy = Circle(HEAVY, (0.0, OUT)).with_(material=Material(density=DENSE))
     wheel = side.world.add_body(Circle(WHEEL), heavy, position=(0.0, -WHEEL), angle=angle)
@@ -103,13 +113,19 @@ def step_wheel(side):
 
 
 def begin_energy(side, body, bottom):
-    """Select the body whose energy is measured. bottom: greatest y [px] that its centre of mass can reach."""
+    """Select the body whose energy is measured. bottom: greatest y [px] that its centre of mass can reach.
+
+    side: see page.Side.
+    """
     side.kept.update(body=body, bottom=bottom, way=0.0, share=1.0, most=0.0)
     side.kept["start"] = energy(side)
 
 
 def energy(side):
-    """Return the kinetic and potential energy of the measured body [mass px2/s2]; 0 at rest in its lowest place."""
+    """Return the kinetic and potential energy of the measured body [mass px2/s2]; 0 at rest in its lowest place.
+
+    side: see page.Side.
+    """
     row = side.world.bodies[side.world.rows([side.kept["body"].id])[0]]
     moving = row["mass"] * (row["vx"] ** 2 + row["vy"] ** 2) + row["inertia"] * row["angular_velocity"] ** 2
     height = side.kept["bottom"] - row["center_y"]
@@ -119,7 +135,7 @@ def energy(side):
 def share(side):
     """Return the energy of the measured body divided by its energy at the start.
 
-    Also mark the place where the body turns back.
+    Also mark the place where the body turns back. side: see page.Side.
     """
     kept = side.kept
     kept["share"] = energy(side) / kept["start"]
@@ -132,22 +148,31 @@ def share(side):
 
 
 def changed(side):
-    """Return how much the energy of the measured body differs from that at the start, up or down [%]."""
+    """Return how much the energy of the measured body differs from that at the start, up or down [%].
+
+    side: see page.Side.
+    """
     return 100.0 * abs(share(side) - 1.0)
 
 
 def gained(side):
-    """Return the energy that the measured body has gained since the start [%], 0 if it has lost energy."""
+    """Return the energy that the measured body has gained since the start [%], 0 if it has lost energy.
+
+    side: see page.Side.
+    """
     return 100.0 * max(0.0, share(side) - 1.0)
 
 
 def energy_text(side):
-    """Return the current energy and the greatest so far as text, as shares of the energy at the start."""
+    """Return the current energy and the greatest so far as text, as shares of the energy at the start.
+
+    side: see page.Side.
+    """
     return f"energy {100.0 * side.kept['share']:.1f} %, most {100.0 * side.kept['most']:.1f} %"
 
 
 def limit_text(side):
-    """Return the three speeds whose sum is the limit of the page "gate", as text."""
+    """Return the three speeds whose sum is the limit of the page "gate", as text. side: see page.Side."""
     return f"gate {GATE_SPEED:.0f}, push-out {PUSH_OUT:.0f}, fall {FALL:.0f}"
 
 

@@ -20,7 +20,7 @@ APEX = 0.8**2 * 2.0  # [m] first apex of a ball after a fall of two metres
 
 
 def build_point(side):
-    """Build the boxes of the page, all at (0, 0)."""
+    """Build the boxes of the page, all at (0, 0). side: see page.Side."""
     fill_point(side.world, LIVE)
 
 
@@ -37,7 +37,10 @@ def snapshot_of_thousand(settings):
 
 
 def fastest_move(side):
-    """Return the greatest distance that a body moved in the last step, divided by the duration of the step [m/s]."""
+    """Return the greatest distance that a body moved in the last step, divided by the duration of the step [m/s].
+
+    side: see page.Side.
+    """
     b = dynamic(side.world)
     way = np.hypot(b["x"] - b["previous_x"], b["y"] - b["previous_y"])
     return float(way.max()) / side.world.dt / METER
@@ -53,7 +56,7 @@ def farthest_move(figures):
 
 
 def build_crowd(side):
-    """Build 625 discs of 1 m diameter in a room with the area of 496 discs."""
+    """Build 625 discs of 1 m diameter in a room with the area of 496 discs. side: see page.Side."""
     wide = CROWD * ROOM * METER
     for x, y, width, height in (
         (0.0, 0.5 * (wide + WALL), wide + 2.0 * WALL, WALL),
@@ -69,13 +72,13 @@ def build_crowd(side):
 
 
 def unrest(side):
-    """Return the root mean square of the speeds of all dynamic bodies [m/s]."""
+    """Return the root mean square of the speeds of all dynamic bodies [m/s]. side: see page.Side."""
     b = dynamic(side.world)
     return float(np.sqrt((b["vx"] ** 2 + b["vy"] ** 2).mean())) / METER
 
 
 def build_pyramid(side, origin):
-    """Build a pyramid of eight rows of crates. origin: x and y of the middle of its base [px]."""
+    """Build a pyramid of eight rows of crates. origin: x and y of the middle of its base [px]. side: see page.Side."""
     floor_at = (origin, origin + 2.0 * METER)
     side.world.add_body(Polygon.box(100.0 * METER, 4.0 * METER), position=floor_at, kind="static")
     places = [
@@ -90,7 +93,7 @@ def build_pyramid(side, origin):
 def apart(side):
     """Return the greatest difference between the page's two worlds in the position of the same body, along x or y [mm].
 
-    Positions count from the origin of each world's pyramid.
+    Positions count from the origin of each world's pyramid. side: see page.Side.
     """
     b, other = dynamic(side.world), dynamic(side.other.world)
     shift = side.kept["origin"] - side.other.kept["origin"]
@@ -98,7 +101,7 @@ def apart(side):
 
 
 def build_metres(side):
-    """Build a world with lengths in metres: a ball of 0.5 m diameter, 2 m above the floor."""
+    """Build a world with lengths in metres: a ball of 0.5 m diameter, 2 m above the floor. side: see page.Side."""
     material = Material(restitution=0.8)
     shape = Polygon.box(40.0, 4.0)
     side.world.add_body(shape, position=(0.0, 2.0), kind="static", material=material)
@@ -109,7 +112,7 @@ def build_metres(side):
 def low(side):
     """Return the error of the ball's first apex after the bounce, as a share of the ideal height [%].
 
-    It is 0 until the ball has come to that apex.
+    It is 0 until the ball has come to that apex. side: see page.Side.
     """
     ball, kept = side.kept["ball"], side.kept
     kept["fell"] |= ball.velocity[1] <= 0.0 and side.steps > 5
@@ -121,7 +124,7 @@ def low(side):
 
 
 def build_piles(side):
-    """Build twelve columns of ten crates at rest."""
+    """Build twelve columns of ten crates at rest. side: see page.Side."""
     floor(side.world)
     places = [
         ((column - (PILES - 1) / 2) * 2.0 * METER, -(row + 0.5) * METER)
@@ -132,7 +135,10 @@ def build_piles(side):
 
 
 def moved(side):
-    """Return the number of bodies that the last step integrated. Sleeping bodies are not integrated."""
+    """Return the number of bodies that the last step integrated. Sleeping bodies are not integrated.
+
+    side: see page.Side.
+    """
     return float(side.world.profile.counters["bodies_integrated"])
 
 

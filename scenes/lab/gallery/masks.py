@@ -30,7 +30,10 @@ def disc(radius, hole=0.0):
 
 
 def build_rings(side, tier):
-    """Build rings, and a ball for each. tier: collision tier of both, as for physics.fit; "mask" for exact pixels."""
+    """Build rings, and a ball for each. tier: collision tier of both, as for physics.fit; "mask" for exact pixels.
+
+    side: see page.Side.
+    """
     ring, ball = (disc(OUTER, INNER), disc(BALL))
     if tier != "mask":
         (ring,), (ball,) = fit(ring, tier), fit(ball, tier)
@@ -41,7 +44,7 @@ def build_rings(side, tier):
 
 
 def swing(side):
-    """Move each ball through its ring's hole, over its rim and back."""
+    """Move each ball through its ring's hole, over its rim and back. side: see page.Side."""
     for number, ((x, y), (_, ball)) in enumerate(zip(RINGS, side.kept["balls"], strict=True)):
         at = 0.031 * side.steps + 0.7 * number
         far = 17.0 + 17.0 * sin(1.7 * at)
@@ -52,6 +55,7 @@ def wrong(side):
     """Return the share of all answers so far ("touching" or "apart") that geometry contradicts [%].
 
     By geometry, ring and ball touch if their middles are 6 to 30 px apart. Distances near these limits are not counted.
+    side: see page.Side.
     """
     met = {frozenset(pair) for pair in side.world.contacts[["body_a", "body_b"]].tolist()}
     for ring, ball in side.kept["balls"]:
@@ -64,7 +68,10 @@ def wrong(side):
 
 
 def build_squares(side, snap):
-    """Build pairs of square pixel masks of 32 px. snap: whether masks are tested at whole pixels (see PixelMask)."""
+    """Build pairs of square pixel masks of 32 px. snap: whether masks are tested at whole pixels (see PixelMask).
+
+    side: see page.Side.
+    """
     square = PixelMask.from_array(np.ones((SIZE, SIZE), bool), snap=snap)
     side.kept.update(judged=0, missed=0, chance=np.random.default_rng(7), pairs=[])
     for place in SQUARES:
@@ -73,14 +80,17 @@ def build_squares(side, snap):
 
 
 def scatter(side):
-    """Move the second square of each pair to a random position, not in whole pixels, where it overlaps the first."""
+    """Move the second square of each pair to a random position, not in whole pixels, where it overlaps the first.
+
+    side: see page.Side.
+    """
     offsets = side.kept["chance"].uniform(-SIZE, SIZE, (len(SQUARES), 2))
     for (x, y), (_, other), (dx, dy) in zip(SQUARES, side.kept["pairs"], offsets.tolist(), strict=True):
         other.move_to((x + dx, y + dy), 0.0)
 
 
 def missed(side):
-    """Return the share of all overlaps so far that the engine did not report [%]."""
+    """Return the share of all overlaps so far that the engine did not report [%]. side: see page.Side."""
     side.kept["judged"] += len(SQUARES)
     side.kept["missed"] += len(SQUARES) - len(side.world.contacts)
     return 100.0 * side.kept["missed"] / side.kept["judged"]

@@ -33,7 +33,7 @@ SETTLED = 60  # steps after which a box has settled
 
 
 def build_ball(side):
-    """Build a ball above a floor, both with restitution 1."""
+    """Build a ball above a floor, both with restitution 1. side: see page.Side."""
     elastic = Material(restitution=1.0)
     floor(side.world, material=elastic)
     side.kept["ball"] = side.world.add_body(Circle(BALL), position=(0.0, -BALL - DROP), material=elastic)
@@ -44,7 +44,7 @@ def apex(side):
     """Return the error of the bouncing ball's apex relative to the height of its first fall [%].
 
     It is 0 in a step without an apex. The apex is that of the parabola through the heights of three steps. Only the
-    first seventeen apexes are measured. If apexes are missing, the error is 100 %.
+    first seventeen apexes are measured. If apexes are missing, the error is 100 %. side: see page.Side.
     """
     kept, found = side.kept, 0.0
     kept["heights"] = [*kept["heights"][-2:], -BALL - side.kept["ball"].position[1]]
@@ -69,7 +69,10 @@ def blows():
 
 
 def build_discs(side):
-    """Build pairs of frictionless discs. In each pair, one disc flies at a resting one and meets it off its middle."""
+    """Build pairs of frictionless discs. In each pair, one disc flies at a resting one and meets it off its middle.
+
+    side: see page.Side.
+    """
     side.kept["pairs"] = []
     for number, (offset, speed, further) in enumerate(blows()):
         x, y = 5.0 * METER * (number % 8), 4.0 * METER * (number // 8)
@@ -83,7 +86,7 @@ def build_discs(side):
 def glance(side):
     """Return the greatest error of a flying disc's velocity after its collision [% of its initial speed].
 
-    The exact velocity follows from the line of centres at the first touch.
+    The exact velocity follows from the line of centres at the first touch. side: see page.Side.
     """
     worst = 0.0
     for disc, offset, speed in side.kept["pairs"]:
@@ -97,7 +100,7 @@ def glance(side):
 def build_slope(side, share):
     """Build a box on a slope of 30 degrees.
 
-    share: friction between box and slope, divided by the least friction that holds the box.
+    share: friction between box and slope, divided by the least friction that holds the box; side: see page.Side.
     """
     material = Material(friction=share * tan(SLOPE))
     c, s = cos(SLOPE), sin(SLOPE)
@@ -109,7 +112,7 @@ def build_slope(side, share):
 
 
 def creep(side):
-    """Return how far the box has moved since the end of the first second [mm]."""
+    """Return how far the box has moved since the end of the first second [mm]. side: see page.Side."""
     x, y = side.kept["box"].position
     if side.steps == SETTLED:
         side.kept["at"] = x, y
@@ -129,7 +132,10 @@ def pieces(ground):
 
 
 def build_seams(side, speeds=SLIDING):
-    """Build three lanes of level ground in pieces, with four sliders on each. speeds: sliders' speed by lane [px/s]."""
+    """Build three lanes of level ground in pieces, with four sliders on each. speeds: sliders' speed by lane [px/s].
+
+    side: see page.Side.
+    """
     smooth = Material(friction=0.0)
     side.kept.update(chance=np.random.default_rng(6), speeds=speeds, sliders=[], lost=0.0, hop=0.0)
     for lane, ground in enumerate(GROUNDS):
@@ -143,7 +149,10 @@ def build_seams(side, speeds=SLIDING):
 
 
 def slide(side):
-    """Move the sliders back to their starts every LAP steps, each shifted at random by part of a step's motion."""
+    """Move the sliders back to their starts every LAP steps, each shifted at random by part of a step's motion.
+
+    side: see page.Side.
+    """
     if side.steps % LAP == 0:
         side.kept["tripped"] = set()
         for slider, (x, y), speed in side.kept["sliders"]:
@@ -154,7 +163,7 @@ def slide(side):
 def slowed(side):
     """Return the greatest change of a slider's horizontal speed [% of its speed at the start].
 
-    Also mark the places where a slider trips, and record the greatest height of a hop.
+    Also mark the places where a slider trips, and record the greatest height of a hop. side: see page.Side.
     """
     kept, worst = side.kept, 0.0
     for slider, (_, y), speed in kept["sliders"]:
@@ -167,7 +176,7 @@ def slowed(side):
 
 
 def hop_text(side):
-    """Return the height of the sliders' highest hop as text."""
+    """Return the height of the sliders' highest hop as text. side: see page.Side."""
     return f"hops of {side.kept['hop']:.2f} px at most"
 
 

@@ -27,7 +27,7 @@ CARD = (0.02 * METER, 1.0 * METER)  # half thickness and half height
 
 
 def build_column(side):
-    """Build a column of 80 crates, each shifted sideways at random by up to 2 cm."""
+    """Build a column of 80 crates, each shifted sideways at random by up to 2 cm. side: see page.Side."""
     floor(side.world)
     aside = np.random.default_rng(1).uniform(-ASKEW, ASKEW, CRATES)
     side.world.add_bodies(CRATE, np.column_stack([aside, -(np.arange(CRATES) + 0.5) * METER]))
@@ -35,19 +35,22 @@ def build_column(side):
 
 
 def sway(side):
-    """Return the greatest horizontal distance of a body from its start [mm]."""
+    """Return the greatest horizontal distance of a body from its start [mm]. side: see page.Side."""
     return MM * float(np.abs(dynamic(side.world)["x"] - side.kept["x"]).max())
 
 
 def build_heavy(side):
-    """Build a crate, and on it a crate of a thousand times its mass."""
+    """Build a crate, and on it a crate of a thousand times its mass. side: see page.Side."""
     floor(side.world)
     side.world.add_body(CRATE, position=(0.0, -0.5 * METER))
     side.world.add_body(CRATE, position=(0.0, -1.5 * METER), material=Material(density=1000.0))
 
 
 def build_huge(side):
-    """Build a crate of 16 m on two crates of half a metre, and a third crate of half a metre on top of it."""
+    """Build a crate of 16 m on two crates of half a metre, and a third crate of half a metre on top of it.
+
+    side: see page.Side.
+    """
     floor(side.world)
     tiny, top = Polygon.box(TINY, TINY), -TINY - HUGE
     for x in (-0.4 * HUGE, 0.4 * HUGE):
@@ -58,17 +61,20 @@ def build_huge(side):
 
 
 def sunk(side):
-    """Return the vertical distance of the large crate from its place on rigid crates [mm]."""
+    """Return the vertical distance of the large crate from its place on rigid crates [mm]. side: see page.Side."""
     return MM * abs(side.kept["load"].position[1] - side.kept["y"])
 
 
 def overlap(side):
-    """Return the depth of the deepest contact in the world [mm]."""
+    """Return the depth of the deepest contact in the world [mm]. side: see page.Side."""
     return MM * deepest(side.world)
 
 
 def build_leaning(side):
-    """Build ten crates, each shifted by 8 cm to the right of the one below. With 10 cm the tower would fall."""
+    """Build ten crates, each shifted by 8 cm to the right of the one below. With 10 cm the tower would fall.
+
+    side: see page.Side.
+    """
     floor(side.world)
     rows = np.arange(10)
     side.world.add_bodies(CRATE, np.column_stack([0.08 * METER * rows, -(rows + 0.5) * METER]))
@@ -78,7 +84,7 @@ def build_leaning(side):
 def build_struck(side):
     """Build a pyramid of ten rows without its top, and above it a crate of 300 times the mass.
 
-    The heavy crate falls three metres onto the pyramid.
+    The heavy crate falls three metres onto the pyramid. side: see page.Side.
     """
     floor(side.world)
     places = [
@@ -91,7 +97,7 @@ def build_struck(side):
 
 
 def build_load(side):
-    """Build two crates, and one of a thousand times their mass on them."""
+    """Build two crates, and one of a thousand times their mass on them. side: see page.Side."""
     floor(side.world)
     side.world.add_body(CRATE, position=(0.0, -0.5 * METER))
     side.kept["top"] = side.world.add_body(CRATE, position=(0.0, -1.5 * METER))
@@ -114,7 +120,10 @@ def take_away(side):
 
 
 def rise(side):
-    """Return how far the upper crate is above its starting place since the load was taken away [mm]."""
+    """Return how far the upper crate is above its starting place since the load was taken away [mm].
+
+    side: see page.Side.
+    """
     return MM * max(0.0, -1.5 * METER - side.kept["top"].position[1]) if side.steps > GONE else 0.0
 
 
@@ -122,6 +131,7 @@ def build_cards(side):
     """Build a house of cards with four storeys. A card is 4 cm x 2 m.
 
     Two cards that lean on each other, at 25 degrees, make a pair. One card lies across every two neighbouring pairs.
+    side: see page.Side.
     """
     floor(side.world, material=Material(friction=0.7))
     thick, high = CARD

@@ -39,7 +39,7 @@ def step_naively(side, bodies, substeps, share):
 
     bodies: the dynamic bodies, each solved alone against static and kinematic bodies; share: part of the overlap that a
     step removes, by a velocity that the body keeps. All substeps use the moment arms of the start of the step. The kept
-    velocity and the old moment arms are the two errors that the gallery shows.
+    velocity and the old moment arms are the two errors that the gallery shows. side: see page.Side.
     """
     world, gravity = side.world, side.other.world.gravity
     ends = [solved_step(world, body, gravity, substeps, share) for body in bodies]

@@ -27,7 +27,7 @@ def chance(side):
 
 
 def build_wall(side):
-    """Reset the counts, and build one thin wall across all lanes."""
+    """Reset the counts, and build one thin wall across all lanes. side: see page.Side."""
     side.kept.update(fired=0, through=0, flying={})
     height = LANES * LANE + 20.0
     side.world.add_body(Polygon.box(WALL, height), position=(0.0, 0.0), kind="static")
@@ -36,7 +36,7 @@ def build_wall(side):
 def shoot(side):
     """Shoot a ball at the wall every EVERY steps; count and remove the balls that have been stopped or have passed.
 
-    The start varies by the path of a step, so that impacts occur at any time within a step.
+    The start varies by the path of a step, so that impacts occur at any time within a step. side: see page.Side.
     """
     for identity in list(side.kept["flying"]):
         body = side.world.body(identity)
@@ -56,19 +56,28 @@ def shoot(side):
 
 
 def count(side, place, missed):
-    """Count a shot that has ended at `place` (x, y) [px]. missed: whether it missed a body that it had to meet."""
+    """Count a shot that has ended at `place` (x, y) [px]. missed: whether it missed a body that it had to meet.
+
+    side: see page.Side.
+    """
     side.kept["fired"] += 1
     side.kept["through"] += missed
     side.mark(place, not missed)
 
 
 def through(side):
-    """Return the share of shots that missed a body that they had to meet, of all shots that have ended [%]."""
+    """Return the share of shots that missed a body that they had to meet, of all shots that have ended [%].
+
+    side: see page.Side.
+    """
     return 100.0 * side.kept["through"] / max(1, side.kept["fired"])
 
 
 def build_rods(side):
-    """Reset the counts, and build the pegs. The rods, which spin() adds later, must strike the pegs with their ends."""
+    """Reset the counts, and build the pegs. The rods, which spin() adds later, must strike the pegs with their ends.
+
+    side: see page.Side.
+    """
     side.kept.update(fired=0, through=0, flying={}, met=set())
     for lane in range(6):
         x, y = rod_place(lane)
@@ -83,7 +92,7 @@ def rod_place(lane):
 def spin(side):
     """Replace all rods every TURN steps, and count those that missed their pegs.
 
-    New rods have random angles and rotate in place.
+    New rods have random angles and rotate in place. side: see page.Side.
     """
     side.kept["met"] |= {int(row[name]) for row in side.world.events.begin for name in ("body_a", "body_b")}
     if side.steps % TURN == 0:
@@ -105,12 +114,15 @@ def spin(side):
 
 
 def build_bullets(side):
-    """Reset the counts. duel() adds the bullets."""
+    """Reset the counts. duel() adds the bullets. side: see page.Side."""
     side.kept.update(fired=0, through=0, flying={})
 
 
 def duel(side):
-    """Shoot two bullets at each other every EVERY steps, and count the pairs that met or missed."""
+    """Shoot two bullets at each other every EVERY steps, and count the pairs that met or missed.
+
+    side: see page.Side.
+    """
     for one, other in list(side.kept["flying"].items()):
         a, b = side.world.body(one), side.world.body(other)
         met = a.velocity[0] < 0.5 * FAST
@@ -131,14 +143,17 @@ def duel(side):
 
 
 def build_beam(side):
-    """Reset the counts, and build a sensor one pixel wide."""
+    """Reset the counts, and build a sensor one pixel wide. side: see page.Side."""
     side.kept.update(fired=0, through=0, flying={}, met=set())
     height = LANES * LANE + 20.0
     side.world.add_body(Polygon.box(1.0, height), kind="static", sensor=True, continuous=side.way.bodies["continuous"])
 
 
 def cross(side):
-    """Shoot a ball through the sensor every EVERY steps, and count the balls whose passage was not reported."""
+    """Shoot a ball through the sensor every EVERY steps, and count the balls whose passage was not reported.
+
+    side: see page.Side.
+    """
     side.kept["met"] |= {int(row[name]) for row in side.world.events.sensor_begin for name in ("body_a", "body_b")}
     for identity in list(side.kept["flying"]):
         x, y = side.world.body(identity).position
