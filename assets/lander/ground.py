@@ -44,7 +44,7 @@ def boulders(seed, count):
     """Return (edge, facing), (CELL, CELL) each, of a seamless pattern of `count` boulders.
 
     edge: distance from the nearest crack between boulders [px]; facing: how far the side of the boulder faces the
-    light.
+    light; seed: of the random numbers.
     """
     random = np.random.default_rng(seed)
     middles = random.random((count, 2)) * CELL
@@ -190,9 +190,9 @@ def _gem(picture, solid, row, column, size):
 
 
 def wall(moon):
-    """Return the wall that shows where rock was removed, (height, width, 4) uint8: the same boulders, darker.
+    """Return the picture of the rock face that is visible where ground was removed: the same boulders, darker.
 
-    moon: Landscape.
+    It is (height, width, 4) uint8. moon: Landscape.
     """
     height, width = moon.solid.shape
     edge, boulder = (tiled(pattern, height, width) for pattern in boulders(57, 60))

@@ -70,7 +70,7 @@ def objects(level):
 
 
 def hints(level):
-    """Return the rows that guide the scripted player (bot) along its path, in order."""
+    """Return the rows that guide the scripted player (bot) along its path, in order. level: see level_text.Map."""
     return [
         ("hint", x * TILE, y * TILE, TILE, TILE, {"order": number, "act": act})
         for number, (x, y, act) in enumerate(level.hints)
@@ -89,7 +89,10 @@ def _standing(level, letter, x, y, signs):
 
 
 def _extent(level, x, y):
-    """Return (columns, rows) of the block of equal letters whose top left tile is at (x, y)."""
+    """Return (columns, rows) of the block of equal letters whose top left tile is at (x, y).
+
+    level: see level_text.Map.
+    """
     letter = level.at(x, y)
     width = next(i for i in range(1, level.width + 1) if level.at(x + i, y) != letter)
     return width, next(i for i in range(1, level.height + 1) if level.at(x, y + i) != letter)
@@ -124,7 +127,10 @@ def walking_range(level, x, y, most=4):
 
 
 def _deck(level, x, y):
-    """Return the tile (column, row) of the platform whose upper side is at a tile, or None."""
+    """Return the tile (column, row) of the platform whose upper side is at a tile, or None.
+
+    level: see level_text.Map.
+    """
     for (column, row), (_, _, _, width) in zip(level.places("P"), level.platforms, strict=True):
         if row == y and 0 <= x - column < width // TILE:
             return column, row

@@ -36,7 +36,7 @@ GROWTH = (("tuft_0", 30), ("tuft_1", 55), ("flower_0", 62), ("flower_1", 67))  #
 
 
 def tile_name(level, x, y):
-    """Return the name of the tile at (x, y) if it collides, else None."""
+    """Return the name of the tile at (x, y) if it collides, else None. level: see level_text.Map."""
     letter = level.at(x, y)
     if letter in SLOPE_LETTERS:
         return SLOPE_LETTERS[letter]
@@ -49,7 +49,10 @@ def tile_name(level, x, y):
 
 
 def solid_name(level, x, y):
-    """Return the name of the ground, rock or stone tile at (x, y), which depends on its neighbours."""
+    """Return the name of the ground, rock or stone tile at (x, y), which depends on its neighbours.
+
+    level: see level_text.Map.
+    """
     letter = level.at(x, y)
     if level.at(x, y - 1) in SLOPE_LETTERS:
         return f"under_{SLOPE_LETTERS[level.at(x, y - 1)]}"
@@ -67,7 +70,10 @@ def solid_name(level, x, y):
 
 
 def cover_names(level):
-    """Return {(x, y): tile name} of the layer that hides covered rooms, and the walls around them, as ground."""
+    """Return {(x, y): tile name} of the layer that hides covered rooms, and the walls around them, as ground.
+
+    level: see level_text.Map.
+    """
     rooms = level.rooms
     if not rooms:
         return {}
@@ -79,7 +85,7 @@ def cover_names(level):
 def _depth(level, x, y):
     """Return how many solid tiles lie between a tile and the nearest open one, at most DEEP.
 
-    A covered room does not count as open, so that the tiles do not reveal it.
+    A covered room does not count as open, so that the tiles do not reveal it. level: see level_text.Map.
     """
     for reach in range(1, DEEP + 1):
         ring = [
@@ -103,7 +109,10 @@ def _scatter(x, y):
 
 
 def decor_names(level):
-    """Return (decor, walls), {(x, y): tile name} each: the decoration layer, and the layer of walls behind it."""
+    """Return (decor, walls), {(x, y): tile name} each: the decoration layer, and the layer of walls behind it.
+
+    level: see level_text.Map.
+    """
     out, walls = {}, {}
     for y in range(level.height):
         for x in range(level.width):
@@ -135,7 +144,7 @@ def _wall_behind(level, x, y):
     """Return the name of the wall behind a tile, or None.
 
     The letters in WALLS name a wall. The wall behind a thing is that of the nearest tile in the row that is not a
-    thing. The wall behind a plank may also be that of the tile below.
+    thing. The wall behind a plank may also be that of the tile below. level: see level_text.Map.
     """
     if level.at(x, y) in WALLS:
         return WALLS[level.at(x, y)]

@@ -50,7 +50,7 @@ def tileset(table):
 
 
 def tiled_map(level):
-    """Return the whole map as Tiled's JSON structure."""
+    """Return the whole map as Tiled's JSON structure. level: see level_text.Map."""
     table = tile_table()
     groups = _object_layers(level)
     layers = _tile_layers(level, table) + groups
@@ -76,7 +76,7 @@ def tiled_map(level):
 def _tile_layers(level, table):
     """Return the tile layers, back to front, as Tiled's JSON structure.
 
-    table: all tiles in the order of the tileset. They are numbered from 1; 0 means no tile.
+    table: all tiles in the order of the tileset. They are numbered from 1; 0 means no tile. level: see level_text.Map.
     """
     numbers = {name: i for i, name in enumerate(table, 1)}
     cells = [(x, y) for y in range(level.height) for x in range(level.width)]
@@ -96,7 +96,10 @@ def _tile_layers(level, table):
 
 
 def _object_layers(level):
-    """Return the object layers as Tiled's JSON structure. Objects are numbered from 1 across both layers."""
+    """Return the object layers as Tiled's JSON structure. Objects are numbered from 1 across both layers.
+
+    level: see level_text.Map.
+    """
     numbers, groups = itertools.count(1), []
     for name, rows in (("things", objects(level)), ("bot hints", hints(level))):
         things = [
