@@ -1,4 +1,4 @@
-"""The sheet "lab": pictures of the bodies in the lab: crates, blocks, balls, dominoes, and the billiard table.
+"""The sprite sheet "lab": pictures of the bodies in the lab: crates, blocks, balls, dominoes, and the billiard table.
 
 A piece fills its picture to the last pixel, outline included, so that picture and collision shape have the same size.
 """
@@ -271,7 +271,7 @@ def tray():
 
 
 def lab_files():
-    """Return {relative path: bytes} of the sheet "lab"."""
+    """Return {relative path: bytes} of the sprite sheet "lab"."""
     sheet = Sheet("lab")
     for size in (11, 16, 24):
         for look in range(3):

@@ -142,7 +142,7 @@ def _crack(rock, ice):
 
 
 def _hanging(rock):
-    """Return the pixels of rock that rock does not connect to the lower edge of the picture."""
+    """Return the pixels of hanging rock, from which no path through rock leads to the lower edge of the picture."""
     surface = pygame.Surface(rock.T.shape, pygame.SRCALPHA)
     pygame.surfarray.pixels_alpha(surface)[:] = rock.T * np.uint8(255)
     found = np.zeros_like(rock)

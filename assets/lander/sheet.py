@@ -7,7 +7,7 @@ from assets.lander.landscape import plan
 
 
 def lander_files():
-    """Return {relative path: bytes} of the sheet."""
+    """Return {relative path: bytes} of the sprite sheet "lander"."""
     sheet = Sheet("lander")
     sheet.add("ship", craft.ship())
     sheet.add_sequence("flame", [craft.flame(i) for i in range(4)], 24)

@@ -84,7 +84,7 @@ def stand():
 
 
 def add_blast_wall(sheet):
-    """Add the pictures of this module to a sheet."""
+    """Add the pictures of this module to a sprite sheet."""
     sheet.add("blast_wall", wall())
     sheet.add("bomb_0", bomb(0))
     sheet.add("bomb_1", bomb(1))

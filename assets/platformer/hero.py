@@ -100,7 +100,7 @@ def compose(frame, parts):
 
 
 def hero_files():
-    """Return {relative path: bytes} of the sheet "hero"."""
+    """Return {relative path: bytes} of the sprite sheet "hero"."""
     path = FOLDER / "drawings" / "hero.txt"
     parts = read_parts(path.read_text(encoding="utf-8"), LETTERS, path.name)
     sheet = Sheet("hero")

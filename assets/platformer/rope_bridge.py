@@ -58,6 +58,6 @@ def ropes():
 
 
 def add_rope_bridge(sheet):
-    """Add the pictures of this module to a sheet."""
+    """Add the pictures of this module to a sprite sheet."""
     sheet.add("bridge", boards())
     sheet.add("bridge_ropes", ropes())

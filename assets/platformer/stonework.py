@@ -140,7 +140,7 @@ def gem(frame):
 
 
 def add_stonework(sheet):
-    """Add the pictures of this module to a sheet."""
+    """Add the pictures of this module to a sprite sheet."""
     for look in range(4):
         sheet.add(f"crumble_{look}", crumble(look))
     for kind in range(3):

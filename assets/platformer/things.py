@@ -1,4 +1,4 @@
-"""The sheet "things": coins, spring, crates, spikes, enemies, platforms, checkpoint, goal, sign and small puffs.
+"""The sprite sheet "things": coins, spring, crates, spikes, enemies, platforms, checkpoint, goal, sign and small puffs.
 
 Things that stand on the ground touch it with their bottom row. Enemies are drawn facing left.
 """
@@ -228,7 +228,7 @@ def hedgehog(frame):
 
 
 def things_files():
-    """Return {relative path: bytes} of the sheet "things"."""
+    """Return {relative path: bytes} of the sprite sheet "things"."""
     path = FOLDER / "drawings" / "things.txt"
     drawn = read_parts(path.read_text(encoding="utf-8"), LETTERS, path.name)
     sheet = Sheet("things")

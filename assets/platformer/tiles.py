@@ -1,4 +1,4 @@
-"""The sheet "tiles": 16 px ground, stone, rock, slopes, planks, ladders and decoration, each with its collision kind.
+"""The sprite sheet "tiles": 16 px ground, stone, rock, slopes, planks, ladders and decoration, with collision kinds.
 
 The picture of ground, stone and rock depends on which of the eight neighbours are of the same kind. So a map made of
 one letter gets its grass, edges and corners by itself. Such a tile is named `ground_<mask>`. The mask is the sum of the
@@ -336,7 +336,7 @@ def tile_table():
 
 
 def tiles_files():
-    """Return {relative path: bytes} of the sheet "tiles"."""
+    """Return {relative path: bytes} of the sprite sheet "tiles"."""
     sheet = Sheet("tiles", gap=0)
     for name, (pixels, _) in tile_table().items():
         sheet.add(name, pixels)

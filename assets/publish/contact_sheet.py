@@ -47,7 +47,7 @@ PAPER = oklch(0.27, 0.045, 285)
 
 
 def load_frames(name):
-    """Return {frame: (h, w, 4) uint8} of one sheet in assets/images."""
+    """Return {frame: (h, w, 4) uint8} of the sprite sheet `name` in assets/images."""
     picture = png.decode((FOLDER / "images" / f"{name}.png").read_bytes())
     table = json.loads((FOLDER / "images" / f"{name}.json").read_text(encoding="utf-8"))
     return {
@@ -57,7 +57,7 @@ def load_frames(name):
 
 
 def section(name, frames):
-    """Return a picture of one sheet's frames in rows under its name, (h, WIDTH, 3) uint8."""
+    """Return a picture of one sprite sheet's frames in rows under its name, (h, WIDTH, 3) uint8."""
     rows, row, used = [], [], GAP
     for frame in frames.values():
         if used + frame.shape[1] + GAP > WIDTH and row:

@@ -1,4 +1,4 @@
-"""The sheet "planes": the player, the enemies and bosses, pick-ups, and two large planes for the lab."""
+"""The sprite sheet "planes": the player, the enemies and bosses, pick-ups, and two large planes for the lab."""
 
 from assets.craft.atlas import Sheet
 from assets.craft.shading import flashed
@@ -6,7 +6,7 @@ from assets.shooter import bosses, enemies, large_planes, pickups, planes, raide
 
 
 def planes_files():
-    """Return {relative path: bytes} of the sheet "planes".
+    """Return {relative path: bytes} of the sprite sheet "planes".
 
     Frames whose names end in _flash are white silhouettes, which are shown after a hit.
     """

@@ -79,7 +79,7 @@ def graze_spark(frame):
 
 
 def add_blasts(sheet):
-    """Add the pictures of this module to a sheet."""
+    """Add the pictures of this module to a sprite sheet."""
     sheet.add_sequence("bomb_ring", [bomb_ring(i) for i in range(len(RING_SIZES))], 20)
     sheet.add("heavy_shot", heavy_shot())
     sheet.add_sequence("graze_spark", [graze_spark(i) for i in range(3)], 24)

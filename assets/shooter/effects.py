@@ -1,4 +1,4 @@
-"""The sheet "effects": the player's bullets, flashes, sparks, smoke, debris and discs of light.
+"""The sprite sheet "effects": the player's bullets, flashes, sparks, smoke, debris and discs of light.
 
 The player's bullets are cool and long; the enemies' bullets (enemy_bullets.py) are round with a dark ring. So they
 stand out on any background and differ from each other without colour. Discs of light are opaque on black, because they
@@ -113,7 +113,7 @@ def hitbox_dot():
 
 
 def effects_files():
-    """Return {relative path: bytes} of the sheet "effects"."""
+    """Return {relative path: bytes} of the sprite sheet "effects"."""
     sheet = Sheet("effects")
     sheet.add_sequence("player_bullet", [player_bullet(i) for i in range(2)], 20)
     sheet.add("side_bullet", side_bullet())

@@ -91,7 +91,7 @@ def needle(safe):
 
 
 def add_enemy_bullets(sheet):
-    """Add every bullet to a sheet, both in its own colours and in those for colour blindness."""
+    """Add every bullet to a sprite sheet, both in its own colours and in those for colour blindness."""
     for safe in (False, True):
         prefix = "safe_" if safe else ""
         for name in ROUND:

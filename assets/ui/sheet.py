@@ -1,4 +1,4 @@
-"""The sheet "ui": the title's logo, window frames for menus, bars and small icons."""
+"""The sprite sheet "ui": the title's logo, window frames for menus, bars and small icons."""
 
 import numpy as np
 
@@ -56,7 +56,7 @@ def bar(ramp):
 
 
 def ui_files():
-    """Return {relative path: bytes} of the sheet "ui"."""
+    """Return {relative path: bytes} of the sprite sheet "ui"."""
     sheet, path = Sheet("ui"), FOLDER / "drawings" / "icons.txt"
     sheet.add("logo", logo())
     sheet.add("panel", panel(RAMPS["steel"][3], oklch(0.22, 0.045, 283)))

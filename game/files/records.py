@@ -39,11 +39,11 @@ class Records:
         self.ranking = {}  # key -> ranked_by, of the tables that got entries in this process
 
     def entries(self, key: str | None) -> list[Entry]:
-        """Return the entries of a table, best first."""
+        """Return the entries of the high-score table with the key `key`, best first."""
         return self.tables.get(key, [])
 
     def best(self, key: str | None) -> Entry | None:
-        """Return the best entry of a table, or None."""
+        """Return the best entry of the high-score table with the key `key`, or None."""
         found = self.entries(key)
         return found[0] if found else None
 

@@ -93,9 +93,9 @@ def rotate(index, root, nodes_inout, state_inout):
     Return the number of the node that is now on top. root, nodes_inout, state_inout: see replace_child.
 
       A                  C
-     / \                / \
+     / \\                / \\
     B   C      ->      A   F      F: the higher child of C. If both are equally high,
-       / \            / \       G is the child whose joint box with B is smaller.
+       / \\            / \\       G is the child whose joint box with B is smaller.
       F   G          B   G
     """
     a = nodes_inout[index]

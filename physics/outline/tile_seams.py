@@ -118,10 +118,10 @@ def gather(corners, known, box, number, found_out):
 
 @subkernel
 def mark_alone(mine, others, place, moved_out):
-    """Flag the tiles that have a corner which the meetings `mine` (n, 5) contain, but `others` (m, 5) do not.
+    """Flag the tiles with a corner that the list `mine` (n, 5) contains, but the list `others` (m, 5) does not.
 
-    Meetings: see Survey. place: (left, top, size) [px] of the tile; moved_out (9,) bool: the tile and its neighbours,
-    row by row. O(n m).
+    mine, others: corners on the border of a tile, see Survey.meetings. place: (left, top, size) [px] of the tile;
+    moved_out (9,) bool: the tile and its neighbours, row by row. O(n m).
     """
     left, top, size = place
     for i in range(len(mine)):
@@ -144,7 +144,7 @@ def mark_alone(mine, others, place, moved_out):
 
 @kernel
 def mark_moved(before, after, place, moved_out):
-    """Flag the tiles that have a corner which is in only one of two lists of a tile's meetings.
+    """Flag the tiles with a corner that is in only one of two lists of a tile's corners on its border (meetings).
 
     before (n, 5), after (m, 5): see Survey.meetings; place: (left, top, size) [px] of the tile; moved_out (9,) bool:
     the tile and its neighbours, row by row. O(n m).
@@ -276,8 +276,9 @@ def tell_inner(parts, known, around, place, turns_out, inner_out):
     """Write which edges and corners of each part are inner, covered or blunt, as flags in the format of SHAPE.inner.
 
     Edges are counted without collinear corners. An edge is inner if all collinear sides that it consists of are inner.
-    A corner between two inner sides is covered. parts: TileParts; known, around: see inner_bits; place: (number of the
-    tile, tiles per row); turns_out (n,): see cover_corners; inner_out (parts,) int64: the flags.
+    A corner between two inner sides is covered. A corner is blunt if the outline turns less there than the part. parts:
+    TileParts; known, around: see inner_bits; place: (number of the tile, tiles per row); turns_out (n,): see
+    cover_corners; inner_out (parts,) int64: the flags.
     """
     cover_corners(parts.corners, known, around, place, turns_out)
     first = 0

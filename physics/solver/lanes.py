@@ -449,7 +449,7 @@ def relative_speed(c, lane, second, a, b):
 
 @subkernel
 def push_pair(c, lane, second, impulse, a_inout, b_inout):
-    """Apply a normal impulse at one point of a contact: `impulse` along the normal to B, and the opposite to A."""
+    """Apply a normal impulse to B at a contact point, and the opposite to A. c, lane, second: see relative_speed."""
     x, y = impulse * c[NX + lane], impulse * c[NY + lane]
     a_inout.vx -= a_inout.inverse_mass * x
     a_inout.vy -= a_inout.inverse_mass * y
@@ -461,7 +461,7 @@ def push_pair(c, lane, second, impulse, a_inout, b_inout):
 
 @subkernel
 def tangential_speed(c, lane, second, a, b):
-    """Return the speed [px/s] of B relative to A along the tangent, at a point of a contact, less its surface speed."""
+    """Return B's speed [px/s] relative to A along the tangent, less the surface speed. See relative_speed."""
     speed = (b.vy - a.vy) * c[NX + lane] - (b.vx - a.vx) * c[NY + lane] - c[SURFACE + lane]
     speed += b.angular_velocity * c[(TANGENT_B_2 if second else TANGENT_B_1) + lane]
     return speed - a.angular_velocity * c[(TANGENT_A_2 if second else TANGENT_A_1) + lane]
@@ -469,7 +469,7 @@ def tangential_speed(c, lane, second, a, b):
 
 @subkernel
 def push_along(c, lane, second, impulse, a_inout, b_inout):
-    """Apply a tangential impulse at one point of a contact: `impulse` along the tangent to B, and the opposite to A."""
+    """Apply a tangential impulse to B at a contact point, the opposite to A. c, lane, second: see relative_speed."""
     x, y = -impulse * c[NY + lane], impulse * c[NX + lane]
     a_inout.vx -= a_inout.inverse_mass * x
     a_inout.vy -= a_inout.inverse_mass * y

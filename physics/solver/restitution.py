@@ -250,7 +250,7 @@ def soonest_impact(blocks, impacts, last, motions):
 
 @subkernel
 def close_gaps(blocks, last, time, motions, impacts_inout):
-    """Reduce the gaps at the points of a body by its motion over a time [s]. last: see link_impacts."""
+    """Reduce the gaps in impacts_inout at a body's points by its motion over a time [s]. last: see link_impacts."""
     k = last
     while k != NO_IMPACT:
         r = impacts_inout[k - 1]
@@ -263,7 +263,7 @@ def close_gaps(blocks, last, time, motions, impacts_inout):
 
 @subkernel
 def list_hits(blocks, last, span, motions, impacts_inout):
-    """Write which points of a body hit within `span` [s], and the speeds to separate at. last: see link_impacts."""
+    """Mark in impacts_inout the points that hit within `span` [s], with separation speeds. last: see link_impacts."""
     k = last
     while k != NO_IMPACT:
         r = impacts_inout[k - 1]

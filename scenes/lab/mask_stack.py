@@ -173,7 +173,7 @@ class MaskStack(Scene):
             self._measure(way, world, top)
 
     def _measure_one_fit(self):
-        """Measure the fit of one sprite's shapes that is not known yet.
+        """Measure how well the shapes of a sprite fit it, for one sprite that is not measured yet.
 
         One call measures only one sprite, because all of them take seconds without numba.
         """
