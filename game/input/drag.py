@@ -116,9 +116,10 @@ class Drag:
 
 
 def _goes_on(hold, views):
-    """Return whether a hold can continue.
+    """Return whether the held body can still be dragged. hold: its Hold; views: (world, camera) of each picture.
 
-    It ends if its world is not in `views` (the scene was rebuilt), or if its body is gone or can no longer be held.
+    The hold ends if its world is not in `views` (the scene was rebuilt), or if its body is gone or can no longer be
+    held.
     """
     return any(world is hold.world for world, _ in views) and hold.is_there() and can_be_held(hold.body)
 

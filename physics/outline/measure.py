@@ -403,7 +403,7 @@ NO_SUMS = Sums(0.0, 0.0, 0.0, 0.0)
 
 
 def sums_of(found: Moments, base: tuple[float, float]) -> Sums:
-    """Return the Sums of a figure about a base point [px], computed from its Moments."""
+    """Return the Sums of a figure about a base point [px], computed from its Moments. found: the Moments."""
     if found.area == 0.0:
         return NO_SUMS
     x, y = found.x - base[0], found.y - base[1]

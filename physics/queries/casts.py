@@ -601,9 +601,9 @@ def _box_around(start, end, beyond):
 
 
 def _beyond_drawn(world):
-    """Return the greatest distance [px] by which a mask's outline at the exact pose exceeds its drawn pixels.
+    """Return an upper bound [px] of how far the outline of a mask at its exact pose extends beyond its drawn pixels.
 
-    The outlines of all masks of the world are within it.
+    The bound holds for all masks of the world.
     """
     if not world.library.masks or not len(world.bodies):
         return 0.0

@@ -332,9 +332,10 @@ def kind_of(setting: Setting, base: Setting) -> str:
 
 
 def look_of(setting: Setting, base: Setting) -> tuple[Color, str]:
-    """Return (colour, form) of a setting's dot: a white circle for `base`, else by the field that differs from it.
+    """Return (colour, form) of a setting's dot in the plot: a white circle if the setting is equal to `base`.
 
-    base: the setting of the state from which the measurements start.
+    Otherwise the field in which it differs from `base` decides. base: the setting of the state from which the
+    measurements start.
     """
     return (PAPER, "circle") if setting == base else LOOKS[kind_of(setting, base)][1:]
 
