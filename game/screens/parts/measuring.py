@@ -244,7 +244,7 @@ class Measuring:
         path = free_name(data_folder() / "measurements", scene.name, ".csv")
         steps = scene.frame if recorder is None else recorder.frames
         write_atomically(path, csv_of(survey, scene.name, scene.seed, steps))
-        return f"saved as {path.name} in {path.parent}"
+        return f"saved as measurements/{path.name}"
 
     def rivals(self) -> list[Setting]:
         """Return the settings against which the scene can be raced: each differs from the current one by one change."""

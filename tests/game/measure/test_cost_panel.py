@@ -156,4 +156,4 @@ def test_f9_saves_what_is_measured_as_csv(driver, tmp_path):
     driver.turns(2)
     (saved,) = (tmp_path / "measurements").glob("lab-filters-*.csv")
     assert len(saved.read_text().splitlines()) > 2
-    assert "saved as lab-filters" in words(driver.app.arcade.picture.presenter.frame)
+    assert f"saved as measurements/{saved.name}" in driver.screen.news
