@@ -1,4 +1,4 @@
-"""The card shown in the player's first game, which names the keys of the overlays."""
+"""The strip shown in the player's first game, which names the keys of the overlays."""
 
 import pygame
 
@@ -7,51 +7,62 @@ from game.drawing.colors import FOG, GOLD, INK, PAPER, SLATE
 from game.drawing.presenter import Frame
 from game.files.settings import Settings
 
-LINES = (("Tab or Y", "the panel"), ("1 to 9", "see what the physics sees"), ("Esc", "menu: a one-minute tour"))
-FOOT = "Enter or a click puts this away"
+PARTS = (("1 to 9", "see what the physics sees"),)  # the help line of the game names the other keys
+FOOT = "any key closes"
 KEYS = (pygame.K_TAB, pygame.K_RETURN, pygame.K_KP_ENTER, *range(pygame.K_0, pygame.K_9 + 1))
 BUTTONS = ("y", "back")
-SIZE = (224, 74)  # [text px]
+READ = 120  # pictures after which any other key closes it, too: two seconds to read it
+GAP, HEIGHT = 10, 17  # [text px] between two parts; of the strip
 
 
 class HintCard:
-    """Card that closes after one of the keys named on it, after Enter, or after a click on it."""
+    """Strip that closes after a key named on it, Enter or a click on it, and after READ pictures after any key."""
 
-    keeps_keys = False  # the keys on the card keep their function
+    keeps_keys = False  # every key keeps its function
 
     def __init__(self) -> None:
         self.rect = pygame.Rect(0, 0, 0, 0)
+        self.drawn = 0  # pictures
 
     def dismissed_by(self, event: pygame.event.Event, button: str | None) -> bool:
-        """Return whether this event closes the card. button: the pad button that the event presses, or None."""
+        """Return whether this event closes the strip. button: the pad button that the event presses, or None."""
+        read = self.drawn >= READ
         if event.type == pygame.KEYDOWN:
-            return event.key in KEYS
+            return read or event.key in KEYS
         if event.type == pygame.MOUSEBUTTONDOWN:
             return self.rect.collidepoint(event.pos)
-        return button in BUTTONS
+        return button in BUTTONS or (read and button is not None)
 
     def remember(self, settings: Settings) -> None:
-        """Record in the settings that the card was shown, so that it does not appear again."""
+        """Record in the settings that the strip was shown, so that it does not appear again."""
         settings.hint_seen = True
 
     def draw(self, frame: Frame) -> None:
-        """Draw the card at a free place of the picture, at window resolution."""
-        scale = frame.text_scale
+        """Draw the strip near the upper or else the lower border of the picture, where no text is."""
+        self.drawn += 1
         area = frame.area.clip(frame.rect)
-        size = (SIZE[0] * scale, SIZE[1] * scale)
-        x = area.right - size[0] - 8 * scale
-        places = [(x, y) for y in range(area.top + 24 * scale, area.bottom - size[1], 8 * scale)]
-        place = frame.free_place(size, places)
+        scale = frame.text_scale
+        while scale > 1 and self._width(frame, scale) > area.width - 8 * scale:
+            scale -= 1
+        size = (self._width(frame, scale), HEIGHT * scale)
+        x = area.centerx - size[0] // 2
+        high, low = area.top + area.height // 4, area.bottom - size[1] - 2 * scale
+        rows = (*range(area.top + 2 * scale, high, 4 * scale), *range(low, high, -4 * scale))
+        place = frame.free_place(size, [(x, y) for y in rows])
         if place is None:
             return
         self.rect = pygame.Rect(place, size)
         frame.surface.fill(INK, self.rect)
         pygame.draw.rect(frame.surface, SLATE, self.rect, scale)
         frame.surface.fill(GOLD, (self.rect.x, self.rect.y, 2 * scale, self.rect.height))
-        left, top = self.rect.x + 10 * scale, self.rect.y + 8 * scale
-        for number, (key, what) in enumerate(LINES):
-            y = top + number * 15 * scale
-            frame.text(key, left, y, GOLD, TEXT, scale)
-            frame.text(what, left + 56 * scale, y, PAPER, TEXT, scale)
-        frame.text(FOOT, left, top + 51 * scale, FOG, SMALL, scale)
+        left, top = self.rect.x + GAP * scale, self.rect.y + 4 * scale
+        for key, what in PARTS:
+            left = frame.text(key, left, top, GOLD, TEXT, scale).right + 4 * scale
+            left = frame.text(what, left, top, PAPER, TEXT, scale).right + GAP * scale
+        frame.text(FOOT, left, top + 2 * scale, FOG, SMALL, scale)
         frame.reserve(self.rect)
+
+    def _width(self, frame, scale):
+        """Return the width of the strip at a scale [frame px]."""
+        words = sum(frame.measure(key, TEXT, scale)[0] + frame.measure(what, TEXT, scale)[0] for key, what in PARTS)
+        return words + frame.measure(FOOT, SMALL, scale)[0] + (len(PARTS) * (4 + GAP) + 2 * GAP) * scale
