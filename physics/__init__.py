@@ -18,9 +18,12 @@ from physics.joints.kinds import (
     Angle,
     Distance,
     Drive,
+    Gear,
     Motor,
     NoContact,
     Prismatic,
+    Pulley,
+    Ratchet,
     Revolute,
     Spring,
     Target,
@@ -46,9 +49,9 @@ BROADPHASES = {each.name: each for each in (BruteForce, SweepAndPrune, SpatialHa
 
 __all__ = [
     "Angle", "BROADPHASES", "Body", "Bounds", "BruteForce", "Capsule", "Chain", "Character", "Circle", "DYNAMIC",
-    "Distance", "Drive", "DynamicTree", "Effects", "Filter", "Fit", "JIT", "Joint", "KINEMATIC", "Manifold", "Mass",
-    "Material", "Motor", "Moved", "NoContact", "PHYSICS_VERSION", "PixelMask", "Polygon", "Prismatic", "RayHit",
-    "Revolute", "SOLVERS", "STATIC", "Segment", "Snapshot", "SpatialHashGrid", "Spring", "SweepAndPrune", "TIERS",
-    "Target", "TileGrid", "TimeOfImpact", "Vec2", "Weld", "Wheel", "World", "collide", "compile_in_background",
-    "decompose", "distance", "fit", "hull", "mass_of", "measure", "time_of_impact", "warmup",
+    "Distance", "Drive", "DynamicTree", "Effects", "Filter", "Fit", "Gear", "JIT", "Joint", "KINEMATIC", "Manifold",
+    "Mass", "Material", "Motor", "Moved", "NoContact", "PHYSICS_VERSION", "PixelMask", "Polygon", "Prismatic",
+    "Pulley", "Ratchet", "RayHit", "Revolute", "SOLVERS", "STATIC", "Segment", "Snapshot", "SpatialHashGrid", "Spring",
+    "SweepAndPrune", "TIERS", "Target", "TileGrid", "TimeOfImpact", "Vec2", "Weld", "Wheel", "World", "collide",
+    "compile_in_background", "decompose", "distance", "fit", "hull", "mass_of", "measure", "time_of_impact", "warmup",
 ]  # fmt: skip

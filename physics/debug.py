@@ -16,7 +16,7 @@ from physics.queries.index import visited
 from physics.settings import MASK_ANGLE_BUCKETS
 from physics.shapes.library import draw_pictures
 from physics.tables.body import DYNAMIC
-from physics.tables.joint import ANGLE, LENGTH, WORLD
+from physics.tables.joint import ANGLE, GEARED, LENGTH, NO_JOINT, SLUNG, WORLD
 from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PART, POLYGON, SEGMENT
 from physics.world import World
 
@@ -63,13 +63,21 @@ DRAWN_JOINT = np.dtype(
         ("body_b", np.int64),
         ("kind", np.int64),  # index in physics.joints.kinds.KINDS
         ("coordinate", np.int64),  # NO_COORDINATE ANGLE TRANSLATION LENGTH of tables/joint.py
+        ("hold", np.int64),  # FREE PINNED ON_AXIS TOOTHED GEARED SLUNG of tables/joint.py
+        ("joint_a", np.int64),  # ids of the joints that a gear couples, whose anchors are its anchors; else -1
+        ("joint_b", np.int64),
+        ("ratio", np.float64),  # of a gear or pulley
+        ("ground_ax", np.float64),  # [px] the two pulleys in the world; (0, 0) for other kinds
+        ("ground_ay", np.float64),
+        ("ground_bx", np.float64),
+        ("ground_by", np.float64),
         ("ax", np.float64),  # [px] anchors in the world
         ("ay", np.float64),
         ("bx", np.float64),
         ("by", np.float64),
-        ("axis_x", np.float64),  # unit: the axis of a slider or wheel, along a length, for an angle the direction of 0
+        ("axis_x", np.float64),  # unit: axis of a slider or wheel, along a length or B's rope, direction of angle 0
         ("axis_y", np.float64),
-        ("value", np.float64),  # the coordinate [px or rad], and its limits
+        ("value", np.float64),  # the coordinate, or sum of coordinates, [px or rad], and its limits
         ("lower", np.float64),
         ("upper", np.float64),
         ("force_x", np.float64),  # on B in the last step
@@ -216,13 +224,22 @@ def _line(shape, kind, points):
     return "segment" if kind == SEGMENT else "polygon", points
 
 
+SAME_OF_JOINTS = (
+    "body_a", "body_b", "kind", "coordinate", "hold", "joint_a", "joint_b", "ratio", "ground_ax", "ground_ay",
+    "ground_bx", "ground_by", "lower", "upper", "force_x", "force_y", "torque", "awake",
+)  # fmt: skip
+
+
 def joints(world: World) -> np.ndarray:
     """Return a DRAWN_JOINT row per joint, in the order of ids: anchors, axis, limits and forces."""
     rows, bodies = world.joints, world.bodies
     found = np.zeros(len(rows), DRAWN_JOINT)
     found["joint"] = rows["id"]
-    for name in ("body_a", "body_b", "kind", "coordinate", "lower", "upper", "force_x", "force_y", "torque", "awake"):
+    for name in SAME_OF_JOINTS:
         found[name] = rows[name]
+    of_gear = rows["hold"] == GEARED
+    for name in ("joint_a", "joint_b"):
+        found[name][~of_gear] = NO_JOINT
     turned = np.zeros(len(rows))  # angle of A
     for side in ("a", "b"):
         x, y = rows[f"local_{side}x"].copy(), rows[f"local_{side}y"].copy()
@@ -241,7 +258,15 @@ def joints(world: World) -> np.ndarray:
     turned[of_angle] += rows["reference"][of_angle]
     found["axis_x"] = np.cos(turned) * along_x - np.sin(turned) * along_y
     found["axis_y"] = np.sin(turned) * along_x + np.cos(turned) * along_y
+    for side in ("a", "b"):  # a gear acts where its joints are
+        coupled = np.flatnonzero(of_gear & (rows[f"joint_{side}"] != NO_JOINT))
+        joints_of = np.searchsorted(rows["id"], rows[f"joint_{side}"][coupled])
+        for axis in ("x", "y"):
+            found[side + axis][coupled] = found["b" + axis][joints_of]
     apart = np.stack([found["bx"] - found["ax"], found["by"] - found["ay"]])
+    hung = rows["hold"] == SLUNG
+    of_length |= hung
+    apart[:, hung] = np.stack([found["bx"] - found["ground_bx"], found["by"] - found["ground_by"]])[:, hung]
     length = np.sqrt((apart * apart).sum(axis=0))
     known = of_length & (length > 0.0)
     found["axis_x"][known], found["axis_y"][known] = apart[:, known] / length[known]

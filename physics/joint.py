@@ -9,6 +9,7 @@ import numpy as np
 
 from physics import checks
 from physics.checks import Pair
+from physics.gear import gear_rows, hang, report_gears, side_of, sum_with, with_gears
 from physics.islands import sleep
 from physics.joints.kinds import (
     KINDS,
@@ -18,13 +19,15 @@ from physics.joints.kinds import (
     Weld,
     checked_breaks,
     checked_limits,
+    checked_ratio,
     checked_spring,
     motor_fields,
+    tooth_at,
 )
 from physics.math2d import Vec2, rotate
-from physics.solver.joint_rows import report_joints
+from physics.solver.joint_report import report_joints
 from physics.tables.body import DYNAMIC
-from physics.tables.joint import ANGLE, BROKEN, JOINT, LENGTH, NO_COORDINATE, WORLD
+from physics.tables.joint import ANGLE, BROKEN, GEARED, JOINT, LENGTH, NO_COORDINATE, NO_JOINT, WORLD
 from physics.tables.table import row_number, rows_in
 from physics.world_state import WorldState
 
@@ -75,13 +78,34 @@ def add(
             f"at_a and at_b must be two points (got {world_anchors[0][np.argmin(lengths)].tolist()} twice)"
         )
     kind.with_lengths(rows, lengths)
+    if kind.GROUND:
+        hang(kind, columns, world_anchors, rows)
+    return _append(world, kind, rows)
+
+
+def add_gears(
+    world: WorldState, kind: Any, sides_a: list[tuple[bool, int]], sides_b: list[tuple[bool, int]]
+) -> np.ndarray:
+    """Append gears to a world, and return their ids (n,). Arguments and errors as in gear.gear_rows, and as in add."""
+    _check_effects(world, kind, kind.columns())
+    rows = gear_rows(world, kind, sides_a, sides_b)
+    rows["kind"] = KINDS.index(type(kind))
+    return _append(world, kind, rows)
+
+
+def _append(world, kind, rows):
+    """Append JOINT rows (n,) of one kind to a world, wake their bodies, and return the new ids."""
+    n = len(rows)
     rows["id"] = np.arange(world._next_joint, world._next_joint + n)
     world._next_joint += n
     world._joints.append(n)[:] = rows
     if kind.user is not None:
         world._joint_users.update(dict.fromkeys(rows["id"].tolist(), kind.user))
     set_apart(world, wake(world, rows))
-    report_joints(world.bodies, world.joints[world._joints.count - n :])
+    if kind.COUPLES:
+        report_gears(world, kind, n)
+    else:
+        report_joints(world.bodies, world.joints[world._joints.count - n :])
     return rows["id"].copy()
 
 
@@ -165,6 +189,9 @@ def add_one(world: WorldState, kind: Any) -> "Joint":
     if not isinstance(kind, Kind) or type(kind) not in KINDS:
         raise TypeError(f"joint must be one of {_names()} (got {checks.shown(kind)})")
     a, b = kind.sides()
+    if kind.COUPLES:
+        sides = side_of(world, "joint_a", a, Joint), side_of(world, "joint_b", b, Joint)
+        return Joint(world, int(add_gears(world, kind, [sides[0]], [sides[1]])[0]))
     name = "b" if "b" in vars(kind) else "body"
     bodies_a, bodies_b = _body_ids(world, "a", [a]), _body_ids(world, name, [b])
     given, columns = vars(kind), {}
@@ -175,6 +202,8 @@ def add_one(world: WorldState, kind: Any) -> "Joint":
             point = _default_point(world, kind, name, bodies_b.item(0))
             point = checks.position(name_of_default, point)
         columns[name] = np.array([checks.position(name, point)])
+    for name in kind.GROUND:
+        columns[name] = np.array([checks.position(name, given[name])])
     if kind.AXIS:
         columns["axis"] = np.array([checks.vector("axis", given["axis"])])
     return Joint(world, int(add(world, kind, bodies_a, bodies_b, columns)[0]))
@@ -217,7 +246,7 @@ def add_many(world: WorldState, kind: Any, bodies_a: Any, bodies_b: Any, setting
     world._unlocked()
     if not (isinstance(kind, type) and kind in KINDS):
         raise TypeError(f"kind must be one of {_names()} (got {checks.shown(kind)})")
-    sides = [name for name in ("a", "b", "body") if name in kind.__dataclass_fields__]
+    sides = [name for name in ("a", "b", "body", "joint_a", "joint_b") if name in kind.__dataclass_fields__]
     known = {field.name for field in fields(kind)}.difference(sides)
     for name in sorted(settings.keys() - known):
         raise TypeError(f"add_joints() got an unexpected keyword argument {name!r} for {kind.__name__}")
@@ -226,16 +255,31 @@ def add_many(world: WorldState, kind: Any, bodies_a: Any, bodies_b: Any, setting
             raise TypeError(f"{name} must be Bodies or ids, or None (got {checks.shown(each)})")
     first, second = (None if each is None else [*each] for each in (bodies_a, bodies_b))
     n = len(first or second or ())
+    if kind.COUPLES:
+        return _add_many_gears(world, kind, first or [], second or [], settings)
     first, second = (
         _body_ids(world, name, [None] * n if each is None else each)
         for name, each in (("bodies_a", first), ("bodies_b", second))
     )
     if len(first) != len(second):
         raise ValueError(f"bodies_b must have as many entries as bodies_a (got {len(second)} and {len(first)})")
-    columns = {name: _column(kind, name, settings, n) for name in (*kind.POINTS, *(("axis",) if kind.AXIS else ()))}
+    points = (*kind.POINTS, *kind.GROUND)
+    columns = {name: _column(kind, name, settings, n) for name in (*points, *(("axis",) if kind.AXIS else ()))}
     rest = {name: value for name, value in settings.items() if name not in columns}
-    made = kind(**dict.fromkeys(sides), **{name: (0.0, 0.0) for name in kind.POINTS}, **rest)
+    made = kind(**dict.fromkeys(sides), **{name: (0.0, 0.0) for name in points}, **rest)
     return add(world, made, first, second, columns)
+
+
+def _add_many_gears(world, kind, first, second, settings) -> np.ndarray:
+    """Add a gear of one kind for each pair of joints or bodies, and return their ids (n,). Errors as in add_many."""
+    if len(first) != len(second):
+        raise ValueError(f"bodies_b must have as many entries as bodies_a (got {len(second)} and {len(first)})")
+    made = kind(None, None, **settings)
+    sides = [
+        [side_of(world, f"{name}[{k}]", each, Joint) for k, each in enumerate(given)]
+        for name, given in (("bodies_a", first), ("bodies_b", second))
+    ]
+    return add_gears(world, made, *sides)
 
 
 def _column(kind, name, settings, n) -> np.ndarray:
@@ -271,20 +315,24 @@ def set_apart(world: WorldState, ids: Sequence[int]) -> None:
     """
     joints = world.joints
     apart = joints[~joints["contacts"] & joints["enabled"] & (joints["body_a"] != WORLD) & (joints["body_b"] != WORLD)]
+    apart = apart[apart["body_a"] != apart["body_b"]]  # a gear may couple two motions of one body
     low, high = np.minimum(apart["body_a"], apart["body_b"]), np.maximum(apart["body_a"], apart["body_b"])
     if world.pairs.keep_apart(np.unique(low << 32 | high)) and len(ids):
         world.pairs.touch(world.shapes["proxy"][world._shape_rows_of(world.rows(np.array(ids, np.int64)))])
 
 
 def remove(world: WorldState, ids: Any) -> None:
-    """Remove joints, given as Joints or ids, one or many.
+    """Remove joints, given as Joints or ids, one or many, and the gears that couple them.
 
-    Raises KeyError for an unknown joint, TypeError for anything but Joints and ids, ValueError for a Joint of another
-    world, RuntimeError during a step. Nothing is removed then.
+    The next step reports these gears as broken, with the reason "removed". Raises KeyError for an unknown joint,
+    TypeError for anything but Joints and ids, ValueError for a Joint of another world, RuntimeError during a step.
+    Nothing is removed then.
     """
     world._unlocked()
     rows = joint_rows(world, ids)
-    drop(world, rows)
+    asked = world.joints["id"][rows]
+    gone = drop(world, with_gears(world, rows))
+    world._lost_joints += told(gone[~np.isin(gone["id"], asked)], "removed").tolist()
 
 
 def drop(world: WorldState, rows: np.ndarray) -> np.ndarray:
@@ -300,11 +348,14 @@ def drop(world: WorldState, rows: np.ndarray) -> np.ndarray:
 
 
 def drop_of_bodies(world: WorldState, ids: np.ndarray) -> None:
-    """Remove the joints of bodies (ids) that are about to be removed. The next step reports the joints as broken."""
+    """Remove the joints of bodies (ids) that are about to be removed, and the gears that couple these joints.
+
+    The next step reports the joints as broken.
+    """
     joints = world.joints
     mine = np.flatnonzero(np.isin(joints["body_a"], ids) | np.isin(joints["body_b"], ids))
     if len(mine):
-        world._lost_joints += told(drop(world, mine), "removed").tolist()
+        world._lost_joints += told(drop(world, with_gears(world, mine)), "removed").tolist()
 
 
 def told(rows: np.ndarray, reason: str | np.ndarray) -> np.ndarray:
@@ -325,7 +376,8 @@ def told(rows: np.ndarray, reason: str | np.ndarray) -> np.ndarray:
 def break_joints(world: WorldState, events: Any) -> None:
     """Remove the joints that broke in the last step, and report them in events.broken.
 
-    Joints of bodies that were removed before the step are also reported.
+    Gears that couple a broken joint are removed and reported too. So are joints of bodies that were removed before the
+    step.
     """
     joints = world.joints
     broken = np.flatnonzero(joints["broken"])
@@ -334,8 +386,9 @@ def break_joints(world: WorldState, events: Any) -> None:
     if not len(broken):
         events.broken = lost
         return
-    gone = drop(world, broken)
+    gone = drop(world, with_gears(world, broken))
     reason = np.where(np.hypot(gone["force_x"], gone["force_y"]) > gone["break_force"], "force", "torque")
+    reason = np.where(gone["broken"], reason, "removed")
     events.broken = np.concatenate([lost, told(gone, reason)])
 
 
@@ -482,7 +535,10 @@ class Joint:
 
     @property
     def translation(self) -> float:
-        """The translation of B along the axis [px] after the last step; for a Distance the distance of the anchors."""
+        """The translation of B along the axis [px] after the last step; for a Distance the distance of the anchors.
+
+        For a Gear the sum of coordinates that it holds, for a Pulley the length of rope in use.
+        """
         return self._row["translation"].item()
 
     @property
@@ -495,7 +551,10 @@ class Joint:
 
     @property
     def separation(self) -> float:
-        """The error of the joint [px]: distance of held anchors, distance from the axis, or excess over limits."""
+        """The error of the joint [px]: distance of held anchors, distance from the axis, or excess over limits.
+
+        For a Gear the error of its sum, in the unit of the coordinate of joint_a.
+        """
         return self._row["separation"].item()
 
     @property
@@ -569,6 +628,8 @@ class Joint:
     @limits.setter
     def limits(self, value: Any) -> None:
         self._takes("limits", value is not None)
+        if self.kind == "Ratchet":
+            raise ValueError(f"limits of a Ratchet are its teeth; set phase or ratchet (got {checks.shown(value)})")
         lower, upper = checked_limits(value, low=0.0 if self._row["coordinate"] == LENGTH else None)
         self._set(lower=lower, upper=upper)
 
@@ -624,6 +685,87 @@ class Joint:
     def _is_target(self, name):
         if self.kind != "Target":
             raise AttributeError(f"{name} belongs to a Target; joint {self._id} is a {self.kind}")
+
+    # --- gears, pulleys and ratchets ----------------------------------------------------------------------------------
+
+    def _is_one_of(self, name, *kinds):
+        if self.kind not in kinds:
+            raise AttributeError(f"{name} belongs to a {' or '.join(kinds)}; joint {self._id} is a {self.kind}")
+        return self._row
+
+    @property
+    def joint_a(self) -> "Joint | None":
+        """The joint of side A of a Gear, None if the side is a body. Raises AttributeError for other kinds."""
+        return self._coupled("joint_a")
+
+    @property
+    def joint_b(self) -> "Joint | None":
+        """The joint of side B of a Gear, None if the side is a body. Raises AttributeError for other kinds."""
+        return self._coupled("joint_b")
+
+    def _coupled(self, name):
+        identity = self._is_one_of(name, "Gear")[name].item()
+        return None if identity == NO_JOINT else Joint(self._world, identity)
+
+    @property
+    def ratio(self) -> float:
+        """The ratio of a Gear or Pulley. Raises AttributeError for other kinds.
+
+        A change keeps the present poses: the phase of a gear, or the length of a rope, changes too.
+        """
+        return self._is_one_of("ratio", "Gear", "Pulley")["ratio"].item()
+
+    @ratio.setter
+    def ratio(self, value: float) -> None:
+        row = self._is_one_of("ratio", "Gear", "Pulley")
+        of_gear = row["hold"] == GEARED
+        value = checked_ratio(value) if of_gear else checks.number("ratio", value, above=0.0)
+        change = sum_with(self._world, self._id, value) - sum_with(self._world, self._id, row["ratio"].item())
+        names = ("phase",) if of_gear else ("lower", "upper")
+        self._set(ratio=value, **{name: row[name].item() + change for name in names})
+
+    @property
+    def phase(self) -> float:
+        """The sum of coordinates that a Gear holds, or the angle of a tooth of a Ratchet [rad].
+
+        Raises AttributeError for other kinds.
+        """
+        return self._is_one_of("phase", "Gear", "Ratchet")["phase"].item()
+
+    @phase.setter
+    def phase(self, value: float) -> None:
+        row = self._is_one_of("phase", "Gear", "Ratchet")
+        value = checks.number("phase", value)
+        teeth = tooth_at(self.angle, value, row["ratchet"].item()) if self.kind == "Ratchet" else {}
+        self._set(phase=value, **teeth)
+
+    @property
+    def ratchet(self) -> float:
+        """The angle from tooth to tooth of a Ratchet [rad], in the direction in which B may turn.
+
+        A change sets the last tooth by the present angle. Raises AttributeError for other kinds.
+        """
+        return self._is_one_of("ratchet", "Ratchet")["ratchet"].item()
+
+    @ratchet.setter
+    def ratchet(self, value: float) -> None:
+        row = self._is_one_of("ratchet", "Ratchet")
+        value = checked_ratio(value, "ratchet")
+        self._set(ratchet=value, **tooth_at(self.angle, row["phase"].item(), value))
+
+    @property
+    def length(self) -> float:
+        """The length of the rope of a Pulley [px]. A change hauls the rope in or pays it out.
+
+        Raises AttributeError for other kinds.
+        """
+        return self._is_one_of("length", "Pulley")["upper"].item()
+
+    @length.setter
+    def length(self, value: float) -> None:
+        row = self._is_one_of("length", "Pulley")
+        value = checks.number("length", value, above=0.0)
+        self._set(upper=value, lower=value if row["lower"] == row["upper"] else -math.inf)
 
     @property
     def user(self) -> Any:

@@ -34,7 +34,7 @@ from physics.step import PUSHING, SOLVERS
 from physics.tables.body import BODY, BODY_DEF
 from physics.tables.character import CHARACTER
 from physics.tables.contact import CONTACT, EVENT
-from physics.tables.joint import BROKEN, JOINT, WORLD
+from physics.tables.joint import BROKEN, COUPLED_SCRATCH, COUPLED_STATE, GEARED, JOINT, NO_JOINT, TOOTHED, WORLD
 from physics.tables.joint import STATE as STATE_OF_JOINTS
 from physics.tables.shape import MASK, PART, SHAPE
 from physics.tables.table import joined
@@ -132,7 +132,9 @@ TABLES = {
     "joints": JOINT,
     "lost_joints": BROKEN,
 }
-LATER = {"joints": np.zeros(0, JOINT), "lost_joints": np.zeros(0, BROKEN)}  # absent from files of older programs
+# Absent from files of older programs: tables, and columns of tables, which are then 0.
+LATER = {"joints": np.zeros(0, JOINT), "lost_joints": np.zeros(0, BROKEN)}
+LATER_COLUMNS = {"joints": {name for name, _ in (*COUPLED_STATE, *COUPLED_SCRATCH)}}
 
 
 def _as_laid_out(name, rows, dtype) -> np.ndarray:
@@ -141,11 +143,13 @@ def _as_laid_out(name, rows, dtype) -> np.ndarray:
     Raises ValueError if the columns are not the same.
     """
     columns = rows.dtype.fields or {}
-    if {each: columns[each][0] for each in columns} != {each: dtype.fields[each][0] for each in dtype.names}:
+    absent = LATER_COLUMNS.get(name, set()) - columns.keys()
+    asked = [each for each in dtype.names if each not in absent]
+    if {each: columns[each][0] for each in columns} != {each: dtype.fields[each][0] for each in asked}:
         raise ValueError(f"it has other columns in {name} than this program")
     if rows.dtype != dtype:
         moved = np.zeros(len(rows), dtype)
-        for each in dtype.names:
+        for each in asked:
             moved[each] = rows[each]
         return moved
     # The dtype object itself, not an equal one: with another object each kernel call looks up its types
@@ -378,6 +382,10 @@ def _unpack(arrays, facts, geometry):
     joined = np.concatenate([arrays["joints"][name] for name in ("body_a", "body_b")])
     if not set(joined[joined != WORLD].tolist()) <= shapes_of.keys():
         raise ValueError("a joint has a body that is not there")
+    gears = arrays["joints"][arrays["joints"]["hold"] == GEARED]
+    coupled = np.concatenate([gears[name] for name in ("joint_a", "joint_b")])
+    if not np.isin(coupled[coupled != NO_JOINT], arrays["joints"]["id"]).all():
+        raise ValueError("a gear couples a joint that is not there")
     if len(arrays["given"]) != len(arrays["bodies"]) or not set(_targets(arrays)) <= shapes_of.keys():
         raise ValueError("what is said of bodies is said of others")
     for name in ("gravity", "wind"):
@@ -468,6 +476,9 @@ def digest(world: WorldState) -> str:
         found.update(world.joint_solver.encode())
         for name, kind in STATE_OF_JOINTS:
             found.update((world.joints[name] + 0.0 if kind is np.float64 else world.joints[name]).tobytes())
+        coupled = world.joints[world.joints["hold"] >= TOOTHED]
+        for name, kind in COUPLED_STATE if len(coupled) else ():
+            found.update((coupled[name] + 0.0 if kind is np.float64 else coupled[name]).tobytes())
     restless = world.bodies["id"][~world.bodies["allow_sleep"]]
     if len(restless):
         found.update(b"allow_sleep" + restless.tobytes())

@@ -32,7 +32,7 @@ from physics.settings import SHORTEST_STEP, STALL
 from physics.solver.blocking import IGNORED as IGNORED_BY_BLOCKING
 from physics.solver.blocking import blocking
 from physics.solver.contact_lanes import ContactLanes
-from physics.solver.joint_rows import measure_joints
+from physics.solver.joint_report import measure_joints
 from physics.solver.motions import Motions
 from physics.solver.projection import IGNORED as IGNORED_BY_PROJECTION
 from physics.solver.projection import PushSet, projection

@@ -6,6 +6,7 @@ import numpy as np
 
 from game.invariants.bodies import Bodies
 from physics import DYNAMIC, KINEMATIC, World
+from physics.tables.joint import GEARED
 
 
 class Step:
@@ -112,6 +113,9 @@ class Step:
         still = (self.now.kind != DYNAMIC) | ~rows["awake"] | rows["quarantined"] | self.forced
         still |= rows["fraction"] < 1.0
         a, b = self.linked
+        coupled = self.world.joints[self.world.joints["hold"] >= GEARED]  # their forces do not add up to 0
+        for name in ("body_a", "body_b"):
+            still[self.rows_of(coupled[name][coupled[name] >= 0])] = True
         still[b[a < 0]] = True
         still[a[b < 0]] = True
         if self.world.effects.response and (len(self.contacts) or len(a)):

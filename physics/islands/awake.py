@@ -14,7 +14,7 @@ from physics.islands.graph import JOINT_EDGE, NO_NODE, write_pair
 from physics.jit import inlined, kernel, subkernel
 from physics.math2d import norm, rotation_of
 from physics.tables.body import DYNAMIC, KINEMATIC
-from physics.tables.joint import LENGTH, ON_AXIS, PINNED
+from physics.tables.joint import GEARED, LENGTH, ON_AXIS, PINNED, SLUNG, TOOTHED
 from physics.tables.step_state import StepState, WorldTables, stage
 from physics.tables.table import distinct, join_trees, root_of, rows_of
 
@@ -270,7 +270,7 @@ def list_awake(state: StepState) -> None:
 # projected onto the directions that these surfaces allow. In the plane, only the surface with the greatest acceleration
 # into it can remain in contact. Any other surface on the way along that surface blocks the group.
 
-LOOSE, PIVOT, RAIL, HELD = 0, 1, 2, 3  # how a joint to a resting body holds a group
+LOOSE, PIVOT, RAIL, HELD, STOP = 0, 1, 2, 3, 4  # how a joint to a resting body holds a group
 SWING = 0.2  # factor on the sideways distance of a pendulum from its rest: it may sleep within five slops
 FREE_TIME = 60.0  # [s] time in which the free motion of a sleeping body would be below the slop
 
@@ -434,12 +434,14 @@ def list_joint_edges(bodies, joints, count, edges_out):
 
 @subkernel
 def hold_of(joint):
-    """Return how a joint to a body at rest holds the other body: LOOSE, PIVOT, RAIL or HELD.
+    """Return how a joint to a resting body holds the other body: LOOSE, PIVOT, RAIL, HELD or STOP.
 
-    A rod or taut rope is a PIVOT. A slider is a RAIL. With a spring, a motor, equal limits or a loaded limit it is
-    HELD, except for a Wheel, which remains a RAIL.
+    A loaded gear or ratchet is a STOP: it holds a body that also has a pivot or a rail. A taut rope or a rod is a
+    PIVOT. A rail with a spring, a motor, equal limits or a loaded limit is HELD; the axis of a Wheel is always a RAIL.
     """
     j = joint
+    if j.hold == TOOTHED or j.hold == GEARED:
+        return STOP if j.lower_force != 0.0 or j.upper_force > 0.0 else LOOSE
     driven = j.spring_hertz > 0.0 or j.motor_max > 0.0 or j.lower == j.upper
     driven = driven or j.lower_force > 0.0 or j.upper_force > 0.0
     if j.coordinate == LENGTH:
@@ -451,6 +453,42 @@ def hold_of(joint):
     if j.hold == PINNED and j.follows_point:
         return HELD if j.locks_angle or driven or j.point_hertz > 0.0 else PIVOT
     return LOOSE
+
+
+@subkernel
+def hang_on_pulleys(joint, a, b, groups_inout):
+    """Write the pulleys of a taut rope as pivots of the bodies that hang on it.
+
+    The bodies stay in separate groups: each swings about its own pulley, and keep_coupled_awake finds ropes that run.
+    joint: JOINT row; a, b: whether each body is free.
+    """
+    j, g = joint, groups_inout
+    if not (j.upper_force > 0.0 or j.lower == j.upper):
+        return
+    if a:
+        g.pivots[j.body_row_a] += 1
+        g.hold_x[j.body_row_a], g.hold_y[j.body_row_a] = j.ground_ax, j.ground_ay
+    if b:
+        g.pivots[j.body_row_b] += 1
+        g.hold_x[j.body_row_b], g.hold_y[j.body_row_b] = j.ground_bx, j.ground_by
+
+
+@kernel
+def stop_groups(bodies, joints, groups_inout):
+    """Mark bodies with a pivot or a rail as anchored if a loaded gear or ratchet to a resting body holds them.
+
+    O(joints). bodies: BODY rows; joints: JOINT rows.
+    """
+    g = groups_inout
+    for i in range(len(joints)):
+        j = joints[i]
+        if not j.awake or hold_of(j) != STOP:
+            continue
+        a = j.body_row_a >= 0 and is_free(bodies[j.body_row_a])
+        b = j.body_row_b >= 0 and is_free(bodies[j.body_row_b])
+        if a != b:
+            row = j.body_row_a if a else j.body_row_b
+            g.anchored[row] = g.anchored[row] or g.pivots[row] + g.rails[row] > 0
 
 
 @kernel
@@ -467,6 +505,9 @@ def join_jointed_groups(bodies, joints, groups_inout):
             continue
         a = j.body_row_a >= 0 and is_free(bodies[j.body_row_a])
         b = j.body_row_b >= 0 and is_free(bodies[j.body_row_b])
+        if j.hold == SLUNG:
+            hang_on_pulleys(j, a, b, g)
+            continue
         if a and b:
             join_trees(j.body_row_a, j.body_row_b, g.parents)
             continue
@@ -697,6 +738,23 @@ def keep_sprung_awake(bodies, joints, slop, islands, least_out):
                 least_out[islands[row]] = 0.0
 
 
+@kernel
+def keep_coupled_awake(bodies, joints, fall, islands, least_out):
+    """Set the least sleep time of an island to 0 if its gears turn or its ropes run by more than the slop. O(joints).
+
+    The motion is that of FREE_TIME at the present speed. bodies: BODY rows; joints: JOINT rows; fall: see FreeFall;
+    islands, least_out: see keep_free_awake.
+    """
+    for i in range(len(joints)):
+        j = joints[i]
+        if not j.awake or j.hold < GEARED or j.rate * fall.velocity_reach <= fall.slop:
+            continue
+        if j.body_row_a >= 0 and is_free(bodies[j.body_row_a]):
+            least_out[islands[j.body_row_a]] = 0.0
+        if j.body_row_b >= 0 and is_free(bodies[j.body_row_b]):
+            least_out[islands[j.body_row_b]] = 0.0
+
+
 def keep_awake_what_moves_freely(
     rows: np.ndarray,
     bodies: np.ndarray,
@@ -717,6 +775,7 @@ def keep_awake_what_moves_freely(
     join_groups(bodies, contacts, int(friction), groups)
     if len(joints):
         join_jointed_groups(bodies, joints, groups)
+        stop_groups(bodies, joints, groups)
     sum_groups(rows, bodies, fall, groups)
     if len(joints):
         hold_groups(rows, bodies, groups)
@@ -724,3 +783,4 @@ def keep_awake_what_moves_freely(
     keep_free_awake(rows, bodies, groups, fall, islands, least_out)
     if len(joints):
         keep_sprung_awake(bodies, joints, fall.slop, islands, least_out)
+        keep_coupled_awake(bodies, joints, fall, islands, least_out)

@@ -15,7 +15,7 @@ import numpy as np
 
 from physics import checks
 from physics.checks import Pair
-from physics.tables.joint import ANGLE, LENGTH, ON_AXIS, PINNED, TRANSLATION
+from physics.tables.joint import ANGLE, GEARED, LENGTH, NO_COORDINATE, ON_AXIS, PINNED, SLUNG, TOOTHED, TRANSLATION
 
 # ---- settings --------------------------------------------------------------------------------------------------------
 
@@ -149,6 +149,8 @@ class Kind:
     """
 
     PARTS: ClassVar[Mapping[str, Any]] = {}  # values of JOINT columns that define the kind
+    GROUND: ClassVar[tuple[str, ...]] = ()  # arguments with points of the world, for A and for B
+    COUPLES: ClassVar[bool] = False  # whether the two sides are joints, or bodies, that the kind couples
     POINTS: ClassVar[tuple[str, ...]] = ("at",)  # arguments with anchors: one for both bodies, or one for each of A, B
     AXIS: ClassVar[bool] = False  # whether the kind has an argument `axis`
     COORDINATE: ClassVar[tuple[str, ...]] = ("limits", "motor", "spring")  # settings of the coordinate
@@ -410,4 +412,141 @@ class NoContact(Kind):
     b: Any
 
 
-KINDS: list[type[Kind]] = [Revolute, Prismatic, Wheel, Distance, Weld, Angle, Motor, Target, NoContact]
+@dataclass(frozen=True)
+class Gear(Kind):
+    """A gear that holds a sum of two coordinates: coordinate of A plus ratio times coordinate of B equals the phase.
+
+    joint_a, joint_b: Joints or their ids. The coordinate of a hinge (Revolute, Wheel, Angle, Ratchet) is its angle
+    [rad], that of a slider (Prismatic) its translation [px]: two hinges are a pair of gears, a hinge and a slider are a
+    rack and pinion. A Body in place of a joint stands for its angle in the world. ratio: any number but 0. With a
+    positive ratio the sides turn in opposite directions, as gears with teeth outside do, and B is slower by this
+    factor: the ratio is the number of teeth of B over that of A. phase: None for the present sum. The force and torque
+    of the gear act on B. A gear is removed with each of its joints.
+    """
+
+    PARTS = {"hold": GEARED, "point_max": 0.0}
+    POINTS = ()
+    COORDINATE = ()
+    COUPLES = True
+
+    joint_a: Any
+    joint_b: Any
+    ratio: float = 1.0
+    phase: float | None = None
+
+    def sides(self) -> tuple[Any, Any]:
+        return self.joint_a, self.joint_b
+
+    def columns(self) -> dict[str, Any]:
+        found = super().columns() | {"ratio": checked_ratio(self.ratio)}
+        if self.phase is not None:
+            found["phase"] = checks.number("phase", self.phase)
+        return found
+
+
+@dataclass(frozen=True)
+class Pulley(Kind):
+    """A rope from one body up over two pulleys and down to another body.
+
+    The rope has the length `length` = distance of A's anchor from its pulley + ratio · distance of B's anchor from its
+    pulley [px], None for the present length. It pulls A with its tension, and B with ratio times its tension (a block
+    and tackle). It can be slack; with rigid=True it also pushes. at_a, at_b: the anchors [px]; ground_a, ground_b: the
+    pulleys, points of the world [px]; ratio > 0. The coordinate of the joint, `translation`, is the length in use.
+    """
+
+    PARTS = {"hold": SLUNG, "point_max": 0.0}
+    POINTS = ("at_a", "at_b")
+    GROUND = ("ground_a", "ground_b")
+    COORDINATE = ()
+
+    a: Any
+    b: Any
+    at_a: Pair
+    at_b: Pair
+    ground_a: Pair
+    ground_b: Pair
+    ratio: float = 1.0
+    length: float | None = None
+    rigid: bool = False
+
+    def columns(self) -> dict[str, Any]:
+        if self.length is not None:
+            checks.number("length", self.length, above=0.0)
+        checks.flag("rigid", self.rigid)
+        return super().columns() | {"ratio": checks.number("ratio", self.ratio, above=0.0)}
+
+    def with_rope(self, rows: np.ndarray, lengths_a: np.ndarray, lengths_b: np.ndarray) -> None:
+        """Write the length of the rope to JOINT rows (n,). lengths_a, lengths_b (n,): anchors from pulleys [px]."""
+        rows["upper"] = lengths_a + self.ratio * lengths_b if self.length is None else self.length
+        if self.rigid:
+            rows["lower"] = rows["upper"]
+
+
+@dataclass(frozen=True)
+class Ratchet(Kind):
+    """A ratchet: B may turn one way relative to A, and back only to the last tooth that it has passed.
+
+    ratchet: angle from tooth to tooth [rad]. B may turn on in the direction of its sign. phase: angle of a tooth
+    relative to the present angle [rad]. Its coordinate is the angle, 0 when the joint is made; `limits` is the present
+    tooth.
+    """
+
+    PARTS = {"hold": TOOTHED, "point_max": 0.0, "coordinate": ANGLE}
+    POINTS = ()
+    COORDINATE = ()
+
+    a: Any
+    b: Any
+    phase: float = 0.0
+    ratchet: float | None = None
+
+    def columns(self) -> dict[str, Any]:
+        phase = checks.number("phase", self.phase)
+        if self.ratchet is None:
+            raise ValueError("ratchet must be given, the angle from tooth to tooth: a number other than 0 (got None)")
+        ratchet = checked_ratio(self.ratchet, "ratchet")
+        return super().columns() | {"phase": phase, "ratchet": ratchet} | tooth_at(0.0, phase, ratchet)
+
+
+def checked_ratio(value: Any, name: str = "ratio") -> float:
+    """Return a ratio. Raises TypeError if it is not a number, ValueError if it is 0 or not finite.
+
+    name: name of the argument in messages.
+    """
+    ratio = checks.number(name, value)
+    if ratio == 0.0:
+        raise ValueError(f"{name} must be finite and other than 0 (got {checks.shown(value)})")
+    return ratio
+
+
+def tooth_at(angle: float, phase: float, ratchet: float) -> dict[str, float]:
+    """Return the JOINT columns of the limits of a ratchet whose last tooth is that at `angle` [rad], or before it.
+
+    phase, ratchet: see Ratchet.
+    """
+    tooth = phase + (angle - phase) // ratchet * ratchet
+    tooth = tooth if math.isfinite(tooth) else angle
+    return {"lower": tooth, "upper": math.inf} if ratchet > 0.0 else {"lower": -math.inf, "upper": tooth}
+
+
+def coupled_coordinate(row: Any) -> int:
+    """Return the coordinate of a JOINT row on which a gear acts: ANGLE, TRANSLATION, or NO_COORDINATE for none."""
+    if row["coordinate"] == ANGLE or row["turns_motor"]:
+        return ANGLE
+    return TRANSLATION if row["coordinate"] == TRANSLATION else NO_COORDINATE
+
+
+KINDS: list[type[Kind]] = [
+    Revolute,
+    Prismatic,
+    Wheel,
+    Distance,
+    Weld,
+    Angle,
+    Motor,
+    Target,
+    NoContact,
+    Gear,
+    Pulley,
+    Ratchet,
+]

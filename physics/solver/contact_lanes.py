@@ -39,6 +39,7 @@ from physics.math2d import norm
 from physics.settings import AUTO_SUBSTEPS, COLORS, EASE_TIME, LEAN, LOAD_SUBSTEPS, STILL_STIFFNESS
 from physics.solver import lanes as at
 from physics.solver.energy import FACING, find_squeezed
+from physics.solver.joint_couplings import begin_couplings
 from physics.solver.joint_direct import JointSet, Trees
 from physics.solver.joint_rows import begin_joints, estimate_joints, list_joints
 from physics.solver.lanes import (
@@ -91,7 +92,7 @@ class Plan(NamedTuple):
     starts: np.ndarray  # (slots) int64 first contact of each colour of each group; contacts without a colour first
     firsts: np.ndarray  # (classes + 1) int64 first entry of each group in `members`
     cursors: np.ndarray  # (slots) int64 scratch
-    joints: np.ndarray  # (joints, 3) int32 the joints to solve, see list_joints, …
+    joints: np.ndarray  # (joints, 4) int32 the joints to solve, see list_joints, …
     joint_count: np.ndarray  # (1) int64 … their number, …
     joint_rows: np.ndarray  # (joints) int32 … their JOINT rows by group, …
     joint_starts: np.ndarray  # (classes + 1) int64 … and the first entry of each group in `joint_rows`
@@ -119,7 +120,7 @@ def new_plan(edges: int, motions: int, joints: int) -> Plan:
         starts=np.zeros(slots, np.int64),
         firsts=np.zeros(len(AUTO_SUBSTEPS) + 1, np.int64),
         cursors=np.zeros(slots, np.int64),
-        joints=np.zeros((joints, 3), np.int32),
+        joints=np.zeros((joints, 4), np.int32),
         joint_count=np.zeros(1, np.int64),
         joint_rows=np.zeros(joints, np.int32),
         joint_starts=np.zeros(len(AUTO_SUBSTEPS) + 1, np.int64),
@@ -261,6 +262,21 @@ def list_joint_edges(joints, count, edges_out):
     return count + len(joints)
 
 
+@subkernel
+def share_halves(joints, motions_inout):
+    """Clear MOTION.halves of bodies that a gear or rope couples to a dynamic body without it. O(joints).
+
+    Otherwise half of the load on a rope would act on a body on the ground after its contacts have been solved. joints:
+    result of joint_rows.list_joints.
+    """
+    for k in range(len(joints)):
+        a, b = motions_inout[joints[k, 1]], motions_inout[joints[k, 2]]
+        if joints[k, 3] > 0 and a.is_dynamic and b.is_dynamic:
+            both = a.halves and b.halves
+            a.halves = both
+            b.halves = both
+
+
 # ---- order -----------------------------------------------------------------------------------------------------------
 
 
@@ -288,6 +304,7 @@ def list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, pla
     if edges > count:
         for i in range(nodes):
             motions_inout[i].halves = motions_inout[i].halves and degrees[i] == 0
+        share_halves(plan_out.joints[: plan_out.joint_count[0]], motions_inout)
     plan_out.squeezed[0] = False
     if may_squeeze and deepest > limits.deep:
         parents, squeeze = plan_out.parents[:nodes], plan_out.squeeze
@@ -606,7 +623,10 @@ class ContactLanes:
         """
         if len(group.joints):
             begin_joints(group.joints, state.bodies, h, state.joints)
-        return self.trees.build(group.joints, state.joints, motions.used, state.joint_solver)
+        found = self.trees.build(group.joints, state.joints, motions.used, state.joint_solver)
+        if len(found.coupled):
+            begin_couplings(found.coupled, state.bodies, h, state.joints)
+        return found
 
     def store(self, state: StepState, motions: Motions, count: int, context: StepContext) -> None:
         """Apply restitution, limit friction, and write the impulses of `count` blocks back to the CONTACT rows.

@@ -283,7 +283,7 @@ def join_touching(blocks, count, group, joints, links_islands, motions, parents_
         parents_out[group.members[k]] = root_of(group.members[k], parents_out)
     for k in range(len(joints)):
         row = joints[k, 1] if links_islands[joints[k, 1]] else joints[k, 2]
-        if not (links_islands[joints[k, 1]] and links_islands[joints[k, 2]]):
+        if joints[k, 3] > 0 or not (links_islands[joints[k, 1]] and links_islands[joints[k, 2]]):
             balance_inout[parents_out[row]].anchored = True
     for k in range(len(group.members)):
         # With joints, only sets with a gain are looked at: none may depend on the joints of another island.

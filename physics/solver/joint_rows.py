@@ -11,8 +11,9 @@ import math
 from physics.jit import inlined, kernel, subkernel
 from physics.math2d import norm, rotation_of
 from physics.solver.motions import change_velocity
-from physics.tables.joint import ANGLE, FREE, LENGTH, NO_COORDINATE, ON_AXIS, PINNED, TRANSLATION
-from physics.tables.step_state import JOINTS_SOLVED, StepState, stage
+from physics.tables.joint import ANGLE, FREE, GEARED, LENGTH, NO_COORDINATE, NO_JOINT, ON_AXIS, PINNED, TRANSLATION
+from physics.tables.step_state import JOINTS_SOLVED
+from physics.tables.table import row_of
 
 LIMIT_SHARE = 0.25  # fraction of the error of a limit that a substep removes, for a joint that a tree solves
 
@@ -28,19 +29,52 @@ def is_idle(joint):
     return j.hold == FREE and not j.locks_angle and j.coordinate == NO_COORDINATE and not j.turns_motor
 
 
+@subkernel
+def side_of_gear(identity, body_row, motion_of, motions, joints):
+    """Return (JOINT row, BODY row) of a side of a gear, and whether the side acts.
+
+    The BODY row is that of a dynamic body of the joint, if it has one: the edge of the gear in the graph then links
+    all bodies that the gear moves, because the joint itself links its two bodies. A removed or disabled joint does not
+    act. identity: id of the joint, NO_JOINT for a gear of bodies; body_row: present BODY row of the side; motion_of,
+    motions: see list_joints; joints: all JOINT rows.
+    """
+    if identity == NO_JOINT:
+        return NO_JOINT, body_row, True
+    row = row_of(joints, identity)
+    if row < 0 or not joints[row].enabled:
+        return NO_JOINT, body_row, False
+    j = joints[row]
+    if j.body_row_b >= 0 and motions[motion_of[j.body_row_b]].is_dynamic:
+        return row, j.body_row_b, True
+    if j.body_row_a >= 0 and motions[motion_of[j.body_row_a]].is_dynamic:
+        return row, j.body_row_a, True
+    return row, body_row, True
+
+
+@subkernel
+def find_sides(motion_of, motions, joints, joint_inout):
+    """Write the JOINT and BODY rows of both sides of a gear. Return whether both sides act. Arguments: side_of_gear."""
+    j = joint_inout
+    j.joint_row_a, j.body_row_a, first = side_of_gear(j.joint_a, j.body_row_a, motion_of, motions, joints)
+    j.joint_row_b, j.body_row_b, second = side_of_gear(j.joint_b, j.body_row_b, motion_of, motions, joints)
+    return first and second
+
+
 @kernel
 def list_joints(motion_of, motions_inout, joints_inout, links_out, work_inout):
     """List the joints to solve in this step, in the order of ids. Return their number. O(joints).
 
-    motion_of (bodies): MOTION row of each body, 0 for a body that does not move. motions_inout: jointed, driven and
-    halves are set. joints_inout: awake, motion_a and motion_b are set. links_out (joints, 3) int32: JOINT row, MOTION
-    row of A and MOTION row of B of each listed joint. work_inout: work counters.
+    motion_of (bodies): MOTION row of each body, 0 for a body that does not move; MOTION.jointed of listed bodies is
+    set. links_out (joints, 4) int32: JOINT row, MOTION row of A, MOTION row of B of each listed joint, and whether the
+    joint also pushes on the world (gears, pulleys). work_inout: counters.
     """
     found = 0
     for i in range(len(joints_inout)):
         j = joints_inout[i]
         j.awake = False
         if is_idle(j):
+            continue
+        if j.hold == GEARED and not find_sides(motion_of, motions_inout, joints_inout, j):
             continue
         j.motion_a = motion_of[j.body_row_a] if j.body_row_a >= 0 else 0
         j.motion_b = motion_of[j.body_row_b] if j.body_row_b >= 0 else 0
@@ -61,6 +95,7 @@ def list_joints(motion_of, motions_inout, joints_inout, links_out, work_inout):
         links_out[found, 0] = i
         links_out[found, 1] = j.motion_a
         links_out[found, 2] = j.motion_b
+        links_out[found, 3] = 1 if j.hold >= GEARED else 0
         found += 1
     work_inout[JOINTS_SOLVED] += found
     return found
@@ -276,6 +311,12 @@ def holds_angle(joint):
 def holds_coordinate(joint):
     """Return whether a tree can solve the coordinate of a joint: it has equal limits, or a spring."""
     return joint.coordinate != NO_COORDINATE and (joint.lower == joint.upper or joint.spring_hertz > 0.0)
+
+
+@inlined
+def turns(joint):
+    """Return whether a gear acts on the angle of a joint, otherwise on its translation."""
+    return joint.coordinate == ANGLE or joint.turns_motor
 
 
 # ---- parts -----------------------------------------------------------------------------------------------------------
@@ -545,6 +586,32 @@ def store_joints(rows, context, joints_inout):
         j.upper_force = rate * j.high + rest * j.upper_force
 
 
+@inlined
+def arm_of_gear(row, joints, motion):
+    """Return the lever [px] by which an error of a side of a gear shows: the radius of gyration, 1 for a slide.
+
+    row: JOINT row of the side, NO_JOINT for a body; joints: all JOINT rows; motion: MOTION row of the side.
+    """
+    if row >= 0 and not turns(joints[row]):
+        return 1.0
+    return math.sqrt(motion.inverse_mass / motion.inverse_inertia) if motion.inverse_inertia > 0.0 else 0.0
+
+
+@subkernel
+def sag_of_sum(joint, joints, a, b):
+    """Return the speed [px/s] that the impulse of a gear or pulley in the step gives to its sum of coordinates.
+
+    For a gear on the side where it shows less. joint: JOINT row; joints: all JOINT rows; a, b: MOTION rows.
+    """
+    j = joint
+    sag = abs(j.total_sum) * j.inverse_sum_mass
+    if j.hold != GEARED:
+        return sag
+    arm = arm_of_gear(j.joint_row_a, joints, a)
+    other, ratio = arm_of_gear(j.joint_row_b, joints, b), abs(j.ratio)
+    return sag * (arm if arm * ratio <= other else (other / ratio if ratio > 0.0 else arm))
+
+
 @kernel
 def estimate_joints(rows, joints, rate, dt, accuracy, motions_inout):
     """Raise MOTION.estimate to the square of the number of substeps that the joints of a body need. O(rows).
@@ -572,75 +639,8 @@ def estimate_joints(rows, joints, rate, dt, accuracy, motions_inout):
             )
             lever = max(norm(j.ax, j.ay), norm(j.bx, j.by))
             sag = max(sag, abs(j.hold_impulse) * (a.inverse_inertia + b.inverse_inertia) * lever)
+            if j.hold >= GEARED:
+                sag = sag_of_sum(j, joints, a, b)
             estimate = max(estimate, 0.25 * rate * sag)
         a.estimate = max(a.estimate, estimate)
         b.estimate = max(b.estimate, estimate)
-
-
-# ---- report ----------------------------------------------------------------------------------------------------------
-
-
-@subkernel
-def place_anchor(body, x, y):
-    """Return the world position (x, y) [px] of a point (x, y) [px] in the space of a BODY row."""
-    c, s = rotation_of(body.angle)
-    return body.x + c * x - s * y, body.y + s * x + c * y
-
-
-@subkernel
-def velocity_at(body, x, y):
-    """Return the velocity (x, y) [px/s] that a BODY row has at a point (x, y) [px] of the world."""
-    w = body.angular_velocity
-    return body.vx - w * (y - body.center_y), body.vy + w * (x - body.center_x)
-
-
-@kernel
-def report_joints(bodies, joints_inout):
-    """Write the fields of the JOINT rows that users read: angle, translation, speed, separation and `broken`.
-
-    They are computed at the present poses of the BODY rows `bodies`. O(joints).
-    """
-    for k in range(len(joints_inout)):
-        j = joints_inout[k]
-        ax, ay, bx, by = j.local_ax, j.local_ay, j.local_bx, j.local_by
-        nx, ny = j.axis_x, j.axis_y
-        angle, spin, vx, vy = -j.reference, 0.0, 0.0, 0.0
-        if j.body_row_b >= 0:
-            b = bodies[j.body_row_b]
-            bx, by = place_anchor(b, bx, by)
-            angle += b.angle
-            spin += b.angular_velocity
-            vx, vy = velocity_at(b, bx, by)
-        if j.body_row_a >= 0:
-            a = bodies[j.body_row_a]
-            ax, ay = place_anchor(a, ax, ay)
-            c, s = rotation_of(a.angle)
-            nx, ny = c * j.axis_x - s * j.axis_y, s * j.axis_x + c * j.axis_y
-            angle -= a.angle
-            spin -= a.angular_velocity
-            # Where the axis turns with A, the speed along it is relative to A at the anchor of B.
-            on_axis = j.coordinate == TRANSLATION
-            ux, uy = velocity_at(a, bx if on_axis else ax, by if on_axis else ay)
-            vx -= ux
-            vy -= uy
-        x, y = bx - ax, by - ay
-        apart = norm(x, y)
-        j.angle = angle
-        j.translation = x * nx + y * ny
-        j.speed = spin
-        j.separation = apart if j.hold == PINNED and j.follows_point else 0.0
-        if j.hold == ON_AXIS:
-            j.separation = abs(y * nx - x * ny)
-        if j.coordinate == TRANSLATION:
-            j.speed = vx * nx + vy * ny
-        elif j.coordinate == LENGTH:
-            j.translation = apart
-            j.speed = (vx * x + vy * y) / apart if apart > 0.0 else 0.0
-            j.separation = max(j.lower - apart, apart - j.upper, 0.0)
-        j.broken = j.awake and (norm(j.force_x, j.force_y) > j.break_force or abs(j.torque) > j.break_torque)
-
-
-@stage("joints", reads=("bodies", "joints"), writes=("joints",))
-def measure_joints(state: StepState) -> None:
-    """Compute the angle, translation and speed of all joints at the final poses, and mark the joints that broke."""
-    report_joints(state.bodies, state.joints)

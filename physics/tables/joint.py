@@ -5,8 +5,10 @@ import numpy as np
 from physics.tables.table import in_lines
 
 WORLD = -1  # value of a body id or row for a joint to the world
-# How a joint holds its two anchors together: not at all, in both directions, or only across its axis.
-FREE, PINNED, ON_AXIS = 0, 1, 2
+NO_JOINT = -1  # value of a joint id or row for a side of a gear that is a body
+# How a joint holds its two anchors together: not at all, in both directions, or only across its axis. Or how it holds
+# its two bodies: by the teeth of a ratchet, by a gear, or by a rope over two pulleys.
+FREE, PINNED, ON_AXIS, TOOTHED, GEARED, SLUNG = 0, 1, 2, 3, 4, 5
 # The coordinate on which limits, motor and spring of a joint act: none, the angle of B relative to A [rad], the
 # translation of B's anchor along the axis [px], or the distance of the anchors [px].
 NO_COORDINATE, ANGLE, TRANSLATION, LENGTH = 0, 1, 2, 3
@@ -25,7 +27,7 @@ STATE = (  # fields on which the next step depends
     ("awake", np.bool_),  # the joint was solved in the last step
     ("direct", np.bool_),  # the joint is in a tree, see solver/joint_direct.py
     ("broken", np.bool_),  # a breaking force or torque was exceeded in the last step
-    ("hold", np.int64),  # FREE PINNED ON_AXIS
+    ("hold", np.int64),  # FREE PINNED ON_AXIS TOOTHED GEARED SLUNG
     ("coordinate", np.int64),  # NO_COORDINATE ANGLE TRANSLATION LENGTH
     # Geometry.
     ("local_ax", np.float64),  # [px] anchor in the space of body A, in the world for a joint to the world
@@ -56,7 +58,7 @@ STATE = (  # fields on which the next step depends
     ("break_torque", np.float64),
     # State after the last step.
     ("angle", np.float64),  # [rad] angle of B relative to A, 0 when the joint was made
-    ("translation", np.float64),  # [px] translation along the axis, or distance of the anchors
+    ("translation", np.float64),  # [px] translation along the axis, distance of the anchors, or sum of a gear or pulley
     ("speed", np.float64),  # rate of change of the coordinate; without a coordinate of the angle
     ("separation", np.float64),  # [px] error: distance of held anchors, distance from the axis, or excess over limits
     ("force_x", np.float64),  # force on B at its anchor: impulse of the step per second
@@ -106,7 +108,37 @@ SCRATCH = (  # rows in this step, and solver fields, which the solver writes bef
     ("total_y", np.float64),
     ("total_torque", np.float64),
 )
-JOINT = in_lines([*STATE, *SCRATCH])
+COUPLED_STATE = (  # fields of gears, pulleys and ratchets on which the next step depends; 0 for other kinds
+    ("joint_a", np.int64),  # ids of the joints that a gear couples; NO_JOINT: it couples body_a, body_b itself
+    ("joint_b", np.int64),
+    ("ratio", np.float64),  # gear or pulley: factor on the coordinate, or length of rope, of side B
+    ("phase", np.float64),  # gear: the sum that it holds; ratchet: angle of a tooth [rad]
+    ("ratchet", np.float64),  # [rad] angle from tooth to tooth, in the direction in which B may turn
+    ("ground_ax", np.float64),  # [px] the two pulleys, in the world
+    ("ground_ay", np.float64),
+    ("ground_bx", np.float64),
+    ("ground_by", np.float64),
+)
+COUPLED_SCRATCH = (  # solver fields of gears and pulleys
+    ("joint_row_a", np.int32),  # JOINT rows of joint_a, joint_b; NO_JOINT: none
+    ("joint_row_b", np.int32),
+    ("start_a", np.float64),  # [rad] angle of a body at the start of the step, for a gear of bodies
+    ("start_b", np.float64),
+    ("rope_ax", np.float64),  # [px] vector from the pulley to the anchor at the start of the step
+    ("rope_ay", np.float64),
+    ("rope_bx", np.float64),
+    ("rope_by", np.float64),
+    ("pull_ax", np.float64),  # unit vector from the pulley to the anchor in the present substep
+    ("pull_ay", np.float64),
+    ("pull_bx", np.float64),
+    ("pull_by", np.float64),
+    ("sum", np.float64),  # coordinate of A plus ratio times coordinate of B in the present substep
+    ("inverse_sum_mass", np.float64),  # inverse effective mass of that sum
+    ("total_sum", np.float64),  # impulse of the step on that sum
+    ("rate", np.float64),  # [px/s] greatest speed of a side after the last step
+)
+# The fields of coupled joints come last, so that the other kinds use as many cache lines as without them.
+JOINT = in_lines([*STATE, *SCRATCH, *COUPLED_STATE, *COUPLED_SCRATCH])
 BROKEN = np.dtype(
     [
         ("joint", np.int64),

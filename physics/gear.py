@@ -1,0 +1,152 @@
+"""Gears and pulleys as rows of `world.joints`: sides, ropes, and the gears that a removed joint takes along."""
+
+from typing import Any
+
+import numpy as np
+
+from physics import checks
+from physics.joints.kinds import KINDS, coupled_coordinate
+from physics.solver.joint_report import report_joints
+from physics.tables.body import DYNAMIC
+from physics.tables.joint import ANGLE, GEARED, JOINT, NO_COORDINATE, NO_JOINT, WORLD
+from physics.tables.table import rows_in
+from physics.world_state import Handle, WorldState
+
+# ---- adding ----------------------------------------------------------------------------------------------------------
+
+
+def gear_rows(
+    world: WorldState, kind: Any, sides_a: list[tuple[bool, int]], sides_b: list[tuple[bool, int]]
+) -> np.ndarray:
+    """Return JOINT rows (n,) of gears without ids, for joints.add to append. See report_gears for their phases.
+
+    kind: a Gear with the settings of all gears; sides_a, sides_b (n): (True, id of a joint) or (False, id of a body).
+    Raises ValueError for a joint that neither turns nor slides, for twice the same side, without a dynamic body, for
+    the body of a character, or without the effect rotation; the world is unchanged.
+    """
+    rows = np.zeros(len(sides_a), JOINT)
+    for name, value in kind.columns().items():
+        rows[name] = value
+    turning = False
+    for row, (a, b) in zip(rows, zip(sides_a, sides_b, strict=True), strict=True):
+        if a == b:
+            shown = f"{'joint' if a[0] else 'body'} {a[1]}"
+            raise ValueError(f"joint_b must be another side than joint_a (got {shown} twice)")
+        dynamic = False
+        for side, (of_joint, identity) in (("a", a), ("b", b)):
+            joint, body, turns, moves = _side(world, f"joint_{side}", of_joint, identity)
+            row[f"joint_{side}"], row[f"body_{side}"] = joint, body
+            turning, dynamic = turning or turns, dynamic or moves
+        if not dynamic:
+            raise ValueError(f"joint_a or joint_b must have a dynamic body (got {_shown(a)} and {_shown(b)})")
+    world._needs("rotation", "Gear of joints that turn", turning)
+    for side in ("a", "b"):
+        rows[f"body_row_{side}"] = rows_in(world._bodies, rows[f"body_{side}"])
+    return rows
+
+
+def _shown(side):
+    return f"{'joint' if side[0] else 'body'} {side[1]}"
+
+
+def _side(world, name, of_joint, identity):
+    """Return (id of the joint or NO_JOINT, id of the body, whether the side turns, whether it has a dynamic body).
+
+    The body is the one that the joint moves: B, or A if only A is dynamic. name: argument in messages.
+    """
+    if not of_joint:
+        row = world._body_row(identity)
+        if (world.characters.rows["body"] == identity).any():
+            raise ValueError(
+                f"{name} must not be the body of a character, which joints cannot move (got body {identity})"
+            )
+        return NO_JOINT, identity, True, row["kind"].item() == DYNAMIC
+    row = world.joints[rows_in(world._joints, np.array([identity]))[0]]
+    coordinate = coupled_coordinate(row)
+    if coordinate == NO_COORDINATE:
+        kind = KINDS[row["kind"].item()].__name__
+        raise ValueError(
+            f"{name} must be a joint that turns or slides, such as Revolute, Prismatic, Wheel or Angle "
+            f"(got joint {identity}, a {kind})"
+        )
+    ids = [row[each].item() for each in ("body_b", "body_a")]
+    dynamic = [each for each in ids if each != WORLD and world._body_row(each)["kind"].item() == DYNAMIC]
+    body = (dynamic or [each for each in ids if each != WORLD])[0]
+    return identity, body, coordinate == ANGLE, bool(dynamic)
+
+
+def side_of(world: WorldState, name: str, value: Any, joint: Any) -> tuple[bool, int]:
+    """Return a side of a gear as (True, id of a joint) or (False, id of a body).
+
+    value: the argument `name`: a Joint, the id of one, or a Body; joint: the class Joint. Raises TypeError for anything
+    else, ValueError for a Joint or Body of another world, KeyError (which is also a ValueError) for one that is gone.
+    """
+    if isinstance(value, Handle):
+        identity = world._identity(name, value)
+        world._row_at(identity)
+        return False, identity
+    if isinstance(value, joint):
+        if value.world is not world:
+            raise ValueError(f"{name} must be of this world (got {checks.shown(value)} of another one)")
+        value = value.id
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+        raise TypeError(f"{name} must be a Joint, the id of one, or a Body (got {checks.shown(value)})")
+    known = 0 <= value < 2**62 and rows_in(world._joints, np.array([value], np.int64))[0] >= 0
+    if not known:
+        raise checks.NoSuchId(f"{name} must be a joint of this world (got {value}: removed, broken, or never added)")
+    return True, int(value)
+
+
+def report_gears(world: WorldState, kind: Any, count: int) -> None:
+    """Write the state of the last `count` joints, which are new gears. A gear without a phase holds its present sum.
+
+    kind: the Gear with their settings.
+    """
+    rows = world.joints.copy()  # the reported state of other joints is that after the last step
+    report_joints(world.bodies, rows)
+    made = rows[len(rows) - count :]
+    if kind.phase is None:
+        made["phase"] = made["translation"]
+        made["separation"] = 0.0
+    world.joints[len(rows) - count :] = made
+
+
+def hang(kind: Any, columns: dict[str, Any], anchors: list[np.ndarray], rows: np.ndarray) -> None:
+    """Write the pulleys, and the length of the rope, to JOINT rows (n,).
+
+    kind: a Pulley with their settings; columns: see joint.add; anchors: world positions (n, 2) [px] of the anchors of A
+    and of B. Raises ValueError for an anchor in its pulley.
+    """
+    lengths = []
+    for side, name, points in zip("ab", kind.GROUND, anchors, strict=True):
+        ground = columns[name]
+        rows[f"ground_{side}x"], rows[f"ground_{side}y"] = ground.T
+        away = points - ground
+        lengths.append(np.sqrt((away * away).sum(axis=1)))
+        if (lengths[-1] == 0.0).any():
+            shown = ground[np.argmin(lengths[-1])].tolist()
+            raise ValueError(f"at_{side} and {name} must be two points (got {shown} twice)")
+    kind.with_rope(rows, *lengths)
+
+
+def sum_with(world: WorldState, identity: int, ratio: float) -> float:
+    """Return the sum of coordinates of a gear or pulley (id) at the present poses, if it had this ratio."""
+    rows = world.joints.copy()
+    row = rows_in(world._joints, np.array([identity]))[0]
+    rows["ratio"][row] = ratio
+    report_joints(world.bodies, rows)
+    return rows["translation"][row].item()
+
+
+# ---- removal ---------------------------------------------------------------------------------------------------------
+
+
+def with_gears(world: WorldState, rows: np.ndarray) -> np.ndarray:
+    """Return rows (n,) of joints together with the rows of the gears that couple these joints, in ascending order."""
+    joints = world.joints
+    gears = np.flatnonzero(joints["hold"] == GEARED)
+    if not len(gears):
+        return rows
+    ids, on = joints["id"][rows], joints[gears]
+    lost = np.isin(on["joint_a"], ids) | np.isin(on["joint_b"], ids)
+    return np.union1d(rows, gears[lost])

@@ -1,0 +1,147 @@
+"""The state of joints after a step, as `world.joints` reports it: coordinates, speeds, errors, breaking."""
+
+from physics.jit import kernel, subkernel
+from physics.math2d import norm, rotation_of
+from physics.solver.joint_rows import turns
+from physics.tables.joint import GEARED, LENGTH, ON_AXIS, PINNED, SLUNG, TRANSLATION
+from physics.tables.step_state import StepState, stage
+from physics.tables.table import row_of
+
+
+@subkernel
+def place_anchor(body, x, y):
+    """Return the world position (x, y) [px] of a point (x, y) [px] in the space of a BODY row."""
+    c, s = rotation_of(body.angle)
+    return body.x + c * x - s * y, body.y + s * x + c * y
+
+
+@subkernel
+def velocity_at(body, x, y):
+    """Return the velocity (x, y) [px/s] of a BODY row at a point (x, y) [px] of the world."""
+    w = body.angular_velocity
+    return body.vx - w * (y - body.center_y), body.vy + w * (x - body.center_x)
+
+
+@subkernel
+def side_after_step(identity, body_row, bodies, joints):
+    """Return (coordinate, its rate, speed [px/s]) of a side of a gear at the present poses.
+
+    The speed is that of the furthest point of the body, for a side that turns. identity: id of the joint, NO_JOINT for
+    a body; body_row: BODY row of the side; joints: JOINT rows, reported up to this joint.
+    """
+    row = row_of(joints, identity)
+    extent = bodies[body_row].extent if body_row >= 0 else 0.0
+    if row < 0:
+        if body_row < 0:
+            return 0.0, 0.0, 0.0
+        spin = bodies[body_row].angular_velocity
+        return bodies[body_row].angle, spin, abs(spin) * extent
+    j = joints[row]
+    if not turns(j):
+        return j.translation, j.speed, abs(j.speed)
+    spin = bodies[j.body_row_b].angular_velocity if j.body_row_b >= 0 else 0.0
+    spin -= bodies[j.body_row_a].angular_velocity if j.body_row_a >= 0 else 0.0
+    return j.angle, spin, abs(spin) * extent
+
+
+@subkernel
+def report_gear(bodies, joints, joint_inout):
+    """Write the sum of coordinates that a gear holds, its rate, its error, and the speed of its faster side.
+
+    bodies: BODY rows; joints: JOINT rows, reported up to the gear; joint_inout: JOINT row of the gear.
+    """
+    j = joint_inout
+    value, speed, rate = side_after_step(j.joint_a, j.body_row_a, bodies, joints)
+    other, other_speed, other_rate = side_after_step(j.joint_b, j.body_row_b, bodies, joints)
+    j.translation = value + j.ratio * other
+    j.speed = speed + j.ratio * other_speed
+    j.separation = abs(j.translation - j.phase)
+    j.rate = max(rate, other_rate)
+
+
+@subkernel
+def rope_after_step(body_row, x, y, ground_x, ground_y, bodies):
+    """Return (length [px], its rate [px/s]) of the rope from a pulley to the anchor of a body.
+
+    body_row: BODY row, WORLD for the world; x, y [px]: the anchor in the space of the body; ground_x, ground_y [px]:
+    the pulley.
+    """
+    vx, vy = 0.0, 0.0
+    if body_row >= 0:
+        body = bodies[body_row]
+        x, y = place_anchor(body, x, y)
+        vx, vy = velocity_at(body, x, y)
+    x, y = x - ground_x, y - ground_y
+    length = norm(x, y)
+    return length, (vx * x + vy * y) / length if length > 0.0 else 0.0
+
+
+@subkernel
+def report_pulley(bodies, joint_inout):
+    """Write the length of the rope of a pulley, its rate, its error, and the speed of its faster side.
+
+    bodies: BODY rows; joint_inout: JOINT row.
+    """
+    j = joint_inout
+    value, speed = rope_after_step(j.body_row_a, j.local_ax, j.local_ay, j.ground_ax, j.ground_ay, bodies)
+    other, other_speed = rope_after_step(j.body_row_b, j.local_bx, j.local_by, j.ground_bx, j.ground_by, bodies)
+    j.translation = value + j.ratio * other
+    j.speed = speed + j.ratio * other_speed
+    j.separation = max(j.lower - j.translation, j.translation - j.upper, 0.0)
+    j.rate = max(abs(speed), abs(other_speed))
+
+
+@kernel
+def report_joints(bodies, joints_inout):
+    """Write angle, translation, speed, separation and `broken` of all joints at the present poses. O(joints).
+
+    bodies: BODY rows; joints_inout: JOINT rows.
+    """
+    for k in range(len(joints_inout)):
+        j = joints_inout[k]
+        ax, ay, bx, by = j.local_ax, j.local_ay, j.local_bx, j.local_by
+        nx, ny = j.axis_x, j.axis_y
+        angle, spin, vx, vy = -j.reference, 0.0, 0.0, 0.0
+        if j.body_row_b >= 0:
+            b = bodies[j.body_row_b]
+            bx, by = place_anchor(b, bx, by)
+            angle += b.angle
+            spin += b.angular_velocity
+            vx, vy = velocity_at(b, bx, by)
+        if j.body_row_a >= 0:
+            a = bodies[j.body_row_a]
+            ax, ay = place_anchor(a, ax, ay)
+            c, s = rotation_of(a.angle)
+            nx, ny = c * j.axis_x - s * j.axis_y, s * j.axis_x + c * j.axis_y
+            angle -= a.angle
+            spin -= a.angular_velocity
+            # Where the axis turns with A, the speed along it is relative to A at the anchor of B.
+            on_axis = j.coordinate == TRANSLATION
+            ux, uy = velocity_at(a, bx if on_axis else ax, by if on_axis else ay)
+            vx -= ux
+            vy -= uy
+        x, y = bx - ax, by - ay
+        apart = norm(x, y)
+        j.angle = angle
+        j.translation = x * nx + y * ny
+        j.speed = spin
+        j.separation = apart if j.hold == PINNED and j.follows_point else 0.0
+        if j.hold == ON_AXIS:
+            j.separation = abs(y * nx - x * ny)
+        if j.coordinate == TRANSLATION:
+            j.speed = vx * nx + vy * ny
+        elif j.coordinate == LENGTH:
+            j.translation = apart
+            j.speed = (vx * x + vy * y) / apart if apart > 0.0 else 0.0
+            j.separation = max(j.lower - apart, apart - j.upper, 0.0)
+        if j.hold == GEARED:
+            report_gear(bodies, joints_inout, j)
+        elif j.hold == SLUNG:
+            report_pulley(bodies, j)
+        j.broken = j.awake and (norm(j.force_x, j.force_y) > j.break_force or abs(j.torque) > j.break_torque)
+
+
+@stage("joints", reads=("bodies", "joints"), writes=("joints",))
+def measure_joints(state: StepState) -> None:
+    """Measure all joints at the final poses of the step, and mark the joints that broke."""
+    report_joints(state.bodies, state.joints)
