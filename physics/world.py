@@ -299,9 +299,10 @@ class World(WorldState):
     def add_joint(self, joint_of: Kind) -> Joint:
         """Add one joint, and return its handle. The bodies of the joint wake.
 
-        joint_of: a Revolute, Prismatic, Wheel, Distance, Weld, Angle, Motor, Target or NoContact. Raises TypeError for
-        anything else; ValueError without the effect joints, for equal bodies, without a dynamic body, or for the body
-        of a character; KeyError for an unknown body; RuntimeError during a step. The world is then unchanged.
+        joint_of: a Revolute, Prismatic, Wheel, Distance, Weld, Angle, Motor, Target, NoContact, Gear, Pulley or
+        Ratchet. Raises TypeError for anything else; ValueError without the effect joints, for equal bodies, without a
+        dynamic body, or for the body of a character; KeyError for an unknown body or joint; RuntimeError during a step.
+        The world is then unchanged.
         """
         return joint.add_one(self, joint_of)
 
@@ -309,8 +310,9 @@ class World(WorldState):
         """Add a joint of one kind between each of n pairs of bodies, and return their ids (n,).
 
         bodies_a, bodies_b: n Bodies or ids; an entry None, or None instead of all entries, means the world. settings:
-        the arguments of the kind, the same for all joints. Anchors (at, or at_a and at_b) are arrays (n, 2) [px], and
-        an axis may be an array (n, 2). Raises the errors of add_joint.
+        the arguments of the kind, the same for all joints. Anchors (at, or at_a and at_b) and pulleys (ground_a,
+        ground_b) are arrays (n, 2) [px], and an axis may be an array (n, 2). For a Gear, bodies_a and bodies_b are the
+        joints that it couples: Joints, ids of joints, or Bodies. Raises as add_joint.
         """
         return joint.add_many(self, kind, bodies_a, bodies_b, settings)
 
@@ -322,7 +324,9 @@ class World(WorldState):
         return Joint(self, self.joints["id"].item(joint.row_of(self, identity)))
 
     def remove_joints(self, ids: Any) -> None:
-        """Remove joints, given as Joints or ids. A joint may be listed more than once. The bodies of the joints wake.
+        """Remove joints, given as Joints or ids, and the gears that couple them. The bodies of the joints wake.
+
+        A joint may be listed more than once. The next step reports the gears in events.broken, with reason "removed".
 
         Raises KeyError for an unknown joint, TypeError for anything but Joints and ids, ValueError for a Joint of
         another world, RuntimeError during a step. Nothing is removed then.

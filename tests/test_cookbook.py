@@ -35,7 +35,7 @@ def test_a_recipe_is_written_for_the_installed_package(path):
 
 
 def test_the_page_shows_exactly_the_code_of_each():
-    assert len(RECIPES) == 24
+    assert len(RECIPES) == 25
     shown = re.findall(r"```python\n(.*?)```\n\n\[cookbook/(\w+)\.py\]\(cookbook/(\w+)\.py\)", PAGE, re.S)
     assert sorted(name for _, name, _ in shown) == [path.stem for path in RECIPES]
     for code, name, target in shown:

@@ -1,9 +1,8 @@
 """The kinds of joints: one dataclass for each kind, whose `columns` converts its settings to columns of JOINT rows.
 
 A joint has two anchors, one on each body. It holds the anchors together in both directions (PINNED), only across an
-axis of A (ON_AXIS), or not at all (FREE). It may also lock the relative angle. Each kind has at most one coordinate:
-the angle of B relative to A, the translation along the axis, or the distance of the anchors. Limits, motor and spring
-act on the coordinate. To add a kind, define a class here and add it to KINDS.
+axis of A (ON_AXIS), or not at all (FREE). It may also hold the angle. On one coordinate (an angle, a translation or a
+length) it may have limits, a motor and a spring. Gears couple two other joints, pulleys two bodies. To add a kind, define a class here and add it to KINDS.
 """
 
 import math

@@ -39,7 +39,7 @@ from physics.math2d import norm
 from physics.settings import AUTO_SUBSTEPS, COLORS, EASE_TIME, LEAN, LOAD_SUBSTEPS, STILL_STIFFNESS
 from physics.solver import lanes as at
 from physics.solver.energy import FACING, find_squeezed
-from physics.solver.joint_couplings import begin_couplings
+from physics.solver.joint_couplings import begin_couplings, estimate_couplings
 from physics.solver.joint_direct import JointSet, Trees
 from physics.solver.joint_rows import begin_joints, estimate_joints, list_joints
 from physics.solver.lanes import (
@@ -487,11 +487,12 @@ def choose_by_load(blocks, count, group, links_islands, rules, plan_inout, motio
     return share_substeps(group.members, parents, substeps, rules.most_by_load, motions_inout)
 
 
-def estimate_substeps(state: StepState, motions: Motions, plan: Plan, group: Group, blocks: Blocks, count: int) -> None:
-    """Write to a group's MOTION rows the number of substeps of the next step, from the loads in this step.
+def estimate_substeps(
+    state: StepState, motions: Motions, plan: Plan, group: Group, blocks: Blocks, count: int, joints: JointSet | int
+) -> None:
+    """Write the number of substeps of the next step to the MOTION rows of a group, from the loads in this step.
 
-    motions: Motions of the world; plan: see Plan; blocks, count: the contacts of the group, in the first `count`
-    blocks.
+    blocks: the contacts of the group, in `count` blocks; joints: the JointSet of the group, 0 without joints.
     """
     rate = estimate_rate(state)
     rules = LoadRules(
@@ -499,6 +500,8 @@ def estimate_substeps(state: StepState, motions: Motions, plan: Plan, group: Gro
     )
     if len(group.joints):
         estimate_joints(group.joints, state.joints, rate, state.dt, state.accuracy, motions.used)
+    if isinstance(joints, JointSet) and len(joints.couplings):
+        estimate_couplings(joints.couplings, state.joints, rate, motions.used)
     links = motions.lists.links_islands
     state.work[CAP_HITS] += choose_by_load(blocks, count, group, links, rules, plan, motions.used)
 
@@ -624,8 +627,8 @@ class ContactLanes:
         if len(group.joints):
             begin_joints(group.joints, state.bodies, h, state.joints)
         found = self.trees.build(group.joints, state.joints, motions.used, state.joint_solver)
-        if len(found.coupled):
-            begin_couplings(found.coupled, state.bodies, h, state.joints)
+        if len(found.couplings):
+            begin_couplings(state.bodies, h, found.couplings, state.joints)
         return found
 
     def store(self, state: StepState, motions: Motions, count: int, context: StepContext) -> None:

@@ -9,7 +9,7 @@ cpRatchetJoint); the pass of the other joints solves this limit.
 
 import math
 
-from physics.jit import kernel, subkernel
+from physics.jit import inlined, kernel, subkernel
 from physics.math2d import norm
 from physics.solver.joint_rows import (
     begin_joint,
@@ -25,20 +25,22 @@ from physics.solver.joint_rows import (
 )
 from physics.solver.motions import change_velocity
 from physics.tables.joint import GEARED, TOOTHED
+from physics.tables.table import row_of
 
 # ---- start of a step -------------------------------------------------------------------------------------------------
 
 
 @kernel
-def list_couplings(rows, joints, found_out):
+def list_couplings(rows, joints, couplings_out):
     """List the gears, pulleys and ratchets of a group in the order of ids. Return their number. O(rows).
 
-    rows: JOINT rows of the group; joints: all JOINT rows; found_out (rows,): int32 JOINT rows.
+    rows: JOINT rows of the group; joints: all JOINT rows; couplings_out (rows,): COUPLING rows, of which `joint` is
+    written.
     """
     found = 0
     for k in range(len(rows)):
         if joints[rows[k]].hold >= TOOTHED:
-            found_out[found] = rows[k]
+            couplings_out[found].joint = rows[k]
             found += 1
     return found
 
@@ -63,32 +65,29 @@ def follow_teeth(joint_inout):
 
 
 @subkernel
-def begin_gear(bodies, h, gear_inout, joints_inout):
-    """Write the angles of the bodies of a gear at the start of a step, and begin its joints that are not solved.
+def begin_gear(bodies, h, gear, coupling_out, joints_inout):
+    """Write the joints of a gear, and the angles of its bodies at the start of a step.
 
-    bodies: BODY rows; h [s]: length of a substep; gear_inout: JOINT row of the gear; joints_inout: all JOINT rows.
+    Joints that are not solved themselves are begun here. bodies: BODY rows; h [s]: length of a substep; gear: JOINT row
+    of the gear; joints_inout: all JOINT rows.
     """
-    j = gear_inout
-    j.start_a, j.start_b = 0.0, 0.0
-    if j.joint_row_a >= 0:
-        if not joints_inout[j.joint_row_a].awake:
-            begin_joint(bodies, h, joints_inout[j.joint_row_a])
-    elif j.body_row_a >= 0:
-        j.start_a = bodies[j.body_row_a].angle
-    if j.joint_row_b >= 0:
-        if not joints_inout[j.joint_row_b].awake:
-            begin_joint(bodies, h, joints_inout[j.joint_row_b])
-    elif j.body_row_b >= 0:
-        j.start_b = bodies[j.body_row_b].angle
+    j, c = gear, coupling_out
+    c.row_a, c.row_b = row_of(joints_inout, j.joint_a), row_of(joints_inout, j.joint_b)
+    c.start_a = bodies[j.body_row_a].angle if j.body_row_a >= 0 else 0.0
+    c.start_b = bodies[j.body_row_b].angle if j.body_row_b >= 0 else 0.0
+    for side in range(2):
+        row = c.row_a if side == 0 else c.row_b
+        if row >= 0 and not joints_inout[row].awake:
+            begin_joint(bodies, h, joints_inout[row])
 
 
 @subkernel
-def begin_pulley(bodies, joint_inout):
+def begin_pulley(bodies, joint, coupling_out):
     """Write the vectors from the pulleys to the anchors at the start of a step.
 
-    bodies: BODY rows; joint_inout: JOINT row after begin_joint.
+    bodies: BODY rows; joint: JOINT row after begin_joint.
     """
-    j = joint_inout
+    j, c = joint, coupling_out
     ax, ay, bx, by = j.local_ax, j.local_ay, j.local_bx, j.local_by
     if j.body_row_a >= 0:
         body = bodies[j.body_row_a]
@@ -96,25 +95,27 @@ def begin_pulley(bodies, joint_inout):
     if j.body_row_b >= 0:
         body = bodies[j.body_row_b]
         bx, by = body.center_x + j.arm_bx, body.center_y + j.arm_by
-    j.rope_ax, j.rope_ay = ax - j.ground_ax, ay - j.ground_ay
-    j.rope_bx, j.rope_by = bx - j.ground_bx, by - j.ground_by
+    c.rope_ax, c.rope_ay = ax - j.ground_ax, ay - j.ground_ay
+    c.rope_bx, c.rope_by = bx - j.ground_bx, by - j.ground_by
 
 
 @kernel
-def begin_couplings(rows, bodies, h, joints_inout):
-    """Write the state of gears, pulleys and ratchets at the start of a step, after begin_joints. O(rows).
+def begin_couplings(bodies, h, couplings_inout, joints_inout):
+    """Write the state of gears, pulleys and ratchets at the start of a step, after begin_joints. O(couplings).
 
-    rows: JOINT rows from list_couplings; bodies: BODY rows; h [s]: length of a substep.
+    bodies: BODY rows; h [s]: length of a substep; couplings_inout: COUPLING rows from list_couplings; joints_inout: all
+    JOINT rows.
     """
-    for k in range(len(rows)):
-        j = joints_inout[rows[k]]
-        j.total_sum = 0.0
+    for k in range(len(couplings_inout)):
+        c = couplings_inout[k]
+        j = joints_inout[c.joint]
+        c.total = 0.0
         if j.hold == TOOTHED:
             follow_teeth(j)
         elif j.hold == GEARED:
-            begin_gear(bodies, h, j, joints_inout)
+            begin_gear(bodies, h, j, c, joints_inout)
         else:
-            begin_pulley(bodies, j)
+            begin_pulley(bodies, j, c)
 
 
 # ---- gear ------------------------------------------------------------------------------------------------------------
@@ -196,81 +197,86 @@ def product_of_sides(row, motion, other_row, other_motion, joints, motions):
 
 
 @subkernel
-def place_gear(at, motions, joints_inout):
+def place_gear(motions, coupling_inout, joints_inout):
     """Write the sum of coordinates of a gear at the present poses, and its inverse effective mass.
 
-    The bodies of both sides may be the same, as in a planetary gear. at: JOINT row; motions: MOTION rows.
+    The bodies of both sides may be the same, as in a planetary gear. motions: MOTION rows; coupling_inout: COUPLING
+    row; joints_inout: all JOINT rows.
     """
-    j = joints_inout[at]
+    c = coupling_inout
+    j = joints_inout[c.joint]
     for side in range(2):
-        row = j.joint_row_a if side == 0 else j.joint_row_b
+        row = c.row_a if side == 0 else c.row_b
         if row >= 0 and not joints_inout[row].awake:
             o = joints_inout[row]
             place_joint(motions[o.motion_a], motions[o.motion_b], o)
-    row_a, row_b = j.joint_row_a, j.joint_row_b
-    value = side_value(row_a, j.start_a, motions[j.motion_a], joints_inout)
-    other = side_value(row_b, j.start_b, motions[j.motion_b], joints_inout)
-    j.sum = value + j.ratio * other
-    of_a = product_of_sides(row_a, j.motion_a, row_a, j.motion_a, joints_inout, motions)
-    of_b = product_of_sides(row_b, j.motion_b, row_b, j.motion_b, joints_inout, motions)
-    mixed = product_of_sides(row_a, j.motion_a, row_b, j.motion_b, joints_inout, motions)
-    j.inverse_sum_mass = of_a + 2.0 * j.ratio * mixed + j.ratio * j.ratio * of_b
+    value = side_value(c.row_a, c.start_a, motions[j.motion_a], joints_inout)
+    other = side_value(c.row_b, c.start_b, motions[j.motion_b], joints_inout)
+    c.sum = value + j.ratio * other
+    of_a = product_of_sides(c.row_a, j.motion_a, c.row_a, j.motion_a, joints_inout, motions)
+    of_b = product_of_sides(c.row_b, j.motion_b, c.row_b, j.motion_b, joints_inout, motions)
+    mixed = product_of_sides(c.row_a, j.motion_a, c.row_b, j.motion_b, joints_inout, motions)
+    c.inverse_mass = of_a + 2.0 * j.ratio * mixed + j.ratio * j.ratio * of_b
 
 
 @subkernel
-def push_gear(joint, impulse, joints, motions_inout):
+def push_gear(coupling, impulse, joints, motions_inout):
     """Apply an impulse on the sum of coordinates of a gear; > 0 increases it.
 
-    joint: JOINT row of the gear; joints: all JOINT rows.
+    coupling: COUPLING row; joints: all JOINT rows.
     """
-    j = joint
-    push_side(j.joint_row_a, impulse, j.motion_a, joints, motions_inout)
-    push_side(j.joint_row_b, j.ratio * impulse, j.motion_b, joints, motions_inout)
+    c = coupling
+    j = joints[c.joint]
+    push_side(c.row_a, impulse, j.motion_a, joints, motions_inout)
+    push_side(c.row_b, j.ratio * impulse, j.motion_b, joints, motions_inout)
 
 
 # ---- pulley ----------------------------------------------------------------------------------------------------------
 
 
 @subkernel
-def place_pulley(a, b, joint_inout):
+def place_pulley(joint, a, b, coupling_inout):
     """Write the length of the rope of a pulley at the present poses, its directions, and its inverse effective mass.
 
-    a, b: MOTION rows; joint_inout: JOINT row after place_joint. An anchor in its pulley has no direction, and is not
-    pulled.
+    An anchor in its pulley has no direction, and is not pulled. joint: JOINT row after place_joint; a, b: MOTION rows;
+    coupling_inout: COUPLING row.
     """
-    j = joint_inout
-    ax, ay = j.rope_ax + a.dx + (j.ax - j.arm_ax), j.rope_ay + a.dy + (j.ay - j.arm_ay)
-    bx, by = j.rope_bx + b.dx + (j.bx - j.arm_bx), j.rope_by + b.dy + (j.by - j.arm_by)
+    j, c = joint, coupling_inout
+    ax, ay = c.rope_ax + a.dx + (j.ax - j.arm_ax), c.rope_ay + a.dy + (j.ay - j.arm_ay)
+    bx, by = c.rope_bx + b.dx + (j.bx - j.arm_bx), c.rope_by + b.dy + (j.by - j.arm_by)
     length, other = norm(ax, ay), norm(bx, by)
-    j.pull_ax, j.pull_ay, j.pull_bx, j.pull_by = 0.0, 0.0, 0.0, 0.0
+    c.pull_ax, c.pull_ay, c.pull_bx, c.pull_by = 0.0, 0.0, 0.0, 0.0
     if length > 0.0:
-        j.pull_ax, j.pull_ay = ax / length, ay / length
+        c.pull_ax, c.pull_ay = ax / length, ay / length
     if other > 0.0:
-        j.pull_bx, j.pull_by = bx / other, by / other
-    on_a, on_b = j.ax * j.pull_ay - j.ay * j.pull_ax, j.bx * j.pull_by - j.by * j.pull_bx
+        c.pull_bx, c.pull_by = bx / other, by / other
+    on_a, on_b = j.ax * c.pull_ay - j.ay * c.pull_ax, j.bx * c.pull_by - j.by * c.pull_bx
     of_a = (a.inverse_mass if length > 0.0 else 0.0) + a.inverse_inertia * on_a * on_a
     of_b = (b.inverse_mass if other > 0.0 else 0.0) + b.inverse_inertia * on_b * on_b
-    j.sum = length + j.ratio * other
-    j.inverse_sum_mass = of_a + j.ratio * j.ratio * of_b
+    c.sum = length + j.ratio * other
+    c.inverse_mass = of_a + j.ratio * j.ratio * of_b
 
 
 @subkernel
-def push_pulley(joint, impulse, a_inout, b_inout):
-    """Apply an impulse on the length of the rope of a pulley; > 0 lengthens it. a_inout, b_inout: MOTION rows."""
-    j, a, b = joint, a_inout, b_inout
-    w = a.inverse_inertia * (j.ax * j.pull_ay - j.ay * j.pull_ax) * impulse
-    change_velocity(a.inverse_mass * impulse * j.pull_ax, a.inverse_mass * impulse * j.pull_ay, w, a)
+def push_pulley(joint, coupling, impulse, a_inout, b_inout):
+    """Apply an impulse on the length of the rope of a pulley; > 0 lengthens it.
+
+    joint, coupling: JOINT and COUPLING row; a_inout, b_inout: MOTION rows.
+    """
+    j, c, a, b = joint, coupling, a_inout, b_inout
+    w = a.inverse_inertia * (j.ax * c.pull_ay - j.ay * c.pull_ax) * impulse
+    change_velocity(a.inverse_mass * impulse * c.pull_ax, a.inverse_mass * impulse * c.pull_ay, w, a)
     other = j.ratio * impulse
-    w = b.inverse_inertia * (j.bx * j.pull_by - j.by * j.pull_bx) * other
-    change_velocity(b.inverse_mass * other * j.pull_bx, b.inverse_mass * other * j.pull_by, w, b)
+    w = b.inverse_inertia * (j.bx * c.pull_by - j.by * c.pull_bx) * other
+    change_velocity(b.inverse_mass * other * c.pull_bx, b.inverse_mass * other * c.pull_by, w, b)
 
 
 @subkernel
-def pulley_speed(joint, a, b):
-    """Return the rate [px/s] at which the rope of a pulley lengthens. a, b: MOTION rows."""
-    j = joint
-    speed = a.vx * j.pull_ax + a.vy * j.pull_ay + a.angular_velocity * (j.ax * j.pull_ay - j.ay * j.pull_ax)
-    other = b.vx * j.pull_bx + b.vy * j.pull_by + b.angular_velocity * (j.bx * j.pull_by - j.by * j.pull_bx)
+def pulley_speed(joint, coupling, a, b):
+    """Return the rate [px/s] at which the rope of a pulley lengthens. Arguments as in push_pulley."""
+    j, c = joint, coupling
+    speed = a.vx * c.pull_ax + a.vy * c.pull_ay + a.angular_velocity * (j.ax * c.pull_ay - j.ay * c.pull_ax)
+    other = b.vx * c.pull_bx + b.vy * c.pull_by + b.angular_velocity * (j.bx * c.pull_by - j.by * c.pull_bx)
     return speed + j.ratio * other
 
 
@@ -278,118 +284,160 @@ def pulley_speed(joint, a, b):
 
 
 @subkernel
-def place_coupling(at, motions, joints_inout):
-    """Place a gear or pulley at the present poses. at: JOINT row; motions: MOTION rows."""
-    j = joints_inout[at]
+def place_coupling(motions, coupling_inout, joints_inout):
+    """Place a gear or pulley at the present poses.
+
+    motions: MOTION rows; coupling_inout: COUPLING row; joints_inout: all JOINT rows.
+    """
+    j = joints_inout[coupling_inout.joint]
     if j.hold == GEARED:
-        place_gear(at, motions, joints_inout)
+        place_gear(motions, coupling_inout, joints_inout)
     else:
-        place_pulley(motions[j.motion_a], motions[j.motion_b], j)
+        place_pulley(j, motions[j.motion_a], motions[j.motion_b], coupling_inout)
 
 
 @subkernel
-def push_sum(joint, impulse, joints, motions_inout):
-    """Apply an impulse on the sum of a gear or pulley. joint: its JOINT row; joints: all JOINT rows."""
-    j = joint
+def push_sum(coupling, impulse, joints, motions_inout):
+    """Apply an impulse on the sum of a gear or pulley. coupling: COUPLING row; joints: all JOINT rows."""
+    j = joints[coupling.joint]
     if j.hold == GEARED:
-        push_gear(j, impulse, joints, motions_inout)
+        push_gear(coupling, impulse, joints, motions_inout)
     else:
-        push_pulley(j, impulse, motions_inout[j.motion_a], motions_inout[j.motion_b])
+        push_pulley(j, coupling, impulse, motions_inout[j.motion_a], motions_inout[j.motion_b])
 
 
 @subkernel
-def sum_speed(joint, joints, motions):
-    """Return the rate of the sum of a gear or pulley. joint: its JOINT row; joints: all JOINT rows; motions: MOTION."""
-    j = joint
+def sum_speed(coupling, joints, motions):
+    """Return the rate of the sum of a gear or pulley. Arguments as in push_sum; motions: MOTION rows."""
+    c = coupling
+    j = joints[c.joint]
     a, b = motions[j.motion_a], motions[j.motion_b]
     if j.hold == GEARED:
-        speed = side_speed(j.joint_row_a, a, joints, motions)
-        return speed + j.ratio * side_speed(j.joint_row_b, b, joints, motions)
-    return pulley_speed(j, a, b)
+        return side_speed(c.row_a, a, joints, motions) + j.ratio * side_speed(c.row_b, b, joints, motions)
+    return pulley_speed(j, c, a, b)
 
 
 @subkernel
-def warm_couplings(rows, joints_inout, motions_inout):
-    """Place gears and pulleys at the present poses, and apply the impulses of the last substep. O(rows).
+def warm_couplings(couplings_inout, joints_inout, motions_inout):
+    """Place gears and pulleys at the present poses, and apply the impulses of the last substep. O(couplings).
 
-    rows: JOINT rows from list_couplings, placed as joints by warm_joints.
+    couplings_inout: COUPLING rows from list_couplings, placed as joints by warm_joints; joints_inout: all JOINT rows.
     """
-    for k in range(len(rows)):
-        j = joints_inout[rows[k]]
+    for k in range(len(couplings_inout)):
+        c = couplings_inout[k]
+        j = joints_inout[c.joint]
         if j.hold != TOOTHED:
-            place_coupling(rows[k], motions_inout, joints_inout)
-            push_sum(j, j.low - j.high, joints_inout, motions_inout)
+            place_coupling(motions_inout, c, joints_inout)
+            push_sum(c, j.low - j.high, joints_inout, motions_inout)
 
 
 @subkernel
-def solve_sum(biased, context, joints, joint_inout, motions_inout):
+def solve_sum(biased, context, coupling, joints_inout, motions_inout):
     """Solve the sum of a gear or pulley, between its limits. A gear is held at its phase.
 
-    biased: see solve_joints; context: see StepContext; joint_inout: JOINT row; joints: all JOINT rows.
+    biased: see solve_joints; context: see StepContext; coupling: COUPLING row; joints_inout: all JOINT rows.
     """
-    j = joint_inout
-    inverse = j.inverse_sum_mass
-    if not inverse > 0.0:
+    c = coupling
+    j = joints_inout[c.joint]
+    if not c.inverse_mass > 0.0:
         return
-    mass = 1.0 / inverse
+    mass = 1.0 / c.inverse_mass
     soft, most = rigid_softness(biased, context), context.push_speed
     low, high = j.lower, j.upper
     if j.hold == GEARED:
         low, high = j.phase, j.phase
-        if j.joint_row_a < 0 or turns(joints[j.joint_row_a]):
+        if c.row_a < 0 or turns(joints_inout[c.row_a]):
             most = context.push_turn
     if low == high:
         rate, mass_share, give = soft
-        speed = sum_speed(j, joints, motions_inout) + bounded(rate * (j.sum - low), most)
+        speed = sum_speed(c, joints_inout, motions_inout) + bounded(rate * (c.sum - low), most)
         change = -mass * mass_share * speed - give * j.low
         j.low += change
-        push_sum(j, change, joints, motions_inout)
+        push_sum(c, change, joints_inout, motions_inout)
         return
     if low > -math.inf:
-        speed = sum_speed(j, joints, motions_inout)
-        change = limit_change(j.sum - low, speed, j.low, mass, soft, most, context.inverse_h)
+        speed = sum_speed(c, joints_inout, motions_inout)
+        change = limit_change(c.sum - low, speed, j.low, mass, soft, most, context.inverse_h)
         j.low += change
-        push_sum(j, change, joints, motions_inout)
+        push_sum(c, change, joints_inout, motions_inout)
     if high < math.inf:
-        speed = -sum_speed(j, joints, motions_inout)
-        change = limit_change(high - j.sum, speed, j.high, mass, soft, most, context.inverse_h)
+        speed = -sum_speed(c, joints_inout, motions_inout)
+        change = limit_change(high - c.sum, speed, j.high, mass, soft, most, context.inverse_h)
         j.high += change
-        push_sum(j, -change, joints, motions_inout)
+        push_sum(c, -change, joints_inout, motions_inout)
 
 
 @subkernel
-def solve_couplings(rows, biased, context, joints_inout, motions_inout):
-    """Solve every gear and pulley once. O(rows).
+def solve_couplings(biased, context, couplings_inout, joints_inout, motions_inout):
+    """Solve every gear and pulley once. O(couplings).
 
-    rows: JOINT rows from list_couplings; biased: see solve_joints; context: see StepContext.
+    biased: see solve_joints; context: see StepContext; couplings_inout: COUPLING rows from list_couplings;
+    joints_inout: all JOINT rows.
     """
-    for k in range(len(rows)):
-        j = joints_inout[rows[k]]
-        if j.hold != TOOTHED:
+    for k in range(len(couplings_inout)):
+        c = couplings_inout[k]
+        if joints_inout[c.joint].hold != TOOTHED:
             if not biased:
-                place_coupling(rows[k], motions_inout, joints_inout)
-            solve_sum(biased, context, joints_inout, j, motions_inout)
+                place_coupling(motions_inout, c, joints_inout)
+            solve_sum(biased, context, c, joints_inout, motions_inout)
 
 
 @subkernel
-def sum_couplings(rows, joints_inout):
-    """Add the impulses of gears and pulleys in a substep to the totals of the step. O(rows).
+def sum_couplings(couplings_inout, joints_inout):
+    """Add the impulses of gears and pulleys in a substep to the totals of the step. O(couplings).
 
-    rows: JOINT rows from list_couplings.
+    couplings_inout: COUPLING rows from list_couplings; joints_inout: all JOINT rows.
     """
-    for k in range(len(rows)):
-        j = joints_inout[rows[k]]
+    for k in range(len(couplings_inout)):
+        c = couplings_inout[k]
+        j = joints_inout[c.joint]
         if j.hold == TOOTHED:
             continue
         impulse = j.low - j.high
-        j.total_sum += impulse
+        c.total += impulse
         impulse *= j.ratio
         if j.hold != GEARED:
-            j.total_x += impulse * j.pull_bx
-            j.total_y += impulse * j.pull_by
-        elif j.joint_row_b < 0 or turns(joints_inout[j.joint_row_b]):
+            j.total_x += impulse * c.pull_bx
+            j.total_y += impulse * c.pull_by
+        elif c.row_b < 0 or turns(joints_inout[c.row_b]):
             j.total_torque += impulse
         else:
-            o = joints_inout[j.joint_row_b]
+            o = joints_inout[c.row_b]
             j.total_x += impulse * o.nx
             j.total_y += impulse * o.ny
+
+
+# ---- loads -----------------------------------------------------------------------------------------------------------
+
+
+@inlined
+def arm_of_side(row, joints, motion):
+    """Return the lever [px] by which an error of a side of a gear shows: the radius of gyration, 1 for a slide.
+
+    row: JOINT row of the side, NO_JOINT for a body; joints: all JOINT rows; motion: MOTION row of the side.
+    """
+    if row >= 0 and not turns(joints[row]):
+        return 1.0
+    return math.sqrt(motion.inverse_mass / motion.inverse_inertia) if motion.inverse_inertia > 0.0 else 0.0
+
+
+@kernel
+def estimate_couplings(couplings, joints, rate, motions_inout):
+    """Raise MOTION.estimate to the square of the number of substeps that gears and pulleys need. O(couplings).
+
+    The sum of a gear or pulley sags as a joint of the iterative tier does; a gear on the side where the sag shows
+    less. couplings: COUPLING rows of the step; joints: all JOINT rows; rate: see substeps.estimate_rate.
+    """
+    for k in range(len(couplings)):
+        c = couplings[k]
+        j = joints[c.joint]
+        a, b = motions_inout[j.motion_a], motions_inout[j.motion_b]
+        if j.hold == TOOTHED:
+            continue
+        sag = abs(c.total) * c.inverse_mass
+        if j.hold == GEARED:
+            arm, other = arm_of_side(c.row_a, joints, a), arm_of_side(c.row_b, joints, b)
+            ratio = abs(j.ratio)
+            sag *= arm if ratio == 0.0 or arm * ratio <= other else other / ratio
+        a.estimate = max(a.estimate, 0.25 * rate * sag)
+        b.estimate = max(b.estimate, 0.25 * rate * sag)

@@ -41,8 +41,8 @@ from physics.solver.joint_trees import (
     solve_trees,
     with_room,
 )
-from physics.tables.joint import ANGLE, PINNED
-from physics.tables.table import root_of
+from physics.tables.joint import ANGLE, COUPLING, PINNED
+from physics.tables.table import root_of, zeros_in_lines
 
 FADING = 0.25  # [s] for which a tension counts
 SLACK = 0.05  # growth of an inertia by tension, from which on bend() is nothing
@@ -350,7 +350,7 @@ class JointSet(NamedTuple):
 
     table: np.ndarray  # all JOINT rows
     rows: np.ndarray  # int32 JOINT rows of the group, in the order of ids
-    coupled: np.ndarray  # int32 those of gears, pulleys and ratchets
+    couplings: np.ndarray  # COUPLING those of gears, pulleys and ratchets
     order: np.ndarray  # int64 indices into `rows` of the joints with parts for a tree
     counts: np.ndarray  # int32 number of tree rows of each joint of `rows`
     tree_rows: np.ndarray  # JOINT_ROW, MOST_ROWS for each joint of `rows`
@@ -395,7 +395,7 @@ def solve_once(biased, context, joints_inout, motions_inout):
     """
     s = joints_inout
     solve_joints(s.rows, biased, context, s.table, motions_inout)
-    solve_couplings(s.coupled, biased, context, s.table, motions_inout)
+    solve_couplings(biased, context, s.couplings, s.table, motions_inout)
     solve_all_trees(biased, context, s, motions_inout)
 
 
@@ -407,7 +407,7 @@ def start_joints(context, joints_inout, motions_inout):
     """
     s = joints_inout
     warm_joints(s.rows, s.table, motions_inout)
-    warm_couplings(s.coupled, s.table, motions_inout)
+    warm_couplings(s.couplings, s.table, motions_inout)
     solve_once(True, context, s, motions_inout)
 
 
@@ -421,7 +421,7 @@ def finish_joints(context, joints_inout, motions_inout):
     begin_trees(context, s, motions_inout)
     solve_once(False, context, s, motions_inout)
     sum_joints(s.rows, s.table)
-    sum_couplings(s.coupled, s.table)
+    sum_couplings(s.couplings, s.table)
 
 
 class Trees:
@@ -436,7 +436,7 @@ class Trees:
         self.order, self.counts = np.zeros(joints, np.int64), np.zeros(joints, np.int32)
         self.motion_a, self.motion_b = np.zeros(joints, np.int32), np.zeros(joints, np.int32)
         self.taken = np.zeros(joints, np.bool_)
-        self.coupled = np.zeros(joints, np.int32)
+        self.couplings = zeros_in_lines(joints, COUPLING)
         self.sums = np.zeros((0, 2), np.int32)
 
     def build(self, rows: np.ndarray, joints: np.ndarray, motions: np.ndarray, tier: str) -> JointSet:
@@ -467,5 +467,5 @@ class Trees:
                     build_forest(order, self.motion_a, self.motion_b, motions, self.forest, taken)
         if n:
             mark_direct(rows, taken, joints)
-        coupled = self.coupled[: list_couplings(rows, joints, self.coupled) if n else 0]
-        return JointSet(joints, rows, coupled, order, self.counts, self.rows, self.forest)
+        couplings = self.couplings[: list_couplings(rows, joints, self.couplings) if n else 0]
+        return JointSet(joints, rows, couplings, order, self.counts, self.rows, self.forest)

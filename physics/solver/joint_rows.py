@@ -31,7 +31,7 @@ def is_idle(joint):
 
 @subkernel
 def side_of_gear(identity, body_row, motion_of, motions, joints):
-    """Return (JOINT row, BODY row) of a side of a gear, and whether the side acts.
+    """Return (BODY row of a side of a gear, whether the side acts).
 
     The BODY row is that of a dynamic body of the joint, if it has one: the edge of the gear in the graph then links
     all bodies that the gear moves, because the joint itself links its two bodies. A removed or disabled joint does not
@@ -39,24 +39,24 @@ def side_of_gear(identity, body_row, motion_of, motions, joints):
     motions: see list_joints; joints: all JOINT rows.
     """
     if identity == NO_JOINT:
-        return NO_JOINT, body_row, True
+        return body_row, True
     row = row_of(joints, identity)
     if row < 0 or not joints[row].enabled:
-        return NO_JOINT, body_row, False
+        return body_row, False
     j = joints[row]
     if j.body_row_b >= 0 and motions[motion_of[j.body_row_b]].is_dynamic:
-        return row, j.body_row_b, True
+        return j.body_row_b, True
     if j.body_row_a >= 0 and motions[motion_of[j.body_row_a]].is_dynamic:
-        return row, j.body_row_a, True
-    return row, body_row, True
+        return j.body_row_a, True
+    return body_row, True
 
 
 @subkernel
 def find_sides(motion_of, motions, joints, joint_inout):
-    """Write the JOINT and BODY rows of both sides of a gear. Return whether both sides act. Arguments: side_of_gear."""
+    """Write the BODY rows of both sides of a gear. Return whether both sides act. Arguments: see side_of_gear."""
     j = joint_inout
-    j.joint_row_a, j.body_row_a, first = side_of_gear(j.joint_a, j.body_row_a, motion_of, motions, joints)
-    j.joint_row_b, j.body_row_b, second = side_of_gear(j.joint_b, j.body_row_b, motion_of, motions, joints)
+    j.body_row_a, first = side_of_gear(j.joint_a, j.body_row_a, motion_of, motions, joints)
+    j.body_row_b, second = side_of_gear(j.joint_b, j.body_row_b, motion_of, motions, joints)
     return first and second
 
 
@@ -586,32 +586,6 @@ def store_joints(rows, context, joints_inout):
         j.upper_force = rate * j.high + rest * j.upper_force
 
 
-@inlined
-def arm_of_gear(row, joints, motion):
-    """Return the lever [px] by which an error of a side of a gear shows: the radius of gyration, 1 for a slide.
-
-    row: JOINT row of the side, NO_JOINT for a body; joints: all JOINT rows; motion: MOTION row of the side.
-    """
-    if row >= 0 and not turns(joints[row]):
-        return 1.0
-    return math.sqrt(motion.inverse_mass / motion.inverse_inertia) if motion.inverse_inertia > 0.0 else 0.0
-
-
-@subkernel
-def sag_of_sum(joint, joints, a, b):
-    """Return the speed [px/s] that the impulse of a gear or pulley in the step gives to its sum of coordinates.
-
-    For a gear on the side where it shows less. joint: JOINT row; joints: all JOINT rows; a, b: MOTION rows.
-    """
-    j = joint
-    sag = abs(j.total_sum) * j.inverse_sum_mass
-    if j.hold != GEARED:
-        return sag
-    arm = arm_of_gear(j.joint_row_a, joints, a)
-    other, ratio = arm_of_gear(j.joint_row_b, joints, b), abs(j.ratio)
-    return sag * (arm if arm * ratio <= other else (other / ratio if ratio > 0.0 else arm))
-
-
 @kernel
 def estimate_joints(rows, joints, rate, dt, accuracy, motions_inout):
     """Raise MOTION.estimate to the square of the number of substeps that the joints of a body need. O(rows).
@@ -639,8 +613,6 @@ def estimate_joints(rows, joints, rate, dt, accuracy, motions_inout):
             )
             lever = max(norm(j.ax, j.ay), norm(j.bx, j.by))
             sag = max(sag, abs(j.hold_impulse) * (a.inverse_inertia + b.inverse_inertia) * lever)
-            if j.hold >= GEARED:
-                sag = sag_of_sum(j, joints, a, b)
             estimate = max(estimate, 0.25 * rate * sag)
         a.estimate = max(a.estimate, estimate)
         b.estimate = max(b.estimate, estimate)

@@ -432,7 +432,7 @@ def solve(state: StepState, contacts: ContactLanes, passes: int | None = None, w
         found = contacts.joints(state, motions, group, context.h) if effects.joints else 0
         run(group.members, motions.kinematic, count, context, settings, motions.used, found, blocks)
         if substeps == 0:
-            estimate_substeps(state, motions, contacts.selection.plan, group, blocks, count)
+            estimate_substeps(state, motions, contacts.selection.plan, group, blocks, count, found)
         contacts.store(state, motions, count, context)
         if len(group.joints):
             store_joints(group.joints, context, state.joints)

@@ -619,7 +619,7 @@ def solve(state: StepState, contacts: ContactLanes, kernels: Mapping = SUBSTEPS)
         found = contacts.joints(state, motions, group, h) if effects.joints else 0
         run(group.members, motions.kinematic, count, context, motions.used, found, blocks)
         if by_load:
-            estimate_substeps(state, motions, contacts.selection.plan, group, blocks, count)
+            estimate_substeps(state, motions, contacts.selection.plan, group, blocks, count, found)
         contacts.store(state, motions, count, context)
         if len(group.joints):
             store_joints(group.joints, context, state.joints)
