@@ -2,7 +2,8 @@
 
 A joint has two anchors, one on each body. It holds the anchors together in both directions (PINNED), only across an
 axis of A (ON_AXIS), or not at all (FREE). It may also hold the angle. On one coordinate (an angle, a translation or a
-length) it may have limits, a motor and a spring. Gears couple two other joints, pulleys two bodies. To add a kind, define a class here and add it to KINDS.
+length) it may have limits, a motor and a spring. A gear couples two other joints, a pulley two bodies. To add a kind,
+define a class here and add it to KINDS.
 """
 
 import math
@@ -449,8 +450,9 @@ class Pulley(Kind):
 
     The rope has the length `length` = distance of A's anchor from its pulley + ratio · distance of B's anchor from its
     pulley [px], None for the present length. It pulls A with its tension, and B with ratio times its tension (a block
-    and tackle). It can be slack; with rigid=True it also pushes. at_a, at_b: the anchors [px]; ground_a, ground_b: the
-    pulleys, points of the world [px]; ratio > 0. The coordinate of the joint, `translation`, is the length in use.
+    and tackle). It can be slack; with rigid=True it also pushes. An anchor stops at its pulley. at_a, at_b: the anchors
+    [px]; ground_a, ground_b: the pulleys, points of the world [px]; ratio > 0. The coordinate of the joint,
+    `translation`, is the length in use.
     """
 
     PARTS = {"hold": SLUNG, "point_max": 0.0}

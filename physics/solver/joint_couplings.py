@@ -253,31 +253,52 @@ def place_pulley(joint, a, b, coupling_inout):
     on_a, on_b = j.ax * c.pull_ay - j.ay * c.pull_ax, j.bx * c.pull_by - j.by * c.pull_bx
     of_a = (a.inverse_mass if length > 0.0 else 0.0) + a.inverse_inertia * on_a * on_a
     of_b = (b.inverse_mass if other > 0.0 else 0.0) + b.inverse_inertia * on_b * on_b
+    c.length_a, c.length_b, c.inverse_a, c.inverse_b = length, other, of_a, of_b
     c.sum = length + j.ratio * other
     c.inverse_mass = of_a + j.ratio * j.ratio * of_b
 
 
 @subkernel
-def push_pulley(joint, coupling, impulse, a_inout, b_inout):
-    """Apply an impulse on the length of the rope of a pulley; > 0 lengthens it.
+def push_ropes(joint, coupling, on_a, on_b, a_inout, b_inout):
+    """Apply impulses on the lengths of rope of A and of B; > 0 lengthens them.
 
     joint, coupling: JOINT and COUPLING row; a_inout, b_inout: MOTION rows.
     """
     j, c, a, b = joint, coupling, a_inout, b_inout
-    w = a.inverse_inertia * (j.ax * c.pull_ay - j.ay * c.pull_ax) * impulse
-    change_velocity(a.inverse_mass * impulse * c.pull_ax, a.inverse_mass * impulse * c.pull_ay, w, a)
-    other = j.ratio * impulse
-    w = b.inverse_inertia * (j.bx * c.pull_by - j.by * c.pull_bx) * other
-    change_velocity(b.inverse_mass * other * c.pull_bx, b.inverse_mass * other * c.pull_by, w, b)
+    w = a.inverse_inertia * (j.ax * c.pull_ay - j.ay * c.pull_ax) * on_a
+    change_velocity(a.inverse_mass * on_a * c.pull_ax, a.inverse_mass * on_a * c.pull_ay, w, a)
+    w = b.inverse_inertia * (j.bx * c.pull_by - j.by * c.pull_bx) * on_b
+    change_velocity(b.inverse_mass * on_b * c.pull_bx, b.inverse_mass * on_b * c.pull_by, w, b)
 
 
 @subkernel
-def pulley_speed(joint, coupling, a, b):
-    """Return the rate [px/s] at which the rope of a pulley lengthens. Arguments as in push_pulley."""
+def rope_speeds(joint, coupling, a, b):
+    """Return the rates [px/s] at which the ropes of A and of B lengthen. Arguments as in push_ropes."""
     j, c = joint, coupling
     speed = a.vx * c.pull_ax + a.vy * c.pull_ay + a.angular_velocity * (j.ax * c.pull_ay - j.ay * c.pull_ax)
     other = b.vx * c.pull_bx + b.vy * c.pull_by + b.angular_velocity * (j.bx * c.pull_by - j.by * c.pull_bx)
-    return speed + j.ratio * other
+    return speed, other
+
+
+@subkernel
+def stop_at_pulleys(context, coupling, joint_inout, a_inout, b_inout):
+    """Stop anchors at their pulleys, so that no length of rope becomes negative.
+
+    Otherwise a light body would be drawn to and fro through its pulley, and would not hold the other body. The impulses
+    are point_x and point_y of the joint. context: see StepContext; other arguments: see push_ropes.
+    """
+    j, c, a, b = joint_inout, coupling, a_inout, b_inout
+    soft = (0.0, 1.0, 0.0)
+    speed, other = rope_speeds(j, c, a, b)
+    on_a, on_b = 0.0, 0.0
+    if c.inverse_a > 0.0:
+        on_a = limit_change(c.length_a, speed, j.point_x, 1.0 / c.inverse_a, soft, 0.0, context.inverse_h)
+    if c.inverse_b > 0.0:
+        on_b = limit_change(c.length_b, other, j.point_y, 1.0 / c.inverse_b, soft, 0.0, context.inverse_h)
+    j.point_x += on_a
+    j.point_y += on_b
+    if on_a != 0.0 or on_b != 0.0:
+        push_ropes(j, c, on_a, on_b, a, b)
 
 
 # ---- passes ----------------------------------------------------------------------------------------------------------
@@ -303,18 +324,24 @@ def push_sum(coupling, impulse, joints, motions_inout):
     if j.hold == GEARED:
         push_gear(coupling, impulse, joints, motions_inout)
     else:
-        push_pulley(j, coupling, impulse, motions_inout[j.motion_a], motions_inout[j.motion_b])
+        a, b = motions_inout[j.motion_a], motions_inout[j.motion_b]
+        push_ropes(j, coupling, impulse, j.ratio * impulse, a, b)
 
 
 @subkernel
 def sum_speed(coupling, joints, motions):
-    """Return the rate of the sum of a gear or pulley. Arguments as in push_sum; motions: MOTION rows."""
+    """Return the rate of the sum of a gear or pulley, without anchors that are stopped at their pulleys.
+
+    Arguments as in push_sum; motions: MOTION rows.
+    """
     c = coupling
     j = joints[c.joint]
     a, b = motions[j.motion_a], motions[j.motion_b]
     if j.hold == GEARED:
         return side_speed(c.row_a, a, joints, motions) + j.ratio * side_speed(c.row_b, b, joints, motions)
-    return pulley_speed(j, c, a, b)
+    speed, other = rope_speeds(j, c, a, b)
+    speed = 0.0 if j.point_x > 0.0 else speed
+    return speed if j.point_y > 0.0 else speed + j.ratio * other
 
 
 @subkernel
@@ -329,6 +356,21 @@ def warm_couplings(couplings_inout, joints_inout, motions_inout):
         if j.hold != TOOTHED:
             place_coupling(motions_inout, c, joints_inout)
             push_sum(c, j.low - j.high, joints_inout, motions_inout)
+        if j.hold > GEARED:
+            push_ropes(j, c, j.point_x, j.point_y, motions_inout[j.motion_a], motions_inout[j.motion_b])
+
+
+@inlined
+def inverse_mass_of_sum(joint, coupling):
+    """Return the inverse effective mass of the sum of a gear or pulley. joint, coupling: JOINT and COUPLING row.
+
+    An anchor that is stopped at its pulley counts as immovable: stop_at_pulleys takes its speed away again.
+    """
+    j, c = joint, coupling
+    if j.hold == GEARED or (j.point_x == 0.0 and j.point_y == 0.0):
+        return c.inverse_mass
+    inverse = (0.0 if j.point_x > 0.0 else c.inverse_a) + (0.0 if j.point_y > 0.0 else j.ratio * j.ratio * c.inverse_b)
+    return inverse if inverse > 0.0 else c.inverse_mass
 
 
 @subkernel
@@ -339,9 +381,10 @@ def solve_sum(biased, context, coupling, joints_inout, motions_inout):
     """
     c = coupling
     j = joints_inout[c.joint]
-    if not c.inverse_mass > 0.0:
+    inverse = inverse_mass_of_sum(j, c)
+    if not inverse > 0.0:
         return
-    mass = 1.0 / c.inverse_mass
+    mass = 1.0 / inverse
     soft, most = rigid_softness(biased, context), context.push_speed
     low, high = j.lower, j.upper
     if j.hold == GEARED:
@@ -376,10 +419,14 @@ def solve_couplings(biased, context, couplings_inout, joints_inout, motions_inou
     """
     for k in range(len(couplings_inout)):
         c = couplings_inout[k]
-        if joints_inout[c.joint].hold != TOOTHED:
-            if not biased:
-                place_coupling(motions_inout, c, joints_inout)
-            solve_sum(biased, context, c, joints_inout, motions_inout)
+        j = joints_inout[c.joint]
+        if j.hold == TOOTHED:
+            continue
+        if not biased:
+            place_coupling(motions_inout, c, joints_inout)
+        solve_sum(biased, context, c, joints_inout, motions_inout)
+        if j.hold != GEARED:
+            stop_at_pulleys(context, c, j, motions_inout[j.motion_a], motions_inout[j.motion_b])
 
 
 @subkernel

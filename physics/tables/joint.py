@@ -67,7 +67,7 @@ STATE = (  # fields on which the next step depends
     ("strain", np.float64),  # greatest force of late that held the anchors, see joint_direct.add_inertia
     # Impulses per second with which the next step starts.
     ("point_force_x", np.float64),
-    ("point_force_y", np.float64),  # for an ON_AXIS joint: force across the axis
+    ("point_force_y", np.float64),  # ON_AXIS: force across the axis; SLUNG: forces that stop A, B at their pulleys
     ("hold_torque", np.float64),
     ("spring_force", np.float64),
     ("motor_force", np.float64),
@@ -140,6 +140,10 @@ COUPLING = in_lines(
         ("pull_ay", np.float64),
         ("pull_bx", np.float64),
         ("pull_by", np.float64),
+        ("length_a", np.float64),  # [px] length of rope from the pulley to the anchor
+        ("length_b", np.float64),
+        ("inverse_a", np.float64),  # inverse effective mass of that length
+        ("inverse_b", np.float64),
         ("sum", np.float64),  # coordinate of A plus ratio times coordinate of B in the present substep
         ("inverse_mass", np.float64),  # inverse effective mass of that sum
         ("total", np.float64),  # impulse of the step on that sum

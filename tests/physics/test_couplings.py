@@ -293,6 +293,26 @@ def test_a_pulley_to_the_world_is_a_rope_of_that_length():
     assert ball.position.y == pytest.approx(50.0, abs=0.1) and rope.force == pytest.approx(ball.mass * G, rel=1e-3)
 
 
+@pytest.mark.parametrize("setting", SETTINGS)
+@pytest.mark.parametrize("mass", [2.0, 50.0, 1000.0])
+@pytest.mark.parametrize("ratio", [0.5, 1.0, 2.0])
+def test_a_light_body_stops_at_its_pulley_and_holds_the_heavy_one(ratio, mass, setting):
+    world = world_of(setting)
+    a = world.add_body(Circle(6.0), position=(0.0, 100.0), mass=ratio)
+    b = world.add_body(Circle(6.0), position=(80.0, 100.0), mass=mass * ratio**2)
+    rope = world.add_joint(Pulley(a, b, at_a=(0, 100), at_b=(80, 100), ground_a=(0, 0), ground_b=(80, 0), ratio=ratio))
+    run(world, 4.0)
+    end, sag = 100.0 + 100.0 / ratio, 0.01 if setting[0] == "soft_step" else 0.1
+    assert b.position.y == pytest.approx(end, abs=sag) and a.position.y == pytest.approx(0.0, abs=0.01)
+    assert rope.force == pytest.approx(b.mass * G, rel=1e-3) and not b.awake and not a.awake
+    b.velocity = 0.0, -100.0
+    highest, most = end, 100.0**2 / (2.0 * G) * mass / (mass - 1.0)  # by energy, while A falls
+    for _ in range(240):
+        world.step()
+        highest = min(highest, b.position.y)
+    assert highest > end - most - 1.0 and b.position.y == pytest.approx(end, abs=sag)
+
+
 # --- ratchets ---------------------------------------------------------------------------------------------------------
 
 
