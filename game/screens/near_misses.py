@@ -134,6 +134,7 @@ class NearMisses(CanvasScreen):
         super().__init__()
         self.misses, self.length = course(dt)
         self.flights = Flight("aabb", self.misses), Flight("pixels", self.misses)
+        self.flights_in_turn = list(self.flights)
         self.backdrop, self.time, self.drift = Backdrop(), 0.0, 0.0
 
     def step(self, inputs: InputState, dt: float) -> None:
@@ -142,7 +143,7 @@ class NearMisses(CanvasScreen):
             self.cues.append("back")
             self.outcome = ("back",)
         elif inputs.pressed("confirm") or inputs.pointer_pressed:
-            self.cues.append("accept")
+            self.cues.append("confirm")
             self.outcome = ("plot",)
         self.advance(dt)
 
@@ -150,7 +151,9 @@ class NearMisses(CanvasScreen):
         """Fly on by dt [s] in both worlds."""
         self.time = (self.time + dt) % self.length
         self.drift += DRIFT * dt
-        for flight in self.flights:
+        # By turns each is first: the first one in a picture pays for the caches that drawing has emptied.
+        self.flights_in_turn.reverse()
+        for flight in self.flights_in_turn:
             flight.step(self.time, self.length, dt)
 
     def price(self) -> str:

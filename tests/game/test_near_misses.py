@@ -1,6 +1,8 @@
 """The split screen that opens "What accuracy costs": boxes kill, pixels never; and the way to it from every menu."""
 
+import re
 from itertools import combinations
+from pathlib import Path
 
 import pygame
 import pytest
@@ -13,6 +15,7 @@ from game.screens.tour import MISSES, STOPS
 from scenes import SCENES
 from tests.game.reading import Reader, assert_text_is_apart
 
+ROOT = Path(__file__).resolve().parents[2]
 DTS = (1 / 30, 1 / 60, 1 / 75, 1 / 120)
 
 
@@ -163,3 +166,23 @@ def test_it_is_a_stop_of_the_tour(driver):
     frame = driver.app.arcade.picture.presenter.frame
     words = " ".join(text for _, text in frame.boxes)
     assert "What accuracy costs" in words and "boxes" in words and "pixels" in words
+
+
+def test_each_flight_is_first_in_every_second_step(monkeypatch):
+    shown, order = NearMisses(), []
+    for flight in shown.flights:
+        monkeypatch.setattr(flight, "step", lambda *of, tier=flight.tier: order.append(tier))
+    for _ in range(10):
+        shown.advance(1 / 60)
+    assert order[::2].count("aabb") == order[::2].count("pixels") == 5
+
+
+def test_every_sound_that_a_menu_plays_exists():
+    names = {
+        name
+        for path in (ROOT / "game").rglob("*.py")
+        for name in re.findall(r'cues\.append\(.*?"(\w+)"', path.read_text(encoding="utf-8"))
+    }
+    assert {"back", "confirm"} <= names
+    missing = {name for name in names if not (ROOT / "assets" / "sounds" / f"{name}.wav").exists()}
+    assert not missing
