@@ -89,7 +89,7 @@ def _drums(tune, notes, voice):
 
 
 def _gain(note):
-    """Return the gain of a note, from its volume and its position in the beat."""
+    """Return the factor on a note's samples, from its volume and its position in the beat. note: see tune.Note."""
     return note.volume * STRESS[note.start % STEPS_PER_BEAT]
 
 

@@ -66,9 +66,10 @@ class Sheet:
 
 
 def _shelves(frames, gap):
-    """Place frames from left to right on shelves, tallest first. Return ({name: (x, y)}, (width, height)) [px].
+    """Pack the frames of a sprite sheet in rows (shelves) from left to right, tallest first.
 
-    gap [px]: clear pixels between frames.
+    Return ({name: (x, y)}, (width, height)) [px]: the place of each frame, and the size of the sheet. frames: {name:
+    pixels}; gap [px]: clear pixels between frames.
     """
     width = max([WIDTH] + [frame.shape[1] + 2 * gap for frame in frames.values()])
     order = sorted(frames, key=lambda name: -frames[name].shape[0])  # stable: equal heights keep their order

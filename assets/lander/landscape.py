@@ -35,7 +35,7 @@ class Landscape:
 
 
 def plan():
-    """Return the plan of the moon, read from assets/levels/lander.json."""
+    """Return the contents of assets/levels/lander.json, the plan of the moon, as a dict."""
     return json.loads((FOLDER / "levels" / "lander.json").read_text(encoding="utf-8"))
 
 
@@ -116,7 +116,7 @@ def _filled(points):
 
 
 def _around(pixels, far=1, ways=(*ACROSS, *DOWN)):
-    """Return `pixels` and those that are `far` px away from them in one of the directions `ways`."""
+    """Return `pixels`, and the pixels `far` px away from them in one of the directions `ways`: masks (h, w) bool."""
     out = pixels.copy()
     for dx, dy in ways:
         out |= shifted(pixels, far * dx, far * dy)

@@ -29,10 +29,10 @@ SPIKES_INSET = (3, 7)  # [px] smaller than drawn: the points' outer pixels do no
 
 
 def objects(level):
-    """Return the rows of the level's objects.
+    """Return the objects of a level for the map file: rows (kind, x, y, width, height, properties) [px].
 
     Objects on the map come first, column by column from the left, each from top to bottom. Then follow zones and
-    covers.
+    covers. level: see level_text.Map.
     """
     out, signs, platforms = [], iter(level.signs), iter(level.platforms)
     for x in range(level.width):
@@ -70,7 +70,10 @@ def objects(level):
 
 
 def hints(level):
-    """Return the rows that guide the scripted player (bot) along its path, in order. level: see level_text.Map."""
+    """Return the points that guide the scripted player (bot) along its path, in order, as rows like those of `objects`.
+
+    level: see level_text.Map.
+    """
     return [
         ("hint", x * TILE, y * TILE, TILE, TILE, {"order": number, "act": act})
         for number, (x, y, act) in enumerate(level.hints)
@@ -112,9 +115,10 @@ def _pixels(rect):
 
 
 def walking_range(level, x, y, most=4):
-    """Return how far a walker at a tile may go to either side [px], at most `most` tiles.
+    """Return the distance [px] that a walker who starts at a tile may go to either side, at most `most` tiles.
 
-    It may go as far as the ground is level and free, or on a platform to its ends.
+    The ground must be level and free so far on both sides. On a platform the walker may go as far as the platform
+    reaches. level: see level_text.Map; x, y: the tile.
     """
     deck = _deck(level, x, y + 1)
     for step in range(1, most + 1):
@@ -127,9 +131,9 @@ def walking_range(level, x, y, most=4):
 
 
 def _deck(level, x, y):
-    """Return the tile (column, row) of the platform whose upper side is at a tile, or None.
+    """Return the (column, row) at which the map places the platform that covers a tile with its deck; None without one.
 
-    level: see level_text.Map.
+    level: see level_text.Map; x, y: the tile.
     """
     for (column, row), (_, _, _, width) in zip(level.places("P"), level.platforms, strict=True):
         if row == y and 0 <= x - column < width // TILE:

@@ -141,10 +141,10 @@ def decor_names(level):
 
 
 def _wall_behind(level, x, y):
-    """Return the name of the wall behind a tile, or None.
+    """Return the name of the wall that is drawn behind a tile, or None.
 
-    The letters in WALLS name a wall. The wall behind a thing is that of the nearest tile in the row that is not a
-    thing. The wall behind a plank may also be that of the tile below. level: see level_text.Map.
+    A letter in WALLS stands for a wall. Behind a letter in THINGS (an object, not a tile) the wall is that of the
+    nearest other tile in the row. Behind a plank it may also be that of the tile below. level: see level_text.Map.
     """
     if level.at(x, y) in WALLS:
         return WALLS[level.at(x, y)]

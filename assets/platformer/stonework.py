@@ -106,9 +106,9 @@ def _wheel(sprite, middle, radius, phase):
 
 
 def _open(sprite, column):
-    """Draw the open side of a belt piece, where the next piece follows: the outline only above and below the belt.
+    """Draw the side of a belt piece at which the next piece follows: with an outline only above and below the belt.
 
-    column: of the picture at this side.
+    column: column of the picture at this side.
     """
     for row in (0, 13):
         sprite.dot(column, row, OUTLINE)

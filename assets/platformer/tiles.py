@@ -45,7 +45,11 @@ FRINGE = np.array([3, 4, 3, 5, 4, 3, 3, 4, 5, 4, 3, 4, 3, 3, 5, 4])  # [px] dept
 
 
 def reduced(mask):
-    """Return a mask of neighbours without corner bits that make no difference: those without both of their sides."""
+    """Return a mask of neighbours without the corners that do not count: those at which a side is missing.
+
+    A corner lies between two sides, for example NE between N and E. mask: sum of the bits N, NE, E ... of the
+    neighbours that are present.
+    """
     for corner, first, second in CORNERS:
         if not (mask & first and mask & second):
             mask &= ~corner
@@ -134,9 +138,9 @@ def _bricks(picture, ramp, variant):
 
 
 def blob(material, mask, variant=0):
-    """Return one tile of a material, (16, 16, 4) uint8, opaque, as its neighbours require.
+    """Return one tile of a material, (16, 16, 4) uint8, opaque, with edges and corners where a neighbour is missing.
 
-    mask: the neighbours, see the top of this file; variant: see texture.
+    mask: sum of the bits N, NE, E ... of the neighbours of the same material; variant: see texture.
     """
     ramp, cap = RAMPS[MATERIALS[material][0]], RAMPS[MATERIALS[material][1]]
     picture = texture(material, variant)

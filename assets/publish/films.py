@@ -19,7 +19,7 @@ ROOT = FOLDER.parents[len(ABOVE)]  # where the names are looked up
 def filmed(what, *names):
     """Run `python -m scenes.filming` with the arguments `what` and `names`. Return {file name: bytes} of its pictures.
 
-    They are in the order of their file names. Raises RuntimeError with the program's output if it fails.
+    The dict is in the order of the file names. Raises RuntimeError with the program's output if the program fails.
     """
     with TemporaryDirectory() as folder:
         command = [sys.executable, "-P", "-m", PROGRAM, what, *names, folder]

@@ -17,12 +17,12 @@ PAPER = oklch(0.22, 0.045, 285)
 
 
 def sheet():
-    """Return the picture with the moments of all games, (h, w, 3) uint8."""
+    """Return one picture, (h, w, 3) uint8, with screenshots of remarkable events (moments) in all games."""
     return np.concatenate([game_moments(name) for name in GAMES])
 
 
 def game_moments(name):
-    """Return the picture of one game's moments under the game's name, (h, w, 3) uint8."""
+    """Return a picture, (h, w, 3) uint8, with the screenshots of one game's events (moments) under the game's name."""
     files = filmed("moments", name)
     captions = json.loads(files.pop("captions.json"))
     return laid_out(name, captions, [png.decode(content) for content in files.values()])

@@ -22,7 +22,8 @@ SHEET_WIDTH = 128  # [px]
 def read_drawing(text, height):
     """Return {character: (height, w) bool, True for ink} of a font's drawing.
 
-    height [px]: of every glyph. Raises ValueError, which names the line, for a badly drawn band.
+    text: the drawing, in bands of glyphs side by side, each below a line with "=" and their characters; height [px]: of
+    every glyph. Raises ValueError, which names the line, for a badly drawn band.
     """
     glyphs, names, rows, start = {}, [], [], 0
     for number, line in enumerate(text.splitlines() + ["="], 1):
