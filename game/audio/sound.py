@@ -111,7 +111,7 @@ class Sounds:
             self.play(name, x, volume)
 
     def play(self, name: str, x: float | None = None, volume: float = 1.0) -> bool:
-        """Start a sound, and return whether it is played. x: canvas position, None for the centre.
+        """Start a sound, and return whether it is played. x: canvas position, None for the centre; volume: 0..1.
 
         If VOICES voices already play this sound, the oldest of them is replaced.
         """

@@ -28,7 +28,7 @@ class Axis:
         self.low, self.high = low - spare, high + spare
 
     def share(self, value: float) -> float:
-        """Return the place of a value above 0 on the axis, 0 (low end) .. 1 (high end)."""
+        """Return the place of a value above 0 along the axis: 0 at the low end .. 1 at the high end."""
         return (log10(value) - self.low) / (self.high - self.low)
 
     def ticks(self, most: int) -> list[float]:

@@ -128,7 +128,7 @@ class Presenter:
         return pygame.Rect(0, self.frame.area.bottom, width - self.panel_width, height - self.frame.area.bottom)
 
     def present(self, canvas: Canvas) -> Frame:
-        """Scale the canvas onto the frame, and return the frame. It takes over the canvas's text boxes."""
+        """Scale the canvas onto the frame, and return the frame, which then also lists the text boxes of the canvas."""
         self.place()
         frame = self.frame
         frame.begin()

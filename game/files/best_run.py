@@ -23,9 +23,10 @@ def ghost_path(table: str) -> Path:
 
 
 def load_ghost(table: str) -> tuple[list[tuple] | None, float | None, str]:
-    """Return (trail, seconds, message) of the best run so far in a high-score table.
+    """Return (trail, seconds, message) of the fastest run saved for a high-score table.
 
-    Trail and seconds are None if there is no usable file. The message reports an unusable file; it is "" otherwise.
+    trail: rows (x, y, frame name, direction -1 or 1) of the player, one per step; seconds: time of the run. Both are
+    None if there is no usable file. The message reports an unusable file; it is "" otherwise.
     """
     path = ghost_path(table)
     if not is_there(path):
@@ -42,7 +43,7 @@ def load_ghost(table: str) -> tuple[list[tuple] | None, float | None, str]:
 def keep_ghost(table: str, trail: Sequence[tuple], seconds: float) -> bool:
     """Save the trail of a run if the run was faster than the saved one. Return whether it was saved.
 
-    seconds: time of the run. Raises OSError.
+    table: key of the high-score table; trail: as in load_ghost(); seconds: time of the run. Raises OSError.
     """
     best = load_ghost(table)[1]
     if not trail or (best is not None and best <= seconds):

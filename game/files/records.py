@@ -20,7 +20,10 @@ PLACES = 10
 
 @dataclass(frozen=True)
 class Entry:
-    """One line of a table. assisted: whether it was played at lower speed, invincible, or with a changed rule."""
+    """One entry of a high-score table.
+
+    assisted: whether the run was played at lower speed, invincible, or with a changed rule.
+    """
 
     name: str
     points: int

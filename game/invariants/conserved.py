@@ -61,8 +61,8 @@ class OfTheAlone(Invariant):
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
         """Return (gain, allowance, change) of this step.
 
-        gain: (2,) gain of the quantity in this step; allowance: allowed gain in LONG steps; change: (n,) change of each
-        body. alone: (n,) bool, the bodies over which the gain is summed.
+        gain: (2,) gain of the conserved quantity in this step; allowance: allowed gain in LONG steps; change: (n,)
+        change of the quantity of each body. alone: (n,) bool, the bodies over which the gain is summed.
         """
         raise TypeError(f"{type(self).__name__} must define gain")
 
@@ -74,9 +74,9 @@ class Momentum(OfTheAlone):
     gained = "momentum drifted though nothing pushes from outside"
 
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
-        """Return (gain, allowance, change) of this step.
+        """Return (gain, allowance, change) of the momentum in this step.
 
-        gain: (2,) gain of momentum in this step; allowance: allowed gain in LONG steps; change: (n,) change of each
+        gain: (2,) gain along x and y; allowance: allowed gain in LONG steps; change: (n,) change of momentum of each
         body. alone: (n,) bool, the bodies over which the gain is summed.
         """
         now, before = step.now, step.before
@@ -124,10 +124,10 @@ class Spin(OfTheAlone):
         return ""
 
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
-        """Return (gain, allowance, change) of this step.
+        """Return (gain, allowance, change) of the angular momentum in this step.
 
-        gain: [gain of angular momentum in this step, 0]; allowance: allowed gain in LONG steps; change: (n,) change of
-        each body. alone: (n,) bool, the bodies over which the gain is summed.
+        gain: [gain of angular momentum, 0]; allowance: allowed gain in LONG steps; change: (n,) change of each body's
+        angular momentum. alone: (n,) bool, the bodies over which the gain is summed.
         """
         now, before = step.now, step.before
         mass, inertia = now.mass * alone, now.inertia * alone
@@ -187,11 +187,12 @@ class Account:
             self.low, self.high = min(self.low, float(heights.min())), max(self.high, float(heights.max()))
 
     def gain(self, world: World, now: Bodies) -> tuple[float, float]:
-        """Return (energy above that at the start, allowed value of it).
+        """Return (energy of the bodies above that at the start, greatest allowed value of this difference).
 
-        The allowed value is the sum of four terms: 1 % of the energy in play (kinetic energy, plus the potential energy
-        between the lowest and the highest position so far); m g (slop + overlap at the start) of each body; the
-        rounding error of bodies that come to rest; and m g v dt of each body that was stopped at its time of impact.
+        now: Bodies of the present state. The allowed value is the sum of four terms: 1 % of the energy in play (kinetic
+        energy, plus the potential energy between the lowest and the highest position so far); m g (slop + overlap at
+        the start) of each body; the rounding error of bodies that come to rest; and m g v dt of each body that was
+        stopped at its time of impact.
         """
         self._span(now)
         energy = now.energy

@@ -101,7 +101,7 @@ def advised(survey: Survey, here: Setting, error: float = VISIBLE) -> Setting | 
 
 
 def share(survey: Survey, setting: Setting, here: Setting) -> float:
-    """Return the time of `setting` divided by the time of `here`, both as measured in the survey.
+    """Return the time of a step under `setting` divided by that under `here`, both as measured in the survey.
 
     Raises KeyError or ValueError for a setting without times.
     """
@@ -129,7 +129,11 @@ def settings_within(survey: Survey, error: float) -> list[Setting]:
 
 
 def _end(survey, setting, error):
-    """Return which end of an error's interval must be within the limit: 0 for the lower end, 1 for the upper end."""
+    """Return which end of a setting's error interval is compared with a limit: 0 the lower end, 1 the upper end.
+
+    It is the lower end if the error is a rate of wrong answers, and the setting has the collision tier of the setting
+    that was measured first.
+    """
     first = survey.first
     same = error.verdicts is not None and (setting.tier, setting.narrowphase) == (first.tier, first.narrowphase)
     return 0 if same else 1

@@ -19,7 +19,7 @@ MICRO, NANO = 1e6, 1e9
 
 
 class Part(NamedTuple):
-    """The result of one stage for the pair. stage: the name of the stage in words; text: the result in words."""
+    """The result of one stage of the step for a pair of shapes. stage: name of the stage; text: the result in words."""
 
     stage: str
     text: str

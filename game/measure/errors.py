@@ -72,7 +72,7 @@ class Error:
 
     @classmethod
     def of(cls, verdicts: Verdicts, steps: int, failures: dict[str, int]) -> "Error":
-        """Return the error of these verdicts."""
+        """Return the error of a setting with these verdicts. verdicts, steps, failures: see Verdicts and Error."""
         return cls(100.0 * verdicts.either.share, 0.0, steps, failures, verdicts)
 
     @property

@@ -121,7 +121,10 @@ def _compared(one, other_class, found, frames, after):
 
 
 class Side:
-    """Running copy of the scene. seconds: time of its last step; worked: sum of the counters WORK of all steps."""
+    """One of the two running copies of a scene, with and without an effect.
+
+    seconds: time of its last step; worked: sum of the counters WORK of all steps.
+    """
 
     def __init__(self, scene_class: type[Scene], seed: int) -> None:
         self.scene = scene_class(seed)

@@ -18,7 +18,8 @@ class RunFigures(NamedTuple):
     """The figures of one measured run so far.
 
     cost: seconds per step over the repetitions. overlap: deepest overlap [px]. farthest: greatest distance that a body
-    moved in one step [px]. Both count the steps that MeasuredRun.judged selects, and are None if it selects none.
+    moved in one step [px]. overlap and farthest cover only the steps that MeasuredRun.judged selects; they are None if
+    it selects none.
     """
 
     cost: Cost

@@ -124,7 +124,7 @@ class Survey:
         return found
 
     def pareto_front(self, kind: str) -> list[Setting]:
-        """Return the settings on the Pareto front of cost and error, the cheapest first.
+        """Return the settings on the Pareto front of cost and error, the cheapest first. kind: kind of error.
 
         Errors below their floor count as 0.
         """
@@ -187,7 +187,7 @@ class Survey:
 
 
 def reported_error(error: Error) -> float:
-    """Return the error, or 0 if it is below the floor of its reference."""
+    """Return an Error as a number, or 0 if it is below its floor, the uncertainty of its reference."""
     return error.value if error.above_floor else 0.0
 
 

@@ -8,7 +8,10 @@ from game.scene import Scene
 
 
 def measure_requests(scene: Scene) -> None:
-    """Measure the scene's requests that have no figures yet, and store the results in its `figures`."""
+    """Make the measurements that the scene requests and that have no results yet.
+
+    Store the results in scene.figures.
+    """
     request = scene.measured()
     if isinstance(request, SpriteRequest) and not scene.figures:
         measure_tiers(*request, lambda figures: scene.figures.update({figures.tier: figures}))

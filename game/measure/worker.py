@@ -43,7 +43,10 @@ def sent_verdicts(verdicts: Verdicts) -> tuple[list, list, bool]:
 
 
 class Orders:
-    """The latest order. A thread reads the orders from standard input."""
+    """The latest order that the game has sent to this measuring process.
+
+    A thread reads the orders from standard input.
+    """
 
     def __init__(self) -> None:
         self.latest: dict[str, Any] | None = None

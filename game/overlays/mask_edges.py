@@ -11,7 +11,10 @@ from physics.tables.shape import PART, POLYGON
 
 
 class MaskEdges(NamedTuple):
-    """Lines in world coordinates, two (n, 4) arrays [px] with columns ax, ay, bx, by."""
+    """Edges of the convex parts of masks, for drawing: `outer` on the outline, `inner` between two parts.
+
+    Each is an (n, 4) array of lines in world coordinates [px], with columns ax, ay, bx, by.
+    """
 
     outer: np.ndarray  # edges that contacts, casts and characters use
     inner: np.ndarray  # edges between two parts of one mask

@@ -28,9 +28,9 @@ from physics.background import compile_jobs
 
 
 def run_report(options: Options, registry: Registry) -> int:
-    """Run the jobs and write the page. Return the exit code: 1 if a job failed, otherwise 0.
+    """Make the report's measurements (jobs), and write its HTML page.
 
-    Raises UsageError if the report cannot begin.
+    Raises UsageError if the report cannot begin. Return the exit code: 1 if a job failed, otherwise 0.
     """
     assert options.report is not None
     library()  # matplotlib is required before anything is measured
@@ -82,7 +82,7 @@ def compile_kernels() -> None:
 
 
 def all_jobs(scope: ReportScope) -> list[Job]:
-    """Return the jobs of all charts, in the order of the charts."""
+    """Return the jobs of all charts, in the order of the charts. scope: extent of the report."""
     return [job for chart in CHARTS for job in chart.jobs(scope)]
 
 
@@ -127,7 +127,7 @@ def gather(store: Store, jobs: Sequence[Job]) -> list[Measured]:
 
 
 def write(store: Store, jobs: Sequence[Job], options: Options) -> None:
-    """Write the page, and the rows of each chart as JSON and CSV beside it. Raises OSError."""
+    """Write the report's HTML page, and the rows of each chart as JSON and CSV beside it. Raises OSError."""
     measured = gather(store, jobs)
     spent = sum(found["spent"] for job in jobs if (found := store.result(job.name)) is not None)
     page = write_page(measured, store.manifest, str(options.report), spent)

@@ -82,7 +82,7 @@ def save_or_fail(save: Callable[[str], object], path: str) -> None:
 def finish(scene: Scene, report: RunReport, options: Options, broken: str = "") -> int:
     """Print the requested results and return the exit code.
 
-    broken: message about the broken invariant that ended the run, or "".
+    report: RunReport of the run; broken: message about the broken invariant that ended the run, or "".
     """
     played = options.played_by_bot
     extra = [broken] if broken else report.strict_failures() if options.strict else []
@@ -100,9 +100,9 @@ def finish(scene: Scene, report: RunReport, options: Options, broken: str = "") 
 
 
 def summary_line(scene: Scene, report: RunReport, check: Check, played: bool) -> str:
-    """Return one line of text about the run. check: result of judge() or not_judged().
+    """Return one line of text about the run.
 
-    played: whether the bot played.
+    report: RunReport of the run; check: result of judge() or not_judged(); played: whether the bot played.
     """
     verdict = ("check ok" if check["ok"] else "check FAILED") if played else "nobody played, so nothing was checked"
     pending = f", {len(check['pending'])} goals pending" if played and check["pending"] else ""

@@ -72,9 +72,9 @@ def table_of(rows: np.ndarray, capacity: int) -> Table:
 
 
 def shared(number: int) -> object:
-    """Stand, in the pickle, for the object `kept[number]` of the key frame.
+    """Placeholder, in a pickle, for the object `kept[number]` of its key frame.
 
-    A key frame's own reader replaces this function, so that a call raises LookupError.
+    A key frame's own reader replaces this function. A call of the function itself raises LookupError.
     """
     raise LookupError(f"object {number} is not in this pickle: a key frame holds it")
 

@@ -23,7 +23,7 @@ Report = Callable[[int, int], object]  # called with (runs done, runs in all)
 
 
 class Applied(NamedTuple):
-    """An advised setting, applied to a whole run. Times are shares of the time of the present setting."""
+    """An advised setting that was tried on a whole run. Times are shares of the time with the present setting."""
 
     setting: Setting
     predicted: float  # at the moments
@@ -40,7 +40,7 @@ class Applied(NamedTuple):
 
     @property
     def holds(self) -> bool:
-        """True if the whole run is certainly faster, and its slowest steps are no slower."""
+        """True if the whole run is certainly faster, and its slowest steps no slower, than with the present setting."""
         return not self.refused and self.interval[1] < 1.0 - TIE and self.p99 < 1.0 + TIE
 
 
@@ -54,10 +54,10 @@ class Proven(NamedTuple):
 
 
 def advise_on_run(run: RecordedRun, error: float, report: Report = lambda done, of: None, seed: int = 0) -> Proven:
-    """Return advice on the settings of a recorded run. The advised setting is tried on the whole run before.
+    """Measure the settings of a recorded run, and return the advice on them. It is tried on the whole run first.
 
-    error: as in advise. An advice that does not hold is withdrawn, and the setting that was next best is tried. Raises
-    ValueError for a run without steps.
+    error: as in advise; report, seed: as in measure_settings(). If the whole run shows that the advised setting is no
+    gain, the next best setting is tried. Raises ValueError for a run without steps.
     """
     overview = look_over(run)
     advice, survey = advise(overview.moments, error, report, seed)
@@ -77,9 +77,9 @@ def advise_on_run(run: RecordedRun, error: float, report: Report = lambda done, 
 
 
 def apply_to_run(run: RecordedRun, setting: Setting, predicted: float) -> Applied:
-    """Play a whole run with the present setting and with another one in turns, APPLIED_RUNS times each.
+    """Play a whole run with the present setting and with another one by turns, APPLIED_RUNS times each.
 
-    predicted: time of the setting in runs from snapshots, as a share of the present time.
+    Return the times with the other setting. predicted: its time in runs from snapshots, as a share of the present time.
     """
     changes = changes_to(setting, run.make())
     if isinstance(changes, str):

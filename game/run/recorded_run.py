@@ -143,7 +143,7 @@ class Overview(NamedTuple):
 def look_over(run: RecordedRun, report: Report = lambda done, of: None) -> Overview:
     """Play a run twice: first to find its busiest second, then to take snapshots and to count the encounters of bodies.
 
-    Raises ValueError for a run without steps.
+    report: called with the numbers of finished and of all steps. Raises ValueError for a run without steps.
     """
     if not run.steps:
         raise ValueError("a run must have a step at least (got none)")

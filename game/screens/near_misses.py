@@ -36,7 +36,7 @@ KEPT = 12  # seconds whose times are compared
 
 
 class Miss(NamedTuple):
-    """A plane that comes down beside the flight and is never touched."""
+    """An enemy plane that comes down beside the player's flight and is never touched."""
 
     sprite: str
     x: float  # [canvas px] within a half
@@ -44,19 +44,19 @@ class Miss(NamedTuple):
 
 
 def flight_x(time: float) -> float:
-    """Return the x of the plane [canvas px within a half] at a time [s]."""
+    """Return the x of the player's plane at a time [s], in px from the left edge of its half of the split screen."""
     return HALF / 2 + SWING * sin(2 * pi * time / WEAVE)
 
 
 def corner(image: pygame.Surface, x: float, y: float) -> tuple[int, int]:
-    """Return the whole pixel of an image's top left corner if its centre is at (x, y)."""
+    """Return the pixel (x, y) of an image's top left corner if the centre of the image is at (x, y)."""
     return round(x) - image.get_width() // 2, round(y) - image.get_height() // 2
 
 
 def course(dt: float) -> tuple[list[Miss], float]:
-    """Return the planes that come down, and the length of the loop [s].
+    """Return the enemy planes that come down, and the length of the loop [s].
 
-    Each is moved as close to the flight as it can be while CLEAR px of sky remain at every step of dt [s].
+    Each is placed as close to the player's flight as it can be while CLEAR px of sky remain at every step of dt [s].
     """
     planes = load_atlas("planes")
     player = pygame.mask.from_surface(planes["player"])
@@ -74,12 +74,16 @@ def course(dt: float) -> tuple[list[Miss], float]:
 
 
 def _passing_x(start):
-    """Return the x of the flight when a plane that enters at `start` [s] is beside it."""
+    """Return the x of the player's plane when an enemy plane that enters at `start` [s] is beside it."""
     return flight_x(start + (PLANE_Y + 40.0) / SPEED)
 
 
 def _touches(planes, grown, name, mask, start, offset, dt):
-    """Return whether a plane comes closer than CLEAR px to the flight. grown: mask of the player, wider by CLEAR."""
+    """Return whether an enemy plane comes closer than CLEAR px to the player's plane while it passes.
+
+    grown: pygame mask of the player's plane, enlarged by CLEAR px; name, mask: picture and pygame mask of the enemy
+    plane, which enters at `start` [s]; offset: its distance aside from the player's plane when it passes [px].
+    """
     x, steps = _passing_x(start) + offset, int((FIELD + 80.0) / SPEED / dt)
     for step in range(steps):
         own = corner(planes["player"], flight_x(start + step * dt), PLANE_Y)
@@ -90,7 +94,10 @@ def _touches(planes, grown, name, mask, start, offset, dt):
 
 
 class Flight:
-    """The flight in a world whose sprites are tested as one tier; step() at each time of the loop, in order."""
+    """One half of the split screen: a world in which all planes collide as one tier (kind of collision shape).
+
+    step() is called for each time of the loop, in order.
+    """
 
     def __init__(self, tier: str, misses: list[Miss]) -> None:
         planes = load_atlas("planes")
@@ -105,7 +112,7 @@ class Flight:
         self.steps = 0
 
     def step(self, time: float, length: float, dt: float) -> None:
-        """Move all planes to their places at `time` [s] of a loop of `length` [s], and test what touches."""
+        """Move all planes to their places at `time` [s] of a loop of `length` [s], step the world, count new hits."""
         places = [(round(flight_x(time)), PLANE_Y)]
         for miss in self.misses:
             since = (time - miss.start) % length
@@ -126,7 +133,10 @@ class Flight:
 
 
 class NearMisses(CanvasScreen):
-    """The split screen. `outcome`: ("plot",) for the plot in a game, or ("back",)."""
+    """Split screen of near misses: the same flight with boxes and with pixels as collision shapes.
+
+    `outcome` becomes ("plot",) for the plot in a game, or ("back",).
+    """
 
     tune = "title"
 
@@ -148,7 +158,7 @@ class NearMisses(CanvasScreen):
         self.advance(dt)
 
     def advance(self, dt: float) -> None:
-        """Fly on by dt [s] in both worlds."""
+        """Advance both worlds by dt [s]."""
         self.time = (self.time + dt) % self.length
         self.drift += DRIFT * dt
         # By turns each is first: the first one in a picture pays for the caches that drawing has emptied.
@@ -157,9 +167,9 @@ class NearMisses(CanvasScreen):
             flight.step(self.time, self.length, dt)
 
     def price(self) -> str:
-        """Return the time of a step by pixels beside that by boxes, in words; "" before HITS deaths.
+        """Return words that compare the step time with pixels with that with boxes; "" before HITS deaths.
 
-        The times are compared second by second. If neither was faster in all of them, they are the same.
+        The times are compared second by second. If neither was shorter in all seconds, they count as the same.
         """
         boxes, pixels = self.flights
         if boxes.deaths < HITS or len(boxes.seconds) < HITS:

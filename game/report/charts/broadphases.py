@@ -54,7 +54,7 @@ def clusters(rng: np.random.Generator, n: int) -> Places:
 def mixed(rng: np.random.Generator, n: int) -> Places:
     """Return (positions, radii) [px] of n discs with radii of 1 to 100 px, small ones more often.
 
-    They cover the same share of the area as those of `even`.
+    They cover the same share of the area as those of `even`. rng: random generator.
     """
     radii = np.round(100.0 ** (rng.random(n) ** 3), 1)  # rounded, so that few different shapes are needed
     side = math.sqrt(float((math.pi * radii**2).sum()) * SPACING**2 / (math.pi * RADIUS**2))

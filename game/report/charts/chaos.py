@@ -31,9 +31,10 @@ def _world(solver, substeps, aside):
 
 
 def measure(seeds: int) -> list[Row]:
-    """Return a row for each setting: the time until a shifted run differs, and the distance at the end.
+    """Return a row for each setting: the time until a run from a shifted start differs, and the distance at the end.
 
-    A run differs when its bodies are a pixel (RMS) from those of the unshifted run. seeds: number of shifted runs.
+    A run differs when its bodies are a pixel (RMS) from those of the run from the unshifted start. seeds: number of
+    runs from shifted starts.
     """
     rows, steps = {}, {}
     for solver, substeps in WAYS:

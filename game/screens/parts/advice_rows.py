@@ -18,7 +18,10 @@ ROW = 9  # [text px]
 
 
 class AdviceRows:
-    """The two lines. measuring: the measurements of the played scene; apply(setting): apply a setting to the scene."""
+    """Two lines of the cost panel: the advised setting, and whether the advice is applied automatically.
+
+    measuring: the measurements of the played scene; apply(setting): apply a setting to the scene.
+    """
 
     def __init__(self, measuring: Measuring, apply: Callable[[Setting], None]) -> None:
         self.measuring, self.tuner, self.apply = measuring, measuring.tuner, apply
@@ -47,7 +50,7 @@ class AdviceRows:
         return False
 
     def take(self) -> None:
-        """Apply the advice, if there is any that has proved itself."""
+        """Apply the advised setting if there is one and its trial on the recorded run succeeded."""
         advice = self.measuring.advice
         if advice is not None and isinstance(advice[1], float):
             self.apply(advice[0])

@@ -194,7 +194,7 @@ class CostPanel:
         return self.head.bottom + 2 * scale
 
     def _draw_sentence(self, frame, left, y, width, sentence, scale):
-        """Draw the sentence that the plot opens with. Return the y below it."""
+        """Draw the explanatory `sentence` above the plot, from (left, y) on. Return the y below it."""
         for line in wrap(sentence, width, TEXT, scale):
             frame.text(line, left, y, PAPER, TEXT, scale)
             y += 9 * scale

@@ -12,7 +12,7 @@ UNKNOWN = "-"
 
 
 def effect_rows(measuring: Measuring) -> list[Row]:
-    """Return the table's rows: a heading, a line for each effect, and a note if the measurement failed."""
+    """Return the panel's rows about the costs of effects: a heading, a line per effect, a note if measuring failed."""
     ledger = measuring.ledger
     rows = [Row(HEAD, "Effects", cells=("us a step", "kernels"))]
     for name in EFFECTS:

@@ -151,7 +151,7 @@ class Line(NamedTuple):
 
 
 def paragraph(text: str, width: int, scale: int, ink: Color) -> list[Line]:
-    """Return a text wrapped into lines of at most `width` frame pixels, with a gap above the first."""
+    """Return a text wrapped into lines of at most `width` frame pixels, with a gap above the first. ink: its colour."""
     return [Line(each, ink, gap=0 if number else 3) for number, each in enumerate(wrap(text, width, SMALL, scale))]
 
 

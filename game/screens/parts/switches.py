@@ -13,7 +13,7 @@ REPORT_SECONDS = 2.5  # duration of the line about a switch
 
 
 class Switches:
-    """Switches of the scene. A change is input of the next step, so that a recording contains it.
+    """Switches for the simulation of a scene. A change is input of the next step, so that a recording contains it.
 
     way: 1 selects the next choice, -1 the previous one.
     """
@@ -43,7 +43,7 @@ class Switches:
             self.report("each world here has a broad phase of its own")
 
     def substeps(self, way: int) -> None:
-        """Change to the next number of substeps (`way` 1) or the previous one (-1)."""
+        """Select the next (`way` 1) or the previous (-1) of the numbers of substeps in SUBSTEPS."""
         now = self.scene.worlds[0].substeps
         self._switch("substeps", "substeps", following(SUBSTEPS, now, way), now)
 
