@@ -276,7 +276,7 @@ class Body(Handle):
         return both[np.lexsort((both["shape_b"], both["shape_a"]))]
 
     def carve(self, shape: Shape, pose: Pose, crumb: int = 4) -> Carved:
-        """Remove the pixels of the body's masks whose centres lie inside a shape, or on its boundary. Return a Carved.
+        """Remove from the body's masks all pixels with centres inside a shape, or on its boundary. Return a Carved.
 
         shape: a Circle, Capsule, Polygon or PixelMask. pose: its pose in the world, (x, y) or (x, y, angle). Pieces are
         8-connected. In a dynamic body, each carved mask keeps only its largest piece. In a body of another kind, pieces

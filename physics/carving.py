@@ -27,7 +27,7 @@ class Carved(NamedTuple):
 
 
 def carve(world: WorldState, identity: int, shape: object, pose: object, crumb: object) -> Carved:
-    """Remove the pixels of a body's masks whose centres lie inside a shape at a world pose, or on its boundary.
+    """Remove from a body's masks all pixels with centres inside a shape at a world pose, or on its boundary.
 
     identity: id of the body. The other arguments, the errors and the result are as in Body.carve, except that
     `fragments` holds ids instead of Bodies.
@@ -68,7 +68,8 @@ def carve(world: WorldState, identity: int, shape: object, pose: object, crumb: 
 def _tool_in(mask, frame, shape, pose):
     """Return (tool, box): a function that finds the pixels of a mask tile inside a shape, and the shape's AABB.
 
-    The AABB [px] is in the raster of the mask. frame, pose: poses of the mask's body and of the shape in the world.
+    tool: see pixel_tiles.Tool. box [px]: the AABB in the raster of the mask. frame, pose: poses of the mask's body and
+    of the shape in the world.
     """
     corners = shape.points if shape._is_convex else rectangle(*(shape.bounds or (0.0, 0.0, 0.0, 0.0)))
     radius = shape.radius if shape._is_convex else 0.0
@@ -90,7 +91,7 @@ def _in_raster(mask, frame, x, y):
 
 
 def _mask_tool(mask, frame, shape, pose) -> Tool:
-    """Return a function that finds the pixels of `mask` whose centres lie in solid pixels of the mask `shape`.
+    """Return a Tool (see pixel_tiles) that finds the pixels of `mask` with centres in solid pixels of `shape`, a mask.
 
     frame, pose: poses of the body of `mask` and of `shape` in the world.
     """

@@ -19,7 +19,12 @@ NICE = 10  # niceness from 0 to 19: the program has priority over this process
 
 
 def answer(order: tuple) -> Any:
-    """Run one order and return its answer. The module's docstring describes both."""
+    """Carry out an order of the program that started this worker, and return the answer.
+
+    ("compile", spec, keys) compiles a kernel (see tiers.spec_of) for arguments of the types `keys` and stores it; the
+    answer is its name in the store. ("list", arguments of physics.warmup) finds the kernels of that warm-up that are
+    not in the store; the answer is a list of (name, spec, keys).
+    """
     from physics.effects import Effects
     from physics.jit import compiling, tiers
     from physics.warmup import run_warmup
@@ -34,7 +39,10 @@ def answer(order: tuple) -> Any:
 
 
 def main() -> None:
-    """Answer orders until standard input ends, then end the process immediately, even during an order."""
+    """Read orders from standard input and write their answers, until the input ends.
+
+    The process then ends at once, even during an order.
+    """
     from physics.jit.workers import decoded, encoded
 
     with contextlib.suppress(OSError, AttributeError):

@@ -165,7 +165,7 @@ def replace_mask(
 
     place: index of the shape in the body; shape_id: id of the shape; changed: tiles in which the masks may differ,
     None: all. Bodies that touch changed parts wake. Contacts on unchanged parts keep their cached forces. O(changes),
-    and a few passes over the SHAPE rows.
+    and a few passes over the SHAPE rows. identity: id of the body.
     """
     at, shapes = world._row_number(identity), world.shapes
     body, used = world.bodies[at : at + 1], list(world._shapes_of[identity])
@@ -425,7 +425,7 @@ def refresh_pose(world: WorldState, identity: int, at: int) -> int:
 
 
 def shape_ids(world: WorldState, identity: int) -> tuple[int, ...]:
-    """Return the ids of a body's shapes, in the order of the shapes."""
+    """Return the ids of a body's shapes, in the order of the shapes. identity: id of the body."""
     at = world._row_number(identity)
     own = world.shapes[world._shape_rows(at)]
     return tuple(own["id"][own["role"] != PART].tolist())
@@ -703,13 +703,13 @@ def _own_rows(world, identity, own) -> np.ndarray:
 
 
 def material_of(world: WorldState, identity: int) -> Material:
-    """Return the material of a body. Shapes without a material of their own have it."""
+    """Return the material of a body. Shapes without a material of their own have it. identity: id of the body."""
     given = world._definitions.rows[world._row_number(identity)]
     return Material(*(given[name].item() for name in MATERIAL))
 
 
 def filter_of(world: WorldState, identity: int) -> Filter:
-    """Return the collision filter of a body. Shapes without a filter of their own have it."""
+    """Return the collision filter of a body. Shapes without a filter of their own have it. identity: id of the body."""
     given = world._definitions.rows[world._row_number(identity)]
     return Filter(given["membership"].item(), given["mask"].item())
 
@@ -758,7 +758,7 @@ def set_continuous(world: WorldState, identity: int, value: str) -> None:
 def set_fixed_rotation(world: WorldState, identity: int, value: bool) -> None:
     """Set whether impulses leave the rotation unchanged. True also stops the rotation.
 
-    Raises TypeError if not a bool.
+    Raises TypeError if not a bool. identity: id of the body.
     """
     world._unlocked()
     value, row = checks.flag("fixed_rotation", value), world._body_row(identity)

@@ -58,6 +58,7 @@ def find_movable(ids, motions, limit, bodies, rows_out, dynamic_out, marks_inout
     The result is -1 for any fault: an id that is absent or listed twice, a number that is not finite, a position of at
     least `limit` [px], or a velocity of a static body. ids, rows_out, dynamic_out (n,) int64; marks_inout (bodies,)
     bool: scratch, all False before and after the call. O(n) if no body was ever removed, otherwise O(n log bodies).
+    motions: see Motions.
     """
     found = 0
     known = 0
@@ -95,7 +96,7 @@ def place_bodies(rows, motions, runs, shapes, bodies_inout, proxies_inout):
 
     Return the number of bodies whose shape rows are not consecutive (SCATTERED). If it is not 0, the caller must mark
     the proxies of these bodies. rows: row numbers in BODY; runs: RUN table. O(shapes of these bodies) if no shape was
-    ever removed, otherwise O(log shapes) more for each body. proxies_inout: PROXY table.
+    ever removed, otherwise O(log shapes) more for each body. proxies_inout: PROXY table; motions: see Motions.
     """
     scattered = 0
     for k in range(len(rows)):
@@ -162,7 +163,7 @@ def _numbers(name, value, count, width=2) -> np.ndarray:
 
 
 def _explain(world, ids, motions):
-    """Find the first invalid argument of move, and raise its error."""
+    """Find the first invalid argument of move, and raise its error. motions: see Motions."""
     checks.ids("ids", ids)
     rows = world.rows(ids)
     positions = checks.columns("positions", motions.positions)

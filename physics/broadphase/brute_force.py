@@ -79,7 +79,7 @@ class BruteForce:
         return BruteForce(self.incremental)
 
     def update(self, arena: Arena) -> None:
-        """Do nothing: this broad phase stores nothing between steps."""
+        """Do nothing: this broad phase stores nothing between steps. arena: see proxies.Arena."""
 
     def query(self, arena: Arena) -> Query:
         """Return a function (pairs, work) -> count, which writes the pairs with a changed proxy to `pairs`.

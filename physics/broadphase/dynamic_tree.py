@@ -596,7 +596,7 @@ class DynamicTree:
         """Return which trees are to be rebuilt: two flags, for the moving and the static tree.
 
         A tree is rebuilt if most of its proxies have changed. Then a rebuild costs less than moving each leaf, and
-        gives a better tree.
+        gives a better tree. arena: see proxies.Arena.
         """
         still = arena.proxies["still"]
         total = np.bincount(still[self.leaf_of[: len(still)] >= 0], minlength=2)

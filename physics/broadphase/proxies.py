@@ -236,7 +236,7 @@ def drop_apart(proxies, count, apart, pairs_inout, work_inout):
     """Drop the pairs of slots whose bodies must never pair. Return the number of remaining pairs. O(pairs log apart).
 
     apart: keys of the pairs of bodies, see PairList.keep_apart; pairs_inout (capacity, 2) int32: slots, of which the
-    first `count` pairs are in use; work_inout: counters, see COUNTERS.
+    first `count` pairs are in use; work_inout: counters, see COUNTERS; proxies: PROXY table.
     """
     kept = 0
     for i in range(count):
@@ -263,7 +263,7 @@ def pair_keys(proxies, pairs, count, pairs_inout, keys_out):
     """Put the slot with the lower SHAPE row first in each pair, and write the key by which pairs are sorted. O(pairs).
 
     pairs, pairs_inout: the same (capacity, 2) int32 array of slots, of which the first `count` are in use; keys_out
-    int64: low row << 32 | high row.
+    int64: low row << 32 | high row; proxies: PROXY table.
     """
     for i in range(count):
         a = pairs[i, 0]
@@ -419,7 +419,7 @@ def update_rectangles(rows, geometry, bodies, reach, shapes_inout, proxies_inout
 def list_outside(rows, bodies, shapes, proxies, rows_out):
     """List the shapes whose AABB, or the drawn pixels of a mask, extend beyond their swept AABB. Return their number.
 
-    rows: row numbers in SHAPE to test; rows_out: row numbers found. O(rows).
+    rows: row numbers in SHAPE to test; rows_out: row numbers found. O(rows). proxies: PROXY table.
     """
     found = 0
     for k in range(len(rows)):

@@ -134,7 +134,7 @@ def put_in(proxies, slot, level, base, cells_inout, work_inout):
     """Link a proxy (slot) into the lists of the cells that its box touches, at most four, and of its level. O(1).
 
     level: level whose cells are at least as large as the box; base [px]: cell size on level 0; work_inout: counters,
-    see COUNTERS. cells_inout: see Cells.
+    see COUNTERS. cells_inout: see Cells; proxies: PROXY table.
     """
     p = proxies[slot]
     heads = cells_inout.heads
@@ -441,7 +441,7 @@ class SpatialHashGrid:
         """Move the changed proxies to their cells.
 
         The hash table is enlarged when it has fewer buckets than proxies. The cell size is tuned again when the number
-        of proxies has doubled, or when most proxies are on coarse levels.
+        of proxies has doubled, or when most proxies are on coarse levels. arena: see proxies.Arena.
         """
         proxies = arena.proxies
         changed = arena.changed

@@ -25,7 +25,7 @@ def refresh_order(proxies, axis, order_inout, lower_out):
     """Remove freed slots from the order, and read the lower ends of the boxes along the axis. O(n).
 
     Return the number of remaining slots. axis: 0 for x, 1 for y; order_inout: slots; lower_out [px]: lower ends, in
-    this order.
+    this order; proxies: PROXY table.
     """
     count = 0
     for i in range(len(order_inout)):
@@ -69,7 +69,7 @@ def sort_boxes(proxies, order, count, axis, boxes_out, next_changed_out):
 
     order: slots in sorted order, of which the first `count` are in use; axis: 0 for x, 1 for y. boxes_out (n, 4)
     float64 [px]: low and high end along the axis, then along the other axis. next_changed_out (n,): for each position
-    in the order, the position of the next changed proxy after it.
+    in the order, the position of the next changed proxy after it; proxies: PROXY table.
     """
     following = count
     for k in range(count):
@@ -161,7 +161,7 @@ def intersect(proxies, keys_x, count_x, keys_y, count_y, pairs_out, work_inout):
     """Write the pairs that are in both sorted lists of keys, if may_meet allows them. Return their number. O(keys).
 
     keys_x, keys_y: the lists, see sweep_intervals; count_x, count_y: their lengths; pairs_out (capacity, 2) int32:
-    pairs of slots; work_inout: counters, see COUNTERS.
+    pairs of slots; work_inout: counters, see COUNTERS; proxies: PROXY table.
     """
     found = 0
     i, j = 0, 0
@@ -227,7 +227,7 @@ class Axis:
         self.highest = None  # running maximum of the upper ends; None until a query needs it
 
     def update(self, arena: Arena) -> None:
-        """Add new proxies to the order, remove freed ones, and sort it again."""
+        """Add new proxies to the order, remove freed ones, and sort it again. arena: see proxies.Arena."""
         proxies, changed = arena.proxies, arena.changed
         if len(self.known) < len(proxies):
             self.known = np.concatenate([self.known, np.zeros(len(proxies) - len(self.known), bool)])
@@ -264,7 +264,8 @@ class Axis:
     def intervals(self, arena: Arena, work: np.ndarray) -> tuple[np.ndarray, int]:
         """Return (keys, count): the sorted keys of the pairs with a changed proxy that overlap along this axis.
 
-        Only the first `count` keys are valid; they are those of sweep_intervals. work: counters, see COUNTERS.
+        Only the first `count` keys are valid; they are those of sweep_intervals. work: counters, see COUNTERS; arena:
+        see proxies.Arena.
         """
         before = work.copy()
         count = sweep_intervals(
@@ -309,6 +310,7 @@ class SweepAndPrune:
         """Move the changed proxies to their positions in the order.
 
         With axes "auto", the axis is chosen again every AXIS_INTERVAL updates, and whenever most proxies are new.
+        arena: see proxies.Arena.
         """
         self.updates += 1
         if self.axes == "auto" and (

@@ -20,10 +20,10 @@ from physics.tables.step_state import TOI_CALLS
 
 @subkernel
 def is_fast(bodies, paths, row, other):
-    """Return whether a dynamic body moves so far relative to a kinematic body that it may pass through it.
+    """Return whether a dynamic and a kinematic body move so far relative to each other that one may miss the other.
 
-    This is so if a point may move by more than the dynamic body's inradius. row, other: row numbers in BODY of the
-    dynamic and the kinematic body; paths: see Sweep.
+    This is so if a point of the dynamic body may move, relative to the kinematic body, by more than the dynamic body's
+    inradius. row, other: row numbers in BODY of the dynamic and the kinematic body; paths: see Sweep.
     """
     b = bodies[row]
     if b.kind != DYNAMIC or bodies[other].kind != KINEMATIC or b.continuous == OFF or b.quarantined:
@@ -92,7 +92,7 @@ def sweep_pair(row, other, dt, sweep, scratch):
     """Return the first impact (fraction of dt, nx, ny) of two shapes within dt [s]; MISS without one.
 
     The normal points from `other` to `row`. row, other: row numbers in SHAPE; both bodies move at their velocities
-    without rotation. scratch: a Workspace.
+    without rotation. scratch: a Workspace; sweep: see Sweep.
     """
     geometry, bodies, shapes, slack = sweep.geometry, sweep.bodies, sweep.shapes, sweep.slack
     s, o = shapes[row], shapes[other]
@@ -445,9 +445,10 @@ def move_back(rows, paths, gravity_x, gravity_y, dt, bodies_inout):
 
 @subkernel
 def is_ray(body, other):
-    """Return whether a body is swept against another as a ray from its centre, not with its outline.
+    """Return whether the sweep of a body against another body uses a ray from its centre instead of its outline.
 
-    body, other: BODY rows. A static body is not, nor is any body against one in mode "swept" or "toi".
+    It does for a body in mode "ray" that is not static, unless the other body is in mode "swept" or "toi". body, other:
+    BODY rows.
     """
     return body.continuous == RAY and body.kind != STATIC and other.continuous != SWEPT and other.continuous != TOI
 

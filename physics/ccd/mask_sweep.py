@@ -127,7 +127,7 @@ def sweep_on_pieces(mover, depth, body, squares, span, hull, workspace, best_out
     impact. A negative `depth` asks for the deepest overlap [px] at the start: it is returned, and nothing is swept.
     Otherwise 0 is returned. body: BODY row of the other shape; span: result of pieces_of for the other shape; hull: the
     only piece of the other shape if it is not a mask, with the corners in workspace.advance.local_b. best_out (5,):
-    first impact so far, see sweep_squares. O(nearby pieces).
+    first impact so far, see sweep_squares. O(nearby pieces). squares: see Squares.
     """
     r = workspace.advance
     first, pieces, are_squares = span
@@ -251,7 +251,8 @@ def first_shared(row, other, squares, sweep_inout, best_out):
     """Write the first overlap in the step of two shapes, at least one of them a mask, to best_out (5,).
 
     best_out: as in sweep_squares, but with the fraction of the step. Each body moves along its path up to its
-    BODY.fraction of the step, and then rests. row, other: row numbers in SHAPE. sweep_inout: see Sweep.
+    BODY.fraction of the step, and then rests. row, other: row numbers in SHAPE. sweep_inout: see Sweep; squares: see
+    Squares.
     """
     bodies, paths, cuts = sweep_inout.bodies, sweep_inout.paths, sweep_inout.cuts
     p, q = sweep_inout.shapes[row].body_row, sweep_inout.shapes[other].body_row

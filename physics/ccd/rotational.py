@@ -239,7 +239,7 @@ def swept_box(reach, motion_a, motion_b):
 def feet_of(mover, local_y, workspace):
     """Return the y [px] of the mover's lowest point at the start, relative to the origin of a tile grid.
 
-    local_y [px]: y of the grid's centre of mass in its body space.
+    local_y [px]: y of the grid's centre of mass in its body space; workspace: see RotationalWorkspace.
     """
     motion = workspace.advance.motion_a
     cosine, sine = math.cos(motion[ANGLE]), math.sin(motion[ANGLE])
@@ -274,7 +274,7 @@ def sweep_tiles(geometry, grid, local, mover, one_way, but, workspace):
 
     The normal points from the tiles to the mover. grid: row of geometry.grids; local: centre of mass (x, y) [px] of the
     grid in its body space (a grid does not rotate); one_way: whether one-way tiles stop motion from above; but: feature
-    id to ignore, or -1. O(cells in the mover's swept AABB).
+    id to ignore, or -1. O(cells in the mover's swept AABB). workspace: see RotationalWorkspace.
     """
     local_x, local_y = local
     g = geometry.grids[grid]
@@ -347,7 +347,8 @@ def is_before(link, local, middle, fraction, core, workspace):
 
     One point of the mover decides: `middle` [px], relative to its centre of mass at angle 0, or if `core` is True the
     centre of mass itself. The point may lie beyond an end of the link at which the chain bends towards its front. Then
-    it must also be in front of the neighbouring link. link: LINK row; local: see sweep_chain.
+    it must also be in front of the neighbouring link. link: LINK row; local: see sweep_chain; workspace: see
+    RotationalWorkspace.
     """
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
@@ -388,7 +389,8 @@ def misses_block(block, local, box):
 def depth_in_chain(geometry, chain, local, middle, mover, workspace):
     """Return how deep [px] the mover is at the start in the chain's links that face it, see is_before.
 
-    It is the greatest depth in any of these links. geometry, chain, local: see sweep_chain.
+    It is the greatest depth in any of these links. geometry, chain, local: see sweep_chain; workspace: see
+    RotationalWorkspace.
     """
     span = geometry.chains[chain]
     motion = workspace.advance.motion_a
@@ -418,7 +420,7 @@ def depth_in_chain(geometry, chain, local, middle, mover, workspace):
 def starts_across(geometry, chain, local, mover, workspace):
     """Return whether the mover lies across a one-way surface at the start by more than its slack. Then it may pass.
 
-    chain: row of geometry.chains; local: see sweep_chain.
+    chain: row of geometry.chains; local: see sweep_chain; workspace: see RotationalWorkspace.
     """
     count, radius, _, slack = mover
     motion = workspace.advance.motion_a
@@ -435,7 +437,8 @@ def sweep_chain(geometry, chain, local, mover, but, workspace):
     """Return the first impact of the mover with a chain's front as (fraction of the motion or MISS, nx, ny, feature).
 
     The normal points from the chain to the mover. chain: row of geometry.chains; local: centre of mass (x, y) [px] of
-    the chain's body in body space; but: feature id to ignore, or -1. O(links near the path).
+    the chain's body in body space; but: feature id to ignore, or -1. O(links near the path). workspace: see
+    RotationalWorkspace.
     """
     middle = middle_of(workspace.mover, mover.count)
     return sweep_chain_seen_from(geometry, chain, local, middle, mover, but, workspace)
@@ -446,7 +449,7 @@ def sweep_chain_seen_from(geometry, chain, local, middle, mover, but, workspace)
     """Do the same as sweep_chain for a mover that is one piece of a larger moving shape.
 
     middle: point (x, y) [px] of the whole shape, relative to its centre of mass at angle 0. A link is hit only if this
-    point is in front of it.
+    point is in front of it. workspace: see RotationalWorkspace.
     """
     span = geometry.chains[chain]
     other = workspace.advance.motion_b
@@ -672,7 +675,7 @@ def advance_on_ground(geometry, ground, is_chain, a, workspace, impact_out):
     """Write the first impact of a shape made of parts with a tile grid or chain to impact_out (3,), see advance_parts.
 
     ground: row of geometry.grids, or of geometry.chains if is_chain is 1; a: Parts of the shape. Tiles are hit only on
-    sides that no other tile covers, a chain only from its front.
+    sides that no other tile covers, a chain only from its front. workspace: see RotationalWorkspace.
     """
     begin_sweep(workspace, impact_out)
     for i in range(len(a.counts)):

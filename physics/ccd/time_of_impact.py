@@ -65,7 +65,7 @@ def cast_on_polygon(corners, count, edges, x, y, dx, dy):
 
     x, y [px]: start of the ray; dx, dy [px]: vector from its start to its end; edges: bit k is set if edge k may be
     hit. The ray is clipped by the half plane of each edge, so that it cannot pass between two edges (Cyrus and Beck
-    1978).
+    1978). count: number of corners.
     """
     enter = -1.0
     leave = 1.0
@@ -93,7 +93,8 @@ def sweep_circle_polygon(corners, count, edges, x, y, dx, dy, radius):
     """Return the first impact of a moving disc with a polygon at rest as (fraction of the motion or MISS, nx, ny).
 
     The normal points from polygon to disc. x, y, radius [px]: centre and radius of the disc; radius 0 means a ray; dx,
-    dy [px]: its motion; edges: bits of the edges (low 16) and corners (next 16) that may be hit.
+    dy [px]: its motion; edges: bits of the edges (low 16) and corners (next 16) that may be hit; count: number of
+    corners.
     """
     hit, nx, ny, _, _, separation, _ = collide_polygon_circle(corners, count, edges, x, y, radius)
     if hit and separation <= 0.0:
@@ -226,7 +227,8 @@ def new_advance_workspace() -> AdvanceWorkspace:
 def place_at(local, count, motion, fraction, x, y, corners_out):
     """Write a hull's corners [px] at a fraction of its motion, relative to the world point (x, y), to corners_out.
 
-    local (16, 2) [px]: corners relative to the centre of rotation at angle 0; motion (6,): see AdvanceWorkspace.
+    local (16, 2) [px]: corners relative to the centre of rotation at angle 0; motion (6,): see AdvanceWorkspace; count:
+    number of corners.
     """
     angle = motion[ANGLE] + fraction * motion[TURN]
     cosine, sine = math.cos(angle), math.sin(angle)
@@ -303,7 +305,7 @@ def free_motion(a_count, b_count, radii, fraction, separation, workspace):
 
     The bound is the time until any two corners can meet along the present normal. separation [px]: separation of the
     hulls at `fraction`; no pair of corners is regarded as nearer. radii [px]: sum of both radii. O(corners of A ·
-    corners of B).
+    corners of B). workspace: see AdvanceWorkspace.
     """
     nx, ny = workspace.gap.gap[NX], workspace.gap.gap[NY]
     x, y = workspace.motion_a[CENTER_X], workspace.motion_a[CENTER_Y]
@@ -351,7 +353,8 @@ def speed_of(motion, seen_from, fraction, x, y, nx, ny):
 def touching_span(corners, count, nx, ny, side, band):
     """Return the interval (low, high) [px] along the tangent (-ny, nx) that a hull's touching face or corner covers.
 
-    The touching corners are those farthest in the direction side · (nx, ny), up to a difference of `band` [px].
+    The touching corners are those farthest in the direction side · (nx, ny), up to a difference of `band` [px]. count:
+    number of corners.
     """
     furthest = -math.inf
     for k in range(count):

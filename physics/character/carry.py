@@ -181,7 +181,7 @@ def carried_by(way, stopped):
 
 @subkernel
 def carry_riders(along_x, walk_inout):
-    """Move each character that stands on a carried character by the same pixels, and so on up a stack.
+    """Move each character that stands on a moved character by the same number of pixels, and so on up a stack.
 
     along_x: 1 for the x axis, 0 for the y axis. walk_inout: see solids.Walk.
     """
@@ -296,7 +296,7 @@ def pixels_carried(me, row, along_x, walk_inout):
 
 @subkernel
 def step_down(me, walk_inout):
-    """Move a character down to ground that has sunk, by no more than it may drop when it walks one pixel.
+    """Move a character down to its ground if the ground has sunk by no more than a walk of one pixel may drop.
 
     me: CHARACTER row. walk_inout: see solids.Walk.
     """

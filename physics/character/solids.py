@@ -119,7 +119,7 @@ def judge(c, kind, beyond, nx, ny, way_x, way_y):
 def place_outline(walk, me, left, top):
     """Write the corners [px] of a character's outline, with its box at pixel (left, top), to scratch.mine.
 
-    me: CHARACTER row. Return (number of corners, rounding radius [px]).
+    me: CHARACTER row. Return (number of corners, rounding radius [px]). walk: see Walk.
     """
     c = walk.characters[me]
     if c.is_box:
@@ -207,7 +207,7 @@ def meet(walk, row, count, radius):
 
     nx, ny: unit normal from the character; x, y: contact point. row: row number in SHAPE; count, radius: result of
     place_outline. The depth is 0 if the two are apart, or if a neighbouring part of the shape has the nearer surface;
-    then scratch.points[0] is COVERED_OVERLAP.
+    then scratch.points[0] is COVERED_OVERLAP. walk: see Walk.
     """
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -239,7 +239,7 @@ def link_depth(walk, row, link, drops, count, radius):
 
     The depth is 0 if the link lets the character pass: if it is deeper than deepest_on, because it began at the back of
     the link; and, with `drops`, for a level link or a one-way surface. row, link: row numbers in SHAPE and LINK; count,
-    radius: result of place_outline, which writes the outline.
+    radius: result of place_outline, which writes the outline; walk: see Walk.
     """
     b = walk.bodies[walk.shapes[row].body_row]
     scratch = walk.scratch
@@ -256,7 +256,7 @@ def link_depth(walk, row, link, drops, count, radius):
 def is_across(walk, me, row, left, top):
     """Return whether a character, with its box at pixel (left, top), lies across a one-way surface and so passes it.
 
-    The result is False for a chain that is not the surface of a one-way mask.
+    The result is False for a chain that is not the surface of a one-way mask. walk: see Walk.
     """
     s = walk.shapes[row]
     if s.role != PART:
@@ -616,7 +616,7 @@ def round_half_up(value):
 
 @subkernel
 def is_box(walk, row):
-    """Return whether a shape is an axis-aligned box at the present pose of its body."""
+    """Return whether a shape is an axis-aligned box at the present pose of its body. walk: see Walk."""
     s = walk.shapes[row]
     if s.kind == BOUNDS:
         return True
@@ -644,7 +644,7 @@ def is_loose(walk, row):
 
 @subkernel
 def aabb_of(walk, row):
-    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a shape at the present pose of its body."""
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a shape at the present pose of its body. walk: see Walk."""
     b = walk.bodies[walk.shapes[row].body_row]
     return aabb_at(walk.geometry, walk.shapes, row, b.x, b.y, b.angle)
 
@@ -724,7 +724,7 @@ def gather(walk, me, without, reach_x, reach_up, reach_down, rows_out):
     """List the shapes that may block a character, within reach_x, reach_up, reach_down [px] of its box. O(nearby rows).
 
     rows_out: the number of shapes, then their rows; a loose shape is listed as -1 - row. without: body row to leave out
-    (the platform that moves the character), or -1.
+    (the platform that moves the character), or -1; walk: see Walk.
     """
     c = walk.characters[me]
     own = walk.shapes[c.shape_row]

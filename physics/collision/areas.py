@@ -53,7 +53,8 @@ def outline_of_part(geometry, bodies, shapes, row, part, workspace):
 def area_in_part(geometry, bodies, shapes, mask, other, part, workspace):
     """Return the area [px2] that a mask shares with one part of a tile grid or chain.
 
-    mask, other: row numbers in SHAPE of the mask and of the grid or chain; part: see outline_of_part.
+    mask, other: row numbers in SHAPE of the mask and of the grid or chain; part: see outline_of_part; workspace:
+    scratch memory.
     """
     count = outline_of_part(geometry, bodies, shapes, other, part, workspace)
     s = shapes[mask]
@@ -66,7 +67,8 @@ def area_in_part(geometry, bodies, shapes, mask, other, part, workspace):
 def count_areas(geometry, bodies, shapes, workspace, manifolds_inout):
     """Compute area_1 and area_2 [px2] again, at the present poses, in every CONTACT row whose area_1 is not 0.
 
-    area_2 is written only for the second point of a contact with tiles or a chain. O(shared pixels).
+    area_2 is written only for the second point of a contact with tiles or a chain. O(shared pixels). workspace: scratch
+    memory.
     """
     for i in range(len(manifolds_inout)):
         m = manifolds_inout[i]
@@ -97,7 +99,7 @@ def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:
     The rows name whole shapes, not the parts that touch. The area is 0 if neither shape is a mask, or if no pixels
     overlap. Each point has the area of the whole pair. Against tiles and chains it has the area in the touched run or
     link only. In worlds without contact response, a step only tests whether two masks overlap. For these contacts this
-    function also computes point, normal and depth.
+    function also computes point, normal and depth. tables: a World or StepState.
     """
     whole, _ = by_parent(manifolds)
     shapes = tables.shapes
@@ -123,10 +125,10 @@ def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:
 
 @kernel
 def put_back(full, places, manifolds_out):
-    """Copy each row of `full` over the row of manifolds_out that belongs to the same pair.
+    """Copy CONTACT rows over the rows of the same pairs in manifolds_out.
 
-    full, manifolds_out: CONTACT rows; places (pairs,): row number in manifolds_out for each value of `candidate` in
-    `full`.
+    full: the CONTACT rows to copy; manifolds_out: CONTACT rows; places (pairs,): for each candidate pair (column
+    `candidate`), the number of its row in manifolds_out.
     """
     for i in range(len(full)):
         copy_manifold(full, i, places[full[i].candidate], manifolds_out)
@@ -149,7 +151,7 @@ def _told_in_full(tables, manifolds):
 def _rows(shapes, manifolds, side):
     """Return the present SHAPE row number of each contact's shape on one side, "a" or "b"; -1 for a removed shape.
 
-    The row numbers that the step stored are used, unless shapes were added or removed since.
+    The row numbers that the step stored are used, unless shapes were added or removed since. manifolds: CONTACT rows.
     """
     rows, ids = np.minimum(manifolds["row_" + side], len(shapes) - 1), manifolds["shape_" + side]
     return rows if np.array_equal(shapes["id"][rows], ids) else rows_of(shapes, ids)

@@ -568,7 +568,8 @@ def lies_across(geometry, chain, x, y, angle, hull, most, line_out):
 def was_across(batch, surface, other, most, workspace):
     """Return whether a shape lay across a one-way surface by more than `most` [px], at the poses before the step.
 
-    surface, other: row numbers in SHAPE of the surface and of the shape; batch: see manifold.Batch.
+    surface, other: row numbers in SHAPE of the surface and of the shape; batch: see manifold.Batch. workspace: scratch
+    memory.
     """
     s, o = batch.shapes[surface], batch.shapes[other]
     p, q = batch.bodies[s.body_row], batch.bodies[o.body_row]

@@ -350,7 +350,7 @@ def add_circle_on_piece(batch, pair, meeting, disc, contact, workspace, manifold
 
     meeting: the predicted contact; disc: (x, y, radius) at this contact; contact: the tuple returned by
     hulls.collide_hull_circle or chains.collide_link_circle for this position. pair, manifolds_out, found: see
-    manifold.add_manifold. batch: see manifold.Batch.
+    manifold.add_manifold. batch: see manifold.Batch. workspace: scratch memory.
     """
     travel, sign = meeting.travel, meeting.sign
     hit, nx, ny, x, y, separation, feature = contact

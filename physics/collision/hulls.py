@@ -110,7 +110,7 @@ class Hull(NamedTuple):
 
 @subkernel
 def edge_normal(corners, count, k):
-    """Return the outward unit normal of hull edge k; (0, -1) if the edge has no length."""
+    """Return the outward unit normal of hull edge k; (0, -1) if the edge has no length. count: number of corners."""
     n = k + 1 if k + 1 < count else 0
     dx = corners[n, 0] - corners[k, 0]
     dy = corners[n, 1] - corners[k, 1]
@@ -137,7 +137,7 @@ def is_normal_at_corner(corners, count, edges, corner, nx, ny):
     At a corner that is not touchable (covered by a neighbouring part of the same shape) no normal is valid. At some
     corners only one edge is on the outline of the whole shape. There the normal may deviate from the normal of this
     edge by at most the angle stored in `edges`. At all other corners every normal is valid. corner: index of the
-    corner; edges: bits, see ALL_EDGES.
+    corner; edges: bits, see ALL_EDGES; count: number of corners.
     """
     if (edges >> (16 + corner)) & 1 == 0:
         return False
@@ -551,7 +551,8 @@ def corner_manifold(a, i, b, j, limit, manifold_out):
 def ends_face(corners, count, edges, corner, nx, ny):
     """Return whether a corner is an end of a touchable edge whose normal is within 6 degrees of (nx, ny).
 
-    nx, ny: unit vector; corner: index of the corner; edges: bits of the touchable edges and corners, see ALL_EDGES.
+    nx, ny: unit vector; corner: index of the corner; edges: bits of the touchable edges and corners, see ALL_EDGES;
+    count: number of corners.
     """
     for back in range(2):
         side = corner if back == 0 else (corner - 1 if corner > 0 else count - 1)
@@ -596,7 +597,7 @@ def pushing_edges(a, b, over_ends):
 
 @subkernel
 def overlaps_edge(hull, edge, other):
-    """Return whether an edge of `hull` and the Hull `other` overlap when both are projected onto the edge's line."""
+    """Return whether an edge (index) of `hull` and the Hull `other` overlap when projected onto the edge's line."""
     corners = hull.corners
     others = other.corners
     following = edge + 1 if edge + 1 < hull.count else 0

@@ -311,7 +311,7 @@ def make_pass(kind: int, collide_pair: Callable, may_touch: Callable = always) -
 def sides_by_kind(batch, pair, kind):
     """Return (sign, row number of the pair's shape of this kind, row number of the other shape).
 
-    sign: 1.0 if the shape of this kind is A, -1.0 if it is B. pair: index of the candidate.
+    sign: 1.0 if the shape of this kind is A, -1.0 if it is B. pair: index of the candidate; batch: see manifold.Batch.
     """
     row_a = batch.candidates[pair, 0]
     row_b = batch.candidates[pair, 1]

@@ -126,7 +126,7 @@ def write_fallback(batch, pairs, last_x, last_y, workspace, starts_out, faces_ou
 
     Return 1, or 0 if no such contact exists. pairs: indices of the candidates whose sides are overlapping parts of A
     and B; last_x, last_y: unit normal of the last step, or (0, 0); starts_out (pairs + 1,), faces_out (FACES · pairs,
-    4): scratch. O(faces²). manifolds_out: CONTACT rows; batch: see manifold.Batch.
+    4): scratch. O(faces²). manifolds_out: CONTACT rows; batch: see manifold.Batch. workspace: scratch memory.
     """
     starts_out[0] = 0
     for k in range(len(pairs)):
@@ -237,7 +237,7 @@ def fallback_manifolds(batch: Batch, found: np.ndarray, previous: np.ndarray, wo
     A pair gets one if it has no overlapping contact. It also gets one if its contacts are deeper than the margin,
     because these may push along a wall instead of out of it. found: contacts of this step; previous: contacts of the
     last step, whose normals are preferred so that the direction of the push does not alternate; batch: see
-    manifold.Batch.
+    manifold.Batch. workspace: scratch memory.
     """
     shapes = batch.shapes
     queued = np.sort(workspace.fallback[1 : 1 + workspace.fallback[0]])

@@ -587,7 +587,7 @@ def collide_mask_hull(raster, hull, depths_out):
 def bounds_overlap(batch, pair):
     """Return whether the bounds of the solid pixels of two masks overlap, both drawn on whole pixels (snap=True).
 
-    pair: index of the candidate.
+    pair: index of the candidate; batch: see manifold.Batch.
     """
     a = batch.shapes[batch.candidates[pair, 0]]
     b = batch.shapes[batch.candidates[pair, 1]]

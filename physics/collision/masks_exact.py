@@ -243,7 +243,7 @@ def collide_mask_shape(geometry, bodies, shapes, mask, other, workspace):
     """Collide a mask, with any `snap`, with a hull. Return (area, nx, ny, x, y, separation, feature).
 
     The values are those of collide_in_raster, but in the world. mask, other: row numbers in SHAPE of the mask and of
-    the hull.
+    the hull; workspace: scratch memory.
     """
     s = shapes[mask]
     if s.snap:

@@ -88,7 +88,8 @@ def collide_boxes(batch, which, manifolds_out, work_inout):
     """Write the contacts of the candidates from their AABBs alone. Return the number of contacts. O(candidates).
 
     The normal is the axis along which the AABBs overlap least, the point is the middle of the overlap. which: ALL,
-    NO_SENSORS, SOLIDS or SENSORS. manifolds_out: CONTACT rows; work_inout: counters, see COUNTERS.
+    NO_SENSORS, SOLIDS or SENSORS. manifolds_out: CONTACT rows; work_inout: counters, see COUNTERS; batch: see
+    manifold.Batch.
     """
     shapes, candidates = batch.shapes, batch.candidates
     found = 0
@@ -239,7 +240,7 @@ def remember_ground(batch, previous, memory_out):
 
     They show which bodies stood on one-way ground. previous: CONTACT rows of the last step, sorted by shape ids like
     the candidates; memory_out (count, 2): first row in `previous` and number of rows, for each pair. O(candidates +
-    previous).
+    previous). batch: see manifold.Batch.
     """
     j = 0
     for i in range(batch.count):
@@ -346,6 +347,7 @@ class NarrowPhase:
 
         previous: CONTACT rows of the last step, or None; recycled: number of contacts that are kept from the last step
         without a test. The caller has written them to the beginning of self.raw, and they are part of the result.
+        batch: see manifold.Batch.
         """
         workspace, counts = self.workspace, self.counts
         if self.one_way and (counts[GRID_ANY] or counts[SURFACE_ANY]):
@@ -373,7 +375,7 @@ class NarrowPhase:
 
         Return (number of contacts including the kept ones, number of passes made). The fallback counts as a pass if it
         added a contact. The contacts of one pass are in the order of the candidates, so that sorting is needed only
-        after several passes.
+        after several passes. workspace: scratch memory; batch: see manifold.Batch.
         """
         used = [run for kind, run in self.passes if counts[kind]]
         if len(workspace.fallback) < batch.count + 1:
@@ -426,7 +428,8 @@ class NarrowPhase:
     def _drop_seams(self, batch, previous, found) -> int:
         """Drop ghost contacts at seams between flush pieces of ground. Return the number of remaining contacts.
 
-        found: number of contacts in self.raw before; previous: CONTACT rows of the last step.
+        found: number of contacts in self.raw before; previous: CONTACT rows of the last step; batch: see
+        manifold.Batch.
         """
         bodies, rows = len(batch.bodies), found + len(previous)
         rows = max(rows, batch.count)

@@ -181,7 +181,7 @@ def is_behind_plane(batch, seam, support, workspace):
     """Return whether the piece of ground in contact `seam` lies behind the contact plane of contact `support`.
 
     Near the body, the piece may rise above the plane by the tolerance batch.graze [px]. seam, support: CONTACT rows of
-    the same dynamic body with two pieces of ground.
+    the same dynamic body with two pieces of ground; workspace: scratch memory.
     """
     shapes = batch.shapes
     side = ground_side(batch.bodies, shapes, seam)
@@ -222,7 +222,7 @@ def is_on_piece(batch, row, x, y, own_part, workspace):
     """Return whether the point (x, y) is on a shape of the ground, or within the tolerance batch.graze [px] of it.
 
     row: row number in SHAPE; own_part: a part of the shape to ignore (index of a link, or of a run's first cell), or
-    NONE.
+    NONE; workspace: scratch memory.
     """
     geometry = batch.geometry
     near = batch.graze
@@ -267,7 +267,8 @@ def is_covered(batch, seam, first, others, workspace):
     """Return whether each touching point of a contact also lies on another piece of ground.
 
     seam: CONTACT row of a dynamic body. first, others: linked list of this body's candidate pairs with ground: index of
-    the first pair, and array with the index of the next pair for each pair; batch: see manifold.Batch.
+    the first pair, and array with the index of the next pair for each pair; batch: see manifold.Batch. workspace:
+    scratch memory.
     """
     shapes = batch.shapes
     side = ground_side(batch.bodies, shapes, seam)
@@ -354,7 +355,7 @@ def drop_seams(batch, previous, count, workspace, contacts_out, ground_out, mani
     manifolds_inout: CONTACT rows, of which the first `count` are in use and keep their order. previous: CONTACT rows of
     the last step; those that are kept without a test in this step (see is_recycled) also count as supporting contacts.
     contacts_out, ground_out: scratch, BodyLists for contacts and candidates. O(contacts · contacts of a body). batch:
-    see manifold.Batch.
+    see manifold.Batch. workspace: scratch memory.
     """
     bodies = batch.bodies
     shapes = batch.shapes

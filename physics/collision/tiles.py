@@ -225,7 +225,7 @@ def pushing_edges_on_tile(corners, count, tile_edges):
 def touched_run(workspace, pair, run):
     """Return whether a candidate pair touched a run of tiles in the last step.
 
-    pair: index of the candidate; run: index of the run's first cell.
+    pair: index of the candidate; run: index of the run's first cell; workspace: see manifold.Workspace.
     """
     if pair >= len(workspace.memory):
         return False

@@ -493,7 +493,8 @@ def copy_kept(contacts, new_bodies, new_shapes, kept_out):
 def drop_contacts(tables: WorldTables, kept_bodies: np.ndarray, kept_shapes: np.ndarray) -> None:
     """Drop the contacts of removed bodies and shapes, and update the row numbers of the others.
 
-    kept_bodies, kept_shapes: bool for each row before the removal, False for a removed row.
+    kept_bodies, kept_shapes: bool for each row before the removal, False for a removed row; tables: a World or
+    StepState.
     """
     found = tables.contact_rows
     if len(found):

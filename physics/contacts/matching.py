@@ -419,7 +419,8 @@ class KeptImpulses:
     def transfer(self, tables: WorldTables, new: np.ndarray) -> None:
         """Detect the contacts of new shapes with bodies that touched the old shapes, and copy the kept forces to them.
 
-        O(pairs). new: row numbers of the new shapes. Call this method after the removal of the old shapes.
+        O(pairs). new: row numbers of the new shapes. Call this method after the removal of the old shapes. tables: a
+        World or StepState.
         """
         if not len(self.contacts):
             return

@@ -188,7 +188,7 @@ class Awake:
     def include(self, tables: WorldTables, rows: np.ndarray) -> None:
         """Add body rows to the lists and mark them as active. The broad phase searches their pairs again.
 
-        May be called during a step.
+        May be called during a step. tables: a World or StepState.
         """
         self.take_in(tables)
         self.bodies = distinct(np.concatenate([self.bodies, rows]), len(tables.bodies))
@@ -620,9 +620,9 @@ def sum_groups(rows, bodies, fall, groups_inout):
 
 @subkernel
 def choose_surface(root, nx, ny, groups_inout):
-    """Keep the surface into which a group accelerates most: take the new surface if it is pressed on more than the old.
+    """Store a surface as the one on which a group presses, if it accelerates into it more than into the stored one.
 
-    root: root row of the group; nx, ny: normal of the new surface, towards the group; groups_inout: Groups.
+    root: root row of the group; nx, ny: normal of the surface, towards the group; groups_inout: Groups.
     """
     g = groups_inout
     into = -(g.ax[root] * nx + g.ay[root] * ny)

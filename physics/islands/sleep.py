@@ -169,7 +169,7 @@ def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
     """Wake the islands of bodies, and the islands that touch them, before the bodies are moved, edited or removed.
 
     ids: ids of the bodies. The next step visits these bodies, and their sleep time is reset to 0. No effect without
-    sleeping.
+    sleeping. tables: a World or StepState.
     """
     if not tables.awake.sleeping:
         return
@@ -225,7 +225,7 @@ def stir(tables: WorldTables, ids: list[int], rows: np.ndarray) -> None:
 def islands_at(tables: WorldTables, ids: list[int], rows: np.ndarray) -> set[int]:
     """Return the keys of the sleeping islands that contain or touch the given bodies.
 
-    ids: ids of the bodies; rows: their BODY rows, -1 for a body that does not exist.
+    ids: ids of the bodies; rows: their BODY rows, -1 for a body that does not exist; tables: a World or StepState.
     """
     islands, links, keys = tables.sleeping_set.islands, tables.sleeping_set.links, set()
     if not islands:
@@ -246,7 +246,7 @@ def disturb_shapes(tables: WorldTables, identity: int, shapes: np.ndarray) -> bo
     """Wake the sleeping islands that touch changed shapes of a body at rest. Return whether this is sufficient.
 
     False: nothing was changed, and the caller must call disturb, because other pairs of the body may be affected.
-    identity: id of the body; shapes: ids of the changed shapes.
+    identity: id of the body; shapes: ids of the changed shapes; tables: a World or StepState.
     """
     sleeping_set = tables.sleeping_set
     row = rows_of(tables.bodies, [identity])[0]
@@ -274,7 +274,7 @@ def _islands_beside(tables, manifolds, identity):
 
 
 def wake_all(tables: WorldTables) -> None:
-    """Wake all islands, after a change of gravity or of the solver."""
+    """Wake all islands, after a change of gravity or of the solver. tables: a World or StepState."""
     wake(tables, list(tables.sleeping_set.islands))
 
 

@@ -333,7 +333,7 @@ _claimed: dict[str, ExitStack] = {}  # file name -> release of the claim, for al
 
 @contextmanager
 def _claims():
-    """At the end of the context, release the claims on parts that an error has left behind."""
+    """Context manager: at its end, release the claims (locks) on parts that an error has left behind."""
     try:
         yield
     finally:

@@ -171,7 +171,10 @@ class Kernel:
 
     @property
     def plain(self) -> Form:
-        """The plain twin: the same function as plain Python. Its calls of other kernels go to their plain twins."""
+        """The plain twin of the kernel: the same function as plain Python.
+
+        Its calls of other kernels go to their plain twins.
+        """
         if self._plain is None:
             rebound(self.py_func, plain_form_of, self._note_plain)
         assert self._plain is not None
@@ -184,11 +187,11 @@ class Kernel:
         return f"<kernel {self.name}>"
 
     def reset(self) -> None:
-        """Make calls run the plain twin again."""
+        """Make calls run the kernel as plain Python again."""
         self.run = self.call_plain
 
     def call_plain(self, *arguments: Any) -> Any:
-        """Run the plain twin, on views of the arguments that return Python numbers."""
+        """Run the kernel as plain Python, on views of the arguments that return Python numbers."""
         return self.plain(*[view_of(each) for each in arguments])
 
     def install(self, keys: Keys, form: Form) -> None:
@@ -197,18 +200,18 @@ class Kernel:
 
 
 class Part(Kernel):
-    """A kernel whose compiled form only other kernels call.
+    """A kernel that has no compiled form of its own for Python: only other compiled kernels call it.
 
-    Python can call its plain twin, with the same result.
+    Python can call it as plain Python, with the same result.
     """
 
     is_part = True
 
 
 def plain_form_of(value: Any) -> Any:
-    """Return the object that takes the place of a global or closed-over value in a plain twin.
+    """Return the object that replaces a global or closed-over value when a kernel runs as plain Python.
 
-    For a kernel it is the kernel's plain twin, for most other values the value itself.
+    For a kernel it is the kernel's plain form, for most other values the value itself.
     """
     if value is math:
         return plain_math

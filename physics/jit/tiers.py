@@ -31,7 +31,7 @@ _recording = False
 
 
 def form_of(kernel: "Kernel", keys: "Keys") -> Form | None:
-    """Return the compiled form for the first call of a kernel with these argument types; None to run its plain twin."""
+    """Return the compiled form for the first call of a kernel with arguments of these types; None: run plain Python."""
     if _collected is not None:
         return _note(kernel, keys, _collected)
     if background:

@@ -163,7 +163,7 @@ class _Runs:
                 yield np.array(loop)
 
     def left_of(self, points):
-        """Return the nearest vertical run to the left of a hole, which bounds the solid pixels beside the hole.
+        """Return the nearest vertical run to the left of a hole. All pixels between this run and the hole are solid.
 
         points: the hole's corners.
         """

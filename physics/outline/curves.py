@@ -467,7 +467,8 @@ def lay_curve(first, length, count, path, workspace, n, points_out):
     """Compute the lines of a curve again, and append their points except the last. Return the number of points.
 
     If the curve is too narrow, no points are appended. first: vertex at which the curve starts; length: number of the
-    curve's lines; count: number of lines of the path; n: number of points before; points_out: POINT rows.
+    curve's lines; count: number of lines of the path; n: number of points before; points_out: POINT rows; workspace:
+    see Lines.
     """
     curve = span_of(first, length, count, path, workspace)
     if curve.half == 0:

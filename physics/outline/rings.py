@@ -81,7 +81,7 @@ def close_ring(n, first, sides_inout):
 def turn_at(sides, a, b, c):
     """Return the cross product [px2] of the lines from corner a to b and from b to c.
 
-    It is > 0 for a turn that is clockwise on the screen (convex).
+    It is > 0 for a turn that is clockwise on the screen (convex). sides: SIDE rows.
     """
     p, q = sides[a], sides[b]
     r = sides[c]
@@ -93,7 +93,7 @@ def is_reflex(sides, k):
     """Return whether the angle at corner k is more than half a turn, so that a cut is needed there.
 
     An angle of exactly half a turn between an inner side and a side on the outline also counts. So each side of a part
-    is either wholly inner or wholly on the outline.
+    is either wholly inner or wholly on the outline. sides: SIDE rows.
     """
     side = sides[k]
     turn = turn_at(sides, side.previous, k, side.next)
@@ -139,7 +139,7 @@ def blocks(sides, k, a, b):
 def sees(sides, a, b):
     """Return whether the line between two corners a and b of one ring lies inside and meets no other side.
 
-    The time is O(corners).
+    The time is O(corners). sides: SIDE rows.
     """
     if not faces(sides, a, b) or not faces(sides, b, a):
         return False
@@ -209,7 +209,7 @@ def take_out(k, sides_inout):
 
 @subkernel
 def corners_of(sides, first):
-    """Return the number of corners of the ring that contains side `first`."""
+    """Return the number of corners of the ring that contains side `first`. sides: SIDE rows."""
     count = 1
     k = sides[first].next
     while k != first:
@@ -291,7 +291,8 @@ def best_partner(sides, a, both):
     """Return the best corner for a cut from reflex corner a, or -1 if there is none.
 
     Of the visible corners, the best is the one whose cut resolves the most reflex corners: a, the other corner or both.
-    If several resolve as many, it is the nearest. both: whether only a cut that resolves both corners is accepted.
+    If several resolve as many, it is the nearest. both: whether only a cut that resolves both corners is accepted;
+    sides: SIDE rows.
     """
     best = -1
     best_score = 1 if both else -1
@@ -356,7 +357,7 @@ def cut_large(n, most, sides_inout):
 def is_needed(sides, k, m):
     """Return whether a cut must stay, because the corner at the start of its side k would otherwise be reflex.
 
-    m: the twin of side k.
+    m: the twin of side k; sides: SIDE rows.
     """
     p, q = sides[sides[k].previous], sides[k]
     after = sides[sides[m].next]

@@ -155,7 +155,12 @@ def _inset(hull, radius):
 
 
 class _Judge:
-    """Tests of rounded cores against one piece: distances from its pixel edges, and separation from clear pixels."""
+    """Tests of whether a rounded polygon (core) can replace one connected piece of pixels, within tolerances.
+
+    A core is an array of corners (k, 2) [px], to which a rounding radius is added. The tests measure its distance from
+    the edges of the piece's pixels, and whether centres of solid pixels are inside it and centres of clear pixels
+    outside.
+    """
 
     def __init__(self, corners, reach):
         self.corners, self.reach = corners, reach
@@ -178,7 +183,10 @@ class _Judge:
         self.down[tuple(ends[~level].T)] = True
 
     def fitted(self, core):
-        """Return (core, radius) within the tolerances, after moving the core's corners if necessary, or None."""
+        """Return (core, radius) that is within the tolerances, or None.
+
+        The corners of the core are moved if necessary.
+        """
         room = self._room(core)
         found = self._measured(core) if room > 0.0 else None
         if found is not None or room < (-1.0 if len(core) < 3 else -0.1):
@@ -198,7 +206,7 @@ class _Judge:
         return self._measured(core) if room > 0.0 else None
 
     def grown(self, core, radius):
-        """Return (core, radius) if the core with this radius is within the tolerances, else None."""
+        """Return (core, radius) if the core, rounded by this radius [px], is within the tolerances, else None."""
         points = _beyond(core, self.points)
         low = max(_beyond(core, self.inside).max(), points.max() - self.reach - FARTHEST)
         high = min(_beyond(core, self.outside).min(), points.min() + self.reach + FARTHEST)
@@ -226,14 +234,17 @@ class _Judge:
         return (core, float(radius)) if off <= self.reach + DISC_SPARE - SLACK else None
 
     def _room(self, core):
-        """Return over what range [px] the radius may vary with solid centres inside and clear centres outside.
+        """Return the length [px] of the range of radii with centres of solid pixels inside and of clear pixels outside.
 
-        A negative result means that no radius separates the centres.
+        The core (k, 2) is rounded by the radius. A negative result means that no radius separates the centres.
         """
         return _beyond(core, self.outside).min() - _beyond(core, self.inside).max()
 
     def _measured(self, core):
-        """Return (core, radius) with an area as near to that of the pixels as the tolerances allow, or None."""
+        """Return (core, radius): the core with the radius at which its area is nearest to that of the pixels, or None.
+
+        The radius is limited by the tolerances. The result is None if no radius is within them.
+        """
         if not _convex(core):
             return None
         points = _beyond(core, self.points)
@@ -270,7 +281,7 @@ class _Judge:
 
 
 def _beyond(core, points):
-    """Return the distance (m,) [px] of points (m, 2) from a core without radius; negative: depth inside the core."""
+    """Return the distance (m,) [px] of points (m, 2) from a core (k, 2) without rounding; negative inside the core."""
     if len(core) == 1:
         return np.hypot(*(points - core[0]).T)
     sides = np.roll(core, -1, axis=0) - core
@@ -284,7 +295,7 @@ def _beyond(core, points):
 
 
 def _moves(core):
-    """Return the directions (m, k, 2) in which the k corners of a core are moved to improve it.
+    """Return the directions (m, k, 2) in which the k corners of a core are moved in the search for a better core.
 
     Each corner is moved to the right, and down. A core of two corners is also lengthened, rotated, and shifted along
     and across its line.
@@ -298,7 +309,7 @@ def _moves(core):
 
 
 def _convex(core):
-    """Return whether a core is convex and clockwise on the screen, without equal successive corners."""
+    """Return whether a core, corners (k, 2), is convex and clockwise on the screen, without equal adjacent corners."""
     sides = np.roll(core, -1, axis=0) - core
     after = np.roll(sides, -1, axis=0)
     if np.hypot(*sides.T).min() < SLACK and len(core) > 1:

@@ -427,7 +427,7 @@ def add_open(window, x, y, direction, cracks, workspace):
 
     x, y, direction: corner at which the path enters the tile, and its direction there; cracks: number of the path's
     pixel edges inside the tile, 0 if the path only passes the tile's corner, from one border to another; window: see
-    paths.Window.
+    paths.Window. workspace: see Paths.
     """
     runs, places = workspace.lines.runs, workspace.lines.places
     x, y, direction = walked_back(window, x, y, direction, SEEN)
@@ -456,7 +456,7 @@ def add_closed(window, x, y, direction, cracks, workspace):
     """Append the outline along a loop of `cracks` pixel edges in the tile. Return whether lines were found.
 
     x, y, direction: a corner where the loop turns, and the direction in which it leaves the corner; window: see
-    paths.Window.
+    paths.Window. workspace: see Paths.
     """
     lines = workspace.lines
     count = record(window, x, y, direction, cracks, lines.runs)
@@ -470,7 +470,7 @@ def add_closed(window, x, y, direction, cracks, workspace):
 def add_at_corner(window, x, y, workspace):
     """Append all pieces of the outline that enter the tile at border point (x, y).
 
-    Return whether lines were found for each. window: see paths.Window.
+    Return whether lines were found for each. window: see paths.Window. workspace: see Paths.
     """
     pixels = window.pixels
     done = True

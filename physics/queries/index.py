@@ -61,7 +61,7 @@ def find_loose(rows, bodies, shapes, proxies, known, row_of_slot_inout, loose_ou
     The broad phase finds a shape if its AABB lies within the box of its proxy. Then the shape's row is written to
     row_of_slot_inout, at the slot of its proxy. Otherwise -1 is written there, and the row is listed in loose_out.
     Shapes of bodies that queries cannot find (see is_found) are in neither. rows: SHAPE rows to examine; known: 0 if
-    the broad phase has no data yet.
+    the broad phase has no data yet; proxies: PROXY table.
     """
     found = 0
     for n in range(len(rows)):

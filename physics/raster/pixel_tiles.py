@@ -584,10 +584,11 @@ def is_in_hull(corners, radius, x, y):
 
 @kernel
 def find_in_hull(words, left, top, corners, radius, found_out):
-    """Write the solid pixels of a tile whose centres are in a rounded convex hull. Return their number.
+    """Find the solid pixels of a tile with centres in a rounded convex hull. Return their number.
 
-    words, found_out (64,) uint64; left, top [px]: position of the tile in the hull's coordinates; corners (n, 2) [px],
-    n >= 1, clockwise on the screen; radius [px]. O(pixels within the hull's box · n).
+    words (64,) uint64: the tile's pixels, one bit each; found_out (64,) uint64: the found pixels in the same form;
+    left, top [px]: position of the tile in the hull's coordinates; corners (n, 2) [px], n >= 1, clockwise on the
+    screen; radius [px]. O(pixels within the hull's box · n).
     """
     min_x, max_x = math.inf, -math.inf
     min_y, max_y = math.inf, -math.inf
@@ -624,10 +625,11 @@ def is_in_pixels(solid, x, y):
 
 @kernel
 def find_in_pixels(words, solid, x, y, cosine, sine, found_out):
-    """Write the solid pixels of a tile whose centres are in solid pixels of another mask. Return their number.
+    """Find the solid pixels of a tile with centres in solid pixels of another mask. Return their number.
 
-    words, found_out (64,) uint64; solid[row, column] bool: pixels of the other mask; x, y [px]: top left corner of the
-    tile in the other mask's raster; cosine, sine: of the tile's angle in that raster. O(pixels of the tile).
+    words (64,) uint64: the tile's pixels, one bit each; found_out (64,) uint64: the found pixels in the same form;
+    solid[row, column] bool: pixels of the other mask; x, y [px]: top left corner of the tile in the other mask's
+    raster; cosine, sine: of the tile's angle in that raster. O(pixels of the tile).
     """
     count = 0
     for row in range(TILE):

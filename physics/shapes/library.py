@@ -270,7 +270,7 @@ class Library:
 
     @classmethod
     def of(cls, shapes: Geometries) -> "Library":
-        """Return a library of the given lists, in which each shape's geometry row is its index in its list."""
+        """Return a library with the shapes of `shapes`, in which each shape's geometry row is its index in its list."""
         library = cls()
         library.add_parts(shapes.outlines)
         for row, shape in reversed([*enumerate(shapes.outlines)]):
@@ -344,7 +344,7 @@ class Library:
         self.tables = self._tables()
 
     def shapes_by_row(self) -> Geometries:
-        """Return the shapes of the library for a snapshot. From them, `Library.of` makes an equal library."""
+        """Return all shapes of the library, in lists ordered by geometry row, for a snapshot. See Library.of."""
         return Geometries([*self.outlines], [*self.chain_shapes], [*self.tile_grids], [*self.masks])
 
     def shape_of(self, row: np.void) -> Shape:

@@ -30,7 +30,7 @@ IGNORED = ("rotation", "friction", "restitution", "stacking", "sleeping", "conve
 
 @kernel
 def stay_behind(bodies_inout, manifolds_inout, work_inout):
-    """Move overlapping dynamic bodies back to their poses before the step. O(manifolds).
+    """Move overlapping dynamic bodies back to the poses that they had before the step. O(manifolds).
 
     Return how many bodies were moved back. Manifolds that stopped a body are marked as `swept`. A body that did not
     move is left alone, and a manifold with a separation of 0 stops no body. manifolds_inout: CONTACT rows; work_inout:

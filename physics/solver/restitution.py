@@ -68,7 +68,7 @@ def line_of(blocks, impact, line):
 
 @inlined
 def points_of(blocks, impact):
-    """Return the number of contact points of an IMPACT row, 1 or 2."""
+    """Return the number of contact points of an IMPACT row, 1 or 2. blocks: see lanes.Blocks."""
     return 2 if line_of(blocks, impact, at.MASS_2) > 0.0 else 1
 
 
@@ -125,7 +125,7 @@ SETTLED = 1e-6  # the rounds end at this change of speed in a round, relative to
 
 @subkernel
 def is_against_static(blocks, impact):
-    """Return whether one body of an IMPACT row has infinite mass."""
+    """Return whether one body of an IMPACT row has infinite mass. blocks: see lanes.Blocks."""
     return line_of(blocks, impact, at.IM_A) == 0.0 or line_of(blocks, impact, at.IM_B) == 0.0
 
 
@@ -145,7 +145,7 @@ def link_impacts(blocks, count, impacts_inout, motions_inout):
     MOTION.last_impact is the index of the body's last impact, plus one; other functions take it as `last`.
     IMPACT.before is the index of the previous impact of the same body, plus one. last_impact is LEFT_OUT for a body
     that also hits a body of finite mass, or that has a resting contact among its impacts. count: number of IMPACT rows.
-    motions_inout: MOTION rows.
+    motions_inout: MOTION rows; blocks: see lanes.Blocks.
     """
     for i in range(count):
         r = impacts_inout[i]
@@ -165,7 +165,7 @@ def link_impacts(blocks, count, impacts_inout, motions_inout):
 
 @subkernel
 def unlink_impacts(blocks, impacts, count, motions_inout):
-    """Reset MOTION.last_impact of the bodies of all impacts. count: number of IMPACT rows."""
+    """Reset MOTION.last_impact of the bodies of all impacts. count: number of IMPACT rows. blocks: see lanes.Blocks."""
     for i in range(count):
         r = impacts[i]
         motions_inout[blocks.motion_a[r.block, r.lane]].last_impact = NO_IMPACT
@@ -209,7 +209,7 @@ def speed_now(blocks, impact, second, sign, change):
     """Return the present approach speed [px/s] of a point, including the impulses simulated so far.
 
     second: True for the second point of the impact; sign: see mover_of; change: the last IMPACT row of the body, which
-    holds the sum of the changes of its velocity.
+    holds the sum of the changes of its velocity; blocks: see lanes.Blocks.
     """
     r = impact
     along = change.vx * line_of(blocks, r, at.NX) + change.vy * line_of(blocks, r, at.NY)
@@ -221,7 +221,7 @@ def speed_now(blocks, impact, second, sign, change):
 def strike(blocks, impact, second, sign, impulse, mover, change_inout):
     """Add the velocity change by a normal impulse at a point to change_inout, the last IMPACT row of the body.
 
-    mover: MOTION row of the body; second, sign: see speed_now.
+    mover: MOTION row of the body; second, sign: see speed_now; blocks: see lanes.Blocks.
     """
     r = impact
     change_inout.vx += mover.inverse_mass * sign * impulse * line_of(blocks, r, at.NX)
@@ -305,7 +305,7 @@ def solve_pair(blocks, i, first_point, j, second_point, last, motions, impacts_i
     """Solve two points of one body that hit at the same time. Return the greater change of a normal speed [px/s].
 
     i, j: indices of the IMPACT rows of both points, which may be equal; first_point, second_point: whether each is the
-    second point of its row. One point given twice is solved alone. last: see link_impacts.
+    second point of its row. One point given twice is solved alone. last: see link_impacts; blocks: see lanes.Blocks.
     """
     r = impacts_inout[i]
     o = impacts_inout[j]
@@ -349,7 +349,7 @@ def solve_together(blocks, last, hit_speed, motions, impacts_inout):
     last: see link_impacts; hit_speed [px/s]: approach speed of the soonest hit. Each point separates at least at
     restitution times its approach speed. The points are solved in pairs, in rounds. On level ground, the first pair
     with the centre of mass between its points is already the solution, and the other pairs leave it unchanged.
-    impacts_inout: IMPACT rows.
+    impacts_inout: IMPACT rows; blocks: see lanes.Blocks. motions: MOTION rows.
     """
     for _ in range(MOST_ROUNDS):
         changed = 0.0
@@ -398,7 +398,7 @@ def simulate_impacts(blocks, last, dt, contacts, motions, impacts_inout):
 
     Return (time [s] of the step that is left after the last hit, whether MOST_IMPACTS and MOST_ROUNDS were enough).
     last: see link_impacts; the IMPACT row last - 1 receives the displacement of the body up to the last hit.
-    impacts_inout: IMPACT rows.
+    impacts_inout: IMPACT rows; blocks: see lanes.Blocks. motions: MOTION rows.
     """
     k = last
     while k != NO_IMPACT:
@@ -641,7 +641,7 @@ def list_handed_on(blocks_count, count, motions_inout, impacts_inout, blocks_ino
 
     They are contacts of marked bodies (see mark_bodies) with an impulse in this step. Their bodies are marked too, and
     the search is repeated until it finds no more. An appended contact does not bounce: its approach speed may remain,
-    but not increase. blocks_count: number of blocks; count: number of IMPACT rows before.
+    but not increase. blocks_count: number of blocks; count: number of IMPACT rows before; motions_inout: MOTION rows.
     """
     blocks = blocks_inout
     grown = True
@@ -707,7 +707,7 @@ def bounce_row(impact_inout, motions_inout, blocks_inout):
 def are_unloaded(blocks, impacts, count, contacts, speed, dt):
     """Return whether cached contact forces are negligible compared with an impact at `speed` [px/s].
 
-    The contacts of the first `count` IMPACT rows are tested. dt [s]: step length.
+    The contacts of the first `count` IMPACT rows are tested. dt [s]: step length; blocks: see lanes.Blocks.
     """
     for i in range(count):
         r = impacts[i]
