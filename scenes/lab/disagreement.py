@@ -197,9 +197,9 @@ class Disagreement(Shooter):
 
 
 def rehearse(effects):
-    """Evaluate every collision tier once, so that all kernels are compiled before the game begins.
+    """Test two aircraft and a disc at every collision tier (kind of collision shape) in a world with these effects.
 
-    It uses two planes and a disc in a world with these effects.
+    The test is made once before the game begins, so that all kernels are compiled by then.
     """
     world, reference = World(effects, BROADPHASES["sweep"]()), ReferenceTier(FIRST)
     masks = [load_atlas("planes").mask(name) for name in ("player", "gunship_0")]

@@ -44,7 +44,7 @@ LISTED = 2  # greatest number of effects that the finding names for one figure
 
 
 class Outcome(NamedTuple):
-    """Differences between the yard with an effect and its copy without the effect, over the first two seconds."""
+    """Differences between a yard (BusyYard) with an effect and its copy without it, over the first two seconds."""
 
     apart: float  # [px] root mean square distance over all moving things
     events: int  # number of further events with it, of all kinds
@@ -60,7 +60,10 @@ class Outcome(NamedTuple):
 
 
 class EffectsLab(Scene):
-    """Scene with two yards, with and without the selected effect. `worlds` contains the visible yard's world only."""
+    """Scene with two yards (worlds of class BusyYard), one with the selected effect and one without it.
+
+    `worlds` contains the world of the visible yard only.
+    """
 
     name = "lab/effects"
     keeps = {"substeps": "by load, as a World has them by itself: the cost of each effect is that in such a world"}

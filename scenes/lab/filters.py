@@ -42,7 +42,10 @@ BOT_CLICKS = {90: (0, 1), 130: (5, 4), 170: (0, 1)}  # frame: cell
 
 
 class Filters(Scene):
-    """Scene with one world: a grid of cells, each with one disc of the row's kind and one of the column's kind."""
+    """Scene with one world: a grid of pairs of discs. Each row and each column of the grid stands for a kind of body.
+
+    A cell of the grid holds a disc of the row's kind and a disc of the column's kind.
+    """
 
     name = "lab/filters"
     title = "Filters"

@@ -185,9 +185,9 @@ class MaskStack(Scene):
                     return
 
     def share(self, way):
-        """Return (corners, pixels of air held, pixels missed), summed over the sprites of the pile `way`.
+        """Return (corners, pixels of air held, pixels missed), summed over the sprites of a pile.
 
-        All three are nan until each of its sprites is measured.
+        way: kind of the pile's collision shapes, one of WAYS. All three are nan until each of its sprites is measured.
         """
         fits = [self.fits.get((name, way), (nan, nan, nan)) for name, _, _ in self.laid[way]]
         return tuple(float(sum(column)) for column in zip(*fits, strict=True))
@@ -221,7 +221,7 @@ class MaskStack(Scene):
         return *self.chosen, way
 
     def stands_now(self, way):
-        """Return whether the top sprite of the pile `way` is less than FALLEN px lower than at its start."""
+        """Return whether the top sprite of a pile is less than FALLEN px lower than at its start. way: see share()."""
         return self.sinks[way] < FALLEN
 
     @property

@@ -308,7 +308,8 @@ class MaskSweep(Scene):
     def _ended(self):
         """Return (passed, ended), two dicts {(way, shape of the wall): number of shots}.
 
-        passed: shots that passed the wall; ended: shots that passed or hit it.
+        way: one of WAYS, "off" for shots without continuous collision, "toi" for swept shots. passed: shots that passed
+        the wall; ended: shots that passed or hit it.
         """
         return self.passed, {key: count + self.passed[key] for key, count in self.hit.items()}
 

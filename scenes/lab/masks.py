@@ -55,7 +55,7 @@ BOT_LEG = 50  # steps per leg of the bot's path
 
 
 class Masks(Scene):
-    """Scene with one world per collision tier, each with the same two planes."""
+    """Scene with one world per collision tier (kind of collision shape), each with the same two aircraft sprites."""
 
     name = "lab/masks"
     title = "Masks"
@@ -81,7 +81,7 @@ class Masks(Scene):
     hides_pointer = False
 
     def build(self):
-        """Build a world with both planes for each collision tier (kind of collision shape)."""
+        """Build a world with both sprites for each collision tier (kind of collision shape)."""
         atlas = load_atlas("planes")
         self.masks = [atlas.mask(name) for name in SPRITES]
         self.planes = [RotatedSprites(atlas[name], mask) for name, mask in zip(SPRITES, self.masks, strict=True)]
@@ -93,7 +93,7 @@ class Masks(Scene):
         self.wrong = self.steps = self.apart = self.hits = 0
 
     def measured(self):
-        """Return the request to measure the two planes against each other at every collision tier."""
+        """Return the request to measure the two sprites against each other at every collision tier."""
         return SpriteRequest(self.masks[0], self.masks[1])
 
     def _world(self, tier):
@@ -103,7 +103,7 @@ class Masks(Scene):
         return world
 
     def update(self, inputs):
-        """Move the planes by the input, copy their poses into every world, and test all collision tiers."""
+        """Move the two sprites by the input, copy their poses into every world, and test all collision tiers."""
         if inputs.pointer_pressed and ARENA.collidepoint(inputs.pointer):
             self._press(*inputs.pointer)
         self.hands.move(inputs)
@@ -136,7 +136,7 @@ class Masks(Scene):
         return [(self.shown["pixels"], self.camera)]
 
     def draw(self, canvas, alpha):
-        """Draw the sky, the planes, and the table of verdicts."""
+        """Draw the sky, the two aircraft sprites, and a table with the verdict of each collision tier."""
         canvas.surface.blit(self.sky, (0, 0))
         for plane, (x, y, angle) in zip(self.planes, self.hands.poses, strict=True):
             plane.draw(canvas, self.camera, x, y, angle)
@@ -178,7 +178,7 @@ class Masks(Scene):
             canvas.text(text, right, y + 9, PAPER, SMALL, align="right")
 
     def _notes(self):
-        """Return two texts: the shared pixels and depth of the planes' overlap, and the extent of the measurements."""
+        """Return two texts: shared pixels and depth of the two sprites; numbers of poses and runs measured so far."""
         poses = [tuple(pose) for pose in self.hands.poses]
         found = collide(self.masks[0], poses[0], self.masks[1], poses[1])
         depth = max(0.0, -min(found.separations.tolist(), default=0.0))
@@ -236,7 +236,7 @@ class Masks(Scene):
     def bot(self):
         """Return the bot's input for the next step.
 
-        The bot drags the first plane around and over the second, and turns it.
+        The bot drags the first sprite around and over the second, and turns it.
         """
         leg, step = divmod(self.frame, BOT_LEG)
         (ax, ay), (bx, by) = BOT_PATH[leg % len(BOT_PATH)], BOT_PATH[(leg + 1) % len(BOT_PATH)]

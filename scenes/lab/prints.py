@@ -16,7 +16,7 @@ EDGE = (24, 18, 30)  # colour of a new edge
 
 
 class Print(NamedTuple):
-    """Where a mask's picture is taken from. image: picture of the whole; left, top: place of the mask in it [px]."""
+    """The source of a mask's picture. image: picture of the whole body; left, top: place of the mask in it [px]."""
 
     image: pygame.Surface
     left: int

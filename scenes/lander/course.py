@@ -16,9 +16,10 @@ FLYING, LANDED, CLEARED, WON, LOST = "flying", "landed", "cleared", "won", "lost
 
 
 class Course:
-    """State of the course. act: number of the current site, 0..2; rest: steps at rest on a pad.
+    """Progress of the player from landing site to landing site.
 
-    mode: FLYING, LANDED, CLEARED, WON or LOST; since: steps in this mode.
+    act: number of the current site, 0..2; rest: steps at rest on a pad; mode: FLYING, LANDED, CLEARED, WON or LOST;
+    since: steps in this mode.
     """
 
     def __init__(self, moon):
@@ -43,7 +44,7 @@ class Course:
         self.mode, self.since = mode, 0
 
     def step(self, scene):
-        """Update the course after a step of the world."""
+        """Update the progress after a step of the world."""
         self.since += 1
         self.clock += self.mode in (FLYING, LANDED)
         if self.mode == LANDED and self.since >= CHEER:
@@ -56,7 +57,7 @@ class Course:
             self._watch(scene)
 
     def touched(self, speed):
-        """Record that the ship touched a body. speed: of the contact [px/s]."""
+        """Record that the ship touched a body. speed: approach speed of the contact [px/s]."""
         self.touchdown = max(self.touchdown, speed)
 
     def _watch(self, scene):

@@ -28,7 +28,10 @@ TILT = 0.1  # rise per px from which ground counts as a slope
 
 
 class Feats:
-    """The feats of a run. done: {name: number of times, or of steps, that the hero did it}."""
+    """Counts of the hero's feats (jumps, rides, ladders ...) in a run, from which the goals of the scene follow.
+
+    done: {name of a feat: number of times, or of steps, that the hero did it}.
+    """
 
     def __init__(self, scene):
         self.scene = scene

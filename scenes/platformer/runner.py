@@ -25,7 +25,10 @@ KICK_SPEED = -90.0  # [px/s] vy above which the bot kicks off a wall (up is nega
 
 
 class Runner:
-    """The bot. next: index of the hint that it follows; kept: value of `next` at the last checkpoint."""
+    """The bot, which follows the hints of the map: points along the hero's path.
+
+    next: index of the current hint; kept: value of `next` at the last checkpoint.
+    """
 
     def __init__(self):
         self.next = self.kept = 0

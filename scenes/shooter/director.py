@@ -40,7 +40,7 @@ class Director:
 
     @property
     def announced(self):
-        """The stage's Event of the leader that is announced or fights, or None if there is none."""
+        """The stage's Event of the mid-boss or boss that is announced or fights now, or None if there is none."""
         return self.stage.events[self.next - 1] if self.mode in ("clearing", "warning", "leader") else None
 
     def step(self, sky):

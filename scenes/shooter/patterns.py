@@ -38,7 +38,7 @@ def fan(heading, count, spread):
 
 
 def ring(count, turn=0.0):
-    """Return `count` headings [rad], evenly spaced over the full circle, beginning with `turn`."""
+    """Return `count` headings [rad], evenly spaced over the full circle. turn: the first heading [rad]."""
     return [turn + 2 * pi * number / count for number in range(count)]
 
 

@@ -27,7 +27,7 @@ CROWD = 1500  # number of enemy bullets at which the bot uses its first bomb in 
 
 
 def directions():
-    """Return all plans, a list of (dx, dy, steps, focus). In the first plan the plane stays where it is.
+    """Return the plans among which the bot chooses, a list of (dx, dy, steps, focus). In the first one the plane stays.
 
     dx, dy: direction, -1, 0 or 1 each; steps: duration; focus: whether the plane flies slowly.
     """
@@ -89,7 +89,8 @@ class Pilot:
     def _danger(self, scene, x, y, place_x, place_y):
         """Return (cost, doomed), two arrays over the plans: the danger, and whether the plan soon ends in a hit.
 
-        (x, y): place of the plane [px]; place_x, place_y: its predicted places [px], arrays [plan, moment].
+        (x, y): place of the plane [px]; place_x, place_y: its predicted places [px], arrays [plan, time] at the times
+        MOMENTS.
         """
         ahead_x, ahead_y, radius = threats(scene, x, y)
         if not len(radius):
@@ -137,7 +138,8 @@ class Pilot:
 def threats(scene, x, y):
     """Predict the places of bullets near (x, y) [px] and of enemies in the air.
 
-    Return (x, y, radius): two arrays [moment, threat] over MOMENTS [px], and the radii of the threats [px].
+    Return (x, y, radius): places, two arrays [time, threat] at the times MOMENTS [px], and the radii of the threats
+    [px].
     """
     bodies, incoming = scene.world.bodies, scene.incoming
     rows = incoming.places()

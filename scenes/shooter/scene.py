@@ -324,7 +324,10 @@ class Shooter(Scene):
         self.spectacle.warning(event)
 
     def end_phase(self, leader, beaten):
-        """End a phase of a boss fight. beaten: True if the leader's health is gone, False if its time ran out."""
+        """End a phase of a boss fight. leader: the boss or mid-boss.
+
+        beaten: True if the leader's health is gone, False if its time ran out.
+        """
         left = leader.clock / max(steps(leader.phase.seconds), 1)
         worth = self.score.phase(leader.phase.bonus, left) if beaten else 0
         last = leader.last
@@ -337,13 +340,16 @@ class Shooter(Scene):
         self._reward()
 
     def bury(self, leader):
-        """Let a leader that has burnt out break into pieces, and drop its item."""
+        """Let a boss or mid-boss that has burnt out break into pieces, and drop its item."""
         self.wreckage.mark(leader, leader.x, leader.y, Blow())
         self.spectacle.leader_gone(leader)
         self.loot.drop("life" if leader.kind == "midboss" else "power", leader.x, leader.y, self.frame)
 
     def leader_gone(self, event):
-        """End the fight with a leader that has left the sky. event: of the leader; after the boss, the stage ends."""
+        """End the fight with a boss or mid-boss that has left the sky.
+
+        After the boss, the stage ends. event: its Event.
+        """
         self.music = "shooter"
         if event.event == "boss":
             self.ending.clear(self)

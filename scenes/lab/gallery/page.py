@@ -64,7 +64,7 @@ class Larger:
 
 @dataclass(frozen=True)
 class Page:
-    """A hard case with its expected result.
+    """A page of the gallery: a hard case for a physics engine, run in a naive world and in the engine's world.
 
     Expected: the error in the naive world exceeds `limit`, the error in the engine's world does not. On a page with
     `alike`, neither error may exceed the limit.

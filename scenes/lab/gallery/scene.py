@@ -304,7 +304,7 @@ def is_met(page, naive, ours):
 
 
 def amount(value):
-    """Return an error as short text, for example 0, 0.002, 18.2 or 50,314."""
+    """Return an error as short text with three significant digits, for example 0, 0.002, 18.2 or 50,314."""
     if value == 0.0:
         return "0"
     if abs(value) < 0.001:
