@@ -67,10 +67,7 @@ def tiled(pattern, height, width):
 
 
 def depths(solid):
-    """Return the depth [px] of each solid pixel below the surface, up to DEEPEST, and 0 for others.
-
-    Layers of pixels are removed one after another.
-    """
+    """Return how deep [px] each solid pixel lies below the surface, up to DEEPEST; 0 for pixels that are not solid."""
     depth, left = np.zeros(solid.shape, np.int16), solid.copy()
     for layer in range(DEEPEST):
         depth += left

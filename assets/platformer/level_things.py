@@ -131,9 +131,9 @@ def walking_range(level, x, y, most=4):
 
 
 def _deck(level, x, y):
-    """Return the (column, row) at which the map places the platform that covers a tile with its deck; None without one.
+    """Return the tile (column, row) with the letter of the platform whose deck covers a tile; None without one.
 
-    level: see level_text.Map; x, y: the tile.
+    level: see level_text.Map; x, y: the tile to look at.
     """
     for (column, row), (_, _, _, width) in zip(level.places("P"), level.platforms, strict=True):
         if row == y and 0 <= x - column < width // TILE:
