@@ -29,8 +29,8 @@ def whole(value: float) -> int:
 class Canvas:
     """Surface with text. boxes: (rect, text) of each line of text in this picture.
 
-    reserved: rectangles that later text must avoid, as well. fixed: those of them that show an icon, a bar or a plot.
-    Overlays cover neither the text nor the fixed rectangles.
+    reserved: rectangles that later text must also avoid. fixed: the reserved rectangles that show an icon, a bar or a
+    plot. Overlays cover neither the text nor the fixed rectangles.
     """
 
     edge = 1  # [px] by which an outline extends over its text's box

@@ -17,9 +17,9 @@ Bad = tuple[tuple[int, ...], float, str]  # ids of bodies, value, quantity
 
 
 def tables(world: World, sleeping: bool) -> list:
-    """Return a list of (name, rows, columns to check) of the tables that a world reports, except the AABBs of shapes.
+    """Return (name, rows, names of the columns to check) of each table that a world reports, except AABBs of shapes.
 
-    sleeping: whether sleeping contacts are included.
+    sleeping: whether the table of sleeping contacts is included.
     """
     events = world.events
     reported = [(f"events.{name}", getattr(events, name), EVENT_NUMBERS) for name in REPORTED]

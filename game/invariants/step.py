@@ -10,10 +10,10 @@ from physics.tables.joint import GEARED
 
 
 class Step:
-    """Finished step. before, now: Bodies before and after it; dt: its length [s].
+    """A finished step. before, now: Bodies before and after it; dt: its length [s].
 
-    edited: whether the game changed the world since the previous step. changed, forced: (n,) bool by row of the bodies
-    before the step, for bodies that the game changed, and for bodies with applied forces.
+    edited: whether the game changed the world since the previous step. changed, forced: (n,) bool, one for each body
+    before the step: whether the game changed the body, and whether a force was applied to it.
     """
 
     def __init__(

@@ -115,8 +115,8 @@ def settings_within(survey: Survey, error: float) -> list[Setting]:
     """Return the settings of the survey without failures whose error of every kind is within `error`, fastest first.
 
     error: in pixels; for collision tiers (kinds of collision shape of the sprites), in wrong answers per 100
-    encounters. Of another tier, the upper end of its interval must be within the error, of the present tier the lower
-    end. So a few encounters neither recommend a tier nor condemn the present one.
+    encounters. The interval of the error counts: its upper end for another tier, its lower end for the present tier. So
+    a few encounters neither recommend a tier nor condemn the present one.
     """
     found = {}
     for setting, dot in survey.dots.items():

@@ -34,7 +34,7 @@ Pairs = frozenset[tuple[int, int]]  # ids of two bodies, the smaller first
 
 
 class Verdicts(NamedTuple):
-    """The encounters that a setting reported as hits, and those that were hits."""
+    """The pairs of bodies that a setting reported as hits in a run, and the pairs that were hits."""
 
     reported: Pairs
     true: Pairs

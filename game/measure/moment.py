@@ -53,9 +53,9 @@ class Moment:
 
         The first run of a setting also compiles kernels: do not count it.
 
-        stage: name of the only stage to time, 0 is returned if the step has no such stage; None: the whole step. act:
-        operation that is timed in place of the steps; before it, one step is made, which fills the broad phase, and the
-        operation is called once untimed.
+        stage: name of the only stage to time, None for the whole step; the result is 0 if the step has no such stage.
+        act: operation that is timed in place of the steps. In that case one step is made first, which fills the broad
+        phase, and the operation is called once untimed.
         """
         world = self.world(setting)
         if stage is not None:

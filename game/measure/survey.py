@@ -162,7 +162,7 @@ class Survey:
         return f"nothing measured here is as exact ({shown(error)}) for less time"
 
     def boxes_and_pixels(self) -> str:
-        """Return one sentence on the false hits of boxes, and on the price of pixels; "" without collision tiers.
+        """Return a sentence on the false hits of boxes, and on the time that pixels cost; "" without collision tiers.
 
         Until boxes have reported LEAST_HITS encounters, it says how far the measuring is.
         """

@@ -117,5 +117,8 @@ class Invariants(Layer):
 
 
 def label_of(status: InvariantStatus) -> str:
-    """Return the label of an indicator: id, word, and the number of times its invariant was broken."""
+    """Return the label of an indicator: id, word, and the number of times its invariant was broken.
+
+    status: the InvariantStatus that the indicator shows.
+    """
     return f"{status.id} {status.word}" + (f" {min(status.breaks, COUNTED)}" if status.breaks else "")

@@ -32,12 +32,12 @@ class Watch:
             self.fell = self.world.time - self.began
 
     def found(self) -> Row:
-        """Return the measurements as part of a row.
+        """Return the measurements as fields of a report row.
 
         overlap: deepest contact [px]; off: distance of the highest body from its start, up or down [px]; each is the
         worst of the last LAST steps. error: the greater of the two. deepest: deepest contact of all steps [px]. won:
-        energy gained, as a share of the pile's initial energy. stands_s: time of the fall [s], None if it stands. For a
-        pile that is not to stay in place, off is None.
+        energy gained, as a share of the pile's initial energy. stands_s: time of the fall [s], None if the pile stands.
+        For a pile that is not to stay in place, off is None.
         """
         deep, off = max(self.overlaps), max(map(abs, self.sunk)) if self.pile.rests else None
         return {

@@ -286,7 +286,10 @@ class Screens:
             self.played = None
 
     def _game(self) -> Play:
-        """Return the game on the stack. Pause menu and result, whose outcomes call this, are open only over a game."""
+        """Return the game on the stack, for outcomes of the pause menu and of the result.
+
+        Both are open only over a game.
+        """
         assert self.played is not None
         return self.played
 

@@ -89,7 +89,7 @@ class Title(CanvasScreen):
         canvas.text(foot, canvas.rect.centerx, FOOT_Y, FOG, SMALL, 1, "center", True)
 
     def _draw_planes(self, canvas):
-        """Draw both planes. The colour of their boxes shows whether boxes and pixels overlap (by pygame masks)."""
+        """Draw the two planes with their boxes. The boxes' colour shows whether boxes, or also pixels, overlap."""
         phase = self.time % LOOP / LOOP
         sway = sin(phase * 2 * pi)
         a = self.left.get_rect(center=(round(262 + 40 * sway), round(180 + 4 * sin(phase * 4 * pi))))

@@ -55,7 +55,7 @@ DROP = 40.0  # [px]
 
 
 def _bounce(position, velocity):
-    """Return the error of a bouncing ball with restitution 1 as a height [px]: the energy that it gained or lost."""
+    """Return the error [px] of a bouncing ball with restitution 1: its gain or loss of energy, as a height."""
     return abs(position.y - 0.5 * velocity.y**2 / G)
 
 

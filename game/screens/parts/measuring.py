@@ -28,7 +28,7 @@ EVERY = 8.0  # [s] between two moments (measured states of the world), if the la
 
 
 class Proof(NamedTuple):
-    """A setting that is tried on the recorded run."""
+    """A trial of a setting on the recorded run: the order to the measuring process, and what it was given for."""
 
     here: Setting  # the present setting at that time
     setting: Setting
@@ -116,7 +116,7 @@ class Measuring:
         self.scene.figures = self.bench.figures
 
     def turn(self, now: float) -> str:
-        """Collect results, and take a new state of the world to measure when the previous one is done.
+        """Collect results. When a state of the world has been measured, start to measure its current state.
 
         Call it once per picture, at `now` [s]. Return a line about a decision of the tuner, or "" if there is none.
         """
