@@ -504,7 +504,7 @@ def _check(world, identity, shapes, gone):
 
 
 def _add(world, identity, shapes, new) -> np.ndarray:
-    """Set the shapes of a body, add rows for those that have none yet, `new`, and return the ids of these."""
+    """Set the shapes of a body. Add SHAPE rows for the shapes `new`, which have none yet, and return their ids."""
     at = world._row_number(identity)
     world._shapes_of[identity] = shapes
     ids = add_shapes(world, at, 1, new)

@@ -197,7 +197,7 @@ class WorldState:
         return self._contacts
 
     def reported_rows(self) -> np.ndarray:
-        """Return the CONTACT rows whose points `contacts` lists."""
+        """Return the CONTACT rows to which the CONTACT_POINT rows in `contacts` belong."""
         rows, keep = self._reported
         return rows if keep is None or keep.all() else rows[keep]
 
@@ -440,7 +440,7 @@ class WorldState:
         self._removed[identity] = None
 
     def _refresh_joint_rows(self) -> None:
-        """Write the present row numbers of their bodies to all joints."""
+        """Write to each joint the present row numbers of its two bodies."""
         if self._joints.count:
             joints = self._joints.rows
             for side in ("a", "b"):

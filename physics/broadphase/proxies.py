@@ -674,9 +674,10 @@ class PairList:
         return len(slots)
 
     def keep_apart(self, keys: np.ndarray) -> bool:
-        """Set which pairs of bodies must never pair. Return whether that differs from before.
+        """Set the pairs of bodies that must never collide. Return whether they differ from the pairs set before.
 
-        If so, the caller must touch the proxies of these bodies. keys: sorted int64, low body id << 32 | high body id.
+        If they do, the caller must touch the proxies of these bodies. keys: sorted int64, low body id << 32 | high body
+        id.
         """
         changed = not np.array_equal(keys, self.apart)
         self.apart = keys

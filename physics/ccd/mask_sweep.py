@@ -123,8 +123,8 @@ def misses_square(boxes, k, body, x, y, dx, dy, reach):
 def sweep_on_pieces(mover, depth, body, squares, span, hull, workspace, best_out):
     """Sweep one piece of the moving shape against all pieces of the other shape, or measure their overlap.
 
-    mover: the piece, with its corners in workspace.mover. depth [px]: overlap at the start, which does not count as an
-    impact. A negative `depth` asks for the deepest overlap [px] at the start: it is returned, and nothing is swept.
+    mover: the piece, with its corners in workspace.mover. depth [px]: overlap at the start, up to which an overlap is
+    not an impact. If `depth` is negative, nothing is swept, and the deepest overlap [px] at the start is returned.
     Otherwise 0 is returned. body: BODY row of the other shape; span: result of pieces_of for the other shape; hull: the
     only piece of the other shape if it is not a mask, with the corners in workspace.advance.local_b. best_out (5,):
     first impact so far, see sweep_squares. O(nearby pieces). squares: see Squares.

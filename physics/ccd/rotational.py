@@ -345,10 +345,10 @@ def ahead_of(ax, ay, bx, by, u, v):
 def is_before(link, local, middle, fraction, core, workspace):
     """Return whether the mover is in front of a link at a fraction of the motion.
 
-    One point of the mover decides: `middle` [px], relative to its centre of mass at angle 0, or if `core` is True the
-    centre of mass itself. The point may lie beyond an end of the link at which the chain bends towards its front. Then
-    it must also be in front of the neighbouring link. link: LINK row; local: see sweep_chain; workspace: see
-    RotationalWorkspace.
+    One point of the mover is tested: its centre of mass if `core` is True, else the point `middle` [px], which is
+    relative to the centre of mass at angle 0. If the chain bends towards its front at an end of the link, a point
+    beyond this end must also be in front of the neighbouring link. link: LINK row; local: see sweep_chain; workspace:
+    see RotationalWorkspace.
     """
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
@@ -387,10 +387,9 @@ def misses_block(block, local, box):
 
 @subkernel
 def depth_in_chain(geometry, chain, local, middle, mover, workspace):
-    """Return how deep [px] the mover is at the start in the chain's links that face it, see is_before.
+    """Return the greatest depth [px] of the mover, at the start, in the links of a chain that face it (see is_before).
 
-    It is the greatest depth in any of these links. geometry, chain, local: see sweep_chain; workspace: see
-    RotationalWorkspace.
+    geometry, chain, local: see sweep_chain; middle: see is_before; workspace: see RotationalWorkspace.
     """
     span = geometry.chains[chain]
     motion = workspace.advance.motion_a
@@ -418,7 +417,7 @@ def depth_in_chain(geometry, chain, local, middle, mover, workspace):
 
 @subkernel
 def starts_across(geometry, chain, local, mover, workspace):
-    """Return whether the mover lies across a one-way surface at the start by more than its slack. Then it may pass.
+    """Return whether the mover lies across a one-way surface at the start by more than its slack, so that it may pass.
 
     chain: row of geometry.chains; local: see sweep_chain; workspace: see RotationalWorkspace.
     """

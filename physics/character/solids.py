@@ -237,9 +237,9 @@ def deepest_on(walk, body):
 def link_depth(walk, row, link, drops, count, radius):
     """Return (depth [px], nx, ny) of the overlap of a character with a link; the unit normal is from the character.
 
-    The depth is 0 if the link lets the character pass: if it is deeper than deepest_on, because it began at the back of
-    the link; and, with `drops`, for a level link or a one-way surface. row, link: row numbers in SHAPE and LINK; count,
-    radius: result of place_outline, which writes the outline; walk: see Walk.
+    The depth is 0 if the link lets the character pass: at a depth above deepest_on, which means that it comes from the
+    back of the link; with `drops`, also at a level link or one-way surface. row, link: row numbers in SHAPE and LINK;
+    count, radius: result of place_outline, which writes the outline; walk: see Walk.
     """
     b = walk.bodies[walk.shapes[row].body_row]
     scratch = walk.scratch

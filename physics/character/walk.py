@@ -340,9 +340,9 @@ PACE = 2  # [px] moved out of a solid in one move: about the push-out of overlap
 
 @subkernel
 def keep_still(walk, rows_inout):
-    """Remove all shapes but those of static bodies from a list of shape rows.
+    """Keep only the shapes of static bodies in a list of shape rows.
 
-    The first entry is the length of the list. walk: see solids.Walk.
+    rows_inout: the list; its first entry is the number of the rows that follow. walk: see solids.Walk.
     """
     kept = 0
     for k in range(1, rows_inout[0] + 1):

@@ -313,9 +313,9 @@ def keep_owned(link, points, x, y, count, manifold_out):
 def collide_link_hull(link, points, hull, margin, bias, is_second, manifold_out):
     """Write the manifold of a link and a Hull of two or more corners. Return the number of points.
 
-    link: LINK row; points: see link_at; margin, bias, manifold_out: see hulls.collide_hulls. If every link has left the
-    contact to its neighbour, the caller makes a second pass over the links. is_second: whether this is the second pass,
-    in which no contact is left to a neighbour.
+    link: LINK row; points: see link_at; margin, bias, manifold_out: see hulls.collide_hulls. A contact near the end of
+    a link is reported by one of the two links there. If each left it to the other, the caller makes a second pass over
+    the links. is_second: whether this is the second pass, in which no contact is left to a neighbour.
     """
     corners = hull.corners
     count = hull.count

@@ -579,7 +579,7 @@ def pushing_edges(a, b, over_ends):
 
     An edge of A may push if it faces a touchable corner of B. It may not if B's neighbour continues the surface at this
     corner. over_ends: also include edges of A that are nearly parallel to a touchable edge of B and lie over an end of
-    it. The other end of such an edge may also be touched. In the result all bits of corners are set, see ALL_EDGES.
+    it; such an edge may also touch B at its other end. All bits of corners are set in the result, see ALL_EDGES.
     """
     if b.edges == ALL_EDGES:
         return ALL_EDGES

@@ -103,8 +103,8 @@ def begin_step(geometry, p, q, a, b, contact_inout):
 def complete_contact(geometry, bodies, shapes, previous, first, contact_inout):
     """Write the cache of a contact detected in this step, and the forces of equal features in the last step.
 
-    previous: CONTACT rows of the last step; first: index in previous of the first row of the same pair of shapes, or of
-    the row that follows the place of the pair, if the pair had no contact. contact_inout: CONTACT row.
+    previous: CONTACT rows of the last step; first: index in `previous` at which the rows of the same pair of shapes
+    begin, or would be inserted if there are none. contact_inout: CONTACT row.
     """
     c = contact_inout
     reset_impulses(c)

@@ -288,7 +288,7 @@ def is_finite_in_step(body, gravity_x, gravity_y, speed_limit, dt):
 
 @subkernel
 def is_finite_character(character):
-    """Return whether the numbers of a CHARACTER row are finite and in range: their sum is below POSITION_LIMIT."""
+    """Return whether the numbers of a CHARACTER row are finite, and their sum is below POSITION_LIMIT in size."""
     c = character
     total = c.offset_x + c.offset_y + c.climb + c.remainder_x + c.remainder_y + c.slope + c.mass + c.push
     total += c.foot_x + c.foot_y + c.carry_x + c.carry_y + c.belt + c.belt_x + c.push_vx + c.push_vy + c.deep

@@ -300,7 +300,7 @@ class Groups(NamedTuple):
 
 
 class FreeFall(NamedTuple):
-    """The acceleration of free bodies, and factors that turn speed and acceleration into a distance in FREE_TIME."""
+    """Constants of free bodies: acceleration, and the distances in FREE_TIME per unit of speed and of acceleration."""
 
     gravity_x: float  # [px/s2] before the gravity scale of a body
     gravity_y: float
@@ -634,10 +634,10 @@ def choose_surface(root, nx, ny, groups_inout):
 
 @subkernel
 def mark_blocked(root, nx, ny, fall, groups_inout):
-    """Mark a group as blocked if sliding along its own surface would take it into this other surface by over a slop.
+    """Mark a group as blocked if another surface stops it from sliding along the surface on which it presses.
 
-    root: root row of the group; nx, ny: normal of the other surface, towards the group. groups_inout: Groups; fall: see
-    FreeFall.
+    This is so if the sliding motion would lead into the other surface by more than a slop. root: root row of the group;
+    nx, ny: normal of the other surface, towards the group. groups_inout: Groups; fall: see FreeFall.
     """
     g = groups_inout
     into = -(g.ax[root] * nx + g.ay[root] * ny)
@@ -715,7 +715,8 @@ def keep_sprung_awake(bodies, joints, slop, islands, least_out):
     """Set the least sleep time of an island to 0 if one of its bodies still moves on a joint spring. O(joints).
 
     A body on a spring is slow where it turns back. So it may sleep only after it has stayed in place for half a period.
-    Also its speed must mean an amplitude of at most about a slop [px]. islands, least_out: see keep_free_awake.
+    Its speed must also be so low that the amplitude is at most about a slop [px]. islands, least_out: see
+    keep_free_awake.
     """
     for i in range(len(joints)):
         j = joints[i]

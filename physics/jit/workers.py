@@ -41,9 +41,9 @@ def short_turns() -> Iterator[None]:
 
 
 class _Pauses:
-    """An import hook that slows the imports of one thread: while kernels run plain, it sleeps before each import.
+    """An import hook that slows the imports of one thread: it sleeps before each import while kernels run as Python.
 
-    It is a module finder that finds no module.
+    It is a module finder that never finds a module.
     """
 
     def __init__(self):

@@ -238,7 +238,7 @@ def outline(solid: np.ndarray, smooth: float = 0.5) -> list[Outline]:
 
 
 def pieces_of(solid: np.ndarray, smooth: float) -> list[Contour]:
-    """Return the pieces of solid[row, col] bool, with those diagonal pixels connected that one outline surrounds.
+    """Return the connected pieces of solid[row, col] bool. Diagonal pixels are connected if one outline surrounds both.
 
     smooth [px]: see outline.
     """

@@ -344,10 +344,11 @@ def _farthest(a, b, best):
 
 
 def _looked_at(some, other, best):
-    """Return (largest distance [px] so far, stretches that may contain a point that is farther away).
+    """Measure the ends and middles of stretches. Return (largest distance [px] so far, stretches to divide further).
 
-    The latter are [(upper bound [px] of the distance, stretch)]. some: stretches whose ends and middles are measured
-    now; other: _Figure from which distances are measured; best [px]: largest distance found before.
+    A stretch is returned as (upper bound [px] of the distance of its points, stretch) if it may contain a point that is
+    farther away than the largest distance so far. some: the stretches to measure; other: _Figure from which distances
+    are measured; best [px]: largest distance found before.
     """
     points = np.array([each.at(np.array([0.0, 0.5, 1.0])) for each in some])
     lines = other.from_lines(points.reshape(-1, 2)).reshape(len(some), 3, -1)
@@ -426,7 +427,7 @@ def cells_of(masks: Sequence[Placed], window: Box) -> Cells:
 
 
 def _places(lines, first, size):
-    """Return, for each gap between grid lines, which row (or column) of a mask lies there; -1 outside the mask.
+    """Return, for each gap between grid lines, the row (or column) of a mask that lies in the gap; -1 outside the mask.
 
     lines [px]: positions of the grid lines; first [px]: position of the mask's first row; size: number of its rows.
     """

@@ -48,7 +48,7 @@ def survey(parts: TileParts, at: tuple[int, int], size: int, number: int, origin
 
 
 def movings(before: np.ndarray, after: np.ndarray, row: int, column: int, size: int) -> list[tuple[int, int]]:
-    """Return (row, column) of the tiles that a change of one tile affects, because corners on common borders changed.
+    """Return (row, column) of each tile whose corners on the border changed because the parts of one tile changed.
 
     before, after (m, 5): Survey.meetings of the changed tile before and after. A tile is listed if a corner on its
     border is in only one of these arrays, even if the tile is outside the mask. row, column: position of the changed

@@ -236,7 +236,7 @@ def squares_way_out(pair, nx, ny, most):
 
 @subkernel
 def line_share(px, py, qx, qy, width, height):
-    """Return what a line contributes to (area, moment of x, moment of y) of the part of a region inside a box.
+    """Return the contribution of a line to (area, moment of x, moment of y) of the part of a region inside a box.
 
     The line from p to q [px] is a part of the region's outline; the box is 0..width x 0..height. The sides of the box
     cut the line into up to three pieces. Along each piece, x clamped to the box is a linear function.
@@ -314,7 +314,7 @@ def next_cut(x, y, radius, width, height, after, until):
 
 @subkernel
 def arc_share(x, y, radius, start, end, width, height):
-    """Return what an arc contributes to (area, moment of x, moment of y) of the part of a region inside a box.
+    """Return the contribution of an arc to (area, moment of x, moment of y) of the part of a region inside a box.
 
     The arc is a part of the region's outline. x, y, radius [px]: its centre and radius; start, end [rad]: its angles,
     start < end. The box is 0..width x 0..height.

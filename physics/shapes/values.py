@@ -290,8 +290,8 @@ class TileGrid(Shape):
     def _outlines(self, x: float, y: float, feet: float) -> list:
         """Return the convex outlines of the tiles, with the grid's origin at (x, y) [px].
 
-        The outline of a one-way tile is the line along its top. It is included only if the other shape is not below
-        this line. feet [px]: y of the lowest point of the other shape, relative to the grid's origin.
+        The outline of a one-way tile is the line along its top. It is left out if the lowest point of the other shape
+        is below this line. feet [px]: y of that point, relative to the grid's origin.
         """
         size = self.tile_size
         solid, slopes, one_way = self.blocks

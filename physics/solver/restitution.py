@@ -346,9 +346,9 @@ def solve_pair(blocks, i, first_point, j, second_point, last, motions, impacts_i
 def solve_together(blocks, last, hit_speed, motions, impacts_inout):
     """Apply the impulses of all points of a body that hit at the present time. Return whether the impulses converged.
 
-    last: see link_impacts; hit_speed [px/s]: approach speed of the soonest hit. Each point separates at least at
-    restitution times its approach speed. The points are solved in pairs, in rounds. On level ground, the first pair
-    with the centre of mass between its points is already the solution, and the other pairs leave it unchanged.
+    last: see link_impacts; hit_speed [px/s]: approach speed of the soonest hit. Each point separates at restitution
+    times its approach speed or faster. The points are solved in pairs, in rounds. On level ground, the first pair with
+    the centre of mass between its points is already the solution, and the other pairs leave it unchanged.
     impacts_inout: IMPACT rows; blocks: see lanes.Blocks. motions: MOTION rows.
     """
     for _ in range(MOST_ROUNDS):
