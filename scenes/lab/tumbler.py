@@ -248,7 +248,7 @@ class Tumbler(Scene):
 def drum_boxes():
     """Return the boxes of the drum, a list of Polygon: its walls and its blades.
 
-    The walls are slightly longer than a side, which closes the corners.
+    Each wall is slightly longer than a side of the drum, so that there is no gap at the corners.
     """
     side = 2.0 * (INSIDE + WALL) * np.tan(pi / SIDES)
     boxes = []

@@ -32,7 +32,7 @@ class Ending:
         return self.left // 60
 
     def step(self, scene, inputs):
-        """Make one step of the ending. Return whether the game's world is not stepped in this step."""
+        """Make one step of the ending. Return whether the game stands still, so that its world must not be stepped."""
         self.since += 1
         if self.mode == PLAYING:
             if scene.plane.lives == 0 and scene.plane.away == 0:

@@ -96,7 +96,7 @@ class Record:
         self.make, self.fields, self.default = make, fields, default
 
     def read(self, reader, place, value):
-        """Return make() of the fields of the object `value`.
+        """Return the object that make() builds from the fields of the JSON object `value`.
 
         Raises FileError if a field is invalid, missing or unknown. reader: Reader of the file; place: of the field in
         the file.
@@ -114,9 +114,9 @@ class Variant:
         self.tag, self.shared, self.records = tag, shared, records
 
     def read(self, reader, place, value):
-        """Return make() of the record that `value` selects by its tag. Raises FileError if a field is invalid.
+        """Read the JSON object `value` with the Record that its tag selects. Return the object that the Record builds.
 
-        reader: Reader of the file; place: of the field in the file.
+        Raises FileError if a field is invalid. reader: Reader of the file; place: of the field in the file.
         """
         tag = Choice(self.records)
         if not isinstance(value, dict) or self.tag not in value:

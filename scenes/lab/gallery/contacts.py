@@ -164,7 +164,7 @@ def gained(side):
 
 
 def energy_text(side):
-    """Return the current energy and the greatest so far as text, as shares of the energy at the start.
+    """Return the measured body's energy now and its greatest energy so far as text, as shares of that at the start.
 
     side: see page.Side.
     """
