@@ -43,7 +43,7 @@ STEP_WISE = 2  # semitones: a whole tone at most counts as a step
 
 
 class Chord(NamedTuple):
-    """A chord. root, bass: pitch classes; tones: semitones above the root."""
+    """A chord of a tune. root, bass: pitch classes (0 C .. 11 B); tones: semitones above the root."""
 
     name: str
     root: int
