@@ -69,7 +69,7 @@ class Settled(Invariant):
 
 
 def sag(step: Step, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Return (n,) overlap [px] by which each contact, a spring, yields to its normal force of the step.
+    """Return (n,) overlap [px] of each contact that its normal force in the step causes, because a contact is a spring.
 
     a, b: (n,) body rows of the contacts. The overlap is F / (m ω²), with m the effective mass of the contact; 0 if the
     number of substeps follows from the loads.

@@ -52,9 +52,10 @@ class Panel(NamedTuple):
 
 
 class Chart(NamedTuple):
-    """One chart. Its rows have the keys "series" and "label".
+    """One chart of the report, made of plots. Its rows of measured data have the keys "series" and "label".
 
-    key: first part of the names of its jobs; truth: a sentence that says against which reference errors are measured.
+    key: first part of the names of its jobs; truth: a sentence that names the reference against which errors are
+    measured.
     """
 
     number: int

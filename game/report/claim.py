@@ -9,7 +9,9 @@ HOLDS, FAILS, TIE = "holds", "does not hold", "a tie"
 
 
 class Claim(NamedTuple):
-    """One claim. text: the sentence; figure: the measured value; verdict: HOLDS, FAILS or TIE; source: paper or manual
+    """One claim about the measured figures, with a verdict.
+
+    text: the claim as a sentence; figure: the measured value; verdict: HOLDS, FAILS or TIE; source: paper or manual
     that claims it, "" for none.
     """
 

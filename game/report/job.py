@@ -25,9 +25,9 @@ class ReportScope(NamedTuple):
 
 
 class Job(NamedTuple):
-    """One job. name: the chart's key, a slash, and the subject of the job.
+    """One measurement of the report, made by one process. name: the chart's key, a slash, and the subject.
 
-    work: "module:function", whose function returns rows; params: its arguments.
+    work: "module:function", whose function returns rows of measured data; params: its arguments.
     """
 
     name: str

@@ -16,7 +16,7 @@ HIGHEST = 46  # [canvas px] of the rows; leaves room for a message of three line
 
 
 class PauseMenu(CanvasScreen):
-    """The pause menu.
+    """The menu that opens over a paused game.
 
     `outcome`: ("back",), ("restart",), ("settings", page), ("save_replay",), ("costs",), ("effects",), ("tour",) or
     ("menu",).

@@ -20,7 +20,7 @@ COUNT_SECONDS = 0.8  # the numbers count up this long
 
 
 class ResultScreen(CanvasScreen):
-    """The result of a game. `place`: 1..10 in the high scores, or None if it has no place there.
+    """Screen with the result of a game. `place`: 1..10 in the high scores, or None if it has no place there.
 
     enter(initials) is called once, when the initials are accepted. `outcome`: ("again",), ("save_replay",), ("scores",)
     or ("menu",).

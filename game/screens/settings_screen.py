@@ -58,7 +58,7 @@ class SettingsScreen(CanvasScreen):
 
     @property
     def page(self) -> str | None:
-        """The marked page, or None while Back is marked."""
+        """Name of the settings page that is marked in the list, or None while Back is marked."""
         return PAGES[self.pages.mark] if self.pages.mark < len(PAGES) else None
 
     def _page_rows(self):

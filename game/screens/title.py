@@ -33,7 +33,10 @@ ENTRIES = (
 
 
 class Title(CanvasScreen):
-    """The first screen. `outcome` becomes that of the chosen entry in ENTRIES, or ("attract",) after IDLE seconds."""
+    """The first screen of the program: logo and main menu.
+
+    `outcome` becomes that of the chosen entry in ENTRIES, or ("attract",) after IDLE seconds.
+    """
 
     tune = "title"
 

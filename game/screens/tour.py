@@ -138,9 +138,10 @@ BUTTONS = {
 
 
 class Tour(SceneScreen):
-    """The tour. make(name) builds a scene. `outcome` becomes ("back",) at the end.
+    """Guided tour of the overlays: at each stop a bot plays a scene, and a card explains one overlay layer.
 
-    names: the scenes that exist; a stop whose scene is missing uses the first of them.
+    make(name) builds a scene. `outcome` becomes ("back",) at the end. names: the scenes that exist; a stop whose scene
+    is missing uses the first of them.
     """
 
     tune = "title"

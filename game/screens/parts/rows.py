@@ -22,7 +22,7 @@ BAR_WIDTH = 64  # of a slider
 
 @dataclass(frozen=True)
 class Row:
-    """One line of a list. `head`: whether it is a heading, which cannot be marked.
+    """One line of a list on a menu screen. `head`: whether it is a heading, which cannot be marked.
 
     turn(direction) changes its value, by -1 or 1. press() is called by Enter or a click. put(share) sets a slider to a
     share 0..1.
@@ -69,7 +69,7 @@ def confirmed(inputs: InputState) -> bool:
 
 
 class RowList:
-    """A list of rows. rows() returns the current rows; rect: place of the list [canvas px].
+    """A scrollable list of rows on a menu screen. rows() returns the current rows; rect: place of the list [canvas px].
 
     cues: the screen's list of sounds to play, to which the list appends.
     """
