@@ -326,7 +326,7 @@ def _differences(world, shape_id, before, mask, changed):
 
 
 def _differences_in_tiles(world, shape_id, before, mask, changed):
-    """Do the same as _differences for tiled masks that differ only in the tiles `changed`."""
+    """Return (rows of parts to remove, NewParts to add) for a tiled mask of which only the tiles `changed` differ."""
     tiles = keep_tiles(mask.bare, before.bare, before.tiles.differences(mask.tiles, changed))
     if not tiles:
         return np.zeros(0, np.int64), NONE

@@ -20,7 +20,7 @@ from physics.tables.step_state import TOI_CALLS
 
 @subkernel
 def is_fast(bodies, paths, row, other):
-    """Return whether a dynamic and a kinematic body move so far relative to each other that one may miss the other.
+    """Return whether a dynamic and a kinematic body move so far relative to each other that they may miss a contact.
 
     This is so if a point of the dynamic body may move, relative to the kinematic body, by more than the dynamic body's
     inradius. row, other: row numbers in BODY of the dynamic and the kinematic body; paths: see Sweep.

@@ -445,10 +445,10 @@ def sweep_chain(geometry, chain, local, mover, but, workspace):
 
 @subkernel
 def sweep_chain_seen_from(geometry, chain, local, middle, mover, but, workspace):
-    """Do the same as sweep_chain for a mover that is one piece of a larger moving shape.
+    """Return the first impact, as sweep_chain does, of a mover that is one piece of a larger moving shape.
 
     middle: point (x, y) [px] of the whole shape, relative to its centre of mass at angle 0. A link is hit only if this
-    point is in front of it. workspace: see RotationalWorkspace.
+    point is in front of it. Other arguments: see sweep_chain.
     """
     span = geometry.chains[chain]
     other = workspace.advance.motion_b

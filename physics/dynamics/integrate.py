@@ -135,9 +135,10 @@ def refresh_centers(rows, bodies_inout):
 
 
 def write_center(bodies: Table, at: int) -> None:
-    """Do the same as refresh_centers for a single body, at a lower cost. at: row number in BODY.
+    """Write the world centre of mass [px] of one body at its present pose, faster than refresh_centers.
 
-    Memory views read and write single numbers faster, so the kernel is called only for a body with an angle.
+    at: row number in BODY. Memory views read and write single numbers faster, so the kernel is called only for a body
+    with an angle.
     """
     columns = bodies.columns
     x, y, angle = columns["x"][at], columns["y"][at], columns["angle"][at]

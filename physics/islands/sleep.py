@@ -183,11 +183,11 @@ def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
 
 
 def disturb_one(world: Any, identity: int, row: int) -> int:
-    """Do the same as `disturb` for one body, between steps, at a lower cost. Return the row of the body after the call.
+    """Wake the island of one body, as `disturb` does, but faster and only between steps.
 
     identity, row: id and row of the body. The row may change, because the call may drop rows of removed bodies, which
     stay in the tables until then. So only single numbers are read, unless an island wakes or the world has joints.
-    world: a World, annotated Any because its module imports this one.
+    world: a World, annotated Any because its module imports this one. Return the body's row afterwards.
     """
     awake, sleeping_set = world.awake, world.sleeping_set
     if not awake.sleeping:
