@@ -19,7 +19,7 @@ UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns"))
 
 
 class Series(NamedTuple):
-    """A series of the plot.
+    """One curve of the plot of cost over number of bodies.
 
     points: (number of bodies, Cost), smallest number first; law: power law fitted to the last `fitted` points, or None
     if it is not known yet.

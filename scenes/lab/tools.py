@@ -15,7 +15,10 @@ GOLDEN = 0.6180339887498949  # its multiples, modulo 1, are never near one anoth
 
 
 class Tool:
-    """The tool in use. name: one of TOOLS; radius [px]. cut() returns the shape to carve in each step."""
+    """The carving tool that the player has chosen. name: one of TOOLS; radius [px].
+
+    cut() returns the shape to carve in each step.
+    """
 
     def __init__(self):
         self.name, self.radius = TOOLS[0], 0

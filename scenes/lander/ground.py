@@ -16,7 +16,10 @@ BITS = np.uint64(63)
 
 
 class Ground:
-    """The ground. body: the static body; touched: set of the tiles (column, row) that have changed since the start."""
+    """The rock and ice of the moon, which explosions carve. body: the static body of the ground.
+
+    touched: set of the tiles (column, row) that have changed since the start.
+    """
 
     def __init__(self, world, moon):
         self.moon = moon

@@ -7,7 +7,7 @@ from scenes.lander.feel import MUZZLE, PUSH, PUSH_REACH, SHELL, SHELL_LIFE, SHEL
 
 
 class Gun:
-    """The gun. shells: {body id of a shell: steps until it is removed}."""
+    """The ship's gun and its flying shells. shells: {body id of a shell: steps until it is removed}."""
 
     def __init__(self, world):
         self.world = world

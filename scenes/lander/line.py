@@ -11,7 +11,7 @@ from scenes.lander.feel import LINE, LINE_DAMPING, LINE_RATE, REACH, SNAP
 
 
 class Line:
-    """The rope. load: the body that it carries, or None; torn: whether it tore in this step."""
+    """The rope on which the ship carries a load. load: its body, or None; torn: whether the rope tore in this step."""
 
     def __init__(self):
         self.load: Any = None

@@ -60,9 +60,10 @@ class Waypoint:
 
 
 class Moon:
-    """The moon. mask: the ground as one PixelMask, at the world's origin.
+    """The moon: its ground as a mask, and where its caves are.
 
-    solid: bool array [row, column] of the ground's pixels. massif: the same of the mountain, including its caves.
+    mask: the ground as one PixelMask, at the world's origin. solid: bool array [row, column] of the ground's pixels.
+    massif: the same of the mountain, including its caves.
     """
 
     def __init__(self):

@@ -34,7 +34,10 @@ WAIT = 22  # steps between two shells
 
 
 class Pilot:
-    """The bot. act, number: indices of the act and of its next waypoint; aiming: whether it is about to fire."""
+    """The bot, which flies the ship from waypoint to waypoint. aiming: whether it is about to fire.
+
+    act, number: indices of the current act, and of the next waypoint in this act.
+    """
 
     def __init__(self):
         self.act = self.number = self.wait = 0

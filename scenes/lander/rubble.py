@@ -18,7 +18,7 @@ class Piece:
 
 
 class Rubble:
-    """All rubble. pieces: {body id: Piece}.
+    """All loose pieces of rock on the moon. pieces: {body id: Piece}.
 
     At first these are the loose rocks; explosions add pieces of ground and of rocks.
     """

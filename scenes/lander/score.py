@@ -11,7 +11,7 @@ OFF_CENTRE = 34.0  # [px] distance from a pad's middle from which there is no bo
 
 
 class Score:
-    """The score. points: total; the other attributes count landings, deliveries, lost ships, shells and cans."""
+    """The player's score. points: total; other attributes count landings, deliveries, lost ships, shells and cans."""
 
     def __init__(self):
         self.points = 0

@@ -19,9 +19,10 @@ TINT = {"good": (170, 255, 190), "gold": (255, 226, 120), "bad": (255, 140, 120)
 
 
 class Spectacle:
-    """The effects of the scene. works: moving decoration (explosions, debris, texts); other attributes are timers.
+    """Visible and audible effects of the lander.
 
-    Each method from act_begins() on shows one kind of event, with pictures and sound.
+    works: moving decoration (explosions, debris, texts); other attributes are timers. Each method from act_begins() on
+    shows one kind of event, with pictures and sound.
     """
 
     def __init__(self, scene):

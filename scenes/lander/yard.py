@@ -45,9 +45,10 @@ class Cargo:
 
 
 class Yard:
-    """The objects on the moon. cargo, cans: {body id: object}; rubble: loose rocks and pieces of ground.
+    """The loose objects and the pads on the moon.
 
-    pads: {body id of a pad's deck: Pad}; zones: {body id of the sensor above a pad's deck: Pad}.
+    cargo, cans: {body id: object}; rubble: loose rocks and pieces of ground. pads: {body id of a pad's deck: Pad};
+    zones: {body id of the sensor above a pad's deck: Pad}.
     """
 
     def __init__(self, world, moon):

@@ -59,7 +59,10 @@ WINDOW = 20.0, 72.0  # [px] distance (x, y) from a checkpoint within which the g
 
 
 class Look:
-    """The effects of the scene. Each method from hear() on shows one kind of event, with pictures and sound."""
+    """Visible and audible effects of the platformer.
+
+    Each method from hear() on shows one kind of event, with pictures and sound.
+    """
 
     def __init__(self, scene):
         self.scene = scene

@@ -16,10 +16,10 @@ READY = steps(3.0)  # steps of the stage's title, before its clock begins
 
 
 class Director:
-    """The director. clock: time of the stage [steps]; wave, number: name and number of the latest wave.
+    """The director, which launches the waves and the bosses of a stage. clock: time of the stage [steps].
 
-    mode: "ready", then "run"; for a leader "clearing", "warning", "leader", "rest"; after the boss "over". since: steps
-    in the current mode.
+    wave, number: name and number of the latest wave. mode: "ready", then "run"; for a boss or mid-boss "clearing",
+    "warning", "leader", "rest"; after the boss "over". since: steps in the current mode.
     """
 
     def __init__(self, stage):

@@ -13,7 +13,7 @@ PARTS = {"core": CORED, "hull": HULLED}
 
 
 class Hits:
-    """Numbers of hits. count: {part: hits so far}.
+    """Numbers of hits of the player's plane. count: {part of the plane: hits so far}.
 
     now: {part: ids of the bodies whose contact with the core or hull began in this step}.
     """

@@ -41,7 +41,7 @@ def directions():
 
 
 class Pilot:
-    """The bot. keys(scene) returns the actions to hold in the next step."""
+    """The bot, which plays the shooter. keys(scene) returns the actions to hold in the next step."""
 
     def __init__(self):
         self.plans = directions()

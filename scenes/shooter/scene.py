@@ -30,7 +30,10 @@ DROP_EVERY = 45  # kills between two power-ups that no enemy carried
 
 
 class Shooter(Scene):
-    """The shooter. Collision filters define which bodies can meet; masks and circles decide whether they do."""
+    """The shooter, a scene with one world.
+
+    Collision filters define which bodies can meet; masks and circles decide whether.
+    """
 
     name = "shooter"
     title = "Shooter"

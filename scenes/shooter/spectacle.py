@@ -42,9 +42,10 @@ WORDS = {"power": "POWER UP", "bomb": "BOMB", "life": "1UP"}
 
 
 class Spectacle:
-    """The effects of the scene. works: moving decoration (explosions, debris, texts); other attributes are timers.
+    """Visible and audible effects of the shooter.
 
-    Each method from wave() on shows one kind of event, with pictures and sound.
+    works: moving decoration (explosions, debris, texts); other attributes are timers. Each method from wave() on shows
+    one kind of event, with pictures and sound.
     """
 
     def __init__(self, scene):

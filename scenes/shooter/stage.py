@@ -48,7 +48,7 @@ class Group:
 
 @dataclass(frozen=True)
 class Pattern:
-    """The fire of one gun. shoot: kind of fire ("aimed", "fan", ...), which decides which other fields are used.
+    """The firing pattern of one gun. shoot: kind of fire ("aimed", "fan", ...); it decides which other fields are used.
 
     The first shot comes after `after` [s], the next ones every `every` [s]. After a burst of `shots` shots, the gun
     rests for `rest` [s] in addition. faster: each shot of a burst is faster by this than the shot before [px/s].
@@ -133,7 +133,7 @@ class Event:
 
 @dataclass(frozen=True)
 class Stage:
-    """A stage. `title` and `name` are shown at its start."""
+    """One stage of the shooter: its events in the order of time. `title` and `name` are shown at its start."""
 
     title: str
     name: str
