@@ -56,11 +56,11 @@ class Surveyor:
         self.process: subprocess.Popen[str] | None = None
 
     def measure(self, snapshot: Snapshot, broadphase: str, run: object = None) -> None:
-        """Order measurements of all settings, starting from `snapshot`; the results go to `survey`. The order replaces
-        an unfinished earlier one.
+        """Request the measurement of every setting, starting from `snapshot`. The results go to the attribute `survey`.
 
-        broadphase: name of the broad phase of the snapshot's world. run: the recorded run so far, for a process that
-        counts the encounters of a run (game.run.run_worker); None: not recorded.
+        The request replaces an unfinished earlier one. broadphase: name of the broad phase of the snapshot's world.
+        run: the inputs recorded so far, for a process that also counts which bodies met in the run
+        (game.run.run_worker); None: the run is not recorded.
         """
         if not self._started():
             return

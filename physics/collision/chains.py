@@ -87,9 +87,9 @@ def dot_along(points, i, j, x, y, origin):
 
 @subkernel
 def height_over(points, i, j, x, y):
-    """Return the signed distance [px] of (x, y) from the line through two points; positive in front of the line.
+    """Return the signed distance [px] of (x, y) from the line from point i to point j; positive on its left.
 
-    points (16, 2) [px]; i, j: row numbers of the two points.
+    points (16, 2) [px]; i, j: row numbers of the two points. Left and right are as seen on the screen, with y down.
     """
     nx, ny = unit(points[j, 1] - points[i, 1], points[i, 0] - points[j, 0], 0.0, -1.0)
     return nx * (x - points[i, 0]) + ny * (y - points[i, 1])

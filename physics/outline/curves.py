@@ -464,11 +464,11 @@ def span_of(first, length, count, path, workspace):
 
 @subkernel
 def lay_curve(first, length, count, path, workspace, n, points_out):
-    """Compute the lines of a curve again, and append their points except the last. Return the number of points.
+    """Append the points of a curve to points_out, except its last point. Return the number of points after that.
 
-    If the curve is too narrow, no points are appended. first: vertex at which the curve starts; length: number of the
-    curve's lines; count: number of lines of the path; n: number of points before; points_out: POINT rows; workspace:
-    see Lines.
+    A curve narrower than its tolerance adds no point. first: vertex at which the curve starts; length: number of line
+    segments of the path that the curve replaces; count: number of line segments of the path; path: see span_of; n:
+    number of points before; points_out: POINT rows; workspace: see Lines.
     """
     curve = span_of(first, length, count, path, workspace)
     if curve.half == 0:

@@ -336,7 +336,11 @@ def cut_reflex(n, sides_inout):
 
 @subkernel
 def cut_large(n, most, sides_inout):
-    """Halve convex pieces until each has at most `most` corners. Return the number of sides. sides_inout: SIDE rows."""
+    """Halve convex pieces until each has at most `most` corners.
+
+    n: number of rows in use before; sides_inout: SIDE rows, the sides of all pieces. Return the number of rows of
+    sides_inout in use afterwards.
+    """
     k = 0
     while k < n:
         if sides_inout[k].alive:

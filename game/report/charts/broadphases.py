@@ -180,9 +180,9 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
 
 
 def _of_papers(rows) -> Iterator[Claim]:
-    """Yield the claims of papers about broad phases, tested at NAIVE_LIMIT bodies.
+    """Yield a Claim, with its verdict, for each claim of a paper about broad phases, at NAIVE_LIMIT bodies.
 
-    This is the largest size at which the naive baseline is measured.
+    rows: measured rows of the chart. NAIVE_LIMIT is the largest size at which testing every pair is measured.
     """
     known = {(row["series"], row["layout"], row["moving"], row["n"]): row for row in rows}
 
