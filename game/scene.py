@@ -26,6 +26,7 @@ from game.invariants.watch import WatchedWorld
 from game.measurement_requests import MeasurementRequest
 from game.places import OUTLINES
 from physics import BROADPHASES, SOLVERS, Effects
+from physics.annotations import SolverName, TierName
 from physics.outline import kept
 
 kept.use(OUTLINES)
@@ -114,9 +115,9 @@ class Scene:
     effects = Effects()
     other_effects: tuple[Effects, ...] = ()  # that worlds may switch to; compiled before the start
     broadphase = "hash"
-    solver: str | None = None  # None: the default of World
+    solver: SolverName | None = None  # None: the default of World
     keeps: dict[str, str] = {}  # setting that --advise would change -> reason to keep it: see docs/advice.json
-    solvers: tuple[str, ...] = ()  # all solvers of the worlds, if there are several; compiled before the start
+    solvers: tuple[SolverName, ...] = ()  # all solvers of the worlds, if there are several; compiled before the start
     features: tuple[str, ...] = ()  # short phrases for the menu and --list
     # Names for physics.warmup: the shape pairs and queries to compile before the start; None: all.
     pieces: tuple[str, ...] | None = None
@@ -124,7 +125,7 @@ class Scene:
     # Name of a slider, or "substeps" -> value used until the kernels are compiled, if frames would take over 0.1 s.
     lighter: dict[str, int | float] = {}
     actions: tuple[tuple[str, str], ...] = ()  # (key, effect) pairs for the help line
-    tiers: tuple[str, ...] = ()  # collision tiers of the scene's sprites; the scene starts with the first
+    tiers: tuple[TierName, ...] = ()  # collision tiers of the scene's sprites; the scene starts with the first
     overlays: tuple[str, ...] = ()  # overlay layers on from the start
     filter_names: dict[int, str] = {}  # membership bit -> its meaning, for the legend of the filters
     legend_at: tuple[int, int] | None = None  # canvas (x, y) where the overlays' legend goes if it is free
@@ -147,15 +148,15 @@ class Scene:
         self,
         seed: int = 0,
         broadphase: str | None = None,
-        solver: str | None = None,
-        tier: str | None = None,
+        solver: SolverName | None = None,
+        tier: TierName | None = None,
         level: Path | None = None,
     ) -> None:
         self.seed = seed
         self.level_file = level  # None: the scene's own
         self.broadphase = broadphase or type(self).broadphase
         self.solver = solver or type(self).solver
-        self.tier = tier or (self.tiers[0] if self.tiers else None)
+        self.tier: TierName | None = tier or (self.tiers[0] if self.tiers else None)
         self.narrowphase = self.effects.narrowphase
         self.figures: dict[Any, Any] = {}  # results of the requests in measured(), as far as available
         self.substeps: int | str | None = None  # None: the world's own setting
@@ -202,7 +203,11 @@ class Scene:
             set_loaded_aside()
 
     def add_world(
-        self, effects: Effects | None = None, broadphase: str | None = None, solver: str | None = None, **settings: Any
+        self,
+        effects: Effects | None = None,
+        broadphase: str | None = None,
+        solver: SolverName | None = None,
+        **settings: Any,
     ) -> WatchedWorld:
         """Make a world with the scene's effects, broad phase, solver and seed, and append it to self.worlds.
 
@@ -304,7 +309,7 @@ class Scene:
             for world in self.worlds:
                 world.broadphase = BROADPHASES[name]()
 
-    def solver_choices(self) -> tuple[str, ...]:
+    def solver_choices(self) -> tuple[SolverName, ...]:
         """Return the names of the solvers between which the player may switch.
 
         They are () without the effect `response`, or if each world has its own solver.
@@ -312,7 +317,7 @@ class Scene:
         return () if self.solvers or not self.effects.response else self.valid_solvers()
 
     @classmethod
-    def valid_solvers(cls) -> tuple[str, ...]:
+    def valid_solvers(cls) -> tuple[SolverName, ...]:
         """Return the names of the solvers that the scene's effects allow."""
         return tuple(SOLVERS) if cls.effects.stacking else ("blocking", "projection")
 
@@ -323,7 +328,7 @@ class Scene:
             return ()
         return (cls.level_suffix,) if cls.level_suffix else (".tmj", ".json")
 
-    def set_solver(self, name: str) -> None:
+    def set_solver(self, name: SolverName) -> None:
         """Switch the solver of every world during a game."""
         self.solver = name
         for world in self.worlds:
@@ -347,7 +352,7 @@ class Scene:
         for world in self.worlds:
             world.set_narrowphase(on)
 
-    def set_tier(self, name: str) -> None:
+    def set_tier(self, name: TierName) -> None:
         """Switch the collision tier of all sprite bodies during a game.
 
         The scene must use self.tier for bodies that it adds later.

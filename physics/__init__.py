@@ -43,9 +43,7 @@ from physics.snapshot import PHYSICS_VERSION, Snapshot
 from physics.step import SOLVERS
 from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
 from physics.warmup import warmup
-from physics.world import World
-
-BROADPHASES = {each.name: each for each in (BruteForce, SweepAndPrune, SpatialHashGrid, DynamicTree)}
+from physics.world import BROADPHASES, World
 
 __all__ = [
     "Angle", "BROADPHASES", "Body", "Bounds", "BruteForce", "Capsule", "Chain", "Character", "Circle", "DYNAMIC",

@@ -3,6 +3,8 @@
 Reading or changing a removed body raises KeyError.
 """
 
+from __future__ import annotations
+
 import math
 from typing import Any
 
@@ -10,8 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from physics import carving, checks, edit, step, teleport
+from physics.annotations import ContinuousName, KindName, Pair, Pose, TierName
 from physics.carving import Carved
-from physics.checks import Pair, Pose
 from physics.collision.areas import with_areas
 from physics.collision.manifold import contacts_of
 from physics.islands import sleep
@@ -20,9 +22,22 @@ from physics.math2d import Vec2, rotate
 from physics.queries.casts import bounds_of
 from physics.shapes.shape import Filter, Material, Shape
 from physics.tables.body import CONTINUOUS, DYNAMIC, KINDS, STATIC
+from physics.tables.columns import ContactRows
+from physics.tables.contact import CONTACT_POINT
 from physics.world_state import Handle
 
 
+def _set_known(body: Any, name: str, value: Any) -> None:
+    """Set an attribute. Raises AttributeError for an unknown name, and suggests the most similar known name."""
+    try:
+        object.__setattr__(body, name, value)
+    except AttributeError:
+        if not hasattr(type(body), name):
+            checks.known_attribute(body, name, strict=True)
+        raise
+
+
+@checks.setting_by(_set_known)
 class Body(Handle):
     """A handle on one body of a world. Positions in px, angles in rad clockwise on the screen, velocities per second.
 
@@ -32,15 +47,6 @@ class Body(Handle):
     """
 
     __slots__ = ()
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        """Set an attribute. Raises AttributeError for an unknown name, and suggests the most similar known name."""
-        try:
-            object.__setattr__(self, name, value)
-        except AttributeError:
-            if not hasattr(type(self), name):
-                checks.known_attribute(self, name, strict=True)
-            raise
 
     # --- pose -------------------------------------------------------------------------------------------------------
 
@@ -263,7 +269,7 @@ class Body(Handle):
     # --- contacts, carving, sleep, removal ----------------------------------------------------------------------
 
     @property
-    def contacts(self) -> np.ndarray:
+    def contacts(self) -> ContactRows:
         """A copy of the CONTACT_POINT rows in which this body takes part, in the order of shape ids.
 
         They are contacts of the last step, and contacts of sleeping bodies.
@@ -273,7 +279,7 @@ class Body(Handle):
         told = told[(told["body_a"] == self.id) | (told["body_b"] == self.id)]
         asleep = contacts_of(with_areas(world, world.sleeping_set.naming(self.id, int(row["island"]))))
         both = np.concatenate([told, asleep])
-        return both[np.lexsort((both["shape_b"], both["shape_a"]))]
+        return both[np.lexsort((both["shape_b"], both["shape_a"]))].view(CONTACT_POINT)  # pyright: ignore[reportReturnType]
 
     def carve(self, shape: Shape, pose: Pose, crumb: int = 4) -> Carved:
         """Remove from the body's masks all pixels with centres inside a shape, or on its boundary. Return a Carved.
@@ -298,7 +304,7 @@ class Body(Handle):
         self._must_exist()
         sleep.disturb(self.world, [self.id])
 
-    def set_kind(self, kind: str) -> None:
+    def set_kind(self, kind: KindName) -> None:
         """Set the kind: "static", "kinematic" or "dynamic". A body that becomes static stops.
 
         Raises ValueError for another kind, for shapes that a body of this kind cannot have, and for the body of a
@@ -317,7 +323,7 @@ class Body(Handle):
     # --- kind and user value -------------------------------------------------------------------------------------
 
     @property
-    def kind(self) -> str:
+    def kind(self) -> KindName:
         """The kind: "static", "kinematic" or "dynamic". See set_kind."""
         return KINDS[self._value("kind")]
 
@@ -407,7 +413,7 @@ class Body(Handle):
         row["bullet"] = edit.checked_bullet(self.world, value)
 
     @property
-    def continuous(self) -> str:
+    def continuous(self) -> ContinuousName:
         """Continuous collision of the body: "off", "ray", "swept", "toi" or "auto".
 
         Setting "ray", "swept" or "toi" raises ValueError without the effect continuous.
@@ -415,7 +421,7 @@ class Body(Handle):
         return CONTINUOUS[self._value("continuous")]
 
     @continuous.setter
-    def continuous(self, value: str) -> None:
+    def continuous(self, value: ContinuousName) -> None:
         edit.set_continuous(self.world, self.id, value)
 
     @property
@@ -471,7 +477,7 @@ class Body(Handle):
         edit.remove_shape(self.world, self.id, shape_id)
 
     @property
-    def tier(self) -> str | None:
+    def tier(self) -> TierName | None:
         """How the body's PixelMask is simplified: one of TIERS, such as "hull"; None if its given shapes are used.
 
         Setting it replaces the shapes of the body by those of physics.fit for the mask.
@@ -480,7 +486,7 @@ class Body(Handle):
         return self.world._tiers.get(self.id)
 
     @tier.setter
-    def tier(self, value: str | None) -> None:
+    def tier(self, value: TierName | None) -> None:
         edit.set_tier(self.world, self.id, value)
 
     # --- rows --------------------------------------------------------------------------------------------------------

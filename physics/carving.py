@@ -1,7 +1,7 @@
 """Carving: pixels of a body's masks are removed, and pieces that are separated from the rest become bodies."""
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -22,7 +22,7 @@ class Carved(NamedTuple):
     """The result of Body.carve."""
 
     removed: int  # pixels that lay in the shape and were removed
-    fragments: tuple  # Bodies of the separated pieces, by mask, and for each mask by their first pixels
+    fragments: tuple[Any, ...]  # Bodies of the separated pieces, by mask, and for each mask by their first pixels
     crumbs: int  # pixels of separated pieces that were too small and were removed
 
 

@@ -1,26 +1,19 @@
 """Checks of arguments. Each message names the argument, its value and the allowed values."""
 
-import difflib
 import math
 import numbers
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import Any, TypeVar
 
 import numpy as np
 
+from physics import hints
+from physics.hints import near, shown
 from physics.math2d import NO_PAIRS, Vec2
 from physics.settings import POSITION_LIMIT
 
-# Argument types for which these functions return floats.
-Pair = Sequence[float] | np.ndarray  # (x, y)
-Pose = Sequence[float] | np.ndarray  # (x, y, angle), or (x, y) at angle 0
-Points = Sequence[Pair] | np.ndarray  # (n, 2)
-
 PLAIN_PAIRS, PLAIN = (tuple, Vec2, list), (float, int)  # types that need no further checks
 EXACT = 2**53  # all whole numbers below it have an exact float
-
-NEAR_NAME = 0.7  # difflib similarity from which a name counts as a misspelling of another
-LONGEST_SHOWN = 200  # [characters] of a wrong value in a message
 
 
 def number(
@@ -34,7 +27,7 @@ def number(
     if type(value) is float and value - value == 0.0 and low is above is high is None:
         return value
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
-        raise TypeError(f"{name} must be a number (got {shown(value)})")
+        raise TypeError(f"{name} must be a number (got {shown(value)}){hints.in_place_of_number(name, value)}")
     try:
         value = float(value)
     except OverflowError:
@@ -62,10 +55,27 @@ def known_attribute(thing: Any, name: str, strict: bool) -> None:
     thing: the object; strict: raise the error also if no existing name is similar.
     """
     public = [each for each in {*dir(type(thing)), *getattr(thing, "__dict__", ())} if not each.startswith("_")]
-    near = difflib.get_close_matches(name, sorted(public), 1, NEAR_NAME)
-    if near or strict:
-        hint = f": did you mean {near[0]}?" if near else ""
+    similar = near(name, sorted(public))
+    if similar or strict:
+        hint = f": did you mean {similar}?" if similar else ""
         raise AttributeError(f"{type(thing).__name__} has no attribute {name}{hint}")
+
+
+Word = TypeVar("Word", bound=str)
+Made = TypeVar("Made", bound=type)
+
+
+def setting_by(set_attribute: Callable[[Any, str, Any], None]) -> Callable[[Made], Made]:
+    """Return a class decorator that makes a function the `__setattr__` of a class.
+
+    A `__setattr__` in the class itself would tell type checkers that any attribute can be set.
+    """
+
+    def decorate(made: Made) -> Made:
+        type.__setattr__(made, "__setattr__", set_attribute)
+        return made
+
+    return decorate
 
 
 class NoSuchId(KeyError, ValueError):
@@ -73,12 +83,6 @@ class NoSuchId(KeyError, ValueError):
 
     def __str__(self) -> str:
         return str(self.args[0])  # str() of a KeyError puts its message in quotes
-
-
-def shown(value: Any) -> str:
-    """Return a value as text for an error message. A long text is cut, and its length is added."""
-    text = repr(value)
-    return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]}… ({len(text)} characters)"
 
 
 def vector(name: str, value: Any) -> Vec2:
@@ -100,7 +104,8 @@ def vector(name: str, value: Any) -> Vec2:
         except (TypeError, ValueError):
             x = None
     if x is None:
-        raise TypeError(f"{name} must be a pair (x, y) of numbers (got {shown(value)})")
+        hint = hints.in_place_of_vector(value)
+        raise TypeError(f"{name} must be a pair (x, y) of numbers (got {shown(value)}){hint}")
     return Vec2(number(f"{name}[0]", x), number(f"{name}[1]", y))
 
 
@@ -138,7 +143,8 @@ def whole(name: str, value: Any, low: int, high: int) -> int:
     limits. name: of the argument, for messages.
     """
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
-        raise TypeError(f"{name} must be a whole number (got {shown(value)})")
+        hint = f": write {int(value)}" if isinstance(value, float) and value.is_integer() else ""
+        raise TypeError(f"{name} must be a whole number (got {shown(value)}){hint}")
     value = int(value)
     if not low <= value <= high:
         raise ValueError(f"{name} must be {low if low == high else f'{low}..{high}'} (got {value})")
@@ -148,21 +154,22 @@ def whole(name: str, value: Any, low: int, high: int) -> int:
 def flag(name: str, value: Any) -> bool:
     """Return True or False as a bool. Raises TypeError for any other value. name: of the argument, for messages."""
     if not isinstance(value, (bool, np.bool_)):
-        raise TypeError(f"{name} must be True or False (got {shown(value)})")
+        hint = f": write {bool(value)}" if type(value) is int and value in (0, 1) else ""
+        raise TypeError(f"{name} must be True or False (got {shown(value)}){hint}")
     return bool(value)
 
 
-def choice(name: str, value: Any, allowed: Sequence[str]) -> str:
+def choice(name: str, value: Any, allowed: Sequence[Word]) -> Word:
     """Return the value if it is one of the allowed strings.
 
     Raises TypeError for a value that is not a string, and ValueError for another string. name: of the argument, for
     messages.
     """
-    if not isinstance(value, str):
-        raise TypeError(f"{name} must be one of {', '.join(allowed)} (got {shown(value)})")
-    if value not in allowed:
-        raise ValueError(f"{name} must be one of {', '.join(allowed)} (got {shown(value)})")
-    return value
+    for word in allowed:
+        if isinstance(value, str) and value == word:
+            return word
+    wrong, hint = ValueError if isinstance(value, str) else TypeError, hints.in_place_of_word(name, value, allowed)
+    raise wrong(f"{name} must be one of {', '.join(allowed)} (got {shown(value)}){hint}")
 
 
 def columns(name: str, value: Any, count: int | None = None, width: int = 2, like: str = "positions") -> np.ndarray:
@@ -177,13 +184,14 @@ def columns(name: str, value: Any, count: int | None = None, width: int = 2, lik
     except ValueError:
         raise TypeError(f"{name} must be an array of numbers (got rows of different lengths)") from None
     if array.size and array.dtype.kind not in "iuf":
-        raise TypeError(f"{name} must be an array of numbers (got {array.dtype} in a {type(value).__name__})")
+        hint = hints.in_place_of_points(name, value)
+        raise TypeError(f"{name} must be an array of numbers (got {array.dtype} in a {type(value).__name__}){hint}")
     array = np.array(array, dtype=np.float64, order="C")
     shape = f"(n, {width})" if width > 1 else "(n,)"
     if width > 1 and array.size == 0:
         array = array.reshape(0, width)
     if array.ndim != (2 if width > 1 else 1) or (width > 1 and array.shape[1] != width):
-        raise ValueError(f"{name} must have shape {shape} (got {array.shape})")
+        raise ValueError(f"{name} must have shape {shape} (got {array.shape}){hints.in_place_of_points(name, value)}")
     if count is not None and len(array) != count:
         raise ValueError(f"{name} must have {count} rows, as {like} has (got {len(array)})")
     bad = ~np.isfinite(array)
@@ -202,6 +210,7 @@ def pose(name: str, value: Any) -> tuple[float, float, float]:
     try:
         x, y, angle = value if len(value) == 3 else (*value, 0.0)
     except (TypeError, ValueError):
-        raise TypeError(f"{name} must be (x, y) or (x, y, angle) (got {shown(value)})") from None
+        hint = hints.in_place_of_vector(value)
+        raise TypeError(f"{name} must be (x, y) or (x, y, angle) (got {shown(value)}){hint}") from None
     x, y = position(name, (x, y))
     return x, y, number(f"{name}[2]", angle)

@@ -241,10 +241,11 @@ def joints(world: World) -> np.ndarray:
     for name in ("joint_a", "joint_b"):
         found[name][~of_gear] = NO_JOINT
     turned = np.zeros(len(rows))  # angle of A
+    columns = np.asarray(rows)  # its columns may have computed names
     for side in ("a", "b"):
-        x, y = rows[f"local_{side}x"].copy(), rows[f"local_{side}y"].copy()
-        there = rows[f"body_{side}"] != WORLD
-        body = bodies[world.rows(rows[f"body_{side}"][there])]
+        x, y = columns[f"local_{side}x"].copy(), columns[f"local_{side}y"].copy()
+        there = columns[f"body_{side}"] != WORLD
+        body = bodies[world.rows(columns[f"body_{side}"][there])]
         cosine, sine = np.cos(body["angle"]), np.sin(body["angle"])
         x[there], y[there] = (
             body["x"] + cosine * x[there] - sine * y[there],

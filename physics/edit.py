@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from physics import checks
+from physics.annotations import ContinuousName, KindName, Points, TierName
 from physics.broadphase.proxies import write_rectangles
-from physics.checks import Points
 from physics.contacts.cache import shift_center
 from physics.contacts.matching import KeptImpulses
 from physics.dynamics.integrate import refresh_centers, write_center
@@ -18,7 +18,7 @@ from physics.shapes.kinds import check_shapes
 from physics.shapes.library import find_equal, rounding_of, rows_in_tiles, set_mass, weigh
 from physics.shapes.mask import PixelMask
 from physics.shapes.outline import is_tiled, keep_tiles, polygons, tiled_parts
-from physics.shapes.shape import Filter, Material, Shape
+from physics.shapes.shape import Filter, Material, Shape, checked_filter, checked_material
 from physics.shapes.values import TileGrid
 from physics.tables.body import AUTO, CONTINUOUS, DYNAMIC, KINDS, KINEMATIC, OFF, STATIC
 from physics.tables.shape import MASK, PART, PIXELS, WHOLE, WHOLE_MASK
@@ -536,7 +536,7 @@ def rebuild_masks(world: WorldState) -> None:
                 world._tiers[identity], world._sources[identity] = tier, source
 
 
-def shapes_for_tier(shapes: Sequence[Shape], tier: str | None) -> tuple:
+def shapes_for_tier(shapes: Sequence[Shape], tier: TierName | None) -> tuple:
     """Return the shapes that replace one PixelMask at a tier, such as "hull"; `shapes` if the tier is None."""
     if tier is None:
         return tuple(shapes)
@@ -545,7 +545,7 @@ def shapes_for_tier(shapes: Sequence[Shape], tier: str | None) -> tuple:
     return fit(shapes[0], tier)
 
 
-def set_tier(world: WorldState, identity: int, tier: str | None) -> None:
+def set_tier(world: WorldState, identity: int, tier: TierName | None) -> None:
     """Set Body.tier of a body made from one PixelMask. Raises ValueError for an unknown tier or other bodies."""
     world._row_number(identity)
     source = world._sources.get(identity, world._shapes_of[identity])
@@ -562,18 +562,18 @@ def set_tier(world: WorldState, identity: int, tier: str | None) -> None:
 class BodyDef(NamedTuple):
     """The arguments of World.add_body except shapes, position, angle and velocity."""
 
-    kind: str = "dynamic"
+    kind: KindName = "dynamic"
     angular_velocity: float = 0.0
     mass: float | None = None
     material: Material = Material()
     filter: Filter = Filter.ALL
     sensor: bool = False
     bullet: bool = False
-    continuous: str = "auto"
+    continuous: ContinuousName = "auto"
     fixed_rotation: bool = False
     gravity_scale: float = 1.0
     allow_sleep: bool = True
-    tier: str | None = None
+    tier: TierName | None = None
     user: Any = None
 
 
@@ -651,20 +651,6 @@ def add_rows(
 
 
 # --- checks of arguments ----------------------------------------------------------------------------------------
-
-
-def checked_material(value: Any) -> Material:
-    """Return a Material unchanged. Raises TypeError for anything else."""
-    if not isinstance(value, Material):
-        raise TypeError(f"material must be a Material (got {checks.shown(value)})")
-    return value
-
-
-def checked_filter(value: Any) -> Filter:
-    """Return a Filter unchanged. Raises TypeError for anything else."""
-    if not isinstance(value, Filter):
-        raise TypeError(f"filter must be a Filter (got {checks.shown(value)})")
-    return value
 
 
 def checked_sensor(world: WorldState, value: Any) -> bool:
@@ -748,7 +734,7 @@ def set_sensor(world: WorldState, identity: int, value: bool) -> None:
     sleep.disturb(world, [identity])
 
 
-def set_continuous(world: WorldState, identity: int, value: str) -> None:
+def set_continuous(world: WorldState, identity: int, value: ContinuousName) -> None:
     """Set the mode of continuous collision of a body. Raises the errors of checked_continuous."""
     world._unlocked()
     swept, row = checked_continuous(world, value), world._body_row(identity)
@@ -768,7 +754,7 @@ def set_fixed_rotation(world: WorldState, identity: int, value: bool) -> None:
     refresh_mass(world, identity)
 
 
-def set_kind(world: WorldState, identity: int, kind: str) -> None:
+def set_kind(world: WorldState, identity: int, kind: KindName) -> None:
     """Set the kind of a body. Raises ValueError for a dynamic TileGrid, or a character that is not kinematic."""
     world._unlocked()
     row = world._body_row(identity)

@@ -2,15 +2,17 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
+from typing import Any
 
-from physics import checks
+from physics import checks, hints
 
 NEEDS_RESPONSE = ("friction", "restitution", "stacking", "one_way", "conveyor", "joints")
 NEEDS = {name: ("response",) for name in NEEDS_RESPONSE}  # needed effects
 NEEDS |= {name: ("response", "stacking") for name in ("sleeping", "joints")}
 
 
-@dataclass(frozen=True)
+@hints.explained_class
+@dataclass(frozen=True, repr=False)
 class Effects:
     """The features of the physics that a scene declares. All are off by default except `narrowphase`.
 
@@ -49,6 +51,11 @@ class Effects:
         if self.joints and not self.stacking:
             raise ValueError("effect joints needs stacking: only the stacking solvers solve joints")
 
+    def __repr__(self):
+        """Return the constructor call without the effects that have their default."""
+        given = [field for field in fields(self) if getattr(self, field.name) != field.default]
+        return f"Effects({', '.join(f'{each.name}={getattr(self, each.name)}' for each in given)})"
+
     @classmethod
     def detection(cls) -> "Effects":
         """Return the effects of pure detection: contacts are found and reported, and no body is pushed."""
@@ -84,11 +91,12 @@ class Effects:
         Raises TypeError for an unknown effect or a value that is not a bool, and ValueError if an effect is then on
         without an effect that it needs.
         """
-        unknown = set(changes) - {field.name for field in fields(self)}
+        known = [field.name for field in fields(self)]
+        unknown = sorted(set(changes) - set(known))
         if unknown:
-            raise TypeError(
-                f"no effect {', '.join(sorted(unknown))}; there are {', '.join(field.name for field in fields(self))}"
-            )
+            similar = hints.near(unknown[0], known)
+            hint = f": did you mean {similar}?" if similar else ""
+            raise TypeError(f"no effect {', '.join(unknown)}; there are {', '.join(known)}{hint}")
         return replace(self, **changes)
 
     def without(self, name: str) -> "Effects":
@@ -108,3 +116,10 @@ class Effects:
     def names(self) -> list[str]:
         """Return the names of the declared effects, in the order of the fields."""
         return [field.name for field in fields(self) if getattr(self, field.name)]
+
+
+def checked_effects(value: Any) -> Effects:
+    """Return Effects unchanged. Raises TypeError for anything else."""
+    if not isinstance(value, Effects):
+        raise TypeError(f"effects must be an Effects (got {checks.shown(value)}){hints.in_place_of_effects(value)}")
+    return value

@@ -1,7 +1,7 @@
 """Events of a step, as arrays: pairs that begin, continue or cease to touch, hits, and overlaps of sensors."""
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
@@ -11,13 +11,14 @@ from physics.collision.narrow_phase import SENSORS
 from physics.islands.sleep import in_order
 from physics.jit import copy_row, kernel, subkernel
 from physics.shapes.placement import PLACED
+from physics.tables.columns import BrokenRows, EventRows, HitRows, QuarantineRows
 from physics.tables.contact import CONTACT, EVENT, HIT, QUARANTINE
 from physics.tables.joint import BROKEN
 from physics.tables.step_state import CONTACTS, StepState, WorldTables, stage
 from physics.tables.table import joined, rows_of
 
-NOTHING, NO_EVENTS, NO_HITS = np.zeros(0, CONTACT), np.zeros(0, EVENT), np.zeros(0, HIT)
-UNBROKEN, NO_ROWS, NO_BROKEN = np.zeros(0, QUARANTINE), np.zeros(0, np.int64), np.zeros(0, BROKEN)
+NOTHING, NO_ROWS = np.zeros(0, CONTACT), np.zeros(0, np.int64)
+NO_EVENTS, NO_HITS, UNBROKEN, NO_BROKEN = (cast(Any, np.zeros(0, each)) for each in (EVENT, HIT, QUARANTINE, BROKEN))
 
 
 @subkernel
@@ -193,11 +194,11 @@ class Changes:
 
     __slots__ = ("aside", "begin", "end", "hits", "keep", "persist", "points")
 
-    begin: np.ndarray  # EVENT
-    persist: np.ndarray
-    end: np.ndarray
+    begin: Any  # EVENT
+    persist: Any
+    end: Any
     aside: np.ndarray  # EVENT rows of the touching pairs that fell asleep
-    hits: np.ndarray  # HIT
+    hits: Any  # HIT
     keep: np.ndarray  # bool for each contact, whether its pair touches
     points: int  # number of contact points of touching pairs
 
@@ -359,11 +360,26 @@ def sense(state: StepState) -> None:
 class Events:
     """The events of the last step, one structured array for each kind. They are valid until the next step."""
 
+    begin: EventRows
+    persist: EventRows
+    end: EventRows
+    sensor_begin: EventRows
+    sensor_end: EventRows
+    hits: HitRows
+    quarantined: QuarantineRows
+    broken: BrokenRows
+
     def __init__(self) -> None:
         self.begin = self.persist = self.end = self.sensor_begin = self.sensor_end = NO_EVENTS
         self.hits = NO_HITS
         self.quarantined = UNBROKEN
         self.broken = NO_BROKEN
+
+    def __repr__(self):
+        """Return the number of events of each kind, and the speed of the fastest hit."""
+        counts = [f"{name}={len(rows)}" for name, rows in vars(self).items()]
+        fastest = f", fastest hit {self.hits['speed'].max():.4g} px/s" if len(self.hits) else ""
+        return f"Events({', '.join(counts)}{fastest})"
 
 
 @stage(

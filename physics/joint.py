@@ -1,14 +1,16 @@
 """Joint, a handle on one row of `world.joints`; and the functions that add, change and remove joints."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import fields
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 
-from physics import checks
-from physics.checks import Pair
+from physics import checks, hints
+from physics.annotations import JointSolverName, Pair, Range
 from physics.gear import gear_rows, hang, report_gears, side_of, sum_with, with_gears
 from physics.islands import sleep
 from physics.joints.kinds import (
@@ -31,7 +33,7 @@ from physics.tables.joint import ANGLE, BROKEN, GEARED, JOINT, LENGTH, NO_COORDI
 from physics.tables.table import row_number, rows_in
 from physics.world_state import WorldState
 
-JOINT_SOLVERS = ("iterative", "direct", "auto")
+JOINT_SOLVERS: tuple[JointSolverName, ...] = get_args(JointSolverName)
 NO_JOINTS, NONE_BROKEN = np.zeros(0, JOINT), np.zeros(0, BROKEN)
 
 # ---- adding ----------------------------------------------------------------------------------------------------------
@@ -183,11 +185,13 @@ def _check_effects(world, kind, given):
     world._needs("rotation", f"{name} with angular_spring", type(kind) is Weld and bool(given.get("angle_hertz")))
 
 
-def add_one(world: WorldState, kind: Any) -> "Joint":
+def add_one(world: WorldState, kind: Any) -> Joint:
     """Add the joint that a Kind describes, and return its handle. Raises the errors of World.add_joint."""
     world._unlocked()
     if not isinstance(kind, Kind) or type(kind) not in KINDS:
-        raise TypeError(f"joint must be one of {_names()} (got {checks.shown(kind)})")
+        hint = ": write Revolute(a, b, at)" if hints.is_own(kind, "Body") or isinstance(kind, int) else ""
+        hint = f": write {kind.__name__}(…), a joint of this kind" if kind in KINDS else hint
+        raise TypeError(f"joint must be one of {_names()} (got {checks.shown(kind)}){hint}")
     a, b = kind.sides()
     if kind.COUPLES:
         sides = side_of(world, "joint_a", a, Joint), side_of(world, "joint_b", b, Joint)
@@ -207,6 +211,13 @@ def add_one(world: WorldState, kind: Any) -> "Joint":
     if kind.AXIS:
         columns["axis"] = np.array([checks.vector("axis", given["axis"])])
     return Joint(world, int(add(world, kind, bodies_a, bodies_b, columns)[0]))
+
+
+def _hint_of_kind(value) -> str:
+    if isinstance(value, Kind):
+        return f": write {type(value).__name__}, the class, and its settings as arguments of add_joints"
+    similar = hints.near(value, [each.__name__ for each in KINDS]) if isinstance(value, str) else ""
+    return f": write {similar}, the class" if similar else ""
 
 
 def _names() -> str:
@@ -245,11 +256,11 @@ def add_many(world: WorldState, kind: Any, bodies_a: Any, bodies_b: Any, setting
     """
     world._unlocked()
     if not (isinstance(kind, type) and kind in KINDS):
-        raise TypeError(f"kind must be one of {_names()} (got {checks.shown(kind)})")
+        raise TypeError(f"kind must be one of {_names()} (got {checks.shown(kind)}){_hint_of_kind(kind)}")
     sides = [name for name in ("a", "b", "body", "joint_a", "joint_b") if name in kind.__dataclass_fields__]
     known = {field.name for field in fields(kind)}.difference(sides)
-    for name in sorted(settings.keys() - known):
-        raise TypeError(f"add_joints() got an unexpected keyword argument {name!r} for {kind.__name__}")
+    if wrong := {name: settings[name] for name in settings.keys() - known}:
+        raise hints.unexpected(f"add_joints({kind.__name__}, …)", sorted(known), wrong)
     for name, each in (("bodies_a", bodies_a), ("bodies_b", bodies_b)):
         if each is not None and not isinstance(each, Iterable):
             raise TypeError(f"{name} must be Bodies or ids, or None (got {checks.shown(each)})")
@@ -480,7 +491,7 @@ class Joint:
         """Write the given columns (keyword arguments) of the JOINT row, and wake the two bodies."""
         self._world._unlocked()
         at = self._must_exist()
-        rows = self._world.joints[at : at + 1]
+        rows = np.asarray(self._world.joints)[at : at + 1]  # its columns may have computed names
         for name, value in columns.items():
             rows[name] = value
         ids = wake(self._world, rows)
@@ -626,7 +637,7 @@ class Joint:
         return None if (lower, upper) == (-math.inf, math.inf) else (lower, upper)
 
     @limits.setter
-    def limits(self, value: Any) -> None:
+    def limits(self, value: Range | None) -> None:
         self._takes("limits", value is not None)
         if self.kind == "Ratchet":
             raise ValueError(f"limits of a Ratchet are its teeth; set phase or ratchet (got {checks.shown(value)})")
@@ -646,7 +657,7 @@ class Joint:
         return row["break_force"].item(), row["break_torque"].item()
 
     @breaks.setter
-    def breaks(self, value: Any) -> None:
+    def breaks(self, value: Range | None) -> None:
         force, torque = checked_breaks(value)
         self._set(break_force=force, break_torque=torque)
 
@@ -694,12 +705,12 @@ class Joint:
         return self._row
 
     @property
-    def joint_a(self) -> "Joint | None":
+    def joint_a(self) -> Joint | None:
         """The joint of side A of a Gear, None if the side is a body. Raises AttributeError for other kinds."""
         return self._coupled("joint_a")
 
     @property
-    def joint_b(self) -> "Joint | None":
+    def joint_b(self) -> Joint | None:
         """The joint of side B of a Gear, None if the side is a body. Raises AttributeError for other kinds."""
         return self._coupled("joint_b")
 

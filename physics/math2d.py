@@ -2,11 +2,12 @@
 
 import math
 import numbers
-from collections.abc import Iterable, Sequence
-from typing import Any, NamedTuple, cast
+from collections.abc import Iterable
+from typing import NamedTuple, cast
 
 import numpy as np
 
+from physics.annotations import Pair
 from physics.jit import inlined, subkernel
 
 # ---- math2d ----------------------------------------------------------------------------------------------------------
@@ -109,12 +110,12 @@ class Vec2(NamedTuple):
         """The angle [rad] from +x, clockwise on the screen, -pi..pi; 0 for the zero vector."""
         return math.atan2(self[1], self[0])
 
-    def dot(self, v: "Vec2 | Sequence[float]") -> float:
+    def dot(self, v: Pair) -> float:
         """Return the scalar product. Raises TypeError for a value that is not a pair of numbers."""
         x, y = _named_pair("v", v)
         return self[0] * x + self[1] * y
 
-    def cross(self, v: "Vec2 | Sequence[float]") -> float:
+    def cross(self, v: Pair) -> float:
         """Return x · v.y − y · v.x: positive if v points clockwise from this vector on the screen.
 
         Raises TypeError for a value that is not a pair of numbers.
@@ -151,26 +152,26 @@ class Vec2(NamedTuple):
         return self
 
     # For a tuple, + and * concatenate and repeat; for a Vec2 they add and multiply.
-    def __add__(self, other: Any) -> "Vec2":  # pyright: ignore[reportIncompatibleMethodOverride]
+    def __add__(self, other: Pair | float) -> "Vec2":  # pyright: ignore[reportIncompatibleMethodOverride]
         return _each(other, lambda x, y: Vec2(self[0] + x, self[1] + y), lambda array: np.add(self, array))
 
     __radd__ = __add__
 
-    def __sub__(self, other: Any) -> "Vec2":
+    def __sub__(self, other: Pair | float) -> "Vec2":
         return _each(other, lambda x, y: Vec2(self[0] - x, self[1] - y), lambda array: np.subtract(self, array))
 
-    def __rsub__(self, other: Any) -> "Vec2":
+    def __rsub__(self, other: Pair | float) -> "Vec2":
         return _each(other, lambda x, y: Vec2(x - self[0], y - self[1]), lambda array: np.subtract(array, self))
 
-    def __mul__(self, other: Any) -> "Vec2":  # pyright: ignore[reportIncompatibleMethodOverride]
+    def __mul__(self, other: Pair | float) -> "Vec2":  # pyright: ignore[reportIncompatibleMethodOverride]
         return _each(other, lambda x, y: Vec2(self[0] * x, self[1] * y), lambda array: np.multiply(self, array))
 
     __rmul__ = __mul__  # pyright: ignore[reportAssignmentType]
 
-    def __truediv__(self, other: Any) -> "Vec2":
+    def __truediv__(self, other: Pair | float) -> "Vec2":
         return _each(other, lambda x, y: Vec2(self[0] / x, self[1] / y), lambda array: np.divide(self, array))
 
-    def __rtruediv__(self, other: Any) -> "Vec2":
+    def __rtruediv__(self, other: Pair | float) -> "Vec2":
         return _each(other, lambda x, y: Vec2(x / self[0], y / self[1]), lambda array: np.divide(array, self))
 
     @property
@@ -181,6 +182,11 @@ class Vec2(NamedTuple):
 
 def _is_number(value) -> bool:
     return isinstance(value, numbers.Real) and not isinstance(value, bool)
+
+
+def _is_vector(value) -> bool:
+    """Return whether a value of another library, such as a pygame.Vector2, is a vector of two numbers."""
+    return hasattr(value, "x") and hasattr(value, "y") and hasattr(value, "__len__") and len(value) == 2
 
 
 def _named_pair(name, value) -> tuple[float, float]:
@@ -200,6 +206,6 @@ def _each(other, combine, combine_array) -> Vec2:
         return combine(float(other), float(other))
     if isinstance(other, np.ndarray) and other.shape != (2,):
         return combine_array(other)
-    if isinstance(other, (tuple, list, np.ndarray)):  # tuple + tuple would concatenate
+    if isinstance(other, (tuple, list, np.ndarray)) or _is_vector(other):  # tuple + tuple would concatenate
         return combine(*_named_pair("what a Vec2 is combined with", other))
     return cast(Vec2, NotImplemented)

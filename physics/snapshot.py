@@ -170,6 +170,12 @@ class Snapshot:
         # nothing is copied before the snapshot is saved.
         self.geometry = geometry
 
+    def __repr__(self):
+        """Return the numbers of bodies and joints, the time, the solver and the effects."""
+        counts = [f"{len(self.arrays[name])} {name}" for name in ("bodies", "joints") if name in self.arrays]
+        facts = [f"{name}={self.facts[name]!r}" for name in ("time", "solver", "effects") if name in self.facts]
+        return f"Snapshot({', '.join([*counts, *facts])})"
+
     def save(self, path: str | PathLike[str]) -> None:
         """Write the snapshot to a versioned .npz file, which replaces an existing file atomically.
 
@@ -273,7 +279,8 @@ def restore(world: WorldState, taken: Snapshot) -> None:
     pixels_per_meter than the world. The world is then unchanged.
     """
     if not isinstance(taken, Snapshot):
-        raise TypeError(f"snapshot must be a Snapshot (got {checks.shown(taken)})")
+        hint = ": write Snapshot.load(path)" if isinstance(taken, (str, PathLike)) else ""
+        raise TypeError(f"snapshot must be a Snapshot (got {checks.shown(taken)}){hint}")
     facts, arrays = taken.facts, taken.arrays
     try:
         unpacked = _unpack(arrays, facts, taken.geometry)
@@ -452,7 +459,8 @@ def digest(world: WorldState) -> str:
         (world.characters.rows, WALK),
         (world.contacts, KEYS),
     )
-    for rows, names in tables:
+    for table, names in tables:
+        rows = np.asarray(table)  # its columns may have computed names
         found.update(len(rows).to_bytes(8, "little"))
         for name in names:
             column = rows[name].astype(NARROW.get(name, rows.dtype[name]))
@@ -474,9 +482,10 @@ def digest(world: WorldState) -> str:
         found.update(b"restitution_speed" + np.float64(speed + 0.0).tobytes())
     if world.effects.joints and len(world.joints):
         found.update(world.joint_solver.encode())
+        joints = np.asarray(world.joints)
         for name, kind in STATE_OF_JOINTS:
-            found.update((world.joints[name] + 0.0 if kind is np.float64 else world.joints[name]).tobytes())
-        coupled = world.joints[world.joints["hold"] >= TOOTHED]
+            found.update((joints[name] + 0.0 if kind is np.float64 else joints[name]).tobytes())
+        coupled = joints[joints["hold"] >= TOOTHED]
         for name, kind in COUPLED_STATE if len(coupled) else ():
             found.update((coupled[name] + 0.0 if kind is np.float64 else coupled[name]).tobytes())
     restless = world.bodies["id"][~world.bodies["allow_sleep"]]

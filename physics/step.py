@@ -2,16 +2,16 @@
 
 from collections.abc import Generator
 from time import perf_counter
-from typing import NamedTuple
+from typing import NamedTuple, get_args
 
 import numpy as np
 
 from physics import checks, events
+from physics.annotations import Pair, SolverName
 from physics.broadphase.proxies import broad_phase, motion_rectangles
 from physics.ccd.sweep import NO_IMPACTS, Sweeper, detect_moved, foresee_impacts, sweep_piles
 from physics.character.carry import apply_character_weight, carry_characters
 from physics.character.solids import new_scratch
-from physics.checks import Pair
 from physics.collision.narrow_phase import NarrowPhase, detect_ended
 from physics.contacts.cache import update_contacts, update_contacts_at_final_poses
 from physics.contacts.matching import ContactCache, find_contacts
@@ -139,7 +139,7 @@ def arrive(world: WorldState, dt: float) -> None:
 # moved back to their first impact. A stage that no effect needs is not in the plan: it never runs, and its kernels are
 # never compiled.
 
-SOLVERS = ("blocking", "projection", "sequential_impulse", "soft_step")
+SOLVERS: tuple[SolverName, ...] = get_args(SolverName)
 STACKING = {"sequential_impulse": sequential_impulse, "soft_step": soft_step}
 FORCES = ("force_x", "force_y", "torque")
 NO_CONTACTS = np.zeros(0, CONTACT)

@@ -4,10 +4,9 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from physics import checks
-from physics.checks import Pair
+from physics.annotations import Numbers, Pair, Points
 from physics.dynamics.integrate import refresh_center, refresh_centers
 from physics.edit import check_grid_stands, refresh_pose
 from physics.islands import sleep
@@ -122,9 +121,7 @@ def place_bodies(rows, motions, runs, shapes, bodies_inout, proxies_inout):
     return scattered
 
 
-def move(
-    world: WorldState, ids: Any, positions: ArrayLike, angles: ArrayLike | None, velocities: ArrayLike | None
-) -> None:
+def move(world: WorldState, ids: Any, positions: Points, angles: Numbers | None, velocities: Points | None) -> None:
     """Move bodies to positions (n, 2) [px], angles (n,) [rad] and velocities (n, 2) [px/s]; None: unchanged.
 
     The result is the same as setting position, angle and velocity of one Body after another, in the order of `ids`.

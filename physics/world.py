@@ -1,20 +1,40 @@
 """World: the tables of a simulation and the stages that advance them. Start reading at `World.step`."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from time import perf_counter
-from typing import Any, Literal, overload
+from typing import Any, Literal, Never, TypedDict, Unpack, overload
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import NDArray
 
-from physics import body_templates, checks, edit, joint, snapshot, teleport
+from physics import body_templates, checks, edit, hints, joint, snapshot, teleport
+from physics.annotations import (
+    BodyRef,
+    BodyRefs,
+    BroadphaseName,
+    ContinuousName,
+    JointSolverName,
+    KindName,
+    Numbers,
+    Pair,
+    Points,
+    Pose,
+    Rect,
+    SolverName,
+    Substeps,
+    TierName,
+)
 from physics.body import Body
+from physics.broadphase.brute_force import BruteForce
+from physics.broadphase.dynamic_tree import DynamicTree
 from physics.broadphase.proxies import PairList, Strategy
 from physics.broadphase.spatial_hash import SpatialHashGrid
-from physics.checks import Pair, Pose
+from physics.broadphase.sweep_and_prune import SweepAndPrune
 from physics.edit import rebuild_masks
-from physics.effects import Effects
+from physics.effects import Effects, checked_effects
 from physics.events import Events, Pairs, touching_bodies
 from physics.islands import sleep
 from physics.islands.awake import Awake
@@ -34,6 +54,7 @@ from physics.solver.loads import ContactLists
 from physics.step import SOLVERS, STACKING, Workspace, begin, finish, ignored_effects, plans, step_length
 from physics.tables.body import BODY, BODY_DEF, DYNAMIC, RUN
 from physics.tables.character import CHARACTER
+from physics.tables.columns import JointRows
 from physics.tables.contact import CONTACT
 from physics.tables.joint import JOINT
 from physics.tables.shape import SHAPE
@@ -42,54 +63,101 @@ from physics.world_state import Profile, WorldState, checked_accuracy, checked_s
 
 PLAIN = Material()  # the default material of bodies
 STRATEGY_METHODS = ("find_pairs", "fresh", "update", "query")
+BROADPHASES: dict[str, type[BruteForce | SweepAndPrune | SpatialHashGrid | DynamicTree]] = {
+    "brute": BruteForce,
+    "sweep": SweepAndPrune,
+    "hash": SpatialHashGrid,
+    "tree": DynamicTree,
+}
 
 
-def own_solver(effects: Effects) -> str:
+class Definition(TypedDict, total=False):
+    """The fields of BodyDef as keyword arguments of World.add_bodies."""
+
+    kind: KindName
+    angular_velocity: float
+    mass: float | None
+    material: Material
+    filter: Filter
+    sensor: bool
+    bullet: bool
+    continuous: ContinuousName
+    fixed_rotation: bool
+    gravity_scale: float
+    allow_sleep: bool
+    tier: TierName | None
+    user: Any
+
+
+def checked_broadphase(value: Any) -> Strategy:
+    """Return a new broad phase for `value`, a name in BROADPHASES or an instance of a strategy.
+
+    Raises TypeError for a class and for other values, ValueError for an unknown name.
+    """
+    if isinstance(value, str):
+        return BROADPHASES[checks.choice("broadphase", value, tuple(BROADPHASES))]()
+    if isinstance(value, type) or not all(hasattr(value, each) for each in STRATEGY_METHODS):
+        hint = f": write {value.__name__}()" if value in BROADPHASES.values() else ""
+        raise TypeError(
+            f"broadphase must be one of {', '.join(BROADPHASES)}, or an instance of BruteForce, SweepAndPrune, "
+            f"SpatialHashGrid or DynamicTree (got {checks.shown(value)}){hint}"
+        )
+    return value.fresh()
+
+
+def own_solver(effects: Effects) -> SolverName:
     """Return the name of the default solver for these effects."""
     return "soft_step" if effects.stacking else "projection"
 
 
+def _set_known(world: Any, name: str, value: Any) -> None:
+    """Set an attribute. Raises AttributeError for an unknown attribute; a subclass may add attributes."""
+    if "profile" in world.__dict__ and name not in world.__dict__ and not hasattr(type(world), name):
+        checks.known_attribute(world, name, type(world) is World)
+    object.__setattr__(world, name, value)
+
+
+@checks.setting_by(_set_known)
 class World(WorldState):
     """A simulation: its bodies, the declared effects, and the stages of a step that these effects need.
 
-    effects: the declared effects, None for Effects.rigid_bodies(). broadphase: an instance of one of the four
-    strategies, None for SpatialHashGrid(). solver: one of SOLVERS; None: "soft_step" with the effect stacking,
-    "projection" without it. gravity [px/s2], None for 9.8 m/s2 downwards. drag [1/s]. wind [px/s]. pixels_per_meter:
-    scale of all tolerances. dt [s]: length of a step. restitution_speed [px/s]: slower impacts do not bounce; None: 1
-    m/s. seed: seed of `world.random`. Gravity, drag and wind other than 0 need their effects.
+    effects: the declared effects, None for Effects.rigid_bodies(). broadphase: "brute", "sweep", "hash" or "tree", or
+    an instance of one of these strategies; None for SpatialHashGrid(). solver: one of SOLVERS; None: "soft_step" with
+    the effect stacking, "projection" without it. gravity [px/s2], None for 9.8 m/s2 downwards. drag [1/s]. wind [px/s].
+    pixels_per_meter: scale of all tolerances. dt [s]: length of a step. restitution_speed [px/s]: slower impacts do not
+    bounce; None: 1 m/s. seed: seed of `world.random`. Gravity, drag and wind other than 0 need their effects.
 
     substeps: the number of substeps of the stacking solvers, or "auto". With "auto" each island takes 4 to 32 substeps:
     as many as keep the sag of its contacts within accuracy [px] (None: 1 mm). A leaning island takes up to 128. An
     island that needs more than it may take is counted in cap_hits. Raises TypeError or ValueError naming the argument.
     """
 
-    _solver: str
-    _joint_solver: str
-    _substeps: int | str
+    _solver: SolverName
+    _joint_solver: JointSolverName
+    _substeps: Substeps
     _accuracy: float | None
     _gravity: Vec2
     _drag: float
     _wind: Vec2
     _dt: float
 
+    @hints.explained
     def __init__(
         self,
         effects: Effects | None = None,
-        broadphase: Strategy | None = None,
-        solver: str | None = None,
+        broadphase: Strategy | BroadphaseName | None = None,
+        solver: SolverName | None = None,
         gravity: Pair | None = None,
         drag: float = 0.0,
         wind: Pair = (0, 0),
         pixels_per_meter: float = PIXELS_PER_METER,
         dt: float = 1 / 60,
-        substeps: int | str = "auto",
+        substeps: Substeps = "auto",
         accuracy: float | None = None,
         restitution_speed: float | None = None,
         seed: int = 0,
     ) -> None:
-        effects = Effects.rigid_bodies() if effects is None else effects
-        if not isinstance(effects, Effects):
-            raise TypeError(f"effects must be an Effects (got {checks.shown(effects)})")
+        effects = Effects.rigid_bodies() if effects is None else checked_effects(effects)
         self.tolerances = tolerances(checks.number("pixels_per_meter", pixels_per_meter, above=0.0))
         self._dt = checks.number("dt", dt, above=0.0)
         self._drag = checks.number("drag", drag, low=0.0)
@@ -106,6 +174,7 @@ class World(WorldState):
         self._needs_fields(drag=self._drag, wind=self._wind)
         self._set_restitution_speed(restitution_speed)
         self._substeps, self._accuracy = checked_substeps(substeps), checked_accuracy(accuracy)
+        strategy = SpatialHashGrid() if broadphase is None else checked_broadphase(broadphase)
         self._bodies, self._definitions, self._shapes, self.characters = map(Table, (BODY, BODY_DEF, SHAPE, CHARACTER))
         self._runs, self.library, self._joints = Table(RUN), Library(), Table(JOINT, 0)
         self._joint_users, self._lost_joints, self._next_joint, self._joint_solver = {}, [], 0, "auto"
@@ -123,14 +192,8 @@ class World(WorldState):
         # Results of the last step.
         self.report_contacts(self.contact_rows)
         self.queries, self.events, self.steps, self.time, self.span = QueryIndex(), Events(), 0, 0.0, 0.0
-        self.broadphase = SpatialHashGrid() if broadphase is None else broadphase
+        self._broadphase = strategy
         self._plan()
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        """Set an attribute. Raises AttributeError for an unknown attribute; a subclass may add attributes."""
-        if "profile" in self.__dict__ and name not in self.__dict__ and not hasattr(type(self), name):
-            checks.known_attribute(self, name, type(self) is World)
-        object.__setattr__(self, name, value)
 
     def __getstate__(self):
         if self._removed:
@@ -170,12 +233,13 @@ class World(WorldState):
 
     # --- adding and removing ---------------------------------------------------------------------------------------
 
+    @hints.without_others
     def add_body(
         self,
         *shapes: Shape,
         position: Pair = (0, 0),
         angle: float = 0.0,
-        kind: str = "dynamic",
+        kind: KindName = "dynamic",
         velocity: Pair = (0, 0),
         angular_velocity: float = 0.0,
         mass: float | None = None,
@@ -183,12 +247,13 @@ class World(WorldState):
         filter: Filter = Filter.ALL,
         sensor: bool = False,
         bullet: bool = False,
-        continuous: str = "auto",
+        continuous: ContinuousName = "auto",
         fixed_rotation: bool = False,
         gravity_scale: float = 1.0,
         allow_sleep: bool = True,
-        tier: str | None = None,
+        tier: TierName | None = None,
         user: Any = None,
+        **others: Never,
     ) -> Body:
         """Add one body with these shapes, and return it.
 
@@ -198,6 +263,8 @@ class World(WorldState):
         awake. The other arguments are explained at the properties of Body with the same names. Raises TypeError or
         ValueError naming the argument, RuntimeError during a step. The world is then unchanged.
         """
+        if others:
+            raise hints.unexpected("World.add_body", hints.argument_names(self.add_body), others)
         position, velocity = checks.position("position", position), checks.vector("velocity", velocity)
         angle, spin = checks.number("angle", angle), checks.number("angular_velocity", angular_velocity)
         values = mass, material, filter, sensor, bullet, continuous, fixed_rotation, gravity_scale, allow_sleep
@@ -217,18 +284,19 @@ class World(WorldState):
     def add_bodies(
         self,
         shape: Shape,
-        positions: ArrayLike,
-        velocities: ArrayLike | None = None,
-        angles: ArrayLike | None = None,
-        **definition: Any,
-    ) -> np.ndarray:
+        positions: Points,
+        velocities: Points | None = None,
+        angles: Numbers | None = None,
+        **definition: Unpack[Definition],
+    ) -> NDArray[np.int64]:
         """Add a body with the same shape at each position, and return the ids (n,) of the bodies.
 
         positions (n, 2) [px]; velocities (n, 2) [px/s], None: 0; angles (n,) [rad], None: 0; definition: the other
         arguments of add_body, the same for all bodies. Raises the errors of add_body.
         """
-        for name in sorted(definition.keys() - set(edit.BodyDef._fields)):
-            raise TypeError(f"World.add_bodies() got an unexpected keyword argument {name!r}")
+        if wrong := {name: value for name, value in definition.items() if name not in edit.BodyDef._fields}:
+            names = ("shape", "positions", "velocities", "angles", *edit.BodyDef._fields)
+            raise hints.unexpected("World.add_bodies", names, wrong)
         positions = checks.columns("positions", positions)
         if np.any(np.abs(positions) >= POSITION_LIMIT):
             raise ValueError(
@@ -239,7 +307,7 @@ class World(WorldState):
         angles = np.zeros(n) if angles is None else checks.columns("angles", angles, n, width=1)
         return edit.add_rows(self, (shape,), positions, velocities, angles, edit.BodyDef(**definition))
 
-    def remove_body(self, body: Body | int) -> None:
+    def remove_body(self, body: BodyRef) -> None:
         """Remove a body, given as a Body or an id.
 
         Raises KeyError for an unknown body, TypeError for anything but a Body or an id, ValueError for a Body of
@@ -247,7 +315,7 @@ class World(WorldState):
         """
         self._remove_one(self._identity("body", body))
 
-    def remove_bodies(self, ids: Body | int | Iterable[Body | int] | np.ndarray) -> None:
+    def remove_bodies(self, ids: BodyRefs) -> None:
         """Remove many bodies, given as Bodies or ids, in one pass over the tables. A body may be listed more than once.
 
         Raises the errors of remove_body. Nothing is removed then.
@@ -255,11 +323,7 @@ class World(WorldState):
         self._remove(np.unique(self._identities("ids", ids, repeats=True)))
 
     def move(
-        self,
-        ids: Body | int | Iterable[Body | int] | np.ndarray,
-        positions: ArrayLike,
-        angles: ArrayLike | None = None,
-        velocities: ArrayLike | None = None,
+        self, ids: BodyRefs, positions: Points, angles: Numbers | None = None, velocities: Points | None = None
     ) -> None:
         """Teleport bodies to positions (n, 2) [px], as Body.position does, in one call.
 
@@ -270,7 +334,7 @@ class World(WorldState):
         """
         teleport.move(self, ids, positions, angles, velocities)
 
-    def touch(self, ids: Body | int | Iterable[Body | int] | np.ndarray) -> None:
+    def touch(self, ids: BodyRefs) -> None:
         """Report that table columns of these bodies were written. Dynamic bodies wake, and the next step updates boxes.
 
         ids: a Body, an id, or many. Awake bodies, and worlds without the effect sleeping, need no touch. Raises
@@ -287,14 +351,14 @@ class World(WorldState):
     # --- joints ----------------------------------------------------------------------------------------------------
 
     @property
-    def joints(self) -> np.ndarray:
+    def joints(self) -> JointRows:
         """JOINT rows in the order of ids: a view, valid until a joint is added, removed or broken.
 
         Columns with settings may be written between steps. Afterwards call `touch` to wake the bodies.
         """
         if self._removed:
             self._drop_removed()
-        return self._joints.rows
+        return self._joints.rows  # pyright: ignore[reportReturnType]
 
     def add_joint(self, joint_of: Kind) -> Joint:
         """Add one joint, and return its handle. The bodies of the joint wake.
@@ -306,7 +370,13 @@ class World(WorldState):
         """
         return joint.add_one(self, joint_of)
 
-    def add_joints(self, kind: type[Kind], bodies_a: Any, bodies_b: Any, **settings: Any) -> np.ndarray:
+    def add_joints(
+        self,
+        kind: type[Kind],
+        bodies_a: Sequence[BodyRef | None] | np.ndarray | None,
+        bodies_b: Sequence[BodyRef | None] | np.ndarray | None,
+        **settings: Any,
+    ) -> NDArray[np.int64]:
         """Add a joint of one kind between each of n pairs of bodies, and return their ids (n,).
 
         bodies_a, bodies_b: n Bodies or ids; an entry None, or None instead of all entries, means the world. settings:
@@ -316,14 +386,14 @@ class World(WorldState):
         """
         return joint.add_many(self, kind, bodies_a, bodies_b, settings)
 
-    def joint(self, identity: Joint | int) -> Joint:
+    def joint(self, identity: Joint | int | np.integer[Any]) -> Joint:
         """Return the Joint with this id, or the Joint itself if given one.
 
         Raises KeyError for an unknown joint, TypeError or ValueError for an invalid argument.
         """
         return Joint(self, self.joints["id"].item(joint.row_of(self, identity)))
 
-    def remove_joints(self, ids: Any) -> None:
+    def remove_joints(self, ids: Joint | int | Iterable[Joint | int] | np.ndarray) -> None:
         """Remove joints, given as Joints or ids, and the gears that couple them. The bodies of the joints wake.
 
         A joint may be listed more than once. The next step reports the gears in events.broken, with reason "removed".
@@ -340,12 +410,12 @@ class World(WorldState):
     # --- pairs -------------------------------------------------------------------------------------------------------
 
     @overload
-    def touching(self, users: Literal[False] = False) -> np.ndarray: ...
+    def touching(self, users: Literal[False] = False) -> NDArray[np.int64]: ...
 
     @overload
     def touching(self, users: Literal[True]) -> list[tuple[Any, Any]]: ...
 
-    def touching(self, users: bool = False) -> np.ndarray | list[tuple[Any, Any]]:
+    def touching(self, users: bool = False) -> NDArray[np.int64] | list[tuple[Any, Any]]:
         """Return the pairs of touching bodies after the last step: (n, 2) int64 ids a < b, each pair once, sorted.
 
         With users=True the result is a list of pairs of the `user` values, in the same order. The pairs are those that
@@ -399,12 +469,12 @@ class World(WorldState):
     # --- settings, which can be set between steps ----------------------------------------------------------------
 
     @property
-    def solver(self) -> str:
+    def solver(self) -> SolverName:
         """The name of the solver, one of SOLVERS. It can be set between steps, which wakes all bodies."""
         return self._solver
 
     @solver.setter
-    def solver(self, name: str) -> None:
+    def solver(self, name: SolverName) -> None:
         self._unlocked()
         self._solver = self._checked_solver(name)
         sleep.wake_all(self)
@@ -451,8 +521,7 @@ class World(WorldState):
         during a step.
         """
         self._unlocked()
-        if not isinstance(effects, Effects):
-            raise TypeError(f"effects must be an Effects (got {checks.shown(effects)})")
+        effects = checked_effects(effects)
         if len(self.characters.rows) and not effects.response:
             raise ValueError("effects must have response: this world has Characters, which need it")
         before, self._effects = self._effects, effects
@@ -486,7 +555,7 @@ class World(WorldState):
         self.sleeping_set.return_all(self)
 
     @property
-    def substeps(self) -> int | str:
+    def substeps(self) -> Substeps:
         """Number of substeps of the stacking solvers, or "auto". It can be set between steps.
 
         With "auto" each island takes 4 to 32 substeps: as many as keep the sag of its contacts within `accuracy`. A
@@ -495,7 +564,7 @@ class World(WorldState):
         return self._substeps
 
     @substeps.setter
-    def substeps(self, value: int | str) -> None:
+    def substeps(self, value: Substeps) -> None:
         self._unlocked()
         self._substeps = checked_substeps(value)
 
@@ -516,23 +585,18 @@ class World(WorldState):
     def broadphase(self) -> Strategy:
         """The broad phase, which finds the candidate pairs.
 
-        It can be set between steps, and does not change results.
+        It can be set between steps, also to a name in BROADPHASES, and does not change results.
         """
         return self._broadphase
 
     @broadphase.setter
-    def broadphase(self, strategy: Strategy) -> None:
+    def broadphase(self, strategy: Strategy | BroadphaseName) -> None:
         self._unlocked()
-        if isinstance(strategy, type) or not all(hasattr(strategy, each) for each in STRATEGY_METHODS):
-            raise TypeError(
-                "broadphase must be an instance of BruteForce, SweepAndPrune, SpatialHashGrid or DynamicTree "
-                f"(got {checks.shown(strategy)})"
-            )
-        self._broadphase = strategy.fresh()
+        self._broadphase = checked_broadphase(strategy)
         self.pairs.start_over()
 
     @property
-    def joint_solver(self) -> str:
+    def joint_solver(self) -> JointSolverName:
         """The solver of joints: "iterative", "direct" or "auto". It can be set between steps.
 
         "iterative" converges from substep to substep. "direct" solves each tree of joints exactly, at about three times
@@ -542,7 +606,7 @@ class World(WorldState):
         return self._joint_solver
 
     @joint_solver.setter
-    def joint_solver(self, name: str) -> None:
+    def joint_solver(self, name: JointSolverName) -> None:
         self._unlocked()
         name = checks.choice("joint_solver", name, joint.JOINT_SOLVERS)
         if name != self._joint_solver:
@@ -632,7 +696,7 @@ class World(WorldState):
 
     # --- queries: see queries/casts.py for details -------------------------------------------------------------------
 
-    def body(self, identity: Body | int) -> Body:
+    def body(self, identity: BodyRef) -> Body:
         """Return the handle of a body, given as an id or a Body.
 
         Raises KeyError for an unknown body, TypeError for anything else, ValueError for a Body of another world.
@@ -670,7 +734,7 @@ class World(WorldState):
 
     def ray_cast(
         self, origin: Pair, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False
-    ) -> RayHit | None:
+    ) -> RayHit[Body] | None:
         """Return the first RayHit of a ray from `origin` along `translation` [px], or None without a hit.
 
         filter: which shapes can be hit; sensors: whether sensors can also be hit.
@@ -678,7 +742,9 @@ class World(WorldState):
         hits = casts.ray_cast_all(self, origin, translation, filter, sensors, first=True)
         return hits[0] if hits else None
 
-    def ray_cast_all(self, origin: Pair, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False) -> list:
+    def ray_cast_all(
+        self, origin: Pair, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False
+    ) -> list[RayHit[Body]]:
         """Return the RayHits of all shapes on a ray from `origin` along `translation` [px], nearest first.
 
         Equally near hits are in the order of shape ids. filter: which shapes can be hit; sensors: whether sensors can
@@ -686,7 +752,9 @@ class World(WorldState):
         """
         return casts.ray_cast_all(self, origin, translation, filter, sensors)
 
-    def shape_cast(self, shape: Shape, pose: Pose, translation: Pair, filter: Filter = Filter.ALL) -> RayHit | None:
+    def shape_cast(
+        self, shape: Shape, pose: Pose, translation: Pair, filter: Filter = Filter.ALL
+    ) -> RayHit[Body] | None:
         """Return the first RayHit of a shape that moves from a pose by a translation [px], or None without a hit.
 
         pose: (x, y) or (x, y, angle); filter: which shapes can be hit.
@@ -714,7 +782,7 @@ class World(WorldState):
         """
         return casts.query_aabb(self, lower, upper)
 
-    def query_rect(self, rect: Sequence[float] | Sequence[Pair]) -> list[Body]:
+    def query_rect(self, rect: Rect) -> list[Body]:
         """Return the bodies with a shape whose AABB meets a rectangle [px], boundary included, in the order of ids.
 
         rect: (x, y, width, height) or ((x, y), (width, height)), as for pygame.Rect.

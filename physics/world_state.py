@@ -4,8 +4,10 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from physics import checks
+from physics.annotations import JointSolverName, SolverName, Substeps, TierName
 from physics.broadphase.proxies import PairList, Strategy, write_rectangles
 from physics.collision.areas import with_areas
 from physics.collision.manifold import contacts_of
@@ -21,7 +23,8 @@ from physics.settings import Tolerances
 from physics.shapes.library import Library
 from physics.shapes.shape import Shape
 from physics.solver.loads import ContactLists
-from physics.tables.body import SCATTERED, STATIC
+from physics.tables.body import DYNAMIC, KINDS, SCATTERED, STATIC
+from physics.tables.columns import BodyRows, ContactRows, JointRows
 from physics.tables.step_state import COUNTERS
 from physics.tables.table import Table, row_number, rows_in, rows_of
 
@@ -45,6 +48,14 @@ class Profile:
         self._names, self._spent = names, []
         return self._spent
 
+    def __repr__(self):
+        """Return the time of the last step, its longest stage, and the counters that are not 0."""
+        stages, counters = self.stages, {name: count for name, count in self.counters.items() if count}
+        longest = max(stages, key=stages.__getitem__, default="")
+        parts = [f"{len(stages)} stages in {1e3 * sum(stages.values()):.3g} ms"]
+        parts += [f"longest {longest} {1e3 * stages[longest]:.3g} ms"] if longest else []
+        return f"Profile({', '.join([*parts, *(f'{name}={count}' for name, count in counters.items())])})"
+
     @property
     def stages(self) -> dict[str, float]:
         """Seconds of each stage of the last step, {name: seconds} in order; 0.0 for a stage that has not run."""
@@ -63,7 +74,7 @@ class Profile:
 # WorldState: the fields of a world by name and type, and the accessors that its parts share.
 
 
-def checked_substeps(value: Any) -> int | str:
+def checked_substeps(value: Any) -> Substeps:
     """Return `value` unchanged: a number of substeps from 1 to 1000, or "auto".
 
     Raises TypeError or ValueError for other values.
@@ -90,7 +101,7 @@ class Handle:
         object.__setattr__(self, "_id", world._identity("identity", identity))
 
     @property
-    def world(self) -> "WorldState":
+    def world(self) -> Any:
         """The World of the body."""
         return self._world
 
@@ -106,7 +117,16 @@ class Handle:
         return hash((id(self.world), self.id))
 
     def __repr__(self):
-        return f"Body({self.id})"
+        """Return the id, and of a body in the world its kind, position and velocity. It never raises."""
+        identity, bodies = self._id, self._world._bodies
+        row = -1 if identity in self._world._removed else row_number(bodies, identity)
+        if row < 0:
+            return f"Body({identity}, removed)"
+        b = bodies.data[row]
+        kind = KINDS[b["kind"]] if 0 <= b["kind"] < len(KINDS) else f"kind {b['kind']}"
+        state = ", quarantined" if b["quarantined"] else "" if b["awake"] or b["kind"] != DYNAMIC else ", asleep"
+        place, motion = (f"({b[x]:.6g}, {b[y]:.6g})" for x, y in (("x", "y"), ("vx", "vy")))
+        return f"Body({identity}, {kind}, position={place}, velocity={motion}{state})"
 
 
 class WorldState:
@@ -133,10 +153,10 @@ class WorldState:
     workspace: Any  # a Workspace of step.py
     # Properties of World.
     contact_rows: np.ndarray
-    joints: np.ndarray
-    joint_solver: str
-    solver: str
-    substeps: Any
+    joints: JointRows
+    joint_solver: JointSolverName
+    solver: SolverName
+    substeps: Substeps
     accuracy: float
     broadphase: Strategy
     gravity: Vec2
@@ -167,20 +187,33 @@ class WorldState:
     _users: dict[int, Any]  # this and the next four fields: by body id
     _targets: dict[int, tuple[float, float, float]]  # poses at the end of the next step
     _shapes_of: dict[int, tuple[Shape, ...]]
-    _tiers: dict[int, str]
+    _tiers: dict[int, TierName]
     _sources: dict[int, tuple[Shape, ...]]
     _broadphase: Strategy
     _told: tuple[np.ndarray, np.ndarray | None]
     _contacts: np.ndarray | None
 
+    def __repr__(self) -> str:
+        """Return the numbers of bodies, joints and contacts, the time, the solver and the effects. It never raises."""
+        if "profile" not in vars(self):
+            return "World(unfinished)"
+        bodies, rows, removed = self._bodies.rows, self.reported_rows(), list(self._removed)
+        awake = bodies["awake"] & (bodies["kind"] == DYNAMIC) & ~np.isin(bodies["id"], removed)
+        counts = [f"{self._bodies.count - len(removed)} bodies ({np.count_nonzero(awake)} dynamic and awake)"]
+        counts += [f"{self._joints.count} joints"] if self._joints.count else []
+        there = ~np.isin(rows["body_a"], removed) & ~np.isin(rows["body_b"], removed)
+        counts += [f"{rows['count'][there].sum()} contacts"]
+        step = f"step {self.steps}, time={self.time:.6g} s, solver={self.solver!r}"
+        return f"{type(self).__name__}({', '.join(counts)}, {step}, {self._effects!r})"
+
     # --- tables --------------------------------------------------------------------------------------------------
 
     @property
-    def bodies(self) -> np.ndarray:
+    def bodies(self) -> BodyRows:
         """BODY rows in the order of ids: a view, valid until a body is added or removed."""
         if self._removed:
             self._drop_removed()
-        return self._bodies.rows
+        return self._bodies.rows  # pyright: ignore[reportReturnType]
 
     @property
     def shapes(self) -> np.ndarray:
@@ -190,11 +223,11 @@ class WorldState:
         return self._shapes.rows
 
     @property
-    def contacts(self) -> np.ndarray:
+    def contacts(self) -> ContactRows:
         """CONTACT_POINT rows of pairs that touched, or that the sweep found, in the last step; sorted by shape ids."""
         if self._contacts is None:
             self._contacts = contacts_of(with_areas(self, self.reported_rows()))
-        return self._contacts
+        return self._contacts  # pyright: ignore[reportReturnType]
 
     def reported_rows(self) -> np.ndarray:
         """Return the CONTACT rows to which the CONTACT_POINT rows in `contacts` belong."""
@@ -202,9 +235,9 @@ class WorldState:
         return rows if keep is None or keep.all() else rows[keep]
 
     @property
-    def sleeping_contacts(self) -> np.ndarray:
+    def sleeping_contacts(self) -> ContactRows:
         """CONTACT_POINT rows of the contacts of sleeping islands, evaluated when the islands fell asleep."""
-        return contacts_of(with_areas(self, self.sleeping_set.contacts()))
+        return contacts_of(with_areas(self, self.sleeping_set.contacts()))  # pyright: ignore[reportReturnType]
 
     def report_contacts(self, rows: np.ndarray, keep: np.ndarray | None = None) -> None:
         """Store the CONTACT rows whose points `contacts` will list.
@@ -214,7 +247,7 @@ class WorldState:
         self._reported, self._contacts = (rows, keep), None
 
     @property
-    def candidates(self) -> np.ndarray:
+    def candidates(self) -> NDArray[np.int32]:
         """Pairs of shapes (ids) that passed broad phase and filters in the last step: (n, 2) int32, a < b, sorted."""
         return self.pairs.ids(self.shapes).astype(np.int32)
 

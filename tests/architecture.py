@@ -10,8 +10,10 @@ TOPS = ("physics", "game", "scenes", "assets")
 # Import order: each folder may import those to its left, and itself.
 PHYSICS = (
     "jit",
+    "annotations",
     "math2d",
     "settings",
+    "hints",
     "checks",
     "tables",
     "raster",

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from physics import checks
-from physics.checks import Pair
+from physics.annotations import Pair
 from physics.joints.kinds import Kind
 from physics.tables.joint import LENGTH
 

@@ -110,6 +110,6 @@ def placed(world: World, shape_id: int) -> tuple[int, Shape, Pose, float] | None
         return None
     body = world.body(int(bodies["id"][row]))
     shape = body.shapes[body.shape_ids.index(shape_id)]
-    pose = tuple(bodies[name].item(row) for name in ("x", "y", "angle"))
+    pose = bodies["x"].item(row), bodies["y"].item(row), bodies["angle"].item(row)
     center = abs(bodies["local_center_x"].item(row)) + abs(bodies["local_center_y"].item(row))
     return body.id, shape, pose, bodies["extent"].item(row) + center

@@ -14,6 +14,7 @@ from game.measure.staged import seconds_of_stage
 from game.measure.timing import seconds_a_step
 from game.measurement_requests import STEPS, Act
 from physics import BROADPHASES, DYNAMIC, Effects, Snapshot, World
+from physics.annotations import SolverName, Substeps, TierName
 
 
 class Moment:
@@ -121,12 +122,14 @@ def failures_of(world: World) -> Counter[str]:
     return +Counter(cap_hits=world.profile.counters["cap_hits"], disable_body=len(world.events.quarantined))
 
 
-def here_of(world: World, tier: str | None) -> Setting:
+def here_of(world: World, tier: TierName | None) -> Setting:
     """Return the Setting of a running world. tier: collision tier of its sprites, None if there are none."""
     return setting_of(world.effects, world.broadphase.name, world.solver, world.substeps, tier)
 
 
-def setting_of(effects: Effects, broadphase: str, solver: str, substeps: int | str, tier: str | None) -> Setting:
+def setting_of(
+    effects: Effects, broadphase: str, solver: SolverName, substeps: Substeps, tier: TierName | None
+) -> Setting:
     """Return the Setting of a world with these values. tier: collision tier of its sprites, None if there are none.
 
     The fields `solver` and `substeps` are None if the effects do not use them.

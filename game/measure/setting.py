@@ -6,6 +6,7 @@ from typing import NamedTuple
 from game.drawing.number_text import count_text, plain_name
 from game.scene import SUBSTEPS
 from physics import BROADPHASES, SOLVERS, TIERS, Effects
+from physics.annotations import SolverName, Substeps, TierName
 
 SUBSTEPPED = ("soft_step", "sequential_impulse")  # solvers that use substeps, or passes in their place
 
@@ -15,9 +16,9 @@ class Setting(NamedTuple):
 
     broadphase: str
     narrowphase: bool
-    solver: str | None = None
-    substeps: int | str | None = None
-    tier: str | None = None
+    solver: SolverName | None = None
+    substeps: Substeps | None = None
+    tier: TierName | None = None
 
     def differs(self, other: "Setting") -> tuple[str, ...]:
         """Return the names of the fields whose values differ from those of another setting."""

@@ -3,7 +3,7 @@
 import numpy as np
 
 from physics import checks
-from physics.checks import Pose
+from physics.annotations import Pose
 from physics.distance.gjk import (
     APART,
     AX,

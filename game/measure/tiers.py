@@ -15,6 +15,7 @@ from game.measure.pair_batch import PairBatch
 from game.measure.rates import Rate
 from game.measure.timing import LEAST_PAIRS, Cost, timed_in_turns
 from physics import TIERS, Fit, PixelMask, fit, measure
+from physics.annotations import TierName
 
 POSES = 4000
 WANTED = 0.5  # share of the poses that are hits
@@ -84,7 +85,7 @@ def measure_tiers(
     first: PixelMask,
     second: PixelMask,
     report: Callable[[TierFigures], object],
-    tiers: Sequence[str] = TIERS,
+    tiers: Sequence[TierName] = TIERS,
     seed: int = 0,
 ) -> None:
     """Measure the collision tiers for two sprites (PixelMasks) over random relative poses.
@@ -100,7 +101,7 @@ def measure_at(
     second: PixelMask,
     poses: Poses,
     report: Callable[[TierFigures], object],
-    tiers: Sequence[str] = TIERS,
+    tiers: Sequence[TierName] = TIERS,
     seed: int = 0,
 ) -> None:
     """Measure the collision tiers for two sprites (PixelMasks) at given poses.

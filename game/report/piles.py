@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from physics import Capsule, Circle, Effects, Material, Polygon, World
+from physics.annotations import SolverName, Substeps
 
 BOX, GRAVITY, FRICTION = 32.0, 320.0, 0.6  # [px], [px/s2], -
 EFFECTS = Effects(response=True, gravity=True, rotation=True, friction=True, restitution=True, stacking=True)
@@ -108,7 +109,9 @@ PILES: dict[str, Callable[[], Pile]] = {
 }
 
 
-def world_of(pile: Pile, solver: str, substeps: int | str, effects: Effects = EFFECTS, away: float = 0.0) -> World:
+def world_of(
+    pile: Pile, solver: SolverName, substeps: Substeps, effects: Effects = EFFECTS, away: float = 0.0
+) -> World:
     """Return a world with the pile on wide ground. solver, substeps, effects: of the world.
 
     away: x and y of the pile's origin [px].

@@ -6,6 +6,7 @@ from pathlib import Path
 from game.registry import Registry
 from game.run.replay import Replay
 from game.scene import Scene
+from physics.annotations import SolverName, TierName
 
 DEFAULT_FRAMES = 600  # of a headless run without --frames: ten seconds
 
@@ -25,8 +26,8 @@ class Options:
     replay: str | None = None
     overlay: tuple[str, ...] | None = None  # overlay layers to show; None: the scene's default
     broadphase: str | None = None
-    solver: str | None = None
-    tier: str | None = None
+    solver: SolverName | None = None
+    tier: TierName | None = None
     level: Path | None = None
     screenshot: str | None = None
     profile: bool = False

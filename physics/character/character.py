@@ -1,14 +1,16 @@
 """Character: the player of a platformer, moved by the game in whole pixels, with ground, walls and slopes."""
 
+from __future__ import annotations
+
 import math
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
-from physics import checks
+from physics import checks, hints
+from physics.annotations import Pair, WorldHandle
 from physics.character.solids import STEEPEST_CLIMB, can_walk, find_own_rows, walk_for
 from physics.character.walk import is_stopped, lead_out, walk
-from physics.checks import Pair
 from physics.islands.sleep import disturb
 from physics.shapes.kinds import names_of, with_area
 from physics.shapes.shape import Filter, Shape
@@ -43,7 +45,7 @@ class Moved(NamedTuple):
     grounded: bool
     wall: int
     slope: float
-    riding: object
+    riding: Any  # a Body, whose module imports this package
     squeezed: bool
 
 
@@ -68,7 +70,7 @@ class Character:
 
     def __init__(
         self,
-        world: Any,  # a World; its module imports this package
+        world: WorldHandle,
         shape: Shape,
         position: Pair,
         filter: Filter = Filter.ALL,
@@ -78,9 +80,13 @@ class Character:
         push: float | None = None,
         max_slope: float = MAX_SLOPE,
     ) -> None:
-        world._needs("response", "a Character", True)
-        world._needs("stacking", "mass", mass is not None)
-        world._needs("stacking", "push", push is not None)
+        if not hints.is_own(world, "World"):
+            hint = ": write Character(world, shape, position)"
+            raise TypeError(f"world must be a World (got {checks.shown(world)}){hint}")
+        self.world = found = cast(Any, world)  # a World, whose module imports this package
+        found._needs("response", "a Character", True)
+        found._needs("stacking", "mass", mass is not None)
+        found._needs("stacking", "push", push is not None)
         shape, min_x, min_y, max_x, max_y = _outline(shape)
         x, y = checks.position("position", position)
         pushable = checks.flag("pushable", pushable)
@@ -92,8 +98,7 @@ class Character:
         width, height = math.ceil(max_x - min_x), math.ceil(max_y - min_y)
         offset_x, offset_y = -min_x, height - max_y
         left, top = math.floor(x - offset_x + 0.5), math.floor(y - offset_y + 0.5)
-        self.world = world
-        self.body = world.add_body(
+        self.body = found.add_body(
             shape,
             position=(left + offset_x, top + offset_y),
             kind="kinematic",
@@ -101,14 +106,18 @@ class Character:
             continuous="off",
             user=user,
         )
-        row = world.characters.append()
-        row["body"], row["shape"], row["pushable"] = self.body.id, int(world.shapes["id"][-1]), pushable
+        row = found.characters.append()
+        row["body"], row["shape"], row["pushable"] = self.body.id, int(found.shapes["id"][-1]), pushable
         row["left"], row["top"], row["width"], row["height"] = left, top, width, height
         row["offset_x"], row["offset_y"], row["is_box"] = offset_x, offset_y, _is_upright_box(shape)
         row["previous_left"], row["previous_top"] = left, top
         row["mass"], row["push"] = mass, push
         row["climb"] = min(math.tan(max_slope), STEEPEST_CLIMB)
         row["riding"] = row["riding_shape"] = row["pressed"] = -1
+
+    def __repr__(self):
+        """Return the id and the position of the character's body. It never raises."""
+        return f"Character({self.body!r})" if hasattr(self, "body") else "Character(unfinished)"
 
     @property
     def _row(self) -> int:
@@ -271,7 +280,8 @@ def _outline(shape):
     hulls = sorted((each for each in with_area() if issubclass(each, Convex)), key=lambda each: each is not Polygon)
     if not (wrapped or isinstance(inner, tuple(hulls))):
         raise TypeError(
-            f"shape must be a {names_of(hulls)}, or Bounds of one of them or of a sprite's PixelMask (got {shape!r})"
+            f"shape must be a {names_of(hulls)}, or Bounds of one of them or of a sprite's PixelMask "
+            f"(got {checks.shown(shape)}){hints.in_place_of_shape(shape)}"
         )
     extent = inner.bounds
     if extent is None:

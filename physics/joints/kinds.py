@@ -6,6 +6,8 @@ length) it may have limits, a motor and a spring. A gear couples two other joint
 define a class here and add it to KINDS.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -13,13 +15,15 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from physics import checks
-from physics.checks import Pair
+from physics import checks, hints
+from physics.annotations import BodyRef, Pair, Range
+from physics.hints import explained_class
 from physics.tables.joint import ANGLE, GEARED, LENGTH, NO_COORDINATE, ON_AXIS, PINNED, SLUNG, TOOTHED, TRANSLATION
 
 # ---- settings --------------------------------------------------------------------------------------------------------
 
 
+@explained_class
 @dataclass(frozen=True)
 class Drive:
     """A joint motor: target speed [px/s, or rad/s for an angle], and greatest force or torque.
@@ -38,6 +42,7 @@ class Drive:
         checks.number("max", self.max, low=0.0)
 
 
+@explained_class
 @dataclass(frozen=True)
 class Spring:
     """A joint spring: frequency [1/s], damping ratio, and target, the coordinate [px or rad] at which it rests.
@@ -104,7 +109,8 @@ def motor_fields(motor: Any) -> dict[str, float]:
     if motor is None:
         return {"motor_speed": 0.0, "motor_max": 0.0}
     if not isinstance(motor, Drive):
-        raise TypeError(f"motor must be a Drive(speed, max) (got {checks.shown(motor)})")
+        hint = f": write Drive({motor}, max=…)" if hints.is_number(motor) else ""
+        raise TypeError(f"motor must be a Drive(speed, max) (got {checks.shown(motor)}){hint}")
     return {"motor_speed": float(motor.speed), "motor_max": float(motor.max or 0.0)}
 
 
@@ -114,7 +120,8 @@ def checked_spring(spring: Any, name: str = "spring") -> Spring | None:
     name: name of the argument in error messages.
     """
     if spring is not None and not isinstance(spring, Spring):
-        raise TypeError(f"{name} must be a Spring(hertz, damping, target) (got {checks.shown(spring)})")
+        hint = f": write Spring({spring})" if hints.is_number(spring) else ""
+        raise TypeError(f"{name} must be a Spring(hertz, damping, target) (got {checks.shown(spring)}){hint}")
     return spring
 
 
@@ -155,7 +162,7 @@ class Kind:
     AXIS: ClassVar[bool] = False  # whether the kind has an argument `axis`
     COORDINATE: ClassVar[tuple[str, ...]] = ("limits", "motor", "spring")  # settings of the coordinate
 
-    breaks: Any = None
+    breaks: Range | None = None
     contacts: bool = False
     local: bool = False
     user: Any = None
@@ -187,6 +194,7 @@ class Kind:
         """Write the columns of JOINT rows (n,) that depend on `lengths` (n,) [px], the distances of the anchors."""
 
 
+@explained_class
 @dataclass(frozen=True)
 class Revolute(Kind):
     """A hinge: it holds the anchors of both bodies together at one point, `at` [px].
@@ -196,14 +204,15 @@ class Revolute(Kind):
 
     PARTS = {"hold": PINNED, "coordinate": ANGLE}
 
-    a: Any
-    b: Any
+    a: BodyRef | None
+    b: BodyRef | None
     at: Pair
-    limits: Any = None
+    limits: Range | None = None
     motor: Drive | None = None
     spring: Spring | None = None
 
 
+@explained_class
 @dataclass(frozen=True)
 class Prismatic(Kind):
     """A slider: B moves along an axis that is fixed to A.
@@ -215,12 +224,12 @@ class Prismatic(Kind):
     PARTS = {"hold": ON_AXIS, "coordinate": TRANSLATION}
     AXIS = True
 
-    a: Any
-    b: Any
+    a: BodyRef | None
+    b: BodyRef | None
     at: Pair
     axis: Pair = (1, 0)
     turns: bool = False
-    limits: Any = None
+    limits: Range | None = None
     motor: Drive | None = None
     spring: Spring | None = None
 
@@ -228,6 +237,7 @@ class Prismatic(Kind):
         return super().columns() | {"locks_angle": not checks.flag("turns", self.turns)}
 
 
+@explained_class
 @dataclass(frozen=True)
 class Wheel(Kind):
     """A wheel on a suspension: B rotates freely, and moves along an axis of A against a spring.
@@ -239,15 +249,16 @@ class Wheel(Kind):
     PARTS = {"hold": ON_AXIS, "coordinate": TRANSLATION, "turns_motor": True}
     AXIS = True
 
-    a: Any
-    b: Any
+    a: BodyRef | None
+    b: BodyRef | None
     at: Pair
     axis: Pair = (0, 1)
-    limits: Any = None
+    limits: Range | None = None
     motor: Drive | None = None
     spring: Spring | None = Spring(2.0, 0.7)
 
 
+@explained_class
 @dataclass(frozen=True)
 class Distance(Kind):
     """A rod, rope, spring or winch between two anchors, at_a and at_b [px].
@@ -260,12 +271,12 @@ class Distance(Kind):
     PARTS = {"coordinate": LENGTH}
     POINTS = ("at_a", "at_b")
 
-    a: Any
-    b: Any
+    a: BodyRef | None
+    b: BodyRef | None
     at_a: Pair
     at_b: Pair
     length: float | None = None
-    limits: Any = None
+    limits: Range | None = None
     motor: Drive | None = None
     spring: Spring | None = None
 
@@ -284,6 +295,7 @@ class Distance(Kind):
             rows["lower"] = rows["upper"] = rest
 
 
+@explained_class
 @dataclass(frozen=True)
 class Weld(Kind):
     """A rigid connection: it keeps the position and angle of B relative to A. at: the anchor [px].
@@ -294,8 +306,8 @@ class Weld(Kind):
     PARTS = {"hold": PINNED, "locks_angle": True}
     COORDINATE = ()
 
-    a: Any
-    b: Any
+    a: BodyRef | None
+    b: BodyRef | None
     at: Pair
     spring: Spring | None = None
     angular_spring: Spring | None = None
@@ -309,6 +321,7 @@ class Weld(Kind):
         return found
 
 
+@explained_class
 @dataclass(frozen=True)
 class Angle(Kind):
     """A rotary spring, limit or motor between two bodies that no anchor holds together.
@@ -319,13 +332,14 @@ class Angle(Kind):
     PARTS = {"coordinate": ANGLE}
     POINTS = ()
 
-    a: Any
-    b: Any
-    limits: Any = None
+    a: BodyRef | None
+    b: BodyRef | None
+    limits: Range | None = None
     motor: Drive | None = None
     spring: Spring | None = None
 
 
+@explained_class
 @dataclass(frozen=True)
 class Motor(Kind):
     """A motor that drives B relative to A with bounded force and torque: friction joints, top-down tyres, conveyors.
@@ -338,8 +352,8 @@ class Motor(Kind):
     PARTS = {"hold": PINNED, "locks_angle": True, "axis_x": 1.0}
     COORDINATE = ()
 
-    a: Any
-    b: Any
+    a: BodyRef | None
+    b: BodyRef | None
     at: Pair | None = None
     velocity: Pair = (0, 0)
     angular_velocity: float = 0.0
@@ -369,6 +383,7 @@ class Motor(Kind):
         return found
 
 
+@explained_class
 @dataclass(frozen=True)
 class Target(Kind):
     """A spring that pulls a point of a body to a point of the world: mouse drag, grapple, tractor beam.
@@ -381,7 +396,7 @@ class Target(Kind):
     POINTS = ("point", "at")
     COORDINATE = ()
 
-    body: Any
+    body: BodyRef
     at: Pair
     point: Pair | None = None
     spring: Spring = Spring(5.0, 1.0)
@@ -401,6 +416,7 @@ class Target(Kind):
         }
 
 
+@explained_class
 @dataclass(frozen=True)
 class NoContact(Kind):
     """A joint without forces, which only prevents contacts between two bodies."""
@@ -408,8 +424,8 @@ class NoContact(Kind):
     POINTS = ()
     COORDINATE = ()
 
-    a: Any
-    b: Any
+    a: BodyRef | None
+    b: BodyRef | None
 
 
 @dataclass(frozen=True)

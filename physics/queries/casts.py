@@ -2,11 +2,12 @@
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 
 from physics import checks
+from physics.annotations import Pair, Pose
 from physics.ccd.rotational import (
     Mover,
     advance_parts,
@@ -27,7 +28,6 @@ from physics.ccd.time_of_impact import (
     new_advance_workspace,
     reach_of,
 )
-from physics.checks import Pair, Pose
 from physics.collision.hulls import ALL_EDGES, Hull
 from physics.collision.narrow_phase import NarrowPhase
 from physics.distance.gjk import (
@@ -51,7 +51,7 @@ from physics.settings import DRAWN, MASK_ANGLE_BUCKETS, POSITION_LIMIT
 from physics.shapes.kinds import checked_pose
 from physics.shapes.library import draw_masks, place
 from physics.shapes.placement import hull_at, is_hull, refresh_aabbs, rounding
-from physics.shapes.shape import Filter, Parts, Placed, Shape, parts_near, parts_of
+from physics.shapes.shape import Filter, Parts, Placed, Shape, checked_filter, parts_near, parts_of
 from physics.tables.body import BODY
 from physics.tables.shape import BOUNDS, CHAIN, MASK, PART, PIXELS, SHAPE, TILES
 from physics.tables.step_state import CAP_HITS, GJK_ITERATIONS, NARROW_TESTS, TOI_CALLS
@@ -264,15 +264,18 @@ RAY_PIECES = 16  # a long slanted ray searches up to this number of boxes along 
 PIECE = 8.0  # [m] … each of about this width
 
 
+HitBody = TypeVar("HitBody")  # Body, whose module imports this one
+
+
 @dataclass(frozen=True)
-class RayHit:
+class RayHit(Generic[HitBody]):
     """A hit of a ray or of a cast shape: the body and shape that were hit, and where.
 
     shape: id of the shape; point [px]; normal: unit normal of the hit surface; fraction: fraction of the translation
     before the hit.
     """
 
-    body: Any  # a Body, whose module imports this one
+    body: HitBody
     shape: int
     point: Vec2
     normal: Vec2
@@ -291,7 +294,7 @@ def ray_cast_all(
     """
     x, y = checks.position("origin", origin)
     dx, dy = checks.vector("translation", translation)
-    filter = _checked(filter)
+    filter = checked_filter(filter)
     sensors = checks.flag("sensors", sensors)
     index = world.queries
     index.begin(world)
@@ -365,7 +368,7 @@ def shape_cast(world: AskedWorld, shape: Shape, pose: Pose, translation: Pair, f
     front, a one-way tile or mask from above. Raises TypeError for values of other types, ValueError for numbers that
     are not finite or a pose that the shape cannot have.
     """
-    pose, filter = checked_pose("shape", shape, "pose", pose), _checked(filter)
+    pose, filter = checked_pose("shape", shape, "pose", pose), checked_filter(filter)
     dx, dy = checks.vector("translation", translation)
     index = world.queries
     index.begin(world)
@@ -466,7 +469,7 @@ def closest(world: AskedWorld, point: Pair, filter: Filter) -> tuple[Any, Vec2, 
     too far away.
     """
     x, y = checks.position("point", point)
-    filter, index = _checked(filter), world.queries
+    filter, index = checked_filter(filter), world.queries
     index.begin(world)
     reach, beyond, found = 2.0 * world.tolerances.pixels_per_meter, _beyond_drawn(world), None
     while True:
@@ -523,7 +526,7 @@ def overlap(world: AskedWorld, shape: Shape, pose: Pose, filter: Filter) -> list
 
     Raises TypeError for values of other types, ValueError for a pose that the shape cannot have.
     """
-    pose, filter = checked_pose("shape", shape, "pose", pose), _checked(filter)
+    pose, filter = checked_pose("shape", shape, "pose", pose), checked_filter(filter)
     world.queries.begin(world)
     with world.library.visited():
         bodies, shapes = _probe(world, shape, pose)
@@ -573,12 +576,6 @@ def _probe(world, shape, pose):
     place(world.library, shape, bodies, shapes, 0, pose)
     refresh_aabbs(np.arange(1), world.library.tables, bodies, shapes)
     return bodies, shapes
-
-
-def _checked(filter):
-    if not isinstance(filter, Filter):
-        raise TypeError(f"filter must be a Filter (got {checks.shown(filter)})")
-    return filter
 
 
 def _allowed(world, rows, filter, sensors, leave=PIXELS):

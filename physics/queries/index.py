@@ -5,11 +5,11 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
+from physics.annotations import Coordinates
 from physics.broadphase.dynamic_tree import ROOT_MOVING, DynamicTree
 from physics.broadphase.proxies import Box, Strategy
 from physics.broadphase.spatial_hash import CELL_RANGE, LEVELS, SpatialHashGrid
 from physics.broadphase.sweep_and_prune import SweepAndPrune
-from physics.checks import Pair
 from physics.dynamics.integrate import is_within_limits
 from physics.jit import kernel, subkernel
 from physics.shapes.placement import add_missing_rasters, refresh_aabbs
@@ -239,7 +239,7 @@ class QueryIndex:
         if len(self.loose) < len(shapes):
             self.loose, self.rows = np.zeros(2 * len(shapes), np.int64), np.zeros(2 * len(shapes), np.int64)
 
-    def rows_in(self, world: IndexedWorld, lower: Pair, upper: Pair) -> np.ndarray:
+    def rows_in(self, world: IndexedWorld, lower: Coordinates, upper: Coordinates) -> np.ndarray:
         """Return the SHAPE rows, ascending, whose AABBs meet the closed box from `lower` to `upper` [px].
 
         Shapes of quarantined bodies are left out.

@@ -1,5 +1,7 @@
 """Queries of two shapes without a world: collide, distance and time_of_impact."""
 
+from __future__ import annotations
+
 import math
 import threading
 from collections.abc import Callable
@@ -10,9 +12,9 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 
 from physics import checks
+from physics.annotations import Pose
 from physics.ccd.rotational import advance_on_ground, advance_parts, new_rotational_workspace, sweep_unions
 from physics.ccd.time_of_impact import MISS, TOLERANCE, sweep_circles
-from physics.checks import Pose
 from physics.collision.hull_pairs import collide_circle_pairs, collide_polygon_circle_pairs, collide_polygon_pairs
 from physics.collision.manifold import CIRCLES, POLYGON_CIRCLE, POLYGONS, Batch, contacts_of, new_workspace
 from physics.collision.narrow_phase import NarrowPhase, kind_of_pair, no_work
@@ -187,6 +189,15 @@ class Manifold:
 
     def __len__(self):
         return len(self.points)
+
+    def __repr__(self):
+        """Return normal, points and separations on one line; area only if masks share pixels."""
+        places = [(round(x, 6), round(y, 6)) for x, y in self.points.tolist()]
+        gaps, area = (
+            [round(each, 6) for each in self.separations.tolist()],
+            f", area={self.area:g}" if self.area else "",
+        )
+        return f"Manifold(normal={tuple(self.normal)}, points={places}, separations={gaps}{area})"
 
 
 def collide(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose, margin: float = 0.0) -> Manifold:

@@ -1,13 +1,15 @@
 """Simpler shapes that replace a pixel mask, from a circle to its exact pixels, and the accuracy of each."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import NamedTuple, get_args
 
 import numpy as np
 
-from physics import checks
-from physics.checks import Points
+from physics import checks, hints
+from physics.annotations import Points, TierName
 from physics.outline.contour import outline
 from physics.outline.decompose import convex_parts
 from physics.outline.measure import edges, measured
@@ -81,10 +83,10 @@ def distinct(corners: np.ndarray) -> np.ndarray:
 # ---- approximate -----------------------------------------------------------------------------------------------------
 # Simpler shapes for a sprite's mask, in tiers (levels of accuracy): a cheaper tier is less accurate.
 
-TIERS = ("circle", "aabb", "obb", "capsule", "hull", "parts", "outline", "pixels", "mask")
+TIERS: tuple[TierName, ...] = get_args(TierName)
 
 
-def fit(mask: PixelMask, tier: str, tolerance: float = 1.0) -> tuple:
+def fit(mask: PixelMask, tier: TierName, tolerance: float = 1.0) -> tuple[Shape, ...]:
     """Return the shapes that replace a mask at one tier (level of accuracy); () for a mask without pixels.
 
     tier:
@@ -101,8 +103,7 @@ def fit(mask: PixelMask, tier: str, tolerance: float = 1.0) -> tuple:
     The shapes keep the mask's material, filter and sensor. Raises TypeError for a mask that is not a PixelMask,
     ValueError for an unknown tier or a tolerance <= 0.
     """
-    if not isinstance(mask, PixelMask):
-        raise TypeError(f"mask must be a PixelMask (got {checks.shown(mask)})")
+    _check_mask(mask)
     checks.choice("tier", tier, TIERS)
     tolerance = checks.number("tolerance", tolerance, above=0.0)
     if tier in ("pixels", "mask"):
@@ -114,6 +115,12 @@ def fit(mask: PixelMask, tier: str, tolerance: float = 1.0) -> tuple:
         mask.fitted[key] = _fit(mask.bare, tier, tolerance)
     fitted = mask.fitted[key]
     return fitted if mask is mask.bare else tuple(each.with_values_of(mask) for each in fitted)
+
+
+def _check_mask(mask):
+    if not isinstance(mask, PixelMask):
+        hint = hints.in_place_of_shape(mask) if hints.is_a(mask, "pygame", "Surface", "Mask", "Sprite") else ""
+        raise TypeError(f"mask must be a PixelMask (got {checks.shown(mask)}){hint}")
 
 
 def _fit(mask, tier, tolerance):
@@ -184,8 +191,7 @@ def measure(mask: PixelMask, shapes: Shape | Sequence[Shape]) -> Fit:
     and hausdorff, center_error and errors divided by 0 are inf. If both are missing, iou is 1 and all errors are 0.
     Raises TypeError for a mask that is not a PixelMask and for shapes without an area.
     """
-    if not isinstance(mask, PixelMask):
-        raise TypeError(f"mask must be a PixelMask (got {checks.shown(mask)})")
+    _check_mask(mask)
     given = [*shapes] if isinstance(shapes, (tuple, list)) else [shapes]
     solids = tuple(each for each in SHAPES if each._has_mass)
     parts = [each for each in given if isinstance(each, solids)]

@@ -1,5 +1,7 @@
 """The list of all types of shapes, checks of arguments against it, and Bounds, the AABB of another shape as a shape."""
 
+from __future__ import annotations
+
 import copy
 import math
 from collections.abc import Iterable, Sequence
@@ -9,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from physics import checks
-from physics.checks import Pose
+from physics import checks, hints
+from physics.annotations import Pose
 from physics.shapes.mask import PixelMask
 from physics.shapes.mass import Mass, weighed_once
 from physics.shapes.shape import EqualByValue, Parts, Placed, Shape, parts_of, rectangle
@@ -31,7 +33,8 @@ class Bounds(EqualByValue):
 
     def __post_init__(self):
         if not isinstance(self.shape, solids := with_area()):
-            raise TypeError(f"shape must be a {names_of(solids)} (got {checks.shown(self.shape)})")
+            hint = hints.in_place_of_shape(self.shape)
+            raise TypeError(f"shape must be a {names_of(solids)} (got {checks.shown(self.shape)}){hint}")
         inner = self.shape
         object.__setattr__(self, "shape", inner.bare)
         if inner is not inner.bare:
@@ -102,7 +105,8 @@ def checked_shapes(name: str, values: Iterable[Any]) -> tuple[Shape, ...]:
     values, types = tuple(values), tuple(SHAPES)
     for each in values:
         if not isinstance(each, types):
-            raise TypeError(f"{name} must be shapes such as Circle(8) (got {checks.shown(each)})")
+            hint = hints.in_place_of_shape(each)
+            raise TypeError(f"{name} must be shapes such as Circle(8) (got {checks.shown(each)}){hint}")
     return values
 
 
@@ -113,7 +117,8 @@ def checked_pose(shape_name: str, shape: Any, pose_name: str, pose: Pose) -> tup
     or not one that the shape can have; TypeError if `shape` is not a shape.
     """
     if not isinstance(shape, tuple(SHAPES)):
-        raise TypeError(f"{shape_name} must be a shape such as Circle(8) (got {checks.shown(shape)})")
+        hint = hints.in_place_of_shape(shape)
+        raise TypeError(f"{shape_name} must be a shape such as Circle(8) (got {checks.shown(shape)}){hint}")
     found = checks.pose(pose_name, pose)
     if found[2] != 0.0 and not shape._may_turn:
         raise ValueError(f"{pose_name} must have angle 0 for a {type(shape).__name__} (got {found[2]})")

@@ -1,5 +1,7 @@
 """PixelMask: the solid pixels of a sprite as a shape."""
 
+from __future__ import annotations
+
 import copy
 import math
 from collections.abc import Sequence
@@ -11,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from physics import checks
-from physics.checks import Pair
+from physics.annotations import Pair
 from physics.math2d import Vec2
 from physics.raster.bits import Turned, bucket_of, packed, turn
 from physics.raster.pixel_tiles import PixelTiles
@@ -72,7 +74,7 @@ class PixelMask(Shape):
         self._turned, self._blocks = {}, {}
         self.fitted = {}  # (tier, tolerance) -> the shapes that replace the mask, cached by approximate.fit
 
-    def with_tiles(self, tiles: PixelTiles) -> "PixelMask":
+    def with_tiles(self, tiles: PixelTiles) -> PixelMask:
         """Return a mask of the same size with other pixels, after carving. All other values are those of this mask.
 
         tiles: the new pixels, see PixelMask.tiles.
@@ -89,7 +91,7 @@ class PixelMask(Shape):
         filter: Filter | None = None,
         sensor: bool | None = None,
         one_way: bool | None = None,
-    ) -> "PixelMask":
+    ) -> PixelMask:
         """Return a copy of the mask with its own material, filter and sensor; None: the body's value applies.
 
         one_way: whether bodies pass through the mask from below; None: as in this mask. Raises TypeError for a value of
@@ -113,7 +115,7 @@ class PixelMask(Shape):
             pair[wanted].one_way = wanted
         return pair[wanted]
 
-    def with_values_of(self, other: Shape) -> "PixelMask":
+    def with_values_of(self, other: Shape) -> PixelMask:
         """Return a copy of this mask with the own material, filter and sensor of another shape.
 
         If the other shape is a mask, its one_way is also copied.
@@ -121,7 +123,7 @@ class PixelMask(Shape):
         one_way = other.one_way if isinstance(other, PixelMask) else None
         return self.with_(other.material, other.filter, other.sensor, one_way)
 
-    def like(self, solid: np.ndarray, origin: Pair) -> "PixelMask":
+    def like(self, solid: np.ndarray, origin: Pair) -> PixelMask:
         """Return a mask with other pixels, solid[row, col], and another origin [px].
 
         All other values are those of this mask.
@@ -162,7 +164,7 @@ class PixelMask(Shape):
         snap: bool = True,
         smooth: float = SMOOTH,
         one_way: bool = False,
-    ) -> "PixelMask":
+    ) -> PixelMask:
         """Return a mask of the array solid[row, col]. origin [px]: origin of body space in the image; None: its centre.
 
         Raises TypeError or ValueError for arguments that PixelMask rejects. snap, smooth, one_way: see PixelMask.
@@ -178,7 +180,7 @@ class PixelMask(Shape):
         snap: bool = True,
         smooth: float = SMOOTH,
         one_way: bool = False,
-    ) -> "PixelMask":
+    ) -> PixelMask:
         """Return a mask of a pygame surface: solid where alpha > threshold, clear where it has its colour key.
 
         origin [px]: origin of body space in the image; None: its centre. Raises TypeError if surface is not a
@@ -203,7 +205,7 @@ class PixelMask(Shape):
     @classmethod
     def from_mask(
         cls, mask: Any, origin: Pair | None = None, snap: bool = True, smooth: float = SMOOTH, one_way: bool = False
-    ) -> "PixelMask":
+    ) -> PixelMask:
         """Return a mask of a pygame Mask. origin [px]: origin of body space in the image; None: its centre.
 
         Raises TypeError if mask is not a pygame.Mask, TypeError or ValueError for arguments that PixelMask rejects.
@@ -218,7 +220,7 @@ class PixelMask(Shape):
         drawn = mask.to_surface(setcolor=(255, 255, 255, 255), unsetcolor=(0, 0, 0, 0))
         return cls(np.ascontiguousarray(pygame.surfarray.array_alpha(drawn).T > 0), origin, snap, smooth, one_way)
 
-    def flipped(self, x: bool = False, y: bool = False) -> "PixelMask":
+    def flipped(self, x: bool = False, y: bool = False) -> PixelMask:
         """Return the mask mirrored left to right (x) and top to bottom (y), together with its origin.
 
         snap, smooth, one_way, material, filter and sensor are kept. Raises TypeError for an x or y that is not a bool.
@@ -229,7 +231,7 @@ class PixelMask(Shape):
         solid = self.solid[:: -1 if y else 1, :: -1 if x else 1]
         return PixelMask(solid, origin, self.snap, self.smooth).with_values_of(self)
 
-    def scaled(self, factor: float) -> "PixelMask":
+    def scaled(self, factor: float) -> PixelMask:
         """Return the mask and its origin scaled by a factor, by nearest-neighbour sampling at pixel centres.
 
         A side of n px becomes n · factor, rounded, at least 1. snap, smooth, one_way, material, filter and sensor are

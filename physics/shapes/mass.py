@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from physics.checks import Pair, Points
+from physics.annotations import Coordinates, Corners
 from physics.math2d import Vec2
 from physics.outline.measure import (
     NO_SUMS,
@@ -59,7 +59,7 @@ def together(parts: Iterable[Mass]) -> Mass:
     return Mass(mass, Vec2(base_x + x, base_y + y), inertia)
 
 
-def polygon_mass(points: Points, density: float) -> Mass:
+def polygon_mass(points: Corners, density: float) -> Mass:
     """Return the mass of a polygon, points (n, 2) [px] clockwise on the screen, by shoelace integrals.
 
     density [mass per px2].
@@ -76,7 +76,7 @@ def polygon_mass(points: Points, density: float) -> Mass:
     return Mass(float(density * area), Vec2(*(base + center).tolist()), float(density * second))
 
 
-def rounded_mass(points: Points, radius: float, density: float) -> Mass:
+def rounded_mass(points: Corners, radius: float, density: float) -> Mass:
     """Return the mass of a convex polygon rounded by a radius [px].
 
     It is the sum of the polygon, a rectangle along each side, and a sector at each corner. points (n, 2) [px]: corners,
@@ -116,13 +116,13 @@ def rounded_mass(points: Points, radius: float, density: float) -> Mass:
     return together(parts)
 
 
-def disc_mass(center: Pair, radius: float, density: float) -> Mass:
+def disc_mass(center: Coordinates, radius: float, density: float) -> Mass:
     """Return the mass of a disc. center, radius [px]; density [mass per px2]."""
     mass = density * math.pi * radius * radius
     return Mass(mass, Vec2(*center), mass * radius * radius / 2.0)
 
 
-def capsule_mass(a: Pair, b: Pair, r: float, density: float) -> Mass:
+def capsule_mass(a: Coordinates, b: Coordinates, r: float, density: float) -> Mass:
     """Return the mass of a capsule of radius r [px] about the line from a to b [px]: a rectangle and two half discs.
 
     The centre of mass of a half disc lies 4r/3π beyond the end of the line. density [mass per px2].
@@ -136,7 +136,7 @@ def capsule_mass(a: Pair, b: Pair, r: float, density: float) -> Mass:
     return Mass(middle + ends, center, inertia)
 
 
-def convex_mass(points: Points, radius: float, density: float) -> Mass:
+def convex_mass(points: Corners, radius: float, density: float) -> Mass:
     """Return the mass of a convex hull rounded by a radius [px].
 
     points: 1 or more corners [px], clockwise on the screen; density [mass per px2].

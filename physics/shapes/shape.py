@@ -4,13 +4,14 @@ import copy
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, NamedTuple, Self
+from typing import Any, ClassVar, NamedTuple, Never, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from physics import checks
-from physics.checks import Points
+from physics import checks, hints
+from physics.hints import MATERIALS, unexpected, without_others
+from physics.math2d import Vec2
 from physics.shapes.mass import NOTHING, Mass
 from physics.tables.geometry import Geometry
 
@@ -31,9 +32,12 @@ class Filter:
     membership: int = 1
     mask: int = 0xFFFFFFFF
 
-    def __post_init__(self):
-        object.__setattr__(self, "membership", checks.whole("membership", self.membership, 0, 0xFFFFFFFF))
-        object.__setattr__(self, "mask", checks.whole("mask", self.mask, 0, 0xFFFFFFFF))
+    @without_others
+    def __init__(self, membership: int = 1, mask: int = 0xFFFFFFFF, **others: Never) -> None:
+        if others:
+            raise unexpected("Filter", ("membership", "mask"), others)
+        object.__setattr__(self, "membership", checks.whole("membership", membership, 0, 0xFFFFFFFF))
+        object.__setattr__(self, "mask", checks.whole("mask", mask, 0, 0xFFFFFFFF))
 
     @classmethod
     def from_packed(cls, bits: int) -> "Filter":
@@ -64,11 +68,39 @@ class Material:
     rolling_resistance: float = 0.0
     surface_speed: float = 0.0
 
-    def __post_init__(self):
-        object.__setattr__(self, "density", checks.number("density", self.density, above=0.0))
-        for name in ("friction", "restitution", "rolling_resistance"):
-            object.__setattr__(self, name, checks.number(name, getattr(self, name), low=0.0))
-        object.__setattr__(self, "surface_speed", checks.number("surface_speed", self.surface_speed))
+    @without_others
+    def __init__(
+        self,
+        density: float = 1.0,
+        friction: float = 0.6,
+        restitution: float = 0.0,
+        rolling_resistance: float = 0.0,
+        surface_speed: float = 0.0,
+        **others: Never,
+    ) -> None:
+        if others:
+            raise unexpected("Material", MATERIALS, others)
+        write = object.__setattr__
+        write(self, "density", checks.number("density", density, above=0.0))
+        write(self, "friction", checks.number("friction", friction, low=0.0))
+        write(self, "restitution", checks.number("restitution", restitution, low=0.0))
+        write(self, "rolling_resistance", checks.number("rolling_resistance", rolling_resistance, low=0.0))
+        write(self, "surface_speed", checks.number("surface_speed", surface_speed))
+
+
+def checked_material(value: Any) -> Material:
+    """Return a Material unchanged. Raises TypeError for anything else."""
+    if not isinstance(value, Material):
+        hint = hints.in_place_of_material(value)
+        raise TypeError(f"material must be a Material (got {checks.shown(value)}){hint}")
+    return value
+
+
+def checked_filter(value: Any) -> Filter:
+    """Return a Filter unchanged. Raises TypeError for anything else."""
+    if not isinstance(value, Filter):
+        raise TypeError(f"filter must be a Filter (got {checks.shown(value)}){hints.in_place_of_filter(value)}")
+    return value
 
 
 # ---- parts -----------------------------------------------------------------------------------------------------------
@@ -171,7 +203,8 @@ class Shape:
     filter: Filter | None = None
     sensor: bool | None = None
 
-    points: Points  # of a convex shape: its 1 to 16 corners, clockwise on the screen; of a chain: the ends of its links
+    # Of a convex shape: its 1 to 16 corners, clockwise on the screen; of a chain: the ends of its links.
+    points: Sequence[Vec2]
     radius: float  # rounding of a shape with points [px]
     snap: bool = False  # whether the shape is a mask that is tested as drawn
     _kind: int  # kind of the SHAPE row: CIRCLE, POLYGON, …; it decides how the shape collides
@@ -262,9 +295,8 @@ class Shape:
         Own values do not change when the body's values change. An own density counts in the body's mass. Raises
         TypeError for a value of another type.
         """
-        for name, value, wanted in (("material", material, Material), ("filter", filter, Filter)):
-            if value is not None and not isinstance(value, wanted):
-                raise TypeError(f"{name} must be a {wanted.__name__} or None (got {checks.shown(value)})")
+        material = None if material is None else checked_material(material)
+        filter = None if filter is None else checked_filter(filter)
         sensor = None if sensor is None else checks.flag("sensor", sensor)
         bare = self.bare
         if material is None and filter is None and sensor is None:

@@ -1,5 +1,7 @@
 """Shapes as immutable values: convex shapes, tile grids and lines."""
 
+from __future__ import annotations
+
 import math
 import sys
 from collections.abc import Sequence
@@ -12,7 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from physics import checks
-from physics.checks import Pair, Points
+from physics.annotations import Pair, Points
+from physics.hints import explained
 from physics.math2d import Vec2
 from physics.settings import MAX_CORNERS
 from physics.shapes.mass import Mass, convex_mass
@@ -25,6 +28,7 @@ from physics.tables.shape import CAPSULE, CHAIN, CIRCLE, POLYGON, SEGMENT, TILES
 # Convex shapes: a hull of corners with a rounding radius.
 # Circle has one corner, Capsule two, Polygon three to sixteen.
 
+MIDDLE = Vec2(0.0, 0.0)
 STRAIGHT = 1e-12  # [rad] smaller turns count as straight
 CORNER_OF = partial(tuple.__new__, Vec2)  # makes a Vec2 of two numbers; Vec2._make would count them first
 PHYSICS = __name__.removesuffix(".shapes.values")  # the package that a user imports
@@ -92,14 +96,15 @@ class Circle(Convex):
     """A disc. Raises TypeError or ValueError for a radius that is not a number > 0, or a center that is not a point."""
 
     radius: float = field()
-    center: Pair = Vec2(0.0, 0.0)
+    center: Vec2 = MIDDLE
 
-    def __post_init__(self):
-        object.__setattr__(self, "radius", checks.number("radius", self.radius, above=0.0))
-        object.__setattr__(self, "center", checks.vector("center", self.center))
+    @explained
+    def __init__(self, radius: float, center: Pair = MIDDLE) -> None:
+        object.__setattr__(self, "radius", checks.number("radius", radius, above=0.0))
+        object.__setattr__(self, "center", checks.vector("center", center))
 
     @property
-    def points(self) -> tuple[Pair]:
+    def points(self) -> tuple[Vec2]:
         return (self.center,)
 
 
@@ -110,13 +115,14 @@ class Capsule(Convex):
     Raises ValueError for a radius <= 0, and for a and b so close to each other that the line has no direction.
     """
 
-    a: Pair
-    b: Pair
+    a: Vec2
+    b: Vec2
     radius: float = field()
 
-    def __post_init__(self):
-        a, b = checks.vector("a", self.a), checks.vector("b", self.b)
-        radius = checks.number("radius", self.radius, above=0.0)
+    @explained
+    def __init__(self, a: Pair, b: Pair, radius: float) -> None:
+        a, b = checks.vector("a", a), checks.vector("b", b)
+        radius = checks.number("radius", radius, above=0.0)
         if math.hypot(b[0] - a[0], b[1] - a[1]) <= SHORTEST * max(radius, *map(abs, a), *map(abs, b)):
             raise ValueError(
                 f"a and b must be two points with a length between them (got {a} and {b}); "
@@ -127,7 +133,7 @@ class Capsule(Convex):
         object.__setattr__(self, "radius", radius)
 
     @property
-    def points(self) -> tuple[Pair, Pair]:
+    def points(self) -> tuple[Vec2, Vec2]:
         return self.a, self.b
 
 
@@ -139,12 +145,13 @@ class Polygon(Convex):
     corners, for a concave outline, and for a radius that is not >= 0.
     """
 
-    points: Points
+    points: tuple[Vec2, ...]
     radius: float = 0.0
 
-    def __post_init__(self):
-        points = checks.columns("points", self.points)
-        object.__setattr__(self, "radius", checks.number("radius", self.radius, low=0.0))
+    @explained
+    def __init__(self, points: Points, radius: float = 0.0) -> None:
+        points = checks.columns("points", points)
+        object.__setattr__(self, "radius", checks.number("radius", radius, low=0.0))
         if not 3 <= len(points) <= MAX_CORNERS:
             raise ValueError(f"points must be 3..{MAX_CORNERS} corners (got {len(points)})")
         edges = np.roll(points, -1, axis=0) - points
@@ -166,7 +173,7 @@ class Polygon(Convex):
         object.__setattr__(self, "points", tuple(Vec2(x, y) for x, y in points.tolist()))
 
     @classmethod
-    def known(cls, points: list[list[float]]) -> "Polygon":
+    def known(cls, points: list[list[float]]) -> Polygon:
         """Return a polygon whose corners [px] are not checked. They must be convex and clockwise on the screen.
 
         This saves time for the outlines of masks, which have thousands of polygons.
@@ -176,7 +183,8 @@ class Polygon(Convex):
         return found
 
     @classmethod
-    def box(cls, width: float, height: float, center: Pair = (0.0, 0.0), angle: float = 0.0) -> "Polygon":
+    @explained
+    def box(cls, width: float, height: float, center: Pair = (0.0, 0.0), angle: float = 0.0) -> Polygon:
         """Return a box of full width and height [px] around `center` [px], rotated by `angle` [rad] about it."""
         half_width = checks.number("width", width, above=0.0) / 2.0
         half_height = checks.number("height", height, above=0.0) / 2.0
@@ -374,17 +382,18 @@ def _check_length(name, a, b):
 class Segment(Convex):
     """The line from a to b, solid from both sides, without mass. Raises ValueError if a and b coincide."""
 
-    a: Pair
-    b: Pair
+    a: Vec2
+    b: Vec2
     _has_mass = False
 
-    def __post_init__(self):
-        object.__setattr__(self, "a", checks.vector("a", self.a))
-        object.__setattr__(self, "b", checks.vector("b", self.b))
+    @explained
+    def __init__(self, a: Pair, b: Pair) -> None:
+        object.__setattr__(self, "a", checks.vector("a", a))
+        object.__setattr__(self, "b", checks.vector("b", b))
         _check_length("a and b", self.a, self.b)
 
     @property
-    def points(self) -> tuple[Pair, Pair]:
+    def points(self) -> tuple[Vec2, Vec2]:
         return self.a, self.b
 
 
@@ -401,15 +410,22 @@ class Chain(EqualByValue):
     and ghosts of a loop.
     """
 
-    points: Points
+    points: tuple[Vec2, ...]
     loop: bool = False
-    ghosts: Sequence[Pair | None] | None = None
-    materials: Sequence[Material] | None = None
+    ghosts: tuple[Vec2 | None, Vec2 | None] | None = None
+    materials: tuple[Material, ...] | None = None
     radius, _kind, _is_ground = 0.0, CHAIN, True
 
-    def __post_init__(self):
-        points = tuple(Vec2(x, y) for x, y in checks.columns("points", self.points).tolist())
-        loop = checks.flag("loop", self.loop)
+    @explained
+    def __init__(
+        self,
+        points: Points,
+        loop: bool = False,
+        ghosts: Sequence[Pair | None] | None = None,
+        materials: Sequence[Material] | None = None,
+    ) -> None:
+        points = tuple(Vec2(x, y) for x, y in checks.columns("points", points).tolist())
+        loop = checks.flag("loop", loop)
         least = 3 if loop else 2
         if len(points) < least:
             raise ValueError(
@@ -421,23 +437,20 @@ class Chain(EqualByValue):
             _check_length(f"points[{k}] and points[{following}]{hint}", points[k], points[following])
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "loop", loop)
-        object.__setattr__(self, "ghosts", self._checked_ghosts())
-        object.__setattr__(self, "materials", self._checked_materials())
+        object.__setattr__(self, "ghosts", self._checked_ghosts(ghosts))
+        object.__setattr__(self, "materials", self._checked_materials(materials))
 
-    def _checked_ghosts(self):
-        if self.ghosts is None:
+    def _checked_ghosts(self, given):
+        if given is None:
             return None
         if self.loop:
             raise ValueError(
-                "ghosts must be None for a loop, whose ends are each other's neighbours "
-                f"(got {checks.shown(self.ghosts)})"
+                f"ghosts must be None for a loop, whose ends are each other's neighbours (got {checks.shown(given)})"
             )
         try:
-            before, after = self.ghosts
+            before, after = given
         except (TypeError, ValueError):
-            raise TypeError(
-                f"ghosts must be a pair of points (before, after) (got {checks.shown(self.ghosts)})"
-            ) from None
+            raise TypeError(f"ghosts must be a pair of points (before, after) (got {checks.shown(given)})") from None
         ghosts = tuple(
             None if each is None else checks.vector(f"ghosts[{k}]", each) for k, each in enumerate((before, after))
         )
@@ -446,12 +459,12 @@ class Chain(EqualByValue):
                 _check_length(f"ghosts[{k}] and the end it smooths", ghosts[k], end)
         return ghosts
 
-    def _checked_materials(self):
-        if self.materials is None:
+    def _checked_materials(self, given):
+        if given is None:
             return None
-        if not isinstance(self.materials, (tuple, list)):
-            raise TypeError(f"materials must be a tuple of Material, one per link (got {checks.shown(self.materials)})")
-        materials = tuple(self.materials)
+        if not isinstance(given, (tuple, list)):
+            raise TypeError(f"materials must be a tuple of Material, one per link (got {checks.shown(given)})")
+        materials = tuple(given)
         for k, each in enumerate(materials):
             if not isinstance(each, Material):
                 raise TypeError(f"materials[{k}] must be a Material (got {checks.shown(each)})")

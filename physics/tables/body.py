@@ -4,13 +4,16 @@ Rows are in the order of ids. A row number changes when an earlier row is remove
 reused.
 """
 
+from typing import get_args
+
 import numpy as np
 
+from physics.annotations import ContinuousName, KindName
 from physics.tables.table import in_lines
 
 STATIC, KINEMATIC, DYNAMIC = 0, 1, 2
-KINDS = ("static", "kinematic", "dynamic")
-CONTINUOUS = ("off", "ray", "swept", "auto", "toi")
+KINDS: tuple[KindName, ...] = get_args(KindName)  # a kind is the index of its name
+CONTINUOUS: tuple[ContinuousName, ...] = ("off", "ray", "swept", "auto", "toi")
 OFF, RAY, SWEPT, AUTO, TOI = 0, 1, 2, 3, 4
 BODY = in_lines(
     [  # ordered by use: the first cache line holds the fields that every pass over contacts reads

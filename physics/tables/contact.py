@@ -2,12 +2,29 @@
 
 import numpy as np
 
-from physics.tables.table import in_lines
+from physics.tables.table import Record, in_lines
 
 # ---- report ----------------------------------------------------------------------------------------------------------
 # Reports of a step: contact points, events, and bodies that were disabled.
 
-CONTACT_POINT = np.dtype(
+
+class Contact(Record):
+    """A row of world.contacts and world.sleeping_contacts."""
+
+
+class Event(Record):
+    """A row of world.events: a pair of shapes that begins, continues or ceases to touch."""
+
+
+class Hit(Record):
+    """A row of world.events.hits."""
+
+
+class Quarantined(Record):
+    """A row of world.events.quarantined."""
+
+
+CONTACT_FIELDS = np.dtype(
     [
         ("body_a", np.int64),  # ids; A is the shape with the smaller id
         ("body_b", np.int64),
@@ -25,7 +42,7 @@ CONTACT_POINT = np.dtype(
     ],
     align=True,
 )
-EVENT = np.dtype(
+EVENT_FIELDS = np.dtype(
     [
         ("body_a", np.int64),
         ("body_b", np.int64),
@@ -38,8 +55,11 @@ EVENT = np.dtype(
     ],
     align=True,
 )
-HIT = np.dtype(EVENT.descr + [("speed", np.float64), ("normal_impulse", np.float64)])
-QUARANTINE = np.dtype([("body", np.int64), ("reason", "U96")])
+HIT_FIELDS = np.dtype(EVENT_FIELDS.descr + [("speed", np.float64), ("normal_impulse", np.float64)])
+CONTACT_POINT, EVENT, HIT = (
+    np.dtype(each) for each in ((Contact, CONTACT_FIELDS), (Event, EVENT_FIELDS), (Hit, HIT_FIELDS))
+)
+QUARANTINE = np.dtype((Quarantined, [("body", np.int64), ("reason", "U96")]))
 
 # ---- contact ---------------------------------------------------------------------------------------------------------
 # CONTACT: two shapes that touch or may touch in this step. A row holds the manifold of the narrow phase, and the

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from physics.tables.table import in_lines
+from physics.tables.table import Record, in_lines
 
 WORLD = -1  # value of a body id or row for a joint to the world
 NO_JOINT = -1  # value of a joint id or row for a side of a gear that is a body
@@ -149,13 +149,22 @@ COUPLING = in_lines(
         ("total", np.float64),  # impulse of the step on that sum
     ]
 )
+
+
+class Broken(Record):
+    """A row of world.events.broken."""
+
+
 BROKEN = np.dtype(
-    [
-        ("joint", np.int64),
-        ("body_a", np.int64),
-        ("body_b", np.int64),
-        ("force", np.float64),
-        ("torque", np.float64),
-        ("reason", "U8"),  # force torque removed
-    ]
+    (
+        Broken,
+        [
+            ("joint", np.int64),
+            ("body_a", np.int64),
+            ("body_b", np.int64),
+            ("force", np.float64),
+            ("torque", np.float64),
+            ("reason", "U8"),  # force torque removed
+        ],
+    )
 )

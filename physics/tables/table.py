@@ -128,6 +128,24 @@ class Table:
         self.count = len(flags) - len(gone)
 
 
+class Record(np.void):
+    """A row of a report, such as world.contacts[0], printed with the names of its columns.
+
+    A dtype (Record, fields) equals the dtype of the fields, and its arrays are plain NumPy arrays.
+    """
+
+    __slots__ = ()
+
+    def __repr__(self):
+        values = ((name, self[name].item()) for name in self.dtype.names or ())
+        shown = ", ".join(
+            f"{name}={value:.6g}" if type(value) is float else f"{name}={value!r}" for name, value in values
+        )
+        return f"{type(self).__name__}({shown})"
+
+    __str__ = __repr__
+
+
 # ---- rows ------------------------------------------------------------------------------------------------------------
 # Binary search for rows by id.
 

@@ -15,12 +15,20 @@ from game.report.chart import Axis, Chart, Panel, percent, time, value
 from game.report.claim import FAILS, HOLDS, Claim, at_least, at_most, ordering, pair, ratio_of
 from game.report.job import Job, ReportScope, Row, counted, spread
 from physics import Circle, Effects, Polygon, World
+from physics.annotations import ContinuousName
 
 RADIUS, WIDTH, HALF = 5.0, 1.0, 11.0  # [px] of the disc, the plate's width, half its height
 APART = 80.0  # [px] between two lanes; each has a disc and a plate
 RUN_UP, STEPS, RUNS = 2, 60, 5  # steps before the plate; 300 timed steps
 RATIOS = (0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0)  # disc diameters per step
-WAYS = (("off", 1), ("ray", 1), ("swept", 1), ("toi", 1), ("auto", 1), *(("off", k) for k in (2, 4, 8, 16, 32)))
+WAYS: tuple[tuple[ContinuousName, int], ...] = (
+    ("off", 1),
+    ("ray", 1),
+    ("swept", 1),
+    ("toi", 1),
+    ("auto", 1),
+    *(("off", k) for k in (2, 4, 8, 16, 32)),
+)
 VISIBLE = 1.0  # [px]
 COUNTS = (1, 10, 100, 1000)  # discs
 EFFECTS = Effects(response=True, continuous=True)
@@ -57,7 +65,7 @@ def first_touch(aside: np.ndarray) -> np.ndarray:
     return reach
 
 
-def world_of(way: str, divided: int, lanes: int, ratio: float, plates: bool = True) -> World:
+def world_of(way: ContinuousName, divided: int, lanes: int, ratio: float, plates: bool = True) -> World:
     """Return a world of lanes, each with a disc and a plate.
 
     way: kind of continuous collision; divided: number of steps into which a step of 1/60 s is divided; ratio: path of a

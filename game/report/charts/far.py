@@ -12,6 +12,7 @@ from game.report.claim import FAILS, HOLDS, Claim
 from game.report.job import Job, ReportScope, Row, spread
 from game.report.piles import overlap, stack, world_of
 from physics import World
+from physics.annotations import SolverName
 
 METER = 32.0  # [px]
 DISTANCES = (0.0, 1e3, 1e4, 1e5, 5000.0 * METER, 1e6, 1e7, 1e8, 1e9)  # [px] in x and in y
@@ -29,7 +30,7 @@ def round_poses(world: World) -> None:
     world.touch(world.bodies["id"])
 
 
-def measure(solver: str) -> list[Row]:
+def measure(solver: SolverName) -> list[Row]:
     """Return rows for each distance from the origin: one with poses in float64, one with poses rounded to float32.
 
     They contain the greatest distance of a box from its place in the run at the origin, and the overlap. Poses are

@@ -16,6 +16,7 @@ from game.report.chart import Axis, Chart, Panel, panel_is, time, value
 from game.report.claim import HOLDS, TIE, Claim
 from game.report.job import Job, ReportScope, Row, spread
 from physics import Circle, Effects, Material, Polygon, Vec2, World
+from physics.annotations import SolverName
 
 G, SECONDS, RUNS = 320.0, 1.0, 5
 RATES = (30, 60, 120, 240, 480)  # steps a second
@@ -31,7 +32,7 @@ class Case(NamedTuple):
     """
 
     effects: Effects
-    solvers: tuple[str, ...]
+    solvers: tuple[SolverName, ...]
     slope: float
     shape: Polygon | Circle
     material: Material
@@ -70,7 +71,7 @@ CASES = {
 }
 
 
-def world_of(case: Case, solver: str, rate: int) -> World:
+def world_of(case: Case, solver: SolverName, rate: int) -> World:
     """Return a world of COPIES equal bodies at the case's height over the ground, too far apart to meet.
 
     solver: of the world; rate: steps per second.
@@ -87,7 +88,7 @@ def world_of(case: Case, solver: str, rate: int) -> World:
 def measure(case: str) -> list[Row]:
     """Return a row for each solver and each length of the step. case: key of CASES."""
     made, rows, spent = CASES[case], {}, {}
-    ways = [(solver, rate) for solver in made.solvers for rate in RATES]
+    ways: list[tuple[SolverName, int]] = [(solver, rate) for solver in made.solvers for rate in RATES]
     for solver, rate in ways:
         world = world_of(made, solver, rate)
         steps = round(SECONDS * rate)

@@ -20,6 +20,7 @@ from game.report.job import Job, ReportScope, Row, counted, spread
 from game.report.piles import overlap, pyramid, world_of
 from game.report.pymunk_piles import overlap_in, space_of
 from physics import DynamicTree, Effects, PixelMask, SpatialHashGrid, World
+from physics.annotations import TierName
 
 SPRITES = ("player", "saucer_0", "gunship_0")
 SPACING = 30.0  # [px] mean distance of sprites: about one overlap each
@@ -73,7 +74,7 @@ class Traffic:
             if self.masks[k].overlap_area(self.masks[j], tuple(np.subtract(self.corners[j], self.corners[k]).tolist()))
         }
 
-    def world(self, strategy: Any, tier: str) -> World:
+    def world(self, strategy: Any, tier: TierName) -> World:
         """Return a world of this project with all sprites. strategy: broad phase; tier: collision tier."""
         world = World(Effects(), strategy)
         for k, (x, y) in zip(self.which, self.corners, strict=True):
@@ -110,12 +111,13 @@ def measure_sprites(count: int) -> list[Row]:
     }
     reported["pygame: groupcollide"] = truth  # it returns sprites, not pairs: the same masks, one by one
     works: dict[str, Callable[[], object]] = dict(ways)
-    for name, make, tier in (
+    ours: tuple[tuple[str, type[SpatialHashGrid | DynamicTree], TierName], ...] = (
         ("ours: grid, boxes", SpatialHashGrid, "aabb"),
         ("ours: grid, pixels", SpatialHashGrid, "pixels"),
         ("ours: tree, pixels", DynamicTree, "pixels"),
         ("ours: grid, outline", SpatialHashGrid, "outline"),
-    ):
+    )
+    for name, make, tier in ours:
         world = traffic.world(make(), tier)
         rows = {int(identity): k for k, identity in enumerate(world.bodies["id"])}
         found = world.contacts

@@ -20,6 +20,7 @@ from game.report.job import Job, ReportScope, Row, spread
 from game.report.piles import PILES, world_of
 from game.report.standing import VISIBLE, Watch
 from physics import World
+from physics.annotations import SolverName
 
 SOFT, SEQUENTIAL = "soft_step", "sequential_impulse"
 FEW, MANY = (1, 2, 4, 8), (1, 2, 4, 8, 16, 32)
@@ -30,7 +31,7 @@ LEAST = 0.01  # [px] smaller errors are rounding errors, whose ratio has no mean
 class Parts(NamedTuple):
     """One combination of the parts of a solver. warm: with warm starting; relaxed: with the relaxation pass."""
 
-    solver: str
+    solver: SolverName
     substeps: int
     iterations: int
     warm: bool = True

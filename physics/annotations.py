@@ -1,0 +1,104 @@
+"""Types of arguments: pairs, poses, rectangles and references to bodies, and the words that an argument may be.
+
+They are protocols and literals, so that pygame's vectors and rectangles are accepted without an import of pygame.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any, Literal, Protocol
+
+import numpy as np
+
+# ---- words -----------------------------------------------------------------------------------------------------------
+# The words of an argument. The tables and tuples of these words are made from the literals by get_args.
+
+KindName = Literal["static", "kinematic", "dynamic"]
+ContinuousName = Literal["off", "ray", "swept", "auto", "toi"]
+SolverName = Literal["blocking", "projection", "sequential_impulse", "soft_step"]
+BroadphaseName = Literal["brute", "sweep", "hash", "tree"]
+JointSolverName = Literal["iterative", "direct", "auto"]
+TierName = Literal["circle", "aabb", "obb", "capsule", "hull", "parts", "outline", "pixels", "mask"]
+Substeps = int | Literal["auto"]
+
+# ---- numbers ---------------------------------------------------------------------------------------------------------
+
+Number = float | np.floating[Any] | np.integer[Any]
+
+
+class Vector(Protocol):
+    """A vector of two numbers that is not a tuple, such as pygame.Vector2. A Rect or a Vector3 is none."""
+
+    def __iter__(self) -> Iterator[float]: ...
+
+    def __len__(self) -> int: ...
+
+    def dot(self, other: Any, /) -> float:
+        """Return the scalar product."""
+        ...
+
+    def rotate(self, angle: float, /) -> Any:  # a Vector3 needs an axis, and a Rect has no such method
+        """Return the vector rotated by an angle."""
+        ...
+
+
+class Rectangle(Protocol):
+    """A rectangle such as pygame.Rect and pygame.FRect, which unpacks into x, y, width and height."""
+
+    def __iter__(self) -> Iterator[float]: ...
+
+    def __len__(self) -> int: ...
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height."""
+        ...
+
+    @property
+    def topleft(self) -> tuple[float, float]:
+        """The corner (x, y)."""
+        ...
+
+
+Pair = tuple[Number, Number] | list[float] | list[int] | Vector | np.ndarray  # (x, y)
+Pose = Pair | tuple[Number, ...]  # (x, y, angle), or (x, y) at angle 0; (*vector, angle) has no known length
+Points = Sequence[Pair] | np.ndarray  # (n, 2)
+Coordinates = Sequence[float] | np.ndarray  # (x, y) of checked numbers, inside the package
+Corners = Sequence[Sequence[float]] | np.ndarray  # (n, 2) likewise
+Numbers = Sequence[Number] | np.ndarray  # (n,)
+Range = tuple[Number | None, Number | None] | list[Any] | np.ndarray  # a pair in which None means no bound
+# (x, y, width, height), or ((x, y), (width, height)).
+Rect = (
+    Rectangle | tuple[Number, Number, Number, Number] | tuple[Pair, Pair] | list[float] | list[int] | list[Pair]
+    | np.ndarray
+)  # fmt: skip
+
+# ---- bodies ----------------------------------------------------------------------------------------------------------
+
+
+class BodyHandle(Protocol):
+    """A Body, for modules that body.py imports."""
+
+    @property
+    def id(self) -> int:
+        """The id of the body."""
+        ...
+
+    @property
+    def shape_ids(self) -> tuple[int, ...]:
+        """The ids of its shapes."""
+        ...
+
+
+class WorldHandle(Protocol):
+    """A World, for modules that world.py imports."""
+
+    def step(self, dt: float | None = None) -> None:
+        """Advance the simulation."""
+        ...
+
+    def touch(self, ids: Any) -> None:
+        """Report written columns."""
+        ...
+
+
+BodyRef = BodyHandle | int | np.integer[Any]  # a Body or the id of one
+BodyRefs = BodyRef | Iterable[BodyRef] | np.ndarray  # one or many
