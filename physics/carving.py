@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from physics import checks, edit
+from physics import checks, edit, hints
 from physics.edit import replace_mask
 from physics.math2d import rotate
 from physics.raster.pixel_tiles import Cut, Loose, Tool, cut, find_in_hull, find_in_pixels
@@ -36,7 +36,8 @@ def carve(world: WorldState, identity: int, shape: object, pose: object, crumb: 
     world._needs("carving", "carve", True)
     if not isinstance(shape, tools := with_area()):
         names = ", ".join(each.__name__ for each in tools)
-        raise TypeError(f"shape must be one of {names} to carve with (got {checks.shown(shape)})")
+        hint = hints.in_place_of_shape(shape)
+        raise TypeError(f"shape must be one of {names} to carve with (got {checks.shown(shape)}){hint}")
     pose, crumb = checks.pose("pose", pose), checks.whole("crumb", crumb, 0, 2**31)
     shapes = world._shapes_of[identity]
     if not any(each._kind == MASK for each in shapes):

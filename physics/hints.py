@@ -78,11 +78,12 @@ MEANT: dict[str, tuple[tuple[str, str], ...]] = {
 
 
 def text_of(value: Any) -> str:
-    """Return repr(value), or the name of its type if repr raises an error: an int of 5,000 digits, a broken class."""
+    """Return repr(value) on one line, or the name of its type if repr raises an error (an int of 5,000 digits)."""
     try:
-        return repr(value)
+        text = repr(value)
     except Exception:
         return f"{type(value).__name__}(…)"
+    return " ".join(text.split()) if "\n" in text else text
 
 
 def shown(value: Any) -> str:
@@ -94,7 +95,7 @@ def shown(value: Any) -> str:
 def brief(value: Any) -> str:
     """Return a value as text for an expression of a hint: "…" for a long one."""
     text = text_of(value)
-    return text if len(text) <= SHORT and "\n" not in text else "…"
+    return text if len(text) <= SHORT else "…"
 
 
 def near(word: str, allowed: Iterable[str]) -> str:
@@ -194,7 +195,7 @@ def in_place_of_shape(value: Any) -> str:
     if is_a(value, "pygame", "Mask"):
         return ": write PixelMask.from_mask(mask)"
     if is_a(value, "pygame", "Rect", "FRect"):
-        return f": write Polygon.box({value.width}, {value.height}), at position={tuple(value.center)}"
+        return f": write Polygon.box({value.width}, {value.height}), placed at {tuple(value.center)}"
     if is_a(value, "pygame", "Sprite"):
         return ": write PixelMask.from_surface(sprite.image)"
     if is_own(value, "Body"):
@@ -296,12 +297,9 @@ def in_place_of_effects(value: Any) -> str:
         return f": write Effects.{value.__name__}()"
     if isinstance(value, str):
         return f": write Effects({value}=True)" if value.isidentifier() else ""
-    if (
-        isinstance(value, (dict, list, tuple, set, frozenset))
-        and value
-        and all(isinstance(each, str) for each in value)
-    ):
-        on = [each for each in value if not isinstance(value, dict) or value[each]]
+    names = [*value] if isinstance(value, (dict, list, tuple, set, frozenset)) else []
+    if names and all(isinstance(each, str) for each in names):
+        on = [each for each in sorted(names) if not isinstance(value, dict) or value[each]]
         return f": write Effects({', '.join(f'{each}=True' for each in on)})"
     return ": write Effects.rigid_bodies(), or Effects(gravity=True, …)"
 

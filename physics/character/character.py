@@ -276,7 +276,8 @@ def _outline(shape):
 
     The bounds are relative to the shape's origin.
     """
-    inner, wrapped = getattr(shape, "_inner", shape), shape is not getattr(shape, "_inner", shape)
+    inner = shape._inner if isinstance(shape, Shape) else shape
+    wrapped = inner is not shape
     hulls = sorted((each for each in with_area() if issubclass(each, Convex)), key=lambda each: each is not Polygon)
     if not (wrapped or isinstance(inner, tuple(hulls))):
         raise TypeError(

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from physics import checks
 from physics.annotations import Pair
+from physics.hints import explained
 from physics.math2d import Vec2
 from physics.raster.bits import Turned, bucket_of, packed, turn
 from physics.raster.pixel_tiles import PixelTiles
@@ -49,6 +50,7 @@ class PixelMask(Shape):
 
     _kind, _has_mass = MASK, True
 
+    @explained
     def __init__(
         self,
         solid: ArrayLike,
@@ -157,6 +159,7 @@ class PixelMask(Shape):
         return found
 
     @classmethod
+    @explained
     def from_array(
         cls,
         solid: ArrayLike,
@@ -172,6 +175,7 @@ class PixelMask(Shape):
         return cls(solid, origin, snap, smooth, one_way)
 
     @classmethod
+    @explained
     def from_surface(
         cls,
         surface: Any,
@@ -203,6 +207,7 @@ class PixelMask(Shape):
         return cls(np.ascontiguousarray(solid.T), origin, snap, smooth, one_way)
 
     @classmethod
+    @explained
     def from_mask(
         cls, mask: Any, origin: Pair | None = None, snap: bool = True, smooth: float = SMOOTH, one_way: bool = False
     ) -> PixelMask:

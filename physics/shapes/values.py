@@ -235,6 +235,7 @@ class TileGrid(Shape):
 
     _kind, _is_ground, _may_turn = TILES, True, False
 
+    @explained
     def __init__(
         self, solid: ArrayLike, tile_size: float, one_way: ArrayLike | None = None, slopes: ArrayLike | None = None
     ) -> None:

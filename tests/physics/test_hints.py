@@ -1,0 +1,466 @@
+"""Every public callable with typical wrong arguments: the message names the argument and the right expression.
+
+A pygame object, a value of another argument, a number in place of a Material or Filter, a word with a slip, a class in
+place of an instance, a keyword of another engine. The world is unchanged after each error.
+"""
+
+import inspect
+
+import numpy as np
+import pygame
+import pytest
+
+import physics
+from physics import (
+    BROADPHASES,
+    STATIC,
+    Angle,
+    Bounds,
+    Capsule,
+    Chain,
+    Character,
+    Circle,
+    Distance,
+    Drive,
+    Effects,
+    Filter,
+    Material,
+    Motor,
+    NoContact,
+    PixelMask,
+    Polygon,
+    Prismatic,
+    Revolute,
+    Segment,
+    Snapshot,
+    Spring,
+    Target,
+    TileGrid,
+    Vec2,
+    Weld,
+    Wheel,
+    World,
+    collide,
+    decompose,
+    distance,
+    fit,
+    hull,
+    mass_of,
+    measure,
+    time_of_impact,
+)
+
+BALL, BOX, MASK = Circle(3.0), Polygon.box(4, 4), PixelMask(np.ones((3, 3), bool))
+RECT, SURFACE, BITS = pygame.Rect(1, 2, 30, 40), pygame.Surface((4, 4)), pygame.Mask((4, 4))
+CORNERS = [(0, 0), (4, 0), (4, 4)]
+SPRITE = pygame.sprite.Sprite()
+OTHER = World(Effects.rigid_bodies().with_(joints=True))
+BODY = OTHER.add_body(BALL)
+
+SHAPE = [
+    (SURFACE, "PixelMask.from_surface(surface)"),
+    (BITS, "PixelMask.from_mask(mask)"),
+    (RECT, "Polygon.box(30, 40), placed at (16, 22)"),
+    (pygame.FRect(0, 0, 3, 5), "Polygon.box(3.0, 5.0)"),
+    (SPRITE, "PixelMask.from_surface(sprite.image)"),
+    (CORNERS, "Polygon(points)"),
+    (tuple(CORNERS), "Polygon(points)"),
+    (np.array(CORNERS), "Polygon(points)"),
+    ([pygame.Vector2(0, 0), pygame.Vector2(1, 0), pygame.Vector2(0, 1)], "Polygon(points)"),
+    (CORNERS[:2], "Segment(a, b)"),
+    (np.ones((2, 2), bool), "PixelMask.from_array(solid), or TileGrid(solid, tile_size)"),
+    (Circle, "Circle(…)"),
+    (BODY, "*body.shapes"),
+    (5, "Circle(5)"),
+    ("ship.png", "pygame.image.load"),
+    (Material(), "material=Material(…)"),
+    (Filter(), "filter=Filter(…)"),
+    (None, ""),
+]
+WITHOUT_LISTS = [each for each in SHAPE if not isinstance(each[0], (list, tuple))]  # callables that take one or many
+PAIR = [
+    (RECT, "rect.center or rect.topleft"),
+    (5.0, "(5.0, 5.0)"),
+    (BODY, "body.position"),
+    ((1, 2, 3), ""),
+    (pygame.Vector3(1, 2, 3), ""),
+    ("1, 2", ""),
+    (1 + 2j, "(z.real, z.imag)"),
+]
+POSE = [(RECT, "rect.center"), (BODY, "body.position"), ("0, 0", ""), ((1, 2, 3, 4), "")]
+POINTS = [
+    (RECT, "Polygon.box(30, 40, center=(16, 22))"),
+    (SURFACE, "PixelMask.from_surface(surface)"),
+    (20, "Polygon.box(width, height)"),
+    ("0, 0", ""),
+]
+POSITIONS = [((3, 4), "[(3, 4)]"), (5, ""), ("ab", ""), (RECT, "")]
+MATERIAL = [
+    (0.5, "Material(friction=0.5)"),
+    ({"friction": 0.5, "density": 2}, "Material(friction=0.5, density=2)"),
+    (Filter(), "filter=Filter(…)"),
+    (Material, "Material()"),
+    ("ice", "Material(friction=…"),
+]
+FILTER = [
+    (3, "Filter(membership=3)"),
+    ((1, 6), "Filter(membership=1, mask=6)"),
+    (Material(), "material=Material(…)"),
+    (Filter, "Filter()"),
+    ("enemy", "Filter(membership=…"),
+]
+KIND = [
+    (STATIC, 'kind="static"'),
+    (np.int64(2), 'kind="dynamic"'),
+    ("dynmic", '"dynamic"'),
+    ("Static", '"static"'),
+    (True, ""),
+    (None, ""),
+]
+CONTINUOUS = [(True, 'continuous="toi"'), (False, 'continuous="off"'), ("TOI", '"toi"'), ("sweept", '"swept"')]
+TIER = [("hulls", '"hull"'), ("Pixels", '"pixels"'), (3, "")]
+SOLVER = [("soft-step", '"soft_step"'), ("SequentialImpulse", '"sequential_impulse"'), (0, "")]
+BOX_SIDES = [((3, 4), "Polygon.box(width, height)"), (RECT, "Polygon.box(width, height)")]
+BITS_OF_PYGAME = [(SURFACE, "PixelMask.from_surface(surface)"), (BITS, "PixelMask.from_mask(mask)")]
+MASKS = [(SURFACE, "from_surface"), (BITS, "from_mask"), (SPRITE, "sprite.image"), (BALL, "")]
+SHAPES = [([BALL, BOX], "*shapes"), ((3, 4), "position=(3, 4)"), ("static", "kind='static'")]
+JOINT = [(Revolute, "Revolute(…)"), (BODY, "Revolute(a, b, at)"), ("hinge", "")]
+JOINT_KIND = [("revolute", "Revolute, the class"), (Revolute(0, 1, (0, 0)), "the class")]
+BROADPHASE = [
+    ("quadtree", "brute, sweep, hash, tree"),
+    ("tre", '"tree"'),
+    ("Hash", '"hash"'),
+    (physics.DynamicTree, "DynamicTree()"),
+    (7, "brute, sweep"),
+]
+EFFECTS = [
+    ("gravity", "Effects(gravity=True)"),
+    (["gravity", "drag"], "Effects(drag=True, gravity=True)"),
+    ({"drag": True, "wind": False}, "Effects(drag=True)"),
+    (Effects, "Effects()"),
+    (Effects.rigid_bodies, "Effects.rigid_bodies()"),
+    (7, "Effects.rigid_bodies()"),
+]
+FLAG = [(1, "True"), (0, "False"), ("yes", ""), (None, "")]
+NUMBER = [("5", ""), ([5], ""), (1j, "")]
+RADIUS = [((3, 4), "Circle(radius, center)"), ("5", ""), (None, "")]
+WHOLE = [(8.0, "write 8"), (8.5, ""), ("8", "")]
+IDS = [("crate", ""), (1.5, ""), (BALL, "")]
+SPRING = [(2.0, "Spring(2.0)"), ("stiff", "")]
+DRIVE = [(2.0, "Drive(2.0, max=…)"), ("fast", "")]
+RANGE = [(3.0, ""), ("ab", "")]
+
+
+def make_world():
+    """Return a world with every effect, a dynamic, a static and a kinematic body, a joint, and a mask."""
+    effects = Effects(**{each.name: True for each in Effects.__dataclass_fields__.values()})
+    world = World(effects)
+    world.add_body(BALL, velocity=(5.0, 3.0))
+    world.add_body(BOX, position=(2.0, 9.0), kind="static")
+    world.add_body(MASK, position=(90.0, 1.0), kind="kinematic")
+    world.add_body(MASK, position=(200.0, 1.0))
+    world.add_joint(Revolute(0, 3, (50, 0)))
+    world.step()
+    return world
+
+
+def setter(identity, name):
+    return lambda w, v: setattr(w.body(identity), name, v)
+
+
+def world_setter(name):
+    return lambda w, v: setattr(w, name, v)
+
+
+CALLS = [
+    ("radius", RADIUS, lambda w, v: Circle(v)),
+    ("center", PAIR, lambda w, v: Circle(1, v)),
+    ("a", PAIR, lambda w, v: Capsule(v, (1, 1), 2)),
+    ("b", PAIR, lambda w, v: Capsule((1, 1), v, 2)),
+    ("radius", NUMBER, lambda w, v: Capsule((1, 1), (2, 2), v)),
+    ("a", PAIR, lambda w, v: Segment(v, (1, 1))),
+    ("points", POINTS, lambda w, v: Polygon(v)),
+    ("points", POINTS, lambda w, v: Chain(v)),
+    ("points", POINTS, lambda w, v: hull(v)),
+    ("points", POINTS, lambda w, v: decompose(v)),
+    (
+        "width",
+        [((3, 4), "Polygon.box(width, height)"), (RECT, "Polygon.box(width, height)")],
+        lambda w, v: Polygon.box(v, 1),
+    ),
+    ("center", PAIR, lambda w, v: Polygon.box(2, 3, v)),
+    ("shape", [each for each in SHAPE if each[0] is not None], lambda w, v: Bounds(v)),
+    (
+        "solid",
+        [(SURFACE, "PixelMask.from_surface(surface)"), (BITS, "PixelMask.from_mask(mask)")],
+        lambda w, v: PixelMask(v),
+    ),
+    ("solid", BITS_OF_PYGAME, lambda w, v: TileGrid(v, 16)),
+    ("origin", PAIR, lambda w, v: PixelMask(np.ones((2, 2), bool), v)),
+    ("snap", FLAG, lambda w, v: PixelMask(np.ones((2, 2), bool), snap=v)),
+    ("material", MATERIAL, lambda w, v: BALL.with_(material=v)),
+    ("filter", FILTER, lambda w, v: BALL.with_(filter=v)),
+    ("sensor", FLAG[:3], lambda w, v: BALL.with_(sensor=v)),
+    ("one_way", FLAG[:3], lambda w, v: MASK.with_(one_way=v)),
+    (
+        "mask",
+        [(SURFACE, "from_surface"), (BITS, "from_mask"), (SPRITE, "sprite.image"), (BALL, "")],
+        lambda w, v: fit(v, "hull"),
+    ),
+    ("tier", TIER, lambda w, v: fit(MASK, v)),
+    ("mask", MASKS, lambda w, v: measure(v, BALL)),
+    ("shapes", WITHOUT_LISTS, lambda w, v: mass_of(v, 1.0)),
+    ("membership", WHOLE, lambda w, v: Filter(v)),
+    ("friction", NUMBER, lambda w, v: Material(friction=v)),
+    ("shape_a", SHAPE, lambda w, v: collide(v, (0, 0), BALL, (0, 0))),
+    ("pose_a", POSE, lambda w, v: collide(BALL, v, BALL, (0, 0))),
+    ("shape_b", SHAPE, lambda w, v: distance(BALL, (0, 0), v, (0, 0))),
+    ("pose_b", POSE, lambda w, v: distance(BALL, (0, 0), BALL, v)),
+    ("shape_a", SHAPE, lambda w, v: time_of_impact(v, (0, 0), (1, 1), BALL, (0, 0), (1, 1))),
+    ("end_b", POSE, lambda w, v: time_of_impact(BALL, (0, 0), (1, 1), BALL, (0, 0), v)),
+    ("effects", EFFECTS, lambda w, v: World(v)),
+    ("broadphase", BROADPHASE, lambda w, v: World(broadphase=v)),
+    ("solver", SOLVER, lambda w, v: World(solver=v)),
+    ("gravity", PAIR, lambda w, v: World(gravity=v)),
+    ("substeps", WHOLE[:2], lambda w, v: World(substeps=v)),
+    ("seed", WHOLE, lambda w, v: World(seed=v)),
+    ("shapes", SHAPE, lambda w, v: w.add_body(v)),
+    (
+        "shapes",
+        [([BALL, BOX], "*shapes"), ((3, 4), "position=(3, 4)"), ("static", "kind='static'")],
+        lambda w, v: w.add_body(v),
+    ),
+    ("position", PAIR, lambda w, v: w.add_body(BALL, position=v)),
+    ("velocity", PAIR, lambda w, v: w.add_body(BALL, velocity=v)),
+    ("angle", NUMBER, lambda w, v: w.add_body(BALL, angle=v)),
+    ("kind", KIND, lambda w, v: w.add_body(BALL, kind=v)),
+    ("material", MATERIAL, lambda w, v: w.add_body(BALL, material=v)),
+    ("filter", FILTER, lambda w, v: w.add_body(BALL, filter=v)),
+    ("sensor", FLAG, lambda w, v: w.add_body(BALL, sensor=v)),
+    ("bullet", FLAG, lambda w, v: w.add_body(BALL, bullet=v)),
+    ("continuous", CONTINUOUS, lambda w, v: w.add_body(BALL, continuous=v)),
+    ("gravity_scale", [((0, 9), "World(gravity=(0, 9))"), *NUMBER], lambda w, v: w.add_body(BALL, gravity_scale=v)),
+    ("tier", TIER, lambda w, v: w.add_body(MASK, tier=v)),
+    ("shapes", SHAPE, lambda w, v: w.add_bodies(v, [(0, 0)])),
+    ("positions", POSITIONS, lambda w, v: w.add_bodies(BALL, v)),
+    ("velocities", [((3, 4), "[(3, 4)]")], lambda w, v: w.add_bodies(BALL, [(0, 0)], v)),
+    ("kind", KIND, lambda w, v: w.add_bodies(BALL, [(0, 0)], kind=v)),
+    ("filter", FILTER, lambda w, v: w.add_bodies(BALL, [(0, 0)], filter=v)),
+    ("body", IDS, lambda w, v: w.remove_body(v)),
+    ("ids", [("crate", ""), (1.5, "")], lambda w, v: w.remove_bodies(v)),
+    ("positions", POSITIONS, lambda w, v: w.move([0], v)),
+    ("ids", [("crate", ""), (1.5, "")], lambda w, v: w.touch(v)),
+    ("identity", IDS, lambda w, v: w.body(v)),
+    ("effects", EFFECTS, lambda w, v: w.set_effects(v)),
+    ("solver", SOLVER, world_setter("solver")),
+    ("broadphase", BROADPHASE, world_setter("broadphase")),
+    ("joint_solver", [("Direct", '"direct"')], world_setter("joint_solver")),
+    ("gravity", PAIR, world_setter("gravity")),
+    ("wind", PAIR, world_setter("wind")),
+    ("dt", NUMBER, world_setter("dt")),
+    ("snapshot", [("a.npz", "Snapshot.load(path)")], lambda w, v: w.restore(v)),
+    ("origin", PAIR, lambda w, v: w.ray_cast(v, (1, 0))),
+    ("translation", PAIR, lambda w, v: w.ray_cast((1, 0), v)),
+    ("filter", FILTER, lambda w, v: w.ray_cast((1, 0), (1, 1), filter=v)),
+    ("sensors", FLAG, lambda w, v: w.ray_cast((1, 0), (1, 1), sensors=v)),
+    ("filter", FILTER, lambda w, v: w.ray_cast_all((1, 0), (1, 1), filter=v)),
+    ("shape", SHAPE, lambda w, v: w.shape_cast(v, (0, 0), (1, 1))),
+    ("pose", POSE, lambda w, v: w.shape_cast(BALL, v, (1, 1))),
+    ("filter", FILTER, lambda w, v: w.shape_cast(BALL, (0, 0), (1, 1), filter=v)),
+    ("point", PAIR, lambda w, v: w.closest(v)),
+    ("filter", FILTER, lambda w, v: w.closest((0, 0), filter=v)),
+    ("shape", SHAPE, lambda w, v: w.overlap(v, (0, 0))),
+    ("pose", POSE, lambda w, v: w.overlap(BALL, v)),
+    ("filter", FILTER, lambda w, v: w.overlap(BALL, (0, 0), filter=v)),
+    ("lower", PAIR, lambda w, v: w.query_aabb(v, (9, 9))),
+    ("point", PAIR, lambda w, v: w.query_point(v)),
+    ("joint", JOINT, lambda w, v: w.add_joint(v)),
+    (
+        "kind",
+        [("revolute", "Revolute, the class"), (Revolute(0, 1, (0, 0)), "the class")],
+        lambda w, v: w.add_joints(v, [0], [3]),
+    ),
+    ("a", IDS, lambda w, v: w.add_joint(Revolute(v, 3, (0, 0)))),
+    ("at", PAIR, lambda w, v: w.add_joint(Revolute(0, 3, v))),
+    ("axis", PAIR, lambda w, v: w.add_joint(Prismatic(0, 3, (0, 0), axis=v))),
+    ("motor", DRIVE, lambda w, v: w.add_joint(Wheel(0, 3, (0, 0), motor=v))),
+    ("spring", SPRING, lambda w, v: w.add_joint(Distance(0, 3, (0, 0), (9, 9), spring=v))),
+    ("limits", RANGE, lambda w, v: w.add_joint(Angle(0, 3, limits=v))),
+    ("breaks", RANGE, lambda w, v: w.add_joint(Weld(0, 3, (0, 0), breaks=v))),
+    ("velocity", PAIR, lambda w, v: w.add_joint(Motor(0, 3, velocity=v, max_force=1, max_torque=1))),
+    ("point", PAIR, lambda w, v: w.add_joint(Target(0, (0, 0), point=v))),
+    ("spring", SPRING, lambda w, v: setattr(w.joint(0), "spring", v)),
+    ("motor", DRIVE, lambda w, v: setattr(w.joint(0), "motor", v)),
+    ("limits", RANGE, lambda w, v: setattr(w.joint(0), "limits", v)),
+    ("position", PAIR, setter(0, "position")),
+    ("velocity", PAIR, setter(0, "velocity")),
+    ("angle", NUMBER, setter(0, "angle")),
+    ("material", MATERIAL, setter(0, "material")),
+    ("filter", FILTER, setter(0, "filter")),
+    ("sensor", FLAG, setter(0, "sensor")),
+    ("continuous", CONTINUOUS, setter(0, "continuous")),
+    ("tier", TIER, setter(2, "tier")),
+    ("kind", KIND, lambda w, v: w.body(0).set_kind(v)),
+    ("shapes", SHAPE, lambda w, v: w.body(0).set_shapes(v)),
+    ("shape", SHAPE, lambda w, v: w.body(0).add_shape(v)),
+    ("position", PAIR, lambda w, v: w.body(0).move_to(v)),
+    ("position", PAIR, lambda w, v: w.body(2).set_target(v)),
+    ("force", PAIR, lambda w, v: w.body(0).apply_force(v)),
+    ("impulse", PAIR, lambda w, v: w.body(0).apply_impulse(v)),
+    ("point", PAIR, lambda w, v: w.body(0).to_world(v)),
+    ("shape", SHAPE[:3], lambda w, v: w.body(2).carve(v, (0, 0))),
+    ("shape", SHAPE, lambda w, v: Character(w, v, (0, 0))),
+    ("world", [(BALL, "Character(world, shape, position)"), (None, "")], lambda w, v: Character(v, BOX, (0, 0))),
+    ("position", PAIR, lambda w, v: Character(w, BOX, v)),
+    ("filter", FILTER, lambda w, v: Character(w, BOX, (0, 0), filter=v)),
+]
+
+
+def state(world):
+    """Return all that an error must not change."""
+    return world.digest(), world.bodies.tobytes(), world.shapes.tobytes(), len(world.joints), len(world.characters.rows)
+
+
+@pytest.mark.parametrize(("name", "values", "call"), CALLS, ids=[f"{name}-{k}" for k, (name, _, _) in enumerate(CALLS)])
+def test_a_typical_wrong_argument_gets_the_right_name_and_changes_nothing(name, values, call):
+    world = make_world()
+    before = state(world)
+    for value, hint in values:
+        with pytest.raises((TypeError, ValueError)) as caught:
+            call(world, value)
+        text = str(caught.value)
+        assert name in text and "got" in text, f"{text!r} does not name {name}"
+        assert hint in text, f"{text!r} does not say {hint}"
+        assert len(text) < 600 and "\n" not in text, text
+    assert state(world) == before
+
+
+# ---- keywords --------------------------------------------------------------------------------------------------------
+
+NAMED = [
+    (World, {}), (Circle, {"radius": 3}), (Capsule, {"a": (0, 0), "b": (1, 1), "radius": 3}),
+    (Polygon, {"points": CORNERS}),
+    (Polygon.box, {"width": 3, "height": 3}), (Segment, {"a": (0, 0), "b": (1, 1)}), (Chain, {"points": CORNERS}),
+    (Material, {}), (Filter, {}), (Effects, {}), (Drive, {"speed": 1, "max": 1}), (Spring, {"hertz": 1}),
+    (Revolute, {"a": 0, "b": 1, "at": (0, 0)}), (Prismatic, {"a": 0, "b": 1, "at": (0, 0)}),
+    (Wheel, {"a": 0, "b": 1, "at": (0, 0)}), (Distance, {"a": 0, "b": 1, "at_a": (0, 0), "at_b": (1, 1)}),
+    (Weld, {"a": 0, "b": 1, "at": (0, 0)}), (Angle, {"a": 0, "b": 1}), (Motor, {"a": 0, "b": 1}),
+    (Target, {"body": 0, "at": (0, 0)}), (NoContact, {"a": 0, "b": 1}),
+    (PixelMask, {"solid": [[True]]}), (TileGrid, {"solid": [[True]], "tile_size": 8}),
+]  # fmt: skip
+
+
+def slips(name):
+    """Return misspellings of a keyword: a letter left out, two exchanged, another case."""
+    if len(name) < 4:
+        return []
+    return [name[:2] + name[3:], name[:-2] + name[-1] + name[-2], name.title()]
+
+
+@pytest.mark.parametrize(("called", "given"), NAMED, ids=[each.__name__ for each, _ in NAMED])
+def test_a_misspelt_keyword_gets_the_right_one(called, given):
+    assert called(**given) is not None
+    names = [each for each in inspect.signature(called).parameters if not each.startswith("_")]
+    for name in names:
+        for slip in {*slips(name)} - {*names}:
+            with pytest.raises(TypeError) as caught:
+                called(**{**given, slip: 0.25})
+            text = str(caught.value)
+            assert repr(slip) in text and f"write {name}=" in text, text
+
+
+def test_a_misspelt_keyword_of_add_body_gets_the_right_one_and_adds_nothing():
+    world = make_world()
+    before, names = state(world), [*inspect.signature(world.add_body).parameters][1:]
+    assert "others" not in names and len(names) == 16
+    for add in (
+        lambda **given: world.add_body(BALL, **given),
+        lambda **given: world.add_bodies(BALL, [(0, 0)], **given),
+    ):
+        for name in names:
+            if add.__code__.co_names[0] == "add_bodies" and name in ("position", "velocity", "angle"):
+                continue
+            for slip in {*slips(name)} - {*names}:
+                with pytest.raises(TypeError, match=f"write {name}="):
+                    add(**{slip: 0.25})
+    assert state(world) == before
+
+
+FOREIGN = [
+    ({"friction": 0.5}, "material=Material(friction=0.5)"),
+    ({"elasticity": 0.5}, "material=Material(restitution=0.5)"),
+    ({"density": 2}, "material=Material(density=2)"),
+    ({"mask": 6}, "filter=Filter(mask=6)"),
+    ({"category": 2}, "filter=Filter(membership=2)"),
+    ({"pos": (1, 2)}, "position=(1, 2)"),
+    ({"x": 3}, "position=(x, y)"),
+    ({"static": True}, 'kind="static"'),
+    ({"body_type": 1}, 'kind="static", "kinematic" or "dynamic"'),
+    ({"is_sensor": True}, "sensor=True"),
+    ({"linear_velocity": (1, 0)}, "velocity=(vx, vy)"),
+    ({"user_data": "crate"}, "user='crate'"),
+    ({"shape": BALL}, "add_body(Circle(8), …)"),
+    ({"rotation": 90}, "angle=…, in radians"),
+    ({"surprise": 1}, "its arguments are *shapes, position, angle"),
+]
+
+
+@pytest.mark.parametrize(("given", "hint"), FOREIGN, ids=[next(iter(given)) for given, _ in FOREIGN])
+def test_a_keyword_of_another_engine_gets_ours(given, hint):
+    with pytest.raises(TypeError, match="unexpected keyword") as caught:
+        World().add_body(BALL, **given)
+    assert hint in str(caught.value), str(caught.value)
+
+
+def test_no_hint_names_an_argument_that_the_function_lacks():
+    for called, given in NAMED:
+        names = {*inspect.signature(called).parameters}
+        for word in physics.hints.MEANT.keys() - names:
+            with pytest.raises(TypeError, match="unexpected keyword") as caught:
+                called(**{**given, word: 1})
+            text = str(caught.value)
+            assert "its arguments are" in text or any(f"{name}=" in text.split("write ")[1] for name in names), text
+
+
+# ---- what simply works -----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", BROADPHASES)
+def test_a_broad_phase_is_given_by_its_name(name):
+    world = World(broadphase=name)
+    assert type(world.broadphase) is BROADPHASES[name]
+    world.add_bodies(BALL, [(0, 0), (5, 0)])
+    world.broadphase = "brute"
+    world.broadphase = name
+    world.step()
+    assert type(world.broadphase) is BROADPHASES[name] and len(world.candidates) == 1
+
+
+def test_vectors_and_rectangles_of_pygame_work_where_pairs_do():
+    world, place = World(), pygame.Vector2(3, 4)
+    body = world.add_body(Circle(2, pygame.Vector2(1, 0)), position=place, velocity=place)
+    assert (body.position, body.velocity) == ((3, 4), (3, 4)) and type(body.position) is Vec2
+    world.add_bodies(Polygon([place, (0, 0), (9, 0)]), [place, (50, 50)], [place, place])
+    world.gravity = body.position = place
+    assert world.query_rect(pygame.Rect(0, 0, 9, 9)) == world.query_rect(pygame.FRect(0, 0, 9, 9)) != []
+    assert world.overlap(BALL, place) and collide(BALL, place, BALL, (*place, 0.5))
+    total = Vec2(1, 2) + place - place / 2
+    assert total == (2.5, 4) and type(Vec2(1, 2) + place) is Vec2 and Vec2(1, 2).dot(place) == 11
+    with pytest.raises(TypeError):
+        Vec2(1, 2) + pygame.Vector3(1, 2, 3)
+    with pytest.raises(TypeError):
+        Vec2(1, 2) + RECT
+
+
+def test_messages_survive_values_that_have_no_text():
+    class Mute:
+        def __repr__(self):
+            raise RuntimeError("no text")
+
+    for value in (Mute(), 10**5000, [Mute()]):
+        for call in (Circle, World, lambda v: World().add_body(v), lambda v: World().add_body(BALL, filter=v)):
+            with pytest.raises((TypeError, ValueError), match="got"):
+                call(value)
+    with pytest.raises(TypeError, match="snapshot must be a Snapshot"):
+        World().restore(Mute())
+    assert Snapshot
