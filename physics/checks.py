@@ -104,7 +104,7 @@ def vector(name: str, value: Any) -> Vec2:
         except (TypeError, ValueError):
             x = None
     if x is None:
-        hint = hints.in_place_of_vector(value)
+        hint = hints.in_place_of_vector(name, value)
         raise TypeError(f"{name} must be a pair (x, y) of numbers (got {shown(value)}){hint}")
     return Vec2(number(f"{name}[0]", x), number(f"{name}[1]", y))
 
@@ -210,7 +210,7 @@ def pose(name: str, value: Any) -> tuple[float, float, float]:
     try:
         x, y, angle = value if len(value) == 3 else (*value, 0.0)
     except (TypeError, ValueError):
-        hint = hints.in_place_of_vector(value)
+        hint = hints.in_place_of_vector(name, value)
         raise TypeError(f"{name} must be (x, y) or (x, y, angle) (got {shown(value)}){hint}") from None
     x, y = position(name, (x, y))
     return x, y, number(f"{name}[2]", angle)

@@ -83,6 +83,8 @@ class Effects:
         It is the inverse of names(). Raises TypeError for an unknown effect, and ValueError if an effect that a named
         one needs is not named.
         """
+        if isinstance(names, str):
+            raise TypeError(f"names must be a list of names (got {names!r}): write [{names!r}]")
         return cls(narrowphase=False).with_(**dict.fromkeys(names, True))
 
     def with_(self, **changes: bool) -> "Effects":

@@ -120,7 +120,8 @@ def unexpected(name: str, names: Sequence[str], given: Mapping[str, Any]) -> Typ
         meant = f"{similar}={{}}"
     listed = ", ".join(names)
     hint = f": write {meant.replace('{}', brief(value))}" if meant else f"; its arguments are {listed}"
-    return TypeError(f"{name}() got an unexpected keyword argument {word!r} (got {word}={brief(value)}){hint}")
+    called = name if name.endswith(")") else f"{name}()"
+    return TypeError(f"{called} got an unexpected keyword argument {word!r} (got {word}={brief(value)}){hint}")
 
 
 def argument_names(function: Callable[..., Any]) -> tuple[str, ...]:
@@ -137,9 +138,13 @@ def explained(function: Called) -> Called:
     """
     names = argument_names(function)
     known, called = frozenset(names), function.__qualname__.removesuffix(".__init__")
+    most = len(signature(function).parameters)
 
     @wraps(function)
     def checked(*args: Any, **given: Any) -> Any:
+        if len(args) > most:
+            own = len(args) - (most - len(names))  # without self or cls
+            raise TypeError(f"{called}() takes {', '.join(names)} (got {own} arguments: {shown(args[-own:])})")
         if given and not given.keys() <= known:
             raise unexpected(called, names, {each: given[each] for each in given.keys() - known})
         return function(*args, **given)
@@ -183,6 +188,11 @@ def is_number(value: Any) -> bool:
     return isinstance(value, numbers.Real) and not isinstance(value, bool)
 
 
+def is_bits(value: Any) -> bool:
+    """Return whether a value is a set of 32 bits as a number."""
+    return is_number(value) and isinstance(value, numbers.Integral) and 0 <= int(value) <= 0xFFFFFFFF
+
+
 def is_pair(value: Any) -> bool:
     """Return whether a value is a pair of numbers."""
     return isinstance(value, (tuple, list)) and len(value) == 2 and all(map(is_number, value))
@@ -224,21 +234,23 @@ def _in_place_of_shape(value):
     if all(is_own(each, "Shape") for each in value):
         return ": write the shapes one by one, or *shapes"
     if is_pair(value):
-        return f": write position={brief(tuple(value))} for the place of the body"
+        return f": write Polygon.box{brief(tuple(value))} for a size, position={brief(tuple(value))} for a place"
     if all(is_pair(each) or is_a(each, "pygame", "Vector2") for each in value):
         return ": write Segment(a, b)" if len(value) == 2 else ": write Polygon(points)"
     return ""
 
 
-def in_place_of_vector(value: Any) -> str:
-    """Return the hint for a value that was given as a pair (x, y), or "" if there is none."""
+def in_place_of_vector(name: str, value: Any) -> str:
+    """Return the hint for a value that was given as the pair `name`, or "" if there is none."""
     if is_a(value, "pygame", "Rect", "FRect"):
         return ": write rect.center or rect.topleft"
     if is_own(value, "Body", "Character"):
         return ": write body.position"
     if isinstance(value, complex) and not is_number(value):
         return ": write (z.real, z.imag)"
-    return f": write ({brief(value)}, {brief(value)})" if is_number(value) else ""
+    if not is_number(value):
+        return ""
+    return f": write (0, {brief(value)})" if name == "gravity" else ": write (x, y)"
 
 
 def in_place_of_points(name: str, value: Any) -> str:
@@ -265,7 +277,7 @@ def in_place_of_number(name: str, value: Any) -> str:
 
 def in_place_of_material(value: Any) -> str:
     """Return the hint for a value that was given as a Material, or "" if there is none."""
-    if is_number(value):
+    if is_number(value) and value >= 0:
         return f": write Material(friction={brief(value)})"
     if isinstance(value, dict) and value and value.keys() <= set(MATERIALS):
         return f": write Material({', '.join(f'{name}={brief(each)}' for name, each in value.items())})"
@@ -278,9 +290,9 @@ def in_place_of_material(value: Any) -> str:
 
 def in_place_of_filter(value: Any) -> str:
     """Return the hint for a value that was given as a Filter, or "" if there is none."""
-    if is_number(value):
+    if is_bits(value):
         return f": write Filter(membership={brief(value)})"
-    if is_pair(value):
+    if is_pair(value) and all(map(is_bits, value)):
         return f": write Filter(membership={brief(value[0])}, mask={brief(value[1])})"
     if is_own(value, "Material"):
         return ": write material=Material(…)"

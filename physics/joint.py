@@ -190,7 +190,8 @@ def add_one(world: WorldState, kind: Any) -> Joint:
     world._unlocked()
     if not isinstance(kind, Kind) or type(kind) not in KINDS:
         hint = ": write Revolute(a, b, at)" if hints.is_own(kind, "Body") or isinstance(kind, int) else ""
-        hint = f": write {kind.__name__}(…), a joint of this kind" if kind in KINDS else hint
+        if isinstance(kind, type) and kind in KINDS:
+            hint = f": write {kind.__name__}(…), a joint of this kind"
         raise TypeError(f"joint must be one of {_names()} (got {checks.shown(kind)}){hint}")
     a, b = kind.sides()
     if kind.COUPLES:
@@ -260,7 +261,7 @@ def add_many(world: WorldState, kind: Any, bodies_a: Any, bodies_b: Any, setting
     sides = [name for name in ("a", "b", "body", "joint_a", "joint_b") if name in kind.__dataclass_fields__]
     known = {field.name for field in fields(kind)}.difference(sides)
     if wrong := {name: settings[name] for name in settings.keys() - known}:
-        raise hints.unexpected(f"add_joints({kind.__name__}, …)", sorted(known), wrong)
+        raise hints.unexpected(f"World.add_joints({kind.__name__})", sorted(known), wrong)
     for name, each in (("bodies_a", bodies_a), ("bodies_b", bodies_b)):
         if each is not None and not isinstance(each, Iterable):
             raise TypeError(f"{name} must be Bodies or ids, or None (got {checks.shown(each)})")

@@ -97,7 +97,7 @@ def checked_broadphase(value: Any) -> Strategy:
     if isinstance(value, str):
         return BROADPHASES[checks.choice("broadphase", value, tuple(BROADPHASES))]()
     if isinstance(value, type) or not all(hasattr(value, each) for each in STRATEGY_METHODS):
-        hint = f": write {value.__name__}()" if value in BROADPHASES.values() else ""
+        hint = f": write {value.__name__}()" if isinstance(value, type) and value in BROADPHASES.values() else ""
         raise TypeError(
             f"broadphase must be one of {', '.join(BROADPHASES)}, or an instance of BruteForce, SweepAndPrune, "
             f"SpatialHashGrid or DynamicTree (got {checks.shown(value)}){hint}"

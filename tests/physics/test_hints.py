@@ -80,7 +80,7 @@ SHAPE = [
 WITHOUT_LISTS = [each for each in SHAPE if not isinstance(each[0], (list, tuple))]  # callables that take one or many
 PAIR = [
     (RECT, "rect.center or rect.topleft"),
-    (5.0, "(5.0, 5.0)"),
+    (5.0, "("),
     (BODY, "body.position"),
     ((1, 2, 3), ""),
     (pygame.Vector3(1, 2, 3), ""),
@@ -123,7 +123,11 @@ SOLVER = [("soft-step", '"soft_step"'), ("SequentialImpulse", '"sequential_impul
 BOX_SIDES = [((3, 4), "Polygon.box(width, height)"), (RECT, "Polygon.box(width, height)")]
 BITS_OF_PYGAME = [(SURFACE, "PixelMask.from_surface(surface)"), (BITS, "PixelMask.from_mask(mask)")]
 MASKS = [(SURFACE, "from_surface"), (BITS, "from_mask"), (SPRITE, "sprite.image"), (BALL, "")]
-SHAPES = [([BALL, BOX], "*shapes"), ((3, 4), "position=(3, 4)"), ("static", "kind='static'")]
+SHAPES = [
+    ([BALL, BOX], "*shapes"),
+    ((3, 4), "Polygon.box(3, 4) for a size, position=(3, 4)"),
+    ("static", "kind='static'"),
+]
 JOINT = [(Revolute, "Revolute(…)"), (BODY, "Revolute(a, b, at)"), ("hinge", "")]
 JOINT_KIND = [("revolute", "Revolute, the class"), (Revolute(0, 1, (0, 0)), "the class")]
 BROADPHASE = [
@@ -183,18 +187,10 @@ CALLS = [
     ("points", POINTS, lambda w, v: Chain(v)),
     ("points", POINTS, lambda w, v: hull(v)),
     ("points", POINTS, lambda w, v: decompose(v)),
-    (
-        "width",
-        [((3, 4), "Polygon.box(width, height)"), (RECT, "Polygon.box(width, height)")],
-        lambda w, v: Polygon.box(v, 1),
-    ),
+    ("width", BOX_SIDES, lambda w, v: Polygon.box(v, 1)),
     ("center", PAIR, lambda w, v: Polygon.box(2, 3, v)),
     ("shape", [each for each in SHAPE if each[0] is not None], lambda w, v: Bounds(v)),
-    (
-        "solid",
-        [(SURFACE, "PixelMask.from_surface(surface)"), (BITS, "PixelMask.from_mask(mask)")],
-        lambda w, v: PixelMask(v),
-    ),
+    ("solid", BITS_OF_PYGAME, lambda w, v: PixelMask(v)),
     ("solid", BITS_OF_PYGAME, lambda w, v: TileGrid(v, 16)),
     ("origin", PAIR, lambda w, v: PixelMask(np.ones((2, 2), bool), v)),
     ("snap", FLAG, lambda w, v: PixelMask(np.ones((2, 2), bool), snap=v)),
@@ -202,11 +198,7 @@ CALLS = [
     ("filter", FILTER, lambda w, v: BALL.with_(filter=v)),
     ("sensor", FLAG[:3], lambda w, v: BALL.with_(sensor=v)),
     ("one_way", FLAG[:3], lambda w, v: MASK.with_(one_way=v)),
-    (
-        "mask",
-        [(SURFACE, "from_surface"), (BITS, "from_mask"), (SPRITE, "sprite.image"), (BALL, "")],
-        lambda w, v: fit(v, "hull"),
-    ),
+    ("mask", MASKS, lambda w, v: fit(v, "hull")),
     ("tier", TIER, lambda w, v: fit(MASK, v)),
     ("mask", MASKS, lambda w, v: measure(v, BALL)),
     ("shapes", WITHOUT_LISTS, lambda w, v: mass_of(v, 1.0)),
@@ -225,11 +217,7 @@ CALLS = [
     ("substeps", WHOLE[:2], lambda w, v: World(substeps=v)),
     ("seed", WHOLE, lambda w, v: World(seed=v)),
     ("shapes", SHAPE, lambda w, v: w.add_body(v)),
-    (
-        "shapes",
-        [([BALL, BOX], "*shapes"), ((3, 4), "position=(3, 4)"), ("static", "kind='static'")],
-        lambda w, v: w.add_body(v),
-    ),
+    ("shapes", SHAPES, lambda w, v: w.add_body(v)),
     ("position", PAIR, lambda w, v: w.add_body(BALL, position=v)),
     ("velocity", PAIR, lambda w, v: w.add_body(BALL, velocity=v)),
     ("angle", NUMBER, lambda w, v: w.add_body(BALL, angle=v)),
@@ -275,11 +263,7 @@ CALLS = [
     ("lower", PAIR, lambda w, v: w.query_aabb(v, (9, 9))),
     ("point", PAIR, lambda w, v: w.query_point(v)),
     ("joint", JOINT, lambda w, v: w.add_joint(v)),
-    (
-        "kind",
-        [("revolute", "Revolute, the class"), (Revolute(0, 1, (0, 0)), "the class")],
-        lambda w, v: w.add_joints(v, [0], [3]),
-    ),
+    ("kind", JOINT_KIND, lambda w, v: w.add_joints(v, [0], [3])),
     ("a", IDS, lambda w, v: w.add_joint(Revolute(v, 3, (0, 0)))),
     ("at", PAIR, lambda w, v: w.add_joint(Revolute(0, 3, v))),
     ("axis", PAIR, lambda w, v: w.add_joint(Prismatic(0, 3, (0, 0), axis=v))),
@@ -450,6 +434,27 @@ def test_vectors_and_rectangles_of_pygame_work_where_pairs_do():
         Vec2(1, 2) + pygame.Vector3(1, 2, 3)
     with pytest.raises(TypeError):
         Vec2(1, 2) + RECT
+
+
+def test_too_many_arguments_get_the_names():
+    for call in (lambda: Circle(1, 2, 3), lambda: Polygon((0, 0), (1, 0), (1, 1)), lambda: Polygon.box(1, 2, 3, 4, 5)):
+        with pytest.raises(TypeError, match=r"takes .* \(got [35] arguments: \("):
+            call()
+    with pytest.raises(TypeError, match=r"gravity must be a pair .*: write \(0, 500\)"):
+        World(gravity=500)
+    with pytest.raises(TypeError, match="names must be a list"):
+        Effects.named("gravity")
+
+
+def test_arrays_in_place_of_anything_are_refused_by_name():
+    world, array = make_world(), np.zeros((3, 3))
+    before = state(world)
+    for name, values, call in CALLS:
+        if any(hint for _, hint in values) and name not in ("points", "positions", "velocities", "solid", "snap"):
+            with pytest.raises((TypeError, ValueError)) as caught:
+                call(world, array)
+            assert name in str(caught.value) and "ambiguous" not in str(caught.value), caught.value
+    assert state(world) == before
 
 
 def test_messages_survive_values_that_have_no_text():
