@@ -201,3 +201,39 @@ def character(world: World) -> bool:
     if moved.riding is not None:
         moved.riding.wake()
     return moved.grounded and not hero.blocked(1, 0)
+
+
+class Crate(pygame.sprite.Sprite):
+    """A sprite that follows its body."""
+
+    def __init__(self, world: World) -> None:
+        super().__init__()
+        self.box = pygame.Rect(0, 0, 16, 16)
+        self.body = world.add_body(Polygon.box(*self.box.size), position=self.box.center, user=self)
+
+    def update(self) -> None:
+        """Move the sprite to its body, and the body by a few pixels."""
+        self.box.center = round(self.body.position.x), round(self.body.position.y)
+        self.body.position += (1, 0)
+        self.body.velocity *= 0.5
+        self.body.velocity = (self.body.velocity[0], -300)
+        x, y = self.body.position
+        corners = [self.body.to_world(corner) for corner in ((0, 0), (x, y), (2, 0))]
+        pygame.draw.polygon(pygame.display.get_surface() or pygame.Surface((9, 9)), "red", corners)
+
+
+def copies(world: World, other: Body) -> None:
+    """Add bodies with words and numbers of other bodies, and from loops."""
+    for kind in ("static", "dynamic"):
+        world.add_body(Circle(3), kind=kind)
+    kind = "static" if len(world) else "kinematic"
+    world.add_body(Circle(3), kind=kind, continuous=other.continuous, tier=other.tier)
+    world.add_body(*other.shapes, kind=other.kind, material=other.material, velocity=-other.velocity)
+    places: list[tuple[int, int]] = [(0, 0), (1, 1)]
+    corners: list[list[int]] = [[0, 0], [4, 0], [4, 4]]
+    world.add_bodies(Polygon(corners), places)
+    ids = {int(each) for each in world.bodies["id"]}
+    world.remove_bodies(each for each in ids)
+    world.touch(ids)
+    first = world.bodies[world.rows(3)]
+    print(first["x"], world.bodies.dtype.names, world.bodies["x"].tolist())
