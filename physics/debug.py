@@ -259,9 +259,9 @@ def joints(world: World) -> np.ndarray:
     turned[of_angle] += rows["reference"][of_angle]
     found["axis_x"] = np.cos(turned) * along_x - np.sin(turned) * along_y
     found["axis_y"] = np.sin(turned) * along_x + np.cos(turned) * along_y
-    for side in ("a", "b"):  # a gear acts where its joints are
-        coupled = np.flatnonzero(of_gear & (rows[f"joint_{side}"] != NO_JOINT))
-        joints_of = np.searchsorted(rows["id"], rows[f"joint_{side}"][coupled])
+    for side, joint in (("a", rows["joint_a"]), ("b", rows["joint_b"])):  # a gear acts where its joints are
+        coupled = np.flatnonzero(of_gear & (joint != NO_JOINT))
+        joints_of = np.searchsorted(rows["id"], joint[coupled])
         for axis in ("x", "y"):
             found[side + axis][coupled] = found["b" + axis][joints_of]
     apart = np.stack([found["bx"] - found["ax"], found["by"] - found["ay"]])

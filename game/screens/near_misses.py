@@ -19,6 +19,7 @@ from game.input.inputs import InputState
 from game.measure.errors import pairs_of
 from game.screens.screen import CanvasScreen
 from physics import Effects, World
+from physics.annotations import TierName
 
 HALF, FIELD = 240, 196  # [canvas px] width of a half, height of its picture
 COUNTS = pygame.Rect(0, FIELD, 2 * HALF, 54)  # [canvas px] the counts below the halves
@@ -99,7 +100,7 @@ class Flight:
     step() is called for each time of the loop, in order.
     """
 
-    def __init__(self, tier: str, misses: list[Miss]) -> None:
+    def __init__(self, tier: TierName, misses: list[Miss]) -> None:
         planes = load_atlas("planes")
         self.tier, self.misses = tier, misses
         self.world = World(Effects())

@@ -428,6 +428,7 @@ class NoContact(Kind):
     b: BodyRef | None
 
 
+@explained_class
 @dataclass(frozen=True)
 class Gear(Kind):
     """A gear that holds a sum of two coordinates: coordinate of A plus ratio times coordinate of B equals the phase.
@@ -460,6 +461,7 @@ class Gear(Kind):
         return found
 
 
+@explained_class
 @dataclass(frozen=True)
 class Pulley(Kind):
     """A rope from one body up over two pulleys and down to another body.
@@ -476,8 +478,8 @@ class Pulley(Kind):
     GROUND = ("ground_a", "ground_b")
     COORDINATE = ()
 
-    a: Any
-    b: Any
+    a: BodyRef | None
+    b: BodyRef | None
     at_a: Pair
     at_b: Pair
     ground_a: Pair
@@ -499,6 +501,7 @@ class Pulley(Kind):
             rows["lower"] = rows["upper"]
 
 
+@explained_class
 @dataclass(frozen=True)
 class Ratchet(Kind):
     """A ratchet: B may turn one way relative to A, and back only to the last tooth that it has passed.
@@ -512,8 +515,8 @@ class Ratchet(Kind):
     POINTS = ()
     COORDINATE = ()
 
-    a: Any
-    b: Any
+    a: BodyRef | None
+    b: BodyRef | None
     phase: float = 0.0
     ratchet: float | None = None
 

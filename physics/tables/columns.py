@@ -205,9 +205,28 @@ JointFloats = Literal[
     "total_x",
     "total_y",
     "total_torque",
+    "ratio",
+    "phase",
+    "ratchet",
+    "ground_ax",
+    "ground_ay",
+    "ground_bx",
+    "ground_by",
+    "rate",
 ]
 JointInts = Literal[
-    "id", "kind", "body_a", "body_b", "hold", "coordinate", "body_row_a", "body_row_b", "motion_a", "motion_b"
+    "id",
+    "kind",
+    "body_a",
+    "body_b",
+    "hold",
+    "coordinate",
+    "body_row_a",
+    "body_row_b",
+    "motion_a",
+    "motion_b",
+    "joint_a",
+    "joint_b",
 ]
 JointFlags = Literal[
     "enabled", "contacts", "locks_angle", "follows_point", "follows_angle", "turns_motor", "awake", "direct", "broken"

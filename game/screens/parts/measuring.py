@@ -13,6 +13,7 @@ from game.measure.survey_csv import csv_of
 from game.measure.surveyor import Surveyor
 from game.measure.tuner import Tuner
 from game.measurement_requests import RunRequest, SpriteRequest
+from game.run import run_worker
 from game.run.proven_advice import Applied
 from game.run.recorded_run import SECOND, RecordedRun, changes_to
 from game.run.replay import Recorder
@@ -44,7 +45,7 @@ class Measuring:
 
     def __init__(self, scene: Scene, devices: DeviceSource, recorder: Callable[[], Recorder | None]) -> None:
         self.scene, self.devices, self.recorder = scene, devices, recorder
-        self.surveyor = Surveyor("game.run.run_worker")
+        self.surveyor = Surveyor(run_worker.__name__)
         self.tuner = Tuner(self.surveyor.survey, self._try, self.prove)
         self.asked: Proof | None = None  # the last advice that was tried on the recorded run
         self.advice: tuple[Setting, float | str | None] | None = (
