@@ -301,6 +301,14 @@ def in_place_of_filter(value: Any) -> str:
     return ": write Filter(membership=…, mask=…), or Filter.ALL"
 
 
+LONGEST_NAME, MOST_NAMES = 30, 20  # characters of a name, and names, that a hint repeats
+
+
+def _is_short_name(value):
+    """Return whether a value is a str that can stand as a keyword in a hint of readable length."""
+    return isinstance(value, str) and value.isidentifier() and len(value) <= LONGEST_NAME
+
+
 def in_place_of_effects(value: Any) -> str:
     """Return the hint for a value that was given as Effects, or "" if there is none."""
     if isinstance(value, type) and value.__name__ == "Effects":
@@ -308,9 +316,9 @@ def in_place_of_effects(value: Any) -> str:
     if callable(value) and getattr(value, "__name__", "") in ("detection", "rigid_bodies"):
         return f": write Effects.{value.__name__}()"
     if isinstance(value, str):
-        return f": write Effects({value}=True)" if value.isidentifier() else ""
+        return f": write Effects({value}=True)" if _is_short_name(value) else ""
     names = [*value] if isinstance(value, (dict, list, tuple, set, frozenset)) else []
-    if names and all(isinstance(each, str) for each in names):
+    if 0 < len(names) <= MOST_NAMES and all(map(_is_short_name, names)):
         on = [each for each in sorted(names) if not isinstance(value, dict) or value[each]]
         return f": write Effects({', '.join(f'{each}=True' for each in on)})"
     return ": write Effects.rigid_bodies(), or Effects(gravity=True, …)"

@@ -469,3 +469,10 @@ def test_messages_survive_values_that_have_no_text():
     with pytest.raises(TypeError, match="snapshot must be a Snapshot"):
         World().restore(Mute())
     assert Snapshot
+
+
+@pytest.mark.parametrize("value", ("x" * 5000, ["x" * 5000], [f"name_{k}" for k in range(5000)], {"y" * 5000: True}))
+def test_a_hint_repeats_no_long_value(value):
+    with pytest.raises(TypeError) as caught:
+        World(value)
+    assert str(caught.value).startswith("effects must be an Effects") and len(str(caught.value)) < 1000
