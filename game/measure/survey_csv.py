@@ -6,6 +6,7 @@ import json
 
 from game.measure.machine import machine
 from game.measure.survey import Survey
+from game.startup import START
 
 COLUMNS = (
     "scene, broadphase, narrowphase, solver, substeps, tier, moments, runs, us_least, us_median, us_upper, error_kind, "
@@ -22,7 +23,7 @@ def csv_of(survey: Survey, scene: str, seed: int, steps: int) -> str:
     file = io.StringIO()
     writer = csv.writer(file, lineterminator="\n")
     writer.writerow(COLUMNS)
-    command = f"python main.py --advise {scene} --seed {seed} --frames {max(60, steps)} --json"
+    command = " ".join((*START, "--advise", scene, "--seed", str(seed), "--frames", str(max(60, steps)), "--json"))
     system = ", ".join(f"{name} {value}" for name, value in machine().items())
     for kind in survey.kinds:
         for setting, (cost, error) in survey.known(kind).items():

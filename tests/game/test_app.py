@@ -52,7 +52,8 @@ def test_by_keyboard_from_title_to_replay(drive):
     d.key(K.K_ESCAPE)
     d.mark("Menu")
     assert d.name == "Menu"
-    d.key(K.K_ESCAPE, K.K_DOWN, K.K_RETURN)
+    d.key(K.K_ESCAPE)
+    d.mark("Replays")
     d.turns(5)
     assert d.name == "ReplaysScreen" and d.screen.chosen is not None
     d.key(K.K_RETURN, K.K_RETURN)
@@ -62,7 +63,7 @@ def test_by_keyboard_from_title_to_replay(drive):
     d.key(K.K_ESCAPE)
     assert d.name == "ReplaysScreen"
     d.key(K.K_ESCAPE, K.K_ESCAPE)
-    assert d.name == "Title" and d.screen.list.mark == 5, "Esc marks Leave first"
+    assert d.name == "Title" and d.screen.list.marked.label == "Leave", "Esc marks Leave first"
     d.key(K.K_ESCAPE)
     assert not d.app.arcade.running
 
@@ -99,7 +100,8 @@ def test_by_controller_from_title_to_replay(drive):
     d.by_pad("High scores")
     d.pad("a")
     d.by_pad("Menu")
-    d.pad("b", "down", "a")
+    d.pad("b")
+    d.by_pad("Replays")
     d.turns(5)
     d.pad("a", "a")
     assert d.name == "Watch"

@@ -136,7 +136,7 @@ def test_what_a_worker_reports_is_what_the_measured_runs_are_made_of(tmp_path):
 
 def test_a_screen_asks_once_for_each_name():
     scene = Requesting()
-    measuring = Measuring(scene, DeviceSource())
+    measuring = Measuring(scene, DeviceSource(), lambda: None)
     try:
         for piles in ((1, 2), (2, 3), (1, 3)):
             scene.piles = piles

@@ -70,6 +70,7 @@ def test_the_tuner_reports_what_it_does_and_asks_nobody_twice_who_refuses(survey
 @pytest.fixture
 def play(drive, monkeypatch):
     monkeypatch.setattr("game.measure.surveyor.Surveyor.measure", lambda *of: None)
+    monkeypatch.setattr("game.screens.parts.measuring.Measuring.prove", lambda *of: 0.5)
     driver = drive(listing=SCENES)
     driver.app.screens.play("lab/filters")
     driver.turns(10)
@@ -93,7 +94,7 @@ def words(driver):
 
 def test_page_up_takes_the_advice(play):
     driver, play, here, other = play
-    assert "0.50 x the time within 1 px" in words(driver)
+    assert "0.50 x the time over the run" in words(driver)
     driver.key(pygame.K_PAGEUP)
     driver.turns(3)
     assert play.measuring.now() == other
@@ -134,3 +135,15 @@ def test_what_is_read_of_a_dot_follows_what_is_reported_of_it(survey):
     assert before[0].median == pytest.approx(1e-3 / 1) and dot.cost.median == pytest.approx(2e-3)
     dot.erred(2, {kind: Error(1.5, 0.0, 60)})
     assert dot.error(kind).value == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("proof, said", ((None, "trying it on the run"), ("measured 1.20", "leave it")))
+def test_advice_that_has_not_proved_itself_is_not_taken(play, monkeypatch, proof, said):
+    driver, play, here, other = play
+    monkeypatch.setattr("game.screens.parts.measuring.Measuring.prove", lambda *of: proof)
+    play.measuring.tuner.prove = play.measuring.prove
+    driver.turns(20)
+    driver.key(pygame.K_PAGEUP)
+    driver.key(pygame.K_PAGEDOWN)
+    driver.turns(10)
+    assert play.measuring.now() == here and said in words(driver)
