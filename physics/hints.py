@@ -183,6 +183,11 @@ def is_own(value: Any, *names: str) -> bool:
     return any(each.__name__ in names and each.__module__.startswith(package) for each in type(value).__mro__)
 
 
+def is_class(value: Any, name: str) -> bool:
+    """Return whether a value is a class of this name, given in place of an instance."""
+    return isinstance(value, type) and value.__name__ == name
+
+
 def is_number(value: Any) -> bool:
     """Return whether a value is a real number and not a bool."""
     return isinstance(value, numbers.Real) and not isinstance(value, bool)
@@ -283,7 +288,7 @@ def in_place_of_material(value: Any) -> str:
         return f": write Material({', '.join(f'{name}={brief(each)}' for name, each in value.items())})"
     if is_own(value, "Filter"):
         return ": write filter=Filter(…)"
-    if isinstance(value, type) and value.__name__ == "Material":
+    if is_class(value, "Material"):
         return ": write Material()"
     return ": write Material(friction=…, restitution=…, density=…)"
 
@@ -296,7 +301,7 @@ def in_place_of_filter(value: Any) -> str:
         return f": write Filter(membership={brief(value[0])}, mask={brief(value[1])})"
     if is_own(value, "Material"):
         return ": write material=Material(…)"
-    if isinstance(value, type) and value.__name__ == "Filter":
+    if is_class(value, "Filter"):
         return ": write Filter()"
     return ": write Filter(membership=…, mask=…), or Filter.ALL"
 
@@ -311,7 +316,7 @@ def _is_short_name(value):
 
 def in_place_of_effects(value: Any) -> str:
     """Return the hint for a value that was given as Effects, or "" if there is none."""
-    if isinstance(value, type) and value.__name__ == "Effects":
+    if is_class(value, "Effects"):
         return ": write Effects()"
     if callable(value) and getattr(value, "__name__", "") in ("detection", "rigid_bodies"):
         return f": write Effects.{value.__name__}()"

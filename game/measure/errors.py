@@ -33,24 +33,28 @@ LOOKS = 12  # number of steps of a run in which touching pairs are compared
 Pairs = frozenset[tuple[int, int]]  # ids of two bodies, the smaller first
 
 
-class Verdicts(NamedTuple):
-    """The pairs of bodies that a setting reported as hits in a run, and the pairs that were hits."""
+@dataclass(frozen=True)
+class Verdicts:
+    """The pairs of bodies that a setting reported as hits in a run, and the pairs that were hits.
+
+    The rates are counted at first use: the plot and the advice read them in every picture.
+    """
 
     reported: Pairs
     true: Pairs
     own: bool  # True if the setting decides by the exact test itself: then no other answer is possible
 
-    @property
+    @cached_property
     def wrong(self) -> Rate:
         """Rate of false hits among the reported hits."""
         return Rate(len(self.reported - self.true), len(self.reported))
 
-    @property
+    @cached_property
     def missed(self) -> Rate:
         """Rate of missed hits among the true hits."""
         return Rate(len(self.true - self.reported), len(self.true))
 
-    @property
+    @cached_property
     def either(self) -> Rate:
         """Rate of wrong answers among all encounters."""
         return Rate(len(self.reported ^ self.true), len(self.reported | self.true))

@@ -166,11 +166,12 @@ class Survey:
 
         Until boxes have reported LEAST_HITS encounters, it says how far the measuring is.
         """
-        tiers = {setting.tier: setting for setting in self.known("verdict") if self._is_tier_alone(setting)}
+        known = self.known("verdict")
+        tiers = {setting.tier: setting for setting in known if self._is_tier_alone(setting)}
         boxes, pixels = tiers.get("aabb"), tiers.get(exact_tier(self.first.tier or "")) if self.dots else None
         if boxes is None or pixels is None:
             return ""
-        (cost, error), (exact, _) = (self.known("verdict")[each] for each in (boxes, pixels))
+        (cost, error), (exact, _) = known[boxes], known[pixels]
         wrong = error.wrong
         if wrong is None or wrong.total < LEAST_HITS or not (self.dots[boxes].sure and self.dots[pixels].sure):
             hits = 0 if wrong is None else wrong.total

@@ -59,10 +59,12 @@ class Progress:
     """Progress on standard error: number of finished runs of the measurement, and estimated remaining time."""
 
     def __init__(self) -> None:
-        self.started = self.reported = perf_counter()
+        self.started = self.reported = 0.0  # [s] when the first run was finished; before it the run was played
 
     def __call__(self, done: int, of: int) -> None:
         now = perf_counter()
+        if done <= 1:
+            self.started = self.reported = now
         if now - self.reported >= EVERY and done < of:
             self.reported = now
             left = (now - self.started) * (of - done) / done

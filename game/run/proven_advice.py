@@ -4,13 +4,12 @@ The run is played with the present setting and with the advised one in turns, wi
 times do not confirm the advice, it is withdrawn, and the next best setting is tried.
 """
 
-from collections.abc import Callable
 from itertools import islice
 from typing import NamedTuple
 
 import numpy as np
 
-from game.measure.advice import Advice, advise, is_cheaper, settings_within, share
+from game.measure.advice import Advice, Report, advise, is_cheaper, settings_within, share
 from game.measure.pareto_front import TIE
 from game.measure.setting import Setting
 from game.measure.survey import Survey
@@ -19,7 +18,6 @@ from game.run.recorded_run import Overview, RecordedRun, changes_to, look_over, 
 APPLIED_RUNS = 3  # repetitions of a whole run with each of two settings
 WARM_STEPS = 60  # of each setting, before the first repetition
 MOST_TRIED = 3  # settings tried on the whole run, if the first ones do not hold
-Report = Callable[[int, int], object]  # called with (runs done, runs in all)
 
 
 class Applied(NamedTuple):

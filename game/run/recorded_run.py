@@ -4,7 +4,7 @@ Advice on a scene is measured over the whole of such a run: its busiest second, 
 collision tier (kind of collision shape), and the time of its steps with a setting applied.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from importlib import import_module
 from itertools import islice, repeat
@@ -15,7 +15,7 @@ import numpy as np
 
 from game.drawing.number_text import plain_name
 from game.input.inputs import InputFrame, InputState
-from game.measure.errors import Pairs, Verdicts, exact_tier, pairs_of
+from game.measure.errors import Verdicts, exact_tier, pairs_of
 from game.measure.moment import Moment, here_of
 from game.measure.setting import Setting
 from game.measure.timing import undisturbed
@@ -28,7 +28,6 @@ STRATA = 4  # equal parts of a run; a moment is taken in the middle of each
 LOOK_EVERY = 6  # steps between two looks at the touching pairs
 WORK = ("bodies_integrated", "candidates", "contacts")  # counters that tell how busy a step is
 Changes = Sequence[tuple[str, Any]]
-Report = Callable[[int, int], object]  # called with (steps done, steps in all)
 
 
 class RecordedRun(NamedTuple):
@@ -140,41 +139,51 @@ class Overview(NamedTuple):
     encounters: dict[str, Verdicts]  # by tier, over the whole run; {} for a scene without tiers
 
 
-def look_over(run: RecordedRun, report: Report = lambda done, of: None) -> Overview:
+class Encounters:
+    """The pairs of bodies that met so far in a run, under every collision tier (kind of collision shape)."""
+
+    def __init__(self) -> None:
+        self.met: dict[str, set[tuple[int, int]]] = {}
+        self.exact = ""  # the tier whose answers are right
+
+    def look(self, scene: Scene) -> None:
+        """Add the pairs that touch now in the scene's first visible world, whose bodies have a collision tier."""
+        moment = moment_of(scene)
+        self.exact = exact_tier(moment.here.tier or "")
+        for tier in TIERS:
+            world = moment.world(moment.here._replace(tier=tier, narrowphase=True))
+            world.step(0.0)
+            self.met.setdefault(tier, set()).update(pairs_of(world))
+
+    def verdicts(self) -> dict[str, Verdicts]:
+        """Return what each tier reported, beside the pairs that the exact tier reported; {} before the first look."""
+        true = frozenset(self.met.get(self.exact, ()))
+        return {tier: Verdicts(frozenset(pairs), true, tier == self.exact) for tier, pairs in self.met.items()}
+
+
+def moment_of(scene: Scene) -> Moment:
+    """Return a snapshot to measure from, of the scene's first visible world."""
+    world = scene.views()[0][0]
+    return Moment(world.snapshot(), world.broadphase.name)
+
+
+def look_over(run: RecordedRun) -> Overview:
     """Play a run twice: first to find its busiest second, then to take snapshots and to count the encounters of bodies.
 
-    report: called with the numbers of finished and of all steps. Raises ValueError for a run without steps.
+    Raises ValueError for a run without steps.
     """
     if not run.steps:
         raise ValueError("a run must have a step at least (got none)")
     work = np.array([_work_of(scene) for scene in run.play()])
     most = busiest(work)
     wanted = sorted({max(1, (2 * part + 1) * run.steps // (2 * STRATA)) for part in range(STRATA)} | {most})
-    moments, met, last = [], {}, None
+    moments, encounters = [], Encounters()
     for step, scene in enumerate(run.play(), 1):
-        last = scene
-        world = scene.views()[0][0]
         if step in wanted:
-            moments.append(Moment(world.snapshot(), world.broadphase.name))
+            moments.append(moment_of(scene))
         if scene.tier is not None and step % LOOK_EVERY == 0:
-            for tier, pairs in touching(Moment(world.snapshot(), world.broadphase.name)).items():
-                met.setdefault(tier, set()).update(pairs)
-        report(step, run.steps)
-    assert last is not None
-    exact = exact_tier(moments[0].here.tier)
-    true = frozenset(met.get(exact, ()))
-    encounters = {tier: Verdicts(frozenset(pairs), true, tier == exact) for tier, pairs in met.items()}
-    return Overview(moments, wanted, most, encounters)
-
-
-def touching(moment: Moment) -> dict[str, Pairs]:
-    """Return {tier: pairs of touching bodies} at a snapshot, for every collision tier (kind of collision shape)."""
-    found = {}
-    for tier in TIERS:
-        world = moment.world(moment.here._replace(tier=tier, narrowphase=True))
-        world.step(0.0)
-        found[tier] = frozenset(pairs_of(world))
-    return found
+            encounters.look(scene)
+    return Overview(moments, wanted, most, encounters.verdicts())
 
 
 def _work_of(scene):

@@ -13,13 +13,12 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
-from game.measure.errors import Verdicts, exact_tier
-from game.measure.moment import Moment
+from game.measure.errors import Verdicts
 from game.measure.setting import Setting
 from game.measure.worker import main, measure, sent_verdicts
 from game.run.headless import start_dummy_display
 from game.run.proven_advice import apply_to_run
-from game.run.recorded_run import Player, RecordedRun, touching
+from game.run.recorded_run import Encounters, Player, RecordedRun
 
 LOOK_EVERY = 12  # steps between two looks at the touching pairs
 
@@ -31,8 +30,7 @@ class Follower:
         self.run: RecordedRun | None = None
         self.player: Player | None = None
         self.steps = 0  # played so far
-        self.met: dict[str, set[tuple[int, int]]] = {}
-        self.exact = ""
+        self.encounters = Encounters()
 
     def follow(self, run: RecordedRun, goes_on: Callable[[], bool]) -> dict[str, Verdicts]:
         """Play on to the end of `run` while goes_on() is True.
@@ -41,7 +39,7 @@ class Follower:
         the encounters by collision tier; {} without tiers.
         """
         if self.run is None or self.player is None or not run.continues(self.run, self.steps):
-            self.player, self.steps, self.met = Player(run), 0, {}
+            self.player, self.steps, self.encounters = Player(run), 0, Encounters()
         self.run, scene = run, self.player.scene
         for frame in islice(run.frames(), self.steps, None):
             if scene.tier is None or not goes_on():
@@ -49,13 +47,8 @@ class Follower:
             self.player.step(frame)
             self.steps += 1
             if self.steps % LOOK_EVERY == 0:
-                world = scene.views()[0][0]
-                moment = Moment(world.snapshot(), world.broadphase.name)
-                self.exact = exact_tier(moment.here.tier or "")
-                for tier, pairs in touching(moment).items():
-                    self.met.setdefault(tier, set()).update(pairs)
-        true = frozenset(self.met.get(self.exact, ()))
-        return {tier: Verdicts(frozenset(pairs), true, tier == self.exact) for tier, pairs in self.met.items()}
+                self.encounters.look(scene)
+        return self.encounters.verdicts()
 
 
 def measure_played(

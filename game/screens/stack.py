@@ -198,9 +198,8 @@ class Screens:
         """Open the plot of accuracy and cost: beside the paused game, or else beside the shooter, played by its bot."""
         self.stack.pop().close()
         if self.played is None:
-            arcade, names = self.arcade, self.arcade.registry.names
-            scene = arcade.registry.scene_class(PLOTTED if PLOTTED in names else names[0])(arcade.options.seed or 0)
-            self._begin(Play(scene, arcade.devices, arcade.sounds, bot=True, settings=arcade.settings))
+            names = self.arcade.registry.names
+            self.play(PLOTTED if PLOTTED in names else names[0], bot=True)
         self._open_in_game(Play.toggle_costs, "costs_open")
 
     def effects(self) -> None:
@@ -228,11 +227,11 @@ class Screens:
     def _make_shown(self, name):
         return self.arcade.registry.scene_class(name)(0)
 
-    def play(self, name: str, level: Path | None = None) -> None:
-        """Play a scene chosen in the menu. level: level file of the player, or None."""
+    def play(self, name: str, level: Path | None = None, bot: bool = False) -> None:
+        """Play a scene by its name. level: level file of the player, or None; bot: whether the scene's bot plays."""
         arcade = self.arcade
         scene = arcade.registry.scene_class(name)(arcade.options.seed or 0, level=level)
-        self._begin(Play(scene, arcade.devices, arcade.sounds, settings=arcade.settings))
+        self._begin(Play(scene, arcade.devices, arcade.sounds, bot, settings=arcade.settings))
 
     def play_first(self) -> None:
         """Play the scene that the command line names, with its options."""
