@@ -102,13 +102,12 @@ def report_gears(world: WorldState, kind: Any, count: int) -> None:
 
     kind: the Gear with their settings.
     """
-    rows = world.joints.copy()  # the reported state of other joints is that after the last step
-    report_joints(world.bodies, rows)
-    made = rows[len(rows) - count :]
+    total = len(world.joints)
+    made = at_present(world, np.arange(total - count, total))
     if kind.phase is None:
         made["phase"] = made["translation"]
         made["separation"] = 0.0
-    world.joints[len(rows) - count :] = made
+    world.joints[total - count :] = made
 
 
 def hang(kind: Any, columns: dict[str, Any], anchors: list[np.ndarray], rows: np.ndarray) -> None:
@@ -131,11 +130,24 @@ def hang(kind: Any, columns: dict[str, Any], anchors: list[np.ndarray], rows: np
 
 def sum_with(world: WorldState, identity: int, ratio: float) -> float:
     """Return the sum of coordinates of a gear or pulley (id) at the present poses, if it had this ratio."""
-    rows = world.joints.copy()
-    row = rows_in(world._joints, np.array([identity]))[0]
-    rows["ratio"][row] = ratio
-    report_joints(world.bodies, rows)
-    return rows["translation"][row].item()
+    rows = rows_in(world._joints, np.array([identity]))
+    return at_present(world, rows, ratio)["translation"].item()
+
+
+def at_present(world: WorldState, rows: np.ndarray, ratio: float | None = None) -> np.ndarray:
+    """Return copies of joints (n,) with their state at the present poses. The world keeps that after the last step.
+
+    rows: ascending row numbers in world.joints; ratio: instead of the ratio of these joints. O(n log joints): only
+    these joints and those that they couple are looked at.
+    """
+    joints = np.asarray(world.joints)
+    sides = rows_in(world._joints, np.concatenate([joints["joint_a"][rows], joints["joint_b"][rows]]))
+    taken = np.union1d(rows, sides[sides >= 0])  # ascending, as report_joints needs them
+    found, mine = joints[taken], np.searchsorted(taken, rows)
+    if ratio is not None:
+        found["ratio"][mine] = ratio
+    report_joints(world.bodies, found)
+    return found[mine]
 
 
 # ---- removal ---------------------------------------------------------------------------------------------------------

@@ -157,12 +157,12 @@ def match_contacts(geometry, bodies, shapes, previous, stale, found, contacts_ou
 
 @kernel
 def replace_contacts(geometry, bodies, shapes, stale, found_inout, previous_inout):
-    """Replace the stale contacts by the detected ones, if each pair has as many new ones as old ones.
+    """Replace the stale contacts by the detected ones, if each pair has as many new as old ones. Return whether so.
 
     Nothing else is copied, unlike in match_contacts: O(found). 5,050 boxes that settle: 5 % of a step (bench solvers).
     stale: int32 rows of `previous_inout` that must not be kept without a new narrow phase, ascending; found_inout:
     CONTACT rows of this step, in the order of the candidate pairs, used as scratch; previous_inout: CONTACT rows of the
-    last step. Return whether so.
+    last step.
     """
     found, previous = found_inout, previous_inout
     if len(found) != len(stale):
