@@ -1,8 +1,8 @@
 """Four broad phases on the same bodies: do they find the same pairs, and what does each pay for it?
 
-What to see: each layout has another cheapest strategy. The hash suits slow bodies of one size; the sweep suits fast
-bodies, because speed costs it little; the tree suits many still bodies and few movers. Brute force tests all n squared
-pairs.
+What to see: each layout has another cheapest strategy. The hash suits up to a thousand slow bodies; the sweep suits
+fast ones, because speed costs it little; the tree suits many still bodies and few movers. Brute force tests all n
+squared pairs.
 
 Why it matters: Without it n bodies are n (n - 1) / 2 pairs a step, too many for any narrow phase.
 
