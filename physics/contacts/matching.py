@@ -159,7 +159,8 @@ def match_contacts(geometry, bodies, shapes, previous, stale, found, contacts_ou
 def replace_contacts(geometry, bodies, shapes, stale, found_inout, previous_inout):
     """Replace the stale contacts by the detected ones, if each pair has as many new as old ones. Return whether so.
 
-    Nothing else is copied, unlike in match_contacts: O(found). 5,050 boxes that settle: 5 % of a step (bench solvers).
+    Nothing else is copied, unlike in match_contacts: O(found). A step with 4 substeps takes 0.82 to 0.99 of the time in
+    pyramids of 2,485 and 5,050 boxes that settle; with substeps by load the gain is within the noise.
     stale: int32 rows of `previous_inout` that must not be kept without a new narrow phase, ascending; found_inout:
     CONTACT rows of this step, in the order of the candidate pairs, used as scratch; previous_inout: CONTACT rows of the
     last step.
