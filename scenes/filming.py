@@ -3,6 +3,7 @@
 python -m scenes.filming pictures FOLDER                 the menu's small picture of every scene
 python -m scenes.filming moments GAME FOLDER             the game's moments at the canvas' size, and captions.json
 python -m scenes.filming reel SCENE 1 0 3600 60 FILE     contact sheet: seed 1, every 60th of frames 0..3600, small
+python -m scenes.filming moving FILE                     README's moving picture, an animated WebP; needs Pillow
 
 Scenes are deterministic, so seed and frame number identify a picture. The scripts of assets/ start this program because
 they must not import the games.
@@ -83,6 +84,40 @@ SHOTS = {
     "lab/one_way": Shot(240, 60, 76),
     "lab/ghost_bumps": Shot(240, 0, 20),
 }
+
+
+@dataclass(frozen=True)
+class Clip:
+    """A part of the moving picture: the game of the bot, from a moment on, with overlays that come on one by one.
+
+    parts: (number of steps, names of the overlays that are on) for each part.
+    """
+
+    scene: str
+    start: Moment
+    parts: tuple[tuple[int, tuple[str, ...]], ...]
+
+
+CLIPS = (
+    Clip(
+        "shooter",
+        Moment("boss, first phase", leader("boss_a_0", 60)),
+        ((54, ()), (60, ("bounds", "pairs")), (60, ("masks", "contacts"))),
+    ),
+    Clip(
+        "platformer",
+        Moment("keep", done("lift with an enemy", 1)),
+        ((60, ()), (60, ("outlines", "contacts")), (60, ("bounds", "structure"))),
+    ),
+    Clip(
+        "lander",
+        Moment("the canyon", landing("canyon", 90.0)),
+        ((60, ()), (66, ("outlines", "contacts")), (66, ("masks", "impulses"))),
+    ),
+)
+EVERY = 3  # steps from picture to picture: 20 a second
+SHRINK = 2  # width and height of a presented frame over those of a picture: 720 x 405 px
+QUALITY = 42  # of WebP, 0..100: the file stays below 3 MB
 
 
 class Film:
@@ -191,6 +226,35 @@ def reel(name, seed, first, last, every, columns=8):
     return np.concatenate(rows)
 
 
+def clip_pictures(clip):
+    """Yield the pictures of a clip, every EVERY-th step, as arrays (405, 720, 3) uint8."""
+    running = Film(clip.scene, SEED)
+    while not clip.start.when(running.scene):
+        if running.scene.frame >= MOST:
+            raise ValueError(f"{clip.scene}: moment {clip.start.caption!r} did not come within {MOST} frames")
+        running.step()
+    number = 0
+    for steps, layers in clip.parts:
+        running.overlays.on = set(layers)
+        for _ in range(steps):
+            running.step()
+            if number % EVERY == 0:
+                taken = running.take().astype(np.uint16)
+                height, width = taken.shape[0] // SHRINK, taken.shape[1] // SHRINK
+                blocks = taken.reshape(height, SHRINK, width, SHRINK, 3).sum(axis=(1, 3), dtype=np.uint16)
+                yield ((blocks + SHRINK * SHRINK // 2) // (SHRINK * SHRINK)).astype(np.uint8)
+            number += 1
+
+
+def write_moving_picture(file):
+    """Write the moving picture of the README: CLIPS, one after the other, as an endless animated WebP."""
+    from PIL import Image  # of the extras bench and test; nothing else here needs it
+
+    first, *others = [Image.fromarray(each) for clip in CLIPS for each in clip_pictures(clip)]
+    duration = round(1000 * EVERY / 60)  # [ms]
+    first.save(file, "WEBP", save_all=True, append_images=others, duration=duration, loop=0, quality=QUALITY, method=6)
+
+
 def read_arguments(arguments):
     """Return the parsed command line. Invalid arguments end the program with code 2 and the reason."""
     parser = argparse.ArgumentParser(prog=f"python -m {__package__}.filming", description="Film the games.")
@@ -199,6 +263,7 @@ def read_arguments(arguments):
     moments = films.add_parser("moments", help="a game's moments")
     moments.add_argument("game", choices=MOMENTS)
     moments.add_argument("folder", type=Path)
+    films.add_parser("moving", help="the README's moving picture").add_argument("file", type=Path)
     strip = films.add_parser("reel", help="small pictures of a run")
     strip.add_argument("scene", choices=SCENES)
     for number in ("seed", "first", "last", "every"):
@@ -210,7 +275,7 @@ def read_arguments(arguments):
             f"the first frame must not be after the last, nor below 0, and every at least 1 "
             f"(got {options.first} {options.last} {options.every})"
         )
-    if options.what != "reel" and not options.folder.is_dir():
+    if "folder" in options and not options.folder.is_dir():
         parser.error(f"{options.folder} is no folder")
     return options
 
@@ -222,6 +287,8 @@ def main(arguments=None):
         write_pictures(options.folder)
     elif options.what == "moments":
         write_moments(options.game, options.folder)
+    elif options.what == "moving":
+        write_moving_picture(options.file)
     else:
         strip = reel(options.scene, options.seed, options.first, options.last, options.every)
         options.file.write_bytes(png.encode(strip))

@@ -92,6 +92,27 @@ def test_the_program_writes_a_reel(tmp_path):
     assert png.decode(target.read_bytes()).shape == (90, 8 * 160, 3)
 
 
+def test_the_moving_picture_has_every_third_step_with_the_overlays_of_its_part(tmp_path, monkeypatch):
+    start = moments.Moment("soon", lambda scene: scene.frame >= 3)
+    parts = ((6, ()), (7, ("bounds",)))
+    monkeypatch.setattr(filming, "CLIPS", [filming.Clip("lab/stacks", start, parts)])
+    pictures = list(filming.clip_pictures(filming.CLIPS[0]))
+    assert [each.shape for each in pictures] == [(405, 720, 3)] * 5  # of 13 steps, the 1st, 4th, 7th, 10th and 13th
+    plain = filming.film("lab/stacks", moments.SEED, [4, 7, 10])
+    shrunk = [plain[frame].reshape(405, 2, 720, 2, 3).mean(axis=(1, 3)) for frame in (4, 7, 10)]
+    off = [np.abs(picture - other) for picture, other in zip(pictures, shrunk, strict=False)]
+    assert [(each > 0.51).any() for each in off] == [False, False, True], "plain, plain, with boxes"
+    filming.main(["moving", str(tmp_path / "moving.webp")])
+    assert (tmp_path / "moving.webp").read_bytes().count(b"ANMF") == 5
+
+
+def test_a_clip_whose_moment_does_not_come_is_named(monkeypatch):
+    monkeypatch.setattr(filming, "MOST", 5)
+    never = filming.Clip("lab/stacks", moments.Moment("never", lambda scene: False), ((3, ()),))
+    with pytest.raises(ValueError, match="'never' did not come within 5"):
+        next(filming.clip_pictures(never))
+
+
 @pytest.mark.parametrize(
     "arguments, why",
     [
