@@ -6,6 +6,7 @@ Pixels, seconds, radians; x right, y down; a positive angle turns clockwise on t
 
 from physics.background import compile_in_background
 from physics.body import Body
+from physics.broadphase import BROADPHASES
 from physics.broadphase.brute_force import BruteForce
 from physics.broadphase.dynamic_tree import DynamicTree
 from physics.broadphase.spatial_hash import SpatialHashGrid
@@ -43,7 +44,7 @@ from physics.snapshot import PHYSICS_VERSION, Snapshot
 from physics.step import SOLVERS
 from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
 from physics.warmup import warmup
-from physics.world import BROADPHASES, World
+from physics.world import World
 
 __all__ = [
     "Angle", "BROADPHASES", "Body", "Bounds", "BruteForce", "Capsule", "Chain", "Character", "Circle", "DYNAMIC",

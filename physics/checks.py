@@ -201,6 +201,20 @@ def columns(name: str, value: Any, count: int | None = None, width: int = 2, lik
     return array
 
 
+def positions(name: str, value: Any) -> np.ndarray:
+    """Return positions as a C-ordered float64 copy (n, 2) [px], within POSITION_LIMIT.
+
+    Raises TypeError for a value that is not an array of numbers, and ValueError for another shape, a number that is not
+    finite, or a coordinate at or beyond the limit. name: of the argument, for messages.
+    """
+    array = columns(name, value)
+    far = np.abs(array) >= POSITION_LIMIT
+    if far.any():
+        row = int(np.argwhere(far)[0][0])
+        raise ValueError(f"{name}[{row}] must lie within {POSITION_LIMIT:g} px of the origin (got {array[row]!r})")
+    return array
+
+
 def pose(name: str, value: Any) -> tuple[float, float, float]:
     """Return (x, y, angle) as floats. An omitted angle is 0.
 

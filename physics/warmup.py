@@ -120,10 +120,12 @@ def _runs(effects, broadphase, solver, pieces):
                 runs.append((piece, lambda: _ground(effects, solver, TILES)))
             if piece == "one-way masks":
                 runs.append((piece, lambda: _ground(effects, solver, OPEN)))
+        elif piece == "queries":
+            runs += [(piece, lambda name=name: _queries(effects, STRATEGIES[name]())) for name in names]
+            if "masks" in pieces:
+                runs.append((piece, lambda: _pixels(effects)))
         elif piece in QUESTIONS:
             runs.append((piece, lambda piece=piece: QUESTIONS[piece](effects)))
-            if piece == "queries" and "masks" in pieces:
-                runs.append((piece, lambda: _pixels(effects)))
             if piece == "casts" and "masks" in pieces:
                 runs.append((piece, lambda: _casts_at_pixels(effects)))
         elif piece == "characters" and effects.response:
@@ -289,10 +291,11 @@ def _zone(effects, solver):
     world.step()
 
 
-def _queries(effects):
+def _queries(effects, strategy):
     """Run queries with circles and boxes. A world without narrow phase calls their kernels only in queries."""
-    world = World(effects)
+    world = World(effects, strategy)
     world.add_body(Circle(4), kind="static")
+    world.step()
     world.ray_cast((-20, 0), (40, 0))
     world.overlap(Circle(2), (0, 0, 0))
     world.add_body(BOX, position=(3, 3), kind="static")
@@ -346,5 +349,5 @@ def _contacts(effects):
         len(world.contacts)
 
 
-QUESTIONS = {"queries": _queries, "casts": _casts, "contacts": _contacts}
-PIECES = (*PAIRS, *QUESTIONS, "characters")
+QUESTIONS = {"casts": _casts, "contacts": _contacts}
+PIECES = (*PAIRS, "queries", *QUESTIONS, "characters")

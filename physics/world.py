@@ -28,11 +28,9 @@ from physics.annotations import (
     TierName,
 )
 from physics.body import Body
-from physics.broadphase.brute_force import BruteForce
-from physics.broadphase.dynamic_tree import DynamicTree
+from physics.broadphase import checked_broadphase
 from physics.broadphase.proxies import PairList, Strategy
 from physics.broadphase.spatial_hash import SpatialHashGrid
-from physics.broadphase.sweep_and_prune import SweepAndPrune
 from physics.edit import rebuild_masks
 from physics.effects import Effects, checked_effects
 from physics.events import Events, Pairs, touching_bodies
@@ -54,7 +52,7 @@ from physics.solver.loads import ContactLists
 from physics.step import SOLVERS, STACKING, Workspace, begin, finish, ignored_effects, plans, step_length
 from physics.tables.body import BODY, BODY_DEF, DYNAMIC, RUN
 from physics.tables.character import CHARACTER
-from physics.tables.columns import JointRows
+from physics.tables.columns import JointRows, PointHits, RayHits
 from physics.tables.contact import CONTACT
 from physics.tables.joint import JOINT
 from physics.tables.shape import SHAPE
@@ -62,13 +60,6 @@ from physics.tables.table import Table
 from physics.world_state import Profile, WorldState, checked_accuracy, checked_substeps
 
 PLAIN = Material()  # the default material of bodies
-STRATEGY_METHODS = ("find_pairs", "fresh", "update", "query")
-BROADPHASES: dict[str, type[BruteForce | SweepAndPrune | SpatialHashGrid | DynamicTree]] = {
-    "brute": BruteForce,
-    "sweep": SweepAndPrune,
-    "hash": SpatialHashGrid,
-    "tree": DynamicTree,
-}
 
 
 class Definition(TypedDict, total=False):
@@ -87,22 +78,6 @@ class Definition(TypedDict, total=False):
     allow_sleep: bool
     tier: TierName | None
     user: Any
-
-
-def checked_broadphase(value: Any) -> Strategy:
-    """Return a new broad phase for `value`, a name in BROADPHASES or an instance of a strategy.
-
-    Raises TypeError for a class and for other values, ValueError for an unknown name.
-    """
-    if isinstance(value, str):
-        return BROADPHASES[checks.choice("broadphase", value, tuple(BROADPHASES))]()
-    if isinstance(value, type) or not all(hasattr(value, each) for each in STRATEGY_METHODS):
-        hint = f": write {value.__name__}()" if isinstance(value, type) and value in BROADPHASES.values() else ""
-        raise TypeError(
-            f"broadphase must be one of {', '.join(BROADPHASES)}, or an instance of BruteForce, SweepAndPrune, "
-            f"SpatialHashGrid or DynamicTree (got {checks.shown(value)}){hint}"
-        )
-    return value.fresh()
 
 
 def own_solver(effects: Effects) -> SolverName:
@@ -747,48 +722,69 @@ class World(WorldState):
     ) -> list[RayHit[Body]]:
         """Return the RayHits of all shapes on a ray from `origin` along `translation` [px], nearest first.
 
-        Equally near hits are in the order of shape ids. filter: which shapes can be hit; sensors: whether sensors can
-        also be hit.
+        Equally near hits are in the order of shape ids. filter, sensors: as in ray_cast.
         """
         return casts.ray_cast_all(self, origin, translation, filter, sensors)
 
+    def ray_casts(
+        self, origins: Points, translations: Points, filter: Filter = Filter.ALL, sensors: bool = False
+    ) -> RayHits:
+        """Return the first hit of each of n rays as an array with the columns of RAY_HIT, in the order of the rays.
+
+        origins, translations: (n, 2) [px]; filter, sensors: as in ray_cast. A ray without a hit has body -1, fraction 1
+        and the end of the ray as its point.
+        """
+        return casts.ray_casts(self, origins, translations, filter, sensors)
+
     def shape_cast(
-        self, shape: Shape, pose: Pose, translation: Pair, filter: Filter = Filter.ALL
+        self, shape: Shape, pose: Pose, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False
     ) -> RayHit[Body] | None:
         """Return the first RayHit of a shape that moves from a pose by a translation [px], or None without a hit.
 
-        pose: (x, y) or (x, y, angle); filter: which shapes can be hit.
+        pose: (x, y) or (x, y, angle); filter, sensors: as in ray_cast.
         """
-        return casts.shape_cast(self, shape, pose, translation, filter)
+        return casts.shape_cast(self, shape, pose, translation, filter, sensors)
 
-    def closest(self, point: Pair, filter: Filter = Filter.ALL) -> tuple[Body, Vec2, float] | None:
+    def closest(
+        self, point: Pair, filter: Filter = Filter.ALL, sensors: bool = False
+    ) -> tuple[Body, Vec2, float] | None:
         """Return (body, nearest point on its shapes, distance [px]) for the shape nearest to `point` [px], or None.
 
-        filter: which shapes are considered.
+        filter, sensors: as in ray_cast.
         """
-        return casts.closest(self, point, filter)
+        return casts.closest(self, point, filter, sensors)
 
-    def overlap(self, shape: Shape, pose: Pose, filter: Filter = Filter.ALL) -> list[Body]:
+    def overlap(self, shape: Shape, pose: Pose, filter: Filter = Filter.ALL, sensors: bool = False) -> list[Body]:
         """Return the bodies that a shape at a pose overlaps, in the order of ids.
 
-        pose: (x, y) or (x, y, angle); filter: which shapes are considered.
+        pose: (x, y) or (x, y, angle); filter, sensors: as in ray_cast.
         """
-        return casts.overlap(self, shape, pose, filter)
+        return casts.overlap(self, shape, pose, filter, sensors)
 
-    def query_aabb(self, lower: Pair, upper: Pair) -> list[Body]:
+    def query_aabb(self, lower: Pair, upper: Pair, filter: Filter = Filter.ALL, sensors: bool = False) -> list[Body]:
         """Return the bodies with a shape whose AABB meets a box [px], boundary included, in the order of ids.
 
-        lower, upper: corners of the box with the least and the greatest coordinates.
+        lower, upper: corners with the least and the greatest coordinates; filter, sensors: as in ray_cast.
         """
-        return casts.query_aabb(self, lower, upper)
+        return casts.query_aabb(self, lower, upper, filter, sensors)
 
-    def query_rect(self, rect: Rect) -> list[Body]:
+    def query_rect(self, rect: Rect, filter: Filter = Filter.ALL, sensors: bool = False) -> list[Body]:
         """Return the bodies with a shape whose AABB meets a rectangle [px], boundary included, in the order of ids.
 
-        rect: (x, y, width, height) or ((x, y), (width, height)), as for pygame.Rect.
+        rect: (x, y, width, height) or ((x, y), (width, height)), as for pygame.Rect; filter, sensors: as in ray_cast.
         """
-        return casts.query_rect(self, rect)
+        return casts.query_rect(self, rect, filter, sensors)
 
-    def query_point(self, point: Pair) -> list[Body]:
-        """Return the bodies with a shape that contains a point [px], in the order of ids."""
-        return casts.query_point(self, point)
+    def query_point(self, point: Pair, filter: Filter = Filter.ALL, sensors: bool = False) -> list[Body]:
+        """Return the bodies with a shape that contains a point [px], in the order of ids.
+
+        filter, sensors: as in ray_cast.
+        """
+        return casts.query_point(self, point, filter, sensors)
+
+    def query_points(self, points: Points, filter: Filter = Filter.ALL, sensors: bool = False) -> PointHits:
+        """Return an array with the columns `point` (index) and `body` (id): which bodies contain which points.
+
+        It is sorted by point, then by body. points: (n, 2) [px]; filter, sensors: as in ray_cast.
+        """
+        return casts.query_points(self, points, filter, sensors)

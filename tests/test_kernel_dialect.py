@@ -108,6 +108,7 @@ def test_shifts_of_words_stay_in_bits():
 # Above zero by validation or by what it counts: tile and cell sizes, numbers of corners and buckets, a full mask's
 # area, the length of what has been scaled to one.
 ABOVE_ZERO = {
+    "admitted.piece",
     "g.tile_size",
     "size",
     "tile_size",

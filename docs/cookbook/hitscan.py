@@ -1,3 +1,5 @@
+from math import cos, sin
+
 from hitbox.physics import Circle, Filter, Polygon, World
 
 WALL, ENEMY, FRIEND = 1, 2, 4
@@ -14,3 +16,7 @@ everybody = [each.body.user for each in world.ray_cast_all(muzzle, reach)]
 print(f"hit {hit.body.user} at {hit.point}; the ray would pass {everybody}")
 hit.body.apply_impulse(-hit.normal * 5000, hit.point)
 assert hit.body.user == "enemy" and hit.body.velocity.x > 0 and everybody == ["friend", "enemy", "wall"]
+
+fan = [(1000 * cos(angle / 50), 1000 * sin(angle / 50)) for angle in range(-20, 21)]
+seen = world.ray_casts([muzzle] * len(fan), fan)  # many rays in one call, one row each; body -1: no hit
+assert set(seen["body"].tolist()) == {-1, 0, 2}

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from physics import checks
 from physics.broadphase.proxies import Arena, Box, Query, find_pairs, meets_box, overlaps, write_pair
-from physics.jit import kernel
+from physics.jit import kernel, subkernel
 from physics.tables.step_state import PAIRS_TESTED
 
 
@@ -53,6 +53,12 @@ def near_in_all(proxies, box, slots_out, work_inout):
     return found
 
 
+@subkernel
+def search_all(box, structure, slots_out, work_inout):
+    """Find the proxies whose boxes overlap `box`, as near_in_all. Return their number. structure: (PROXY table,)."""
+    return near_in_all(structure[0], box, slots_out, work_inout)
+
+
 class BruteForce:
     """Broad phase that tests all pairs: O(n²) in the first step, O(moved · n) in later steps.
 
@@ -94,3 +100,7 @@ class BruteForce:
         proxies: PROXY table; box [px]: lower x, y, upper x, y; work: counters, see COUNTERS.
         """
         return near_in_all(proxies, box, slots, work)
+
+    def structure(self, proxies: np.ndarray) -> tuple:
+        """Return the data that the kernel search_all reads. proxies: PROXY table."""
+        return (proxies,)

@@ -467,6 +467,16 @@ def query_trees(nodes, roots, box, stack_inout, slots_out, work_inout):
     return found
 
 
+@subkernel
+def search_trees(box, structure_inout, slots_out, work_inout):
+    """Find the leaves of both trees whose fat boxes overlap `box`, as query_trees. Return their number.
+
+    structure_inout: (nodes, roots, stack) of query_trees.
+    """
+    nodes, roots, stack_inout = structure_inout
+    return query_trees(nodes, roots, box, stack_inout, slots_out, work_inout)
+
+
 # ---- dynamic tree ----------------------------------------------------------------------------------------------------
 # The broad phase made of both trees.
 
@@ -619,8 +629,12 @@ class DynamicTree:
         The fat boxes of the tree are compared, so proxies up to a margin away may also be found. proxies: unused; box
         [px]: lower x, y, upper x, y; work: counters, see COUNTERS.
         """
-        roots = self.state[ROOT_MOVING:]
-        return query_trees(self.nodes, roots, box, self.stack, slots, work)
+        nodes, roots, stack = self.structure(proxies)
+        return query_trees(nodes, roots, box, stack, slots, work)
+
+    def structure(self, proxies: np.ndarray) -> tuple:
+        """Return the data that the kernel search_trees reads. proxies: unused."""
+        return self.nodes, self.state[ROOT_MOVING:], self.stack
 
     @property
     def height(self) -> int:

@@ -145,6 +145,10 @@ class Strategy(Protocol):
         """
         ...
 
+    def structure(self, proxies: np.ndarray) -> tuple:
+        """Return the data that a kernel reads to find the proxies whose boxes overlap a box. proxies: PROXY table."""
+        ...
+
 
 def find_pairs(strategy: Strategy, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
     """Return the pairs of n closed boxes that touch, found by a new broad phase: (m, 2) int32, a < b, sorted.

@@ -396,6 +396,16 @@ def near_in_cells(base, cells, proxies, box, slots_out, work_inout):
     return found
 
 
+@subkernel
+def search_cells(box, structure, slots_out, work_inout):
+    """Find the proxies whose boxes overlap `box`, as near_in_cells. Return their number.
+
+    structure: (base, cells, PROXY table) of near_in_cells.
+    """
+    base, cells, proxies = structure
+    return near_in_cells(base, cells, proxies, box, slots_out, work_inout)
+
+
 # ---- spatial hash ----------------------------------------------------------------------------------------------------
 # A uniform grid in a hash table, with coarser grids above it for larger boxes.
 #
@@ -488,6 +498,10 @@ class SpatialHashGrid:
         proxies: PROXY table; box [px]: lower x, y, upper x, y; work: counters, see COUNTERS.
         """
         return near_in_cells(self.base, self.lists, proxies, box, slots, work)
+
+    def structure(self, proxies: np.ndarray) -> tuple:
+        """Return the data that the kernel search_cells reads. proxies: PROXY table."""
+        return self.base, self.lists, proxies
 
     def cells(self) -> tuple[np.ndarray, np.ndarray]:
         """Return the occupied cells for drawing: (rectangles (m, 4) [px], level (m,) of each)."""

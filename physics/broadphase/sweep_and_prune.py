@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from physics import checks
 from physics.broadphase.proxies import Arena, Box, Query, find_pairs, may_meet, write_pair
-from physics.jit import kernel
+from physics.jit import kernel, subkernel
 from physics.tables.step_state import NODES_VISITED, PAIRS_TESTED, SWAPS
 
 AXIS_SWITCH = 2.0  # the axis is switched if the variance along the other axis is greater by this factor
@@ -211,6 +211,16 @@ def near_in_order(order, boxes, highest, axis, box, slots_out, work_inout):
     return found
 
 
+@subkernel
+def search_order(box, structure, slots_out, work_inout):
+    """Find the proxies whose boxes overlap `box`, as near_in_order. Return their number.
+
+    structure: (order, boxes, highest, axis) of near_in_order.
+    """
+    order, boxes, highest, axis = structure
+    return near_in_order(order, boxes, highest, axis, box, slots_out, work_inout)
+
+
 class Axis:
     """The slots of the proxies, sorted by the lower ends of their boxes along one axis.
 
@@ -254,9 +264,14 @@ class Axis:
 
         box [px]: lower x, y, upper x, y; work: counters, see COUNTERS.
         """
+        order, boxes, highest, axis = self.structure()
+        return near_in_order(order, boxes, highest, axis, box, slots, work)
+
+    def structure(self) -> tuple:
+        """Return the data that the kernel search_order reads."""
         if self.highest is None:
             self.highest = np.maximum.accumulate(self.boxes[: len(self.order), 1])
-        return near_in_order(self.order, self.boxes, self.highest, self.axis, box, slots, work)
+        return self.order, self.boxes, self.highest, self.axis
 
     def sweep(self, arena: Arena, pairs: np.ndarray, work: np.ndarray) -> int:
         return sweep_one(arena.proxies, self.order, len(self.order), self.boxes, self.next_changed, pairs, work)
@@ -358,3 +373,7 @@ class SweepAndPrune:
         proxies: unused; box [px]: lower x, y, upper x, y; work: counters, see COUNTERS.
         """
         return self.sorted[0].query_box(box, slots, work)
+
+    def structure(self, proxies: np.ndarray) -> tuple:
+        """Return the data that the kernel search_order reads. proxies: unused."""
+        return self.sorted[0].structure()

@@ -7,7 +7,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 
 from physics import checks
-from physics.annotations import Pair, Pose
+from physics.annotations import Pair, Points, Pose
 from physics.ccd.rotational import (
     Mover,
     advance_parts,
@@ -30,26 +30,15 @@ from physics.ccd.time_of_impact import (
 )
 from physics.collision.hulls import ALL_EDGES, Hull
 from physics.collision.narrow_phase import NarrowPhase
-from physics.distance.gjk import (
-    AX,
-    AY,
-    BX,
-    BY,
-    NX,
-    NY,
-    ROUNDS,
-    copy_part,
-    new_gap_workspace,
-    separate_parts,
-    shape_separation,
-)
+from physics.distance.gjk import AX, AY, BX, BY, NX, NY, ROUNDS, new_gap_workspace, separate_parts, shape_separation
 from physics.jit import kernel, subkernel
 from physics.math2d import Vec2
+from physics.queries import batches
+from physics.queries.batches import cast, find_candidates
 from physics.queries.index import AskedWorld, IndexedWorld
-from physics.queries.rays import cast_on_disc, cast_on_hull, cast_on_shape
 from physics.settings import DRAWN, MASK_ANGLE_BUCKETS, POSITION_LIMIT
 from physics.shapes.kinds import checked_pose
-from physics.shapes.library import draw_masks, place
+from physics.shapes.library import place
 from physics.shapes.placement import hull_at, is_hull, refresh_aabbs, rounding
 from physics.shapes.shape import Filter, Parts, Placed, Shape, checked_filter, parts_near, parts_of
 from physics.tables.body import BODY
@@ -61,12 +50,13 @@ from physics.tables.table import joined
 # Boxes: the bodies whose AABBs meet a box, and the AABB of a body.
 
 
-def query_aabb(world: AskedWorld, lower: Pair, upper: Pair) -> list:
+def query_aabb(world: AskedWorld, lower: Pair, upper: Pair, filter: Filter, sensors: bool) -> list:
     """Return the bodies that have a shape whose AABB meets a closed box [px]. Empty masks and grids have no AABB.
 
-    lower, upper: corners (min_x, min_y), (max_x, max_y) of the box. Raises TypeError for values that are not points,
-    ValueError for lower > upper.
+    lower, upper: corners (min_x, min_y), (max_x, max_y) of the box; filter: Filter of the query; sensors: whether
+    sensors are included. Raises TypeError for values of other types, ValueError for lower > upper.
     """
+    filter, sensors = checked_filter(filter), checks.flag("sensors", sensors)
     lower, upper = checks.vector("lower", lower), checks.vector("upper", upper)
     if lower[0] > upper[0] or lower[1] > upper[1]:
         raise ValueError(f"lower must be <= upper (got {lower} and {upper})")
@@ -76,14 +66,15 @@ def query_aabb(world: AskedWorld, lower: Pair, upper: Pair) -> list:
     rows = rows[
         (s["min_x"] <= upper[0]) & (s["max_x"] >= lower[0]) & (s["min_y"] <= upper[1]) & (s["max_y"] >= lower[1])
     ]
+    rows = _allowed(world, rows, filter, sensors, NO_ROLE)
     return [world.body(each) for each in np.unique(world.shapes["body"][rows]).tolist()]
 
 
-def query_rect(world: AskedWorld, rect: Any) -> list:
+def query_rect(world: AskedWorld, rect: Any, filter: Filter, sensors: bool) -> list:
     """Return the bodies that have a shape whose AABB meets a rectangle [px].
 
-    rect: (x, y, width, height) or ((x, y), (width, height)). Raises TypeError for another value, ValueError for a width
-    or height < 0 and for a number that is not finite.
+    rect: (x, y, width, height) or ((x, y), (width, height)); filter, sensors: as in query_aabb. Raises TypeError for
+    another value, ValueError for a width or height < 0 and for a number that is not finite.
     """
     try:
         parts = tuple(rect)
@@ -92,7 +83,8 @@ def query_rect(world: AskedWorld, rect: Any) -> list:
         raise TypeError(f"rect must be (x, y, width, height) (got {checks.shown(rect)})") from None
     x, y = checks.position("rect", (x, y))
     width, height = checks.number("rect[2]", width, low=0.0), checks.number("rect[3]", height, low=0.0)
-    return query_aabb(world, (x, y), checks.vector("rect[0] + rect[2], rect[1] + rect[3]", (x + width, y + height)))
+    end = checks.vector("rect[0] + rect[2], rect[1] + rect[3]", (x + width, y + height))
+    return query_aabb(world, (x, y), end, filter, sensors)
 
 
 def bounds_of(world: IndexedWorld, identity: int) -> tuple[float, float, float, float] | None:
@@ -137,45 +129,6 @@ def write_hit(row, fraction, nx, ny, found, hits_out):
     hits_out[found, 2] = nx
     hits_out[found, 3] = ny
     return found + 1
-
-
-@kernel
-def cast_ray_at_rows(geometry, bodies, shapes, rows, ray, corners_inout, hits_out, work_inout):
-    """Write (row, fraction, normal) of every listed shape that a ray hits to hits_out (rows, 4). Return their number.
-
-    rows: indices of SHAPE rows; ray: start and vector (x, y, dx, dy) [px]; corners_inout (16, 2): scratch. The fraction
-    is the part of the vector up to the hit. work_inout: counters, see COUNTERS.
-    """
-    found = 0
-    for k in range(len(rows)):
-        work_inout[NARROW_TESTS] += 1
-        fraction, nx, ny = cast_on_shape(geometry, bodies, shapes, rows[k], ray, corners_inout)
-        if fraction <= 1.0:
-            found = write_hit(rows[k], fraction, nx, ny, found, hits_out)
-    return found
-
-
-@kernel
-def cast_ray_at_parts(parts, dx, dy, corners_inout, hit_out, work_inout):
-    """Write (fraction, normal) of the nearest hit of a ray on convex parts to hit_out[1:]. Return whether there is one.
-
-    The ray starts at the origin. dx, dy [px]: its vector; parts: Parts; corners_inout (16, 2): scratch; hit_out (4,).
-    O(parts). work_inout: counters, see COUNTERS.
-    """
-    hit_out[1] = MISS
-    for k in range(len(parts.counts)):
-        count = parts.counts[k]
-        copy_part(parts.corners, k, count, corners_inout)
-        work_inout[NARROW_TESTS] += 1
-        if count == 1:
-            fraction, nx, ny = cast_on_disc(-corners_inout[0, 0], -corners_inout[0, 1], dx, dy, parts.radii[k])
-        else:
-            fraction, nx, ny = cast_on_hull(corners_inout, count, parts.radii[k], 0.0, 0.0, dx, dy)
-        if fraction < hit_out[1]:
-            hit_out[1] = fraction
-            hit_out[2] = nx
-            hit_out[3] = ny
-    return hit_out[1] <= 1.0
 
 
 @kernel
@@ -260,10 +213,7 @@ def nearest_hull(geometry, bodies, shapes, rows, point, workspace, nearest_out, 
 # Queries of a world between steps: rays, casts, overlaps, points. They read the present poses and search the broad
 # phase; the work of the last query is in `world.queries.counters`.
 
-RAY_PIECES = 16  # a long slanted ray searches up to this number of boxes along the ray, not one box around it …
-PIECE = 8.0  # [m] … each of about this width
-
-
+NO_ROLE = -1  # in place of a role of SHAPE
 HitBody = TypeVar("HitBody")  # Body, whose module imports this one
 
 
@@ -294,81 +244,47 @@ def ray_cast_all(
     """
     x, y = checks.position("origin", origin)
     dx, dy = checks.vector("translation", translation)
-    filter = checked_filter(filter)
-    sensors = checks.flag("sensors", sensors)
-    index = world.queries
-    index.begin(world)
-    pieces = 1 + int(min(RAY_PIECES - 1.0, min(abs(dx), abs(dy)) / (PIECE * world.tolerances.pixels_per_meter)))
-    beyond = _beyond_drawn(world)
-    leave = PART if dx == 0.0 and dy == 0.0 else PIXELS  # points are tested against pixels, rays against outlines
-    corners, asked, hits = np.zeros((16, 2)), np.zeros(0, np.int64), np.zeros((0, 4))
-    for piece in range(pieces):
-        start, end = ((x + share * dx, y + share * dy) for share in (piece / pieces, (piece + 1) / pieces))
-        rows = _allowed(world, index.rows_in(world, *_box_around(start, end, beyond)), filter, sensors, leave)
-        rows = np.setdiff1d(rows, asked, assume_unique=True)
-        asked = np.concatenate([asked, rows])
-        draw_masks(world.library, rows, world.bodies, world.shapes)
-        masks = (world.shapes["kind"][rows] == MASK) & (leave == PIXELS)
-        by_parts, others = _beside(world, rows[masks], x, y, dx, dy, beyond), rows[~masks]
-        workspace = np.zeros((len(others), 4))
-        found = cast_ray_at_rows(
-            world.library.tables, world.bodies, world.shapes, others, (x, y, dx, dy), corners, workspace, index.work
-        )
-        hits = np.concatenate([hits, workspace[:found], *_rays_at_outlines(world, by_parts, x, y, dx, dy)])
-        # The pieces so far contain the nearest hit.
-        if first and len(hits) and hits[:, 1].min() * pieces < piece + 1:
-            break
-    hits = hits[np.lexsort((hits[:, 0], hits[:, 1]))]
-    _, nearest = np.unique(world.shapes["parent"][hits[:, 0].astype(np.int64)], return_index=True)
-    hits = hits[np.sort(nearest)]  # only the first hit of each mask's parts
+    filter, sensors = checked_filter(filter), checks.flag("sensors", sensors)
+    by_pixels = dx == 0.0 and dy == 0.0  # points are tested against pixels, rays against outlines
+    asked = find_candidates(world, np.array([(x, y, dx, dy)]), filter, sensors, by_pixels, _beyond_drawn(world))
+    hits = cast(world, asked, first)
+    hits = hits[hits[:, 1] <= 1.0]
+    if len(hits) > 1:
+        hits = hits[np.lexsort((hits[:, 0], hits[:, 1]))]
+        _, nearest = np.unique(world.shapes["parent"][hits[:, 0].astype(np.int64)], return_index=True)
+        hits = hits[np.sort(nearest)]  # only the first hit of each mask's parts
     return [
         _hit(world, row, fraction, nx, ny, (x + fraction * dx, y + fraction * dy))
-        for row, fraction, nx, ny in hits[: 1 if first else None].tolist()
+        for row, fraction, nx, ny in hits.tolist()
     ]
 
 
-def _beside(world, rows, x, y, dx, dy, beyond) -> np.ndarray:
-    """Return the shape rows whose AABBs, enlarged by `beyond` [px], meet the infinite line through a ray.
-
-    rows: indices of SHAPE rows; x, y, dx, dy [px]: start and vector of the ray.
-    """
-    if not len(rows):
-        return rows
-    left, top, right, bottom = (world.shapes[name][rows] for name in ("min_x", "min_y", "max_x", "max_y"))
-    off = dx * (0.5 * (top + bottom) - y) - dy * (0.5 * (left + right) - x)
-    reach = abs(dx) * (0.5 * (bottom - top) + beyond) + abs(dy) * (0.5 * (right - left) + beyond)
-    return rows[np.abs(off) <= reach]
+def ray_casts(world: AskedWorld, origins: Points, translations: Points, filter: Filter, sensors: bool) -> Any:
+    """Return the first hit of each ray as RAY_HIT rows; see World.ray_casts."""
+    return batches.ray_casts(world, origins, translations, filter, sensors, _beyond_drawn(world))
 
 
-def _rays_at_outlines(world, rows, x, y, dx, dy) -> list[np.ndarray]:
-    """Return (row, fraction, normal) of each mask outline that a ray hits, as a list of arrays (1, 4).
-
-    rows: SHAPE rows of the parts of masks; x, y, dx, dy [px]: start and vector of the ray.
-    """
-    hits, corners = [], np.zeros((16, 2))
-    for row in rows.tolist():
-        parts = _swept_parts(world, row, x, y, math.inf)
-        parts = parts_near(parts, min(0.0, dx), min(0.0, dy), max(0.0, dx), max(0.0, dy))
-        hit = np.zeros((1, 4))
-        hit[0, 0] = row
-        if cast_ray_at_parts(parts, dx, dy, corners, hit[0], world.queries.work):
-            hits.append(hit)
-    return hits
+def query_points(world: AskedWorld, points: Points, filter: Filter, sensors: bool) -> Any:
+    """Return the bodies that contain points as POINT_HIT rows; see World.query_points."""
+    return batches.query_points(world, points, filter, sensors, _beyond_drawn(world))
 
 
-def shape_cast(world: AskedWorld, shape: Shape, pose: Pose, translation: Pair, filter: Filter) -> RayHit | None:
+def shape_cast(
+    world: AskedWorld, shape: Shape, pose: Pose, translation: Pair, filter: Filter, sensors: bool
+) -> RayHit | None:
     """Return the first hit of a shape that moves from a pose by a translation [px]; None without a hit.
 
-    Of several hits at the same fraction, that of the smallest shape id is returned. Sensors are left out. The normal
-    points from the hit shape to the cast shape, and the point lies midway between them. Shapes that touch or overlap at
-    the start give a hit at fraction 0 if the cast shape approaches; otherwise the cast continues. A cast of zero length
-    returns the first shape that it overlaps.
+    Of several hits at the same fraction, that of the smallest shape id is returned. filter: Filter of the cast shape;
+    sensors: whether sensors are also hit. The normal points from the hit shape to the cast shape, and the point lies
+    midway between them. Shapes that touch or overlap at the start give a hit at fraction 0 if the cast shape
+    approaches; otherwise the cast continues. A cast of zero length returns the first shape that it overlaps.
 
     A PixelMask is cast as its outline at the exact pose, and a grazing contact is not a hit. A Chain is hit from its
     front, a one-way tile or mask from above. Raises TypeError for values of other types, ValueError for numbers that
     are not finite or a pose that the shape cannot have.
     """
     pose, filter = checked_pose("shape", shape, "pose", pose), checked_filter(filter)
+    sensors = checks.flag("sensors", sensors)
     dx, dy = checks.vector("translation", translation)
     index = world.queries
     index.begin(world)
@@ -384,7 +300,7 @@ def shape_cast(world: AskedWorld, shape: Shape, pose: Pose, translation: Pair, f
                 (max(box[2], box[2] + dx) + beyond, max(box[3], box[3] + dy) + beyond),
             ),
             filter,
-            False,
+            sensors,
         )
         if dx == 0.0 and dy == 0.0:
             return _first_contact(world, bodies, shapes, rows)
@@ -460,16 +376,17 @@ def _swept_parts(world, row, x, y, feet) -> Parts:
     return world.library.shape_of(world.shapes[row])._parts_at(placed)
 
 
-def closest(world: AskedWorld, point: Pair, filter: Filter) -> tuple[Any, Vec2, float] | None:
+def closest(world: AskedWorld, point: Pair, filter: Filter, sensors: bool) -> tuple[Any, Vec2, float] | None:
     """Return (body, point, distance) [px] of the point nearest to `point` on any shape; None in an empty world.
 
     Of several shapes at the same distance, the one with the smallest id is returned. If `point` lies inside a shape,
-    the nearest point is `point` itself and the distance 0. Sensors are left out. A Chain is measured from both sides, a
+    the nearest point is `point` itself and the distance 0. filter: Filter of the point; sensors: whether sensors are
+    included. A Chain is measured from both sides, a
     one-way tile by its top. Raises TypeError for values of other types, ValueError for a point that is not finite or
     too far away.
     """
     x, y = checks.position("point", point)
-    filter, index = checked_filter(filter), world.queries
+    filter, sensors, index = checked_filter(filter), checks.flag("sensors", sensors), world.queries
     index.begin(world)
     reach, beyond, found = 2.0 * world.tolerances.pixels_per_meter, _beyond_drawn(world), None
     while True:
@@ -478,7 +395,7 @@ def closest(world: AskedWorld, point: Pair, filter: Filter) -> tuple[Any, Vec2, 
         everything = around == math.inf or len(rows) == np.count_nonzero(
             ~world.bodies["quarantined"][world.shapes["body_row"]]
         )
-        found = _nearest(world, _allowed(world, rows, filter, False), x, y)
+        found = _nearest(world, _allowed(world, rows, filter, sensors), x, y)
         if everything or (found and found[1] <= reach):
             break
         # A result bounds the search; without a result the box grows.
@@ -511,28 +428,29 @@ def _nearest(world, rows, x, y):
     return row, gap, at
 
 
-def query_point(world: AskedWorld, point: Pair) -> list:
-    """Return the bodies that have a shape, or a sensor, that contains the point [px].
+def query_point(world: AskedWorld, point: Pair, filter: Filter, sensors: bool) -> list:
+    """Return the bodies that have a shape that contains the point [px], in the order of ids.
 
     Raises TypeError for a value that is not a point, ValueError for a point that is not finite or too far away.
     """
-    checks.vector("point", point)
-    hits = ray_cast_all(world, point, (0.0, 0.0), Filter.ALL, True)
-    return [world.body(each) for each in sorted({hit.body.id for hit in hits})]
+    x, y = checks.position("point", point)
+    found = batches.query_points(world, [(x, y)], filter, sensors, _beyond_drawn(world))
+    return [world.body(each) for each in found["body"].tolist()]
 
 
-def overlap(world: AskedWorld, shape: Shape, pose: Pose, filter: Filter) -> list:
-    """Return the bodies that a shape at a pose overlaps, sensors included. filter: Filter of the shape.
+def overlap(world: AskedWorld, shape: Shape, pose: Pose, filter: Filter, sensors: bool) -> list:
+    """Return the bodies that a shape at a pose overlaps. filter: Filter of the shape; sensors: whether sensors count.
 
     Raises TypeError for values of other types, ValueError for a pose that the shape cannot have.
     """
     pose, filter = checked_pose("shape", shape, "pose", pose), checked_filter(filter)
+    sensors = checks.flag("sensors", sensors)
     world.queries.begin(world)
     with world.library.visited():
         bodies, shapes = _probe(world, shape, pose)
         s, beyond = shapes[0], _beyond_drawn(world)
         box = (s["min_x"] - beyond, s["min_y"] - beyond), (s["max_x"] + beyond, s["max_y"] + beyond)
-        rows = _allowed(world, world.queries.rows_in(world, *box), filter, True, PART)
+        rows = _allowed(world, world.queries.rows_in(world, *box), filter, sensors, PART)
         contacts = _contacts(world, bodies, shapes, rows)
         return [world.body(each) for each in np.unique(contacts["body_a"]).tolist()]
 
@@ -582,7 +500,7 @@ def _allowed(world, rows, filter, sensors, leave=PIXELS):
     """Return those of the SHAPE rows `rows` that the filter of a query admits.
 
     sensors: whether sensors are admitted; leave: role of the mask rows to leave out, PIXELS for queries of outlines,
-    PART for queries of pixels.
+    PART for queries of pixels, NO_ROLE for queries of AABBs, which leave out no row.
     """
     s = world.shapes
     rows = rows[s["role"][rows] != leave]

@@ -148,12 +148,12 @@ class QueryIndex:
     """The index of one world's shapes for queries by boxes, and the work counters of the last query.
 
     asked: the boxes (lower x, y, upper x, y) [px] that the last query searched, in order. The counters are separate
-    from those of the last step.
+    from those of the last step. outlines: those of the masks that rays have met, see batches.OutlineStore.
     """
 
     def __init__(self) -> None:
         self.work = np.zeros(len(COUNTERS), np.int64)
-        self.asked: list[Box] = []
+        self.asked: Any = []  # Box tuples, or an array (n, 4)
         self.seen = ()  # the tables that were read; other tables make the index stale
         self.step = -1  # the step after which the index was last refreshed
         self.awake = np.zeros(0, np.int64)  # body rows that were awake at the last refresh
@@ -164,6 +164,9 @@ class QueryIndex:
         self.loose = self.rows = np.zeros(0, np.int64)
         self.slots = np.zeros(0, np.int64)
         self.loose_count = 0
+        self.stamps, self.stamp = np.zeros(0, np.int64), 1  # see batches.Targets
+        self.corners = np.zeros((16, 2))
+        self.outlines: Any = None  # made by batches, which imports this file
 
     def __getstate__(self):
         return self.work, self.asked  # the other attributes belong to tables that a copy does not have
@@ -180,7 +183,7 @@ class QueryIndex:
     def begin(self, world: IndexedWorld) -> None:
         """Start a query: reset the counters, and update the index to the present poses of the world."""
         self.work[:] = 0
-        self.asked.clear()
+        self.asked = []
         self.refresh(world)
 
     def asks_broadphase(self, world: IndexedWorld) -> bool:
@@ -198,7 +201,7 @@ class QueryIndex:
         bodies, shapes, pairs, awake = world.bodies, world.shapes, world.pairs, world.awake
         newest = int(shapes["id"][-1]) if len(shapes) else -1
         seen = (pairs, world.broadphase, len(bodies), len(shapes), newest, len(pairs.free), pairs.everything)
-        known = is_same(seen, self.seen)
+        known = seen == self.seen
         some = known and awake.sleeping and awake.is_known(bodies, shapes) and world.steps - self.step <= 1
         rows = self._watched(awake, bodies) if some else np.arange(len(bodies))
         if not known:
@@ -238,6 +241,12 @@ class QueryIndex:
         self.row_of_slot, self.slots = np.zeros(len(pairs.proxies), np.int64), np.zeros(len(pairs.proxies), np.int64)
         if len(self.loose) < len(shapes):
             self.loose, self.rows = np.zeros(2 * len(shapes), np.int64), np.zeros(2 * len(shapes), np.int64)
+            self.stamps = np.zeros(2 * len(shapes), np.int64)
+
+    def next_stamps(self, count: int) -> int:
+        """Return the first of `count` new stamps, see batches.Targets."""
+        self.stamp += count
+        return self.stamp - count
 
     def rows_in(self, world: IndexedWorld, lower: Coordinates, upper: Coordinates) -> np.ndarray:
         """Return the SHAPE rows, ascending, whose AABBs meet the closed box from `lower` to `upper` [px].

@@ -235,7 +235,7 @@ def test_kernels_of_absent_stages_are_not_compiled():
         "find_pairs_in_trees",
         "find_in_cells",
         "sweep_one",
-        "cast_ray_at_rows",
+        "cast_candidates",
     ):
         assert name not in lean, name
     full = compiled({"response": True, "gravity": True, "continuous": True}, "masks")

@@ -46,6 +46,14 @@ class EveryShape:
 
     def begin(self, world):
         self.index.begin(world)  # AABBs and rasters up to date
+        self.loose = np.flatnonzero(~world.bodies["quarantined"][world.shapes["body_row"]])
+        self.loose_count = len(self.loose)
+
+    def asks_broadphase(self, world):
+        return False
+
+    def __getattr__(self, name):
+        return getattr(self.index, name)
 
     def rows_in(self, world, lower, upper):
         s = world.shapes

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 import pygame
+from numpy.typing import NDArray
 
 from physics import (
     BROADPHASES,
@@ -131,6 +132,8 @@ def queries(world: World, shape: Circle) -> list[Body]:
     """Query a world with points, rectangles and poses of all kinds."""
     hit: RayHit | None = world.ray_cast(PLACE, (0, 500), filter=Filter(1, 2), sensors=True)
     found = world.ray_cast((0, 0), HERE)
+    fractions: NDArray[np.float64] = world.ray_casts([(0, 0)], [HERE])["fraction"]
+    owners: NDArray[np.int64] = world.query_points(np.zeros((3, 2)), sensors=True)["body"]
     if found is not None:
         found.body.velocity = (0, 0)
         print(found.point.x, found.normal.angle, hit)
