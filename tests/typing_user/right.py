@@ -136,7 +136,7 @@ def queries(world: World, shape: Circle) -> list[Body]:
     owners: NDArray[np.int64] = world.query_points(np.zeros((3, 2)), sensors=True)["body"]
     if found is not None:
         found.body.velocity = (0, 0)
-        print(found.point.x, found.normal.angle, hit)
+        print(found.point.x, found.normal.angle, hit, fractions.sum(), owners.max())
     for each in world.ray_cast_all((0, 0), PLACE):
         each.body.wake()
     cast = world.shape_cast(shape, (*PLACE, 0.5), (9, 0))
