@@ -21,6 +21,7 @@ from physics.shapes.outline import is_tiled, keep_tiles, polygons, tiled_parts
 from physics.shapes.shape import Filter, Material, Shape, checked_filter, checked_material
 from physics.shapes.values import TileGrid
 from physics.tables.body import AUTO, CONTINUOUS, DYNAMIC, KINDS, KINEMATIC, OFF, STATIC
+from physics.tables.contact import without_removed
 from physics.tables.shape import MASK, PART, PIXELS, WHOLE, WHOLE_MASK
 from physics.tables.table import row_number, rows_of
 from physics.world_state import WorldState
@@ -365,7 +366,7 @@ def _rejoin(world, at, touched):
         count = write_rectangles(world, touched)
         world.pairs.can_recycle.append(world.pairs.changed[:count].copy())
     world.queries.seen = ()
-    sleep.forget(world)
+    world.contact_rows = without_removed(world.bodies, world.shapes, world.contact_rows)
 
 
 # ---- reshaping -------------------------------------------------------------------------------------------------------
@@ -515,7 +516,7 @@ def _add(world, identity, shapes, new) -> np.ndarray:
         world.pairs.free_proxies(world.shapes["proxy"][own])
         world.shapes["proxy"][own] = -1
     world.awake.forget_shapes()
-    sleep.forget(world)
+    world.contact_rows = without_removed(world.bodies, world.shapes, world.contact_rows)
     world._tiers.pop(identity, None)
     world._sources.pop(identity, None)
     return ids

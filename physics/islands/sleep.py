@@ -21,10 +21,10 @@ from physics.jit import inlined, kernel
 from physics.math2d import norm
 from physics.settings import SLEEP_TIME
 from physics.tables.body import DYNAMIC, KINEMATIC
-from physics.tables.contact import CONTACT, EVENT
+from physics.tables.contact import CONTACT, EVENT, with_rows
 from physics.tables.joint import WORLD
 from physics.tables.step_state import ISLANDS, StepState, WorldTables, stage
-from physics.tables.table import joined, root_of, row_of, rows_of
+from physics.tables.table import joined, root_of, rows_of
 
 # ---- sleeping set ----------------------------------------------------------------------------------------------------
 # The sleeping set: sleeping islands with their contacts, and touching pairs of bodies that no step visits.
@@ -310,39 +310,11 @@ def _bring_back(tables, contacts):
     found = tables.contact_rows
     known = found["shape_a"] << 32 | found["shape_b"]
     new = ~np.isin(contacts["shape_a"] << 32 | contacts["shape_b"], known)
-    woken = with_rows(tables, contacts[new])
+    woken = with_rows(tables.bodies, tables.shapes, contacts[new])
     if len(woken):
         woken["previous"] = -1
         both = joined([found, woken])
         tables.contact_rows = both[order_of(both)]
-
-
-def with_rows(tables: WorldTables, contacts: np.ndarray) -> np.ndarray:
-    """Write the present body and shape row numbers to contacts. Return the contacts whose bodies and shapes exist."""
-    there = np.empty(len(contacts), bool)
-    refresh_rows(tables.bodies, tables.shapes, contacts, there)
-    return contacts if there.all() else contacts[there]
-
-
-def forget(tables: WorldTables) -> None:
-    """Drop the contacts of removed bodies and shapes, and update the row numbers in all other contacts."""
-    if len(tables.contact_rows):
-        tables.contact_rows = with_rows(tables, joined([tables.contact_rows]))
-
-
-@kernel
-def refresh_rows(bodies, shapes, manifolds_inout, there_out):
-    """Write the present body and shape row numbers of each CONTACT row, and whether all of them still exist.
-
-    O(manifolds log shapes).
-    """
-    for i in range(len(manifolds_inout)):
-        m = manifolds_inout[i]
-        m.body_row_a = row_of(bodies, m.body_a)
-        m.body_row_b = row_of(bodies, m.body_b)
-        m.row_a = row_of(shapes, m.shape_a)
-        m.row_b = row_of(shapes, m.shape_b)
-        there_out[i] = min(m.body_row_a, m.body_row_b, m.row_a, m.row_b) >= 0
 
 
 @kernel

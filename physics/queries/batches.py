@@ -20,6 +20,7 @@ from physics.jit import kernel, subkernel
 from physics.math2d import rotate
 from physics.queries.index import ROUNDING, AskedWorld
 from physics.queries.rays import cast_on_disc, cast_on_hull, cast_on_shape, crosses_box
+from physics.shapes.library import draw_masks
 from physics.shapes.placement import cosine_and_sine
 from physics.shapes.shape import Filter, Parts, checked_filter, parts_of
 from physics.tables.geometry import Geometry
@@ -353,12 +354,15 @@ def cast(world: AskedWorld, found: Found, nearest: bool) -> np.ndarray:
     index, rows = world.queries, found.workspace.rows[: found.count]
     if index.outlines is None:
         index.outlines = OutlineStore()
-    met = index.outlines.outlines
-    if world.library.masks and found.count and found.rays[:, 2:].any():
-        kinds = world.shapes["kind"][rows] == MASK
-        met = index.outlines.with_all(world.library, np.unique(world.shapes["geometry"][rows[kinds]]).tolist())
+    library, targets, met = world.library, found.targets, index.outlines.outlines
+    masks = rows[world.shapes["kind"][rows] == MASK] if library.masks else rows[:0]
+    if len(masks) and found.rays[:, 2:].any():
+        met = index.outlines.with_all(library, np.unique(world.shapes["geometry"][masks]).tolist())
+    elif len(masks):
+        draw_masks(library, masks, world.bodies, world.shapes)  # the pixels at their present angles
+        targets = targets._replace(geometry=library.tables)
     hits = np.zeros((len(found.rays) if nearest else found.count, 4))
-    cast_candidates(found.targets, met, found.rays, int(nearest), found.workspace, hits, index.work)
+    cast_candidates(targets, met, found.rays, int(nearest), found.workspace, hits, index.work)
     return hits
 
 

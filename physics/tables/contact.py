@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from physics.tables.table import Record, in_lines
+from physics.jit import kernel
+from physics.tables.table import Record, in_lines, joined, row_of
 
 # ---- report ----------------------------------------------------------------------------------------------------------
 # Reports of a step: contact points, events, and bodies that were disabled.
@@ -297,3 +298,37 @@ PUSH = np.dtype(
     ],
     align=True,
 )
+
+
+# ---- row numbers -----------------------------------------------------------------------------------------------------
+# The row numbers in contacts, after bodies or shapes were removed.
+
+
+@kernel
+def refresh_rows(bodies, shapes, manifolds_inout, there_out):
+    """Write the present body and shape row numbers of each CONTACT row, and whether all of them still exist.
+
+    O(manifolds log shapes).
+    """
+    for i in range(len(manifolds_inout)):
+        m = manifolds_inout[i]
+        m.body_row_a = row_of(bodies, m.body_a)
+        m.body_row_b = row_of(bodies, m.body_b)
+        m.row_a = row_of(shapes, m.shape_a)
+        m.row_b = row_of(shapes, m.shape_b)
+        there_out[i] = min(m.body_row_a, m.body_row_b, m.row_a, m.row_b) >= 0
+
+
+def with_rows(bodies: np.ndarray, shapes: np.ndarray, contacts: np.ndarray) -> np.ndarray:
+    """Write the present body and shape row numbers to contacts. Return the contacts whose bodies and shapes exist.
+
+    bodies: BODY; shapes: SHAPE; contacts: CONTACT rows.
+    """
+    there = np.empty(len(contacts), bool)
+    refresh_rows(bodies, shapes, contacts, there)
+    return contacts if there.all() else contacts[there]
+
+
+def without_removed(bodies: np.ndarray, shapes: np.ndarray, contacts: np.ndarray) -> np.ndarray:
+    """Return the contacts whose bodies and shapes exist, as a copy with present row numbers. See with_rows."""
+    return with_rows(bodies, shapes, joined([contacts])) if len(contacts) else contacts
