@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import fields
 from typing import Any, get_args
 
@@ -319,18 +319,26 @@ def wake(world: WorldState, rows: np.ndarray) -> list[int]:
     return ids
 
 
-def set_apart(world: WorldState, ids: Sequence[int]) -> None:
+def set_apart(world: WorldState, ids: Iterable[int]) -> None:
+    """Have the next step find anew which pairs of bodies a joint keeps apart. ids: bodies of the changed joints."""
+    world._apart = (world._apart or set[int]()).union(ids)
+
+
+def keep_apart(world: WorldState) -> None:
     """Tell the broad phase which pairs of bodies never collide because a joint forbids contacts between them.
 
-    Call this function after a change of joints. ids: bodies of the changed joints. If the pairs changed, the pairs of
-    these bodies are searched again.
+    A step calls this function first if joints have changed. If the pairs changed, the pairs of the bodies of changed
+    joints are searched again. O(joints log joints).
     """
-    joints = world.joints
-    apart = joints[~joints["contacts"] & joints["enabled"] & (joints["body_a"] != WORLD) & (joints["body_b"] != WORLD)]
-    apart = apart[apart["body_a"] != apart["body_b"]]  # a gear may couple two motions of one body
-    low, high = np.minimum(apart["body_a"], apart["body_b"]), np.maximum(apart["body_a"], apart["body_b"])
+    joints, ids = world.joints, np.array(sorted(world._apart or ()), np.int64)
+    world._apart = None
+    a, b = joints["body_a"], joints["body_b"]
+    apart = ~joints["contacts"] & joints["enabled"] & (a != WORLD) & (b != WORLD)
+    apart &= a != b  # a gear may couple two motions of one body
+    low, high = np.minimum(a[apart], b[apart]), np.maximum(a[apart], b[apart])
+    ids = ids[np.isin(ids, world.bodies["id"])]
     if world.pairs.keep_apart(np.unique(low << 32 | high)) and len(ids):
-        world.pairs.touch(world.shapes["proxy"][world._shape_rows_of(world.rows(np.array(ids, np.int64)))])
+        world.pairs.touch(world.shapes["proxy"][world._shape_rows_of(world.rows(ids))])
 
 
 def remove(world: WorldState, ids: Any) -> None:
@@ -377,11 +385,8 @@ def told(rows: np.ndarray, reason: str | np.ndarray) -> np.ndarray:
     """
     found = np.zeros(len(rows), BROKEN)
     found["joint"], found["body_a"], found["body_b"] = rows["id"], rows["body_a"], rows["body_b"]
-    found["force"], found["torque"], found["reason"] = (
-        np.hypot(rows["force_x"], rows["force_y"]),
-        rows["torque"],
-        reason,
-    )
+    found["force"] = np.hypot(rows["force_x"], rows["force_y"])
+    found["torque"], found["reason"] = rows["torque"], reason
     return found
 
 

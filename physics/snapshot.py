@@ -22,7 +22,7 @@ from physics import checks
 from physics.edit import MATERIAL
 from physics.islands.awake import Awake
 from physics.islands.sleep import Island, SleepingSet
-from physics.joint import JOINT_SOLVERS, set_apart
+from physics.joint import JOINT_SOLVERS
 from physics.math2d import Vec2
 from physics.settings import tolerances
 from physics.shapes.kinds import SHAPES
@@ -330,7 +330,6 @@ def restore(world: WorldState, taken: Snapshot) -> None:
     world._users = {identity: user for identity, user in world._users.items() if identity in world._shapes_of}
     world._tiers = {identity: tier for identity, tier, _ in facts["tiers"]}
     world.rebuild_proxies()
-    set_apart(world, ())
     world.queries.seen = ()
 
 

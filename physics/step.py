@@ -27,7 +27,7 @@ from physics.effects import Effects
 from physics.islands import sleep
 from physics.islands.awake import list_awake
 from physics.islands.sleep import IslandWorkspace, rest, wake_disturbed
-from physics.joint import NO_JOINTS, break_joints
+from physics.joint import NO_JOINTS, break_joints, keep_apart
 from physics.settings import SHORTEST_STEP, STALL
 from physics.solver.blocking import IGNORED as IGNORED_BY_BLOCKING
 from physics.solver.blocking import blocking
@@ -290,6 +290,8 @@ def begin(world: WorldState, dt: float) -> StepState:
     The state has the settings and tables of the world, and the contacts of the last step.
     """
     world.refresh_character_rows()
+    if world._apart is not None:
+        keep_apart(world)
     aim(world, dt)
     state = StepState()
     state.effects, state.stacks, state.tolerances = world.effects, world.stacks, world.tolerances

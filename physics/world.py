@@ -153,6 +153,7 @@ class World(WorldState):
         self._bodies, self._definitions, self._shapes, self.characters = map(Table, (BODY, BODY_DEF, SHAPE, CHARACTER))
         self._runs, self.library, self._joints = Table(RUN), Library(), Table(JOINT, 0)
         self._joint_users, self._lost_joints, self._next_joint, self._joint_solver = {}, [], 0, "auto"
+        self._apart = None
         self._solver = self._checked_solver(own_solver(effects) if solver is None else solver)
         self._stepping = False
         self._next_body = self._next_shape = self._carved_pixels = 0

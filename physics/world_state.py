@@ -177,6 +177,7 @@ class WorldState:
     _joints: Table
     _drop_joints_of: Callable[[np.ndarray], None]  # a method of World
     _joint_users: dict[int, Any]
+    _apart: set[int] | None  # bodies of joints that changed since the last step; None: no joint has changed
     _lost_joints: list[tuple]  # BROKEN rows of joints whose bodies were removed since the last step
     _next_joint: int
     _removed: dict[int, None]  # ids of removed bodies, in order, whose rows are dropped when the tables are read
@@ -274,7 +275,7 @@ class WorldState:
 
     def rebuild_proxies(self) -> None:
         """Replace the broad phase and add the proxies of all shapes again, after the tables were replaced."""
-        self.pairs = PairList(self.sleeps)
+        self.pairs, self._apart = PairList(self.sleeps), set()
         self.awake.start_over()
         self._broadphase = self._broadphase.fresh()
         active = ~self.bodies["quarantined"][self.shapes["body_row"]]
