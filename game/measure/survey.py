@@ -141,6 +141,9 @@ class Survey:
         if here not in known or len(known) < 2:
             return ""
         cost, error = known[here]
+        hits = max((e.verdicts.either.total for _, e in known.values() if e.verdicts is not None), default=LEAST_HITS)
+        if hits < LEAST_HITS:
+            return f"no finding yet: {hits} of {LEAST_HITS} hits seen"
         least, most = error.interval
         sound = {s: (c, e) for s, (c, e) in known.items() if is_sound(e)}
         as_good = {s: c for s, (c, e) in sound.items() if e.interval[1] <= (1.0 + TIE) * most}
@@ -196,7 +199,7 @@ def shown(error: Error) -> str:
     """Return the error in words: wrong answers of all encounters, or pixels."""
     if error.verdicts is not None:
         rate = error.verdicts.either
-        return f"{rate.count} of {rate.total} wrong"
+        return f"{rate.count} of {rate.total} wrong" if rate.total else "no hit yet"
     if error.above_floor:
         return f"{error.value:.2g} px"
     return f"less than {error.floor:.2g} px" if error.floor else "0 px"

@@ -10,7 +10,7 @@ import pytest
 from game.measure.advice import settings_within
 from game.measure.errors import Error, Verdicts
 from game.measure.setting import Setting
-from game.measure.survey import LEAST_HITS, Survey
+from game.measure.survey import LEAST_HITS, Survey, shown
 from game.measure.survey_csv import COLUMNS, csv_of
 from game.measure.surveyor import error_of
 from game.measure.timing import RUNS
@@ -95,6 +95,18 @@ def test_no_rate_is_said_before_there_are_enough_hits(hits):
     exact = error(pairs(0, hits), pairs(0, hits), own=True)
     survey = survey_of({HERE: [exact], BOXES: [error(pairs(0, hits), pairs(0, 0))]}, {HERE: 1e-4, BOXES: 1e-4})
     assert survey.boxes_and_pixels() == f"Boxes and pixels: measuring, {hits} of {LEAST_HITS} hits by boxes."
+
+
+@pytest.mark.parametrize("hits", (0, 1, LEAST_HITS - 1, LEAST_HITS))
+def test_no_finding_on_tiers_is_said_before_there_are_enough_hits(hits):
+    exact = error(pairs(0, hits), pairs(0, hits), own=True)
+    survey = survey_of({HERE: [exact], BOXES: [error(pairs(0, hits), pairs(0, 0))]}, {HERE: 1.5e-4, BOXES: 1e-4})
+    found = survey.finding("verdict", HERE)
+    if hits < LEAST_HITS:
+        assert found == f"no finding yet: {hits} of {LEAST_HITS} hits seen"
+    else:
+        assert found == f"nothing measured here is as exact (0 of {hits} wrong) for less time"
+    assert shown(exact) == (f"0 of {hits} wrong" if hits else "no hit yet")
 
 
 def test_a_price_inside_the_noise_is_no_price():
