@@ -1,4 +1,6 @@
-"""Presentation of the 480 x 270 canvas in the window: integer scale, letterbox, and the frame that overlays draw on.
+"""Presentation of the 480 x 270 canvas in the window: scale, letterbox, and the frame that overlays draw on.
+
+The scale is a whole number, but beside a docked panel: there the picture takes all the room that the panel leaves.
 
 This replaces pygame.SCALED, which fails under SDL's dummy driver (as OpenGL does), and has no integer scale in
 fullscreen.
@@ -37,11 +39,14 @@ class Lens:
 
 
 class Frame(Canvas):
-    """Picture at window resolution. area: rectangle of the game's canvas on it; scale: frame px per canvas px."""
+    """Picture at window resolution. area: rectangle of the game's canvas on it; zoom: frame px per canvas px.
+
+    scale: the whole part of `zoom`, for the widths of lines and the sizes of marks.
+    """
 
     def __init__(self, surface: pygame.Surface) -> None:
         super().__init__(surface)
-        self.scale = 1
+        self.scale, self.zoom = 1, 1.0
         self.area = pygame.Rect((0, 0), CANVAS_SIZE)  # the game canvas on the frame
 
     @property
@@ -69,17 +74,19 @@ class Frame(Canvas):
     def lens(self, camera: View) -> Lens:
         """Return the Lens from world to frame for a camera, at its position in the last step."""
         left, top = camera.view()
-        scale = camera.zoom * self.scale
+        scale = camera.zoom * self.zoom
         view = camera.viewport
-        corner_x = self.area.x + view.x * self.scale
-        corner_y = self.area.y + view.y * self.scale
-        clip = pygame.Rect(corner_x, corner_y, view.width * self.scale, view.height * self.scale)
+        corner_x = self.area.x + view.x * self.zoom
+        corner_y = self.area.y + view.y * self.zoom
+        clip = self.from_canvas((view.x, view.y, view.width, view.height))
         return Lens(scale, corner_x - left * scale, corner_y - top * scale, clip)
 
     def from_canvas(self, rect: Box) -> pygame.Rect:
         """Return the frame rectangle of a canvas rectangle."""
-        s, area = self.scale, self.area
-        return pygame.Rect(area.x + rect[0] * s, area.y + rect[1] * s, rect[2] * s, rect[3] * s)
+        s, area = self.zoom, self.area
+        left, top = area.x + round(rect[0] * s), area.y + round(rect[1] * s)
+        right, bottom = area.x + round((rect[0] + rect[2]) * s), area.y + round((rect[1] + rect[3]) * s)
+        return pygame.Rect(left, top, right - left, bottom - top)
 
 
 class Presenter:
@@ -93,13 +100,14 @@ class Presenter:
         """Choose the scale and place of the canvas for the current size of the surface."""
         frame = self.frame
         width, height = frame.surface.get_size()
-        free = width - self.panel_width if self.docked and not self.crowded else width
-        frame.scale = max(1, min(free // CANVAS_SIZE[0], height // CANVAS_SIZE[1]))
-        size = (CANVAS_SIZE[0] * frame.scale, CANVAS_SIZE[1] * frame.scale)
-        if self.docked and not self.crowded:
-            frame.area = pygame.Rect((0, 0), size)
-        else:
-            frame.area = pygame.Rect(((width - size[0]) // 2, (height - size[1]) // 2), size)
+        beside = self.docked and not self.crowded
+        free = width - self.panel_width if beside else width
+        frame.zoom = max(1.0, min(free / CANVAS_SIZE[0], height / CANVAS_SIZE[1]))
+        frame.scale = int(frame.zoom)
+        if not beside:
+            frame.zoom = float(frame.scale)
+        size = (round(CANVAS_SIZE[0] * frame.zoom), round(CANVAS_SIZE[1] * frame.zoom))
+        frame.area = pygame.Rect((0, 0) if beside else ((width - size[0]) // 2, (height - size[1]) // 2), size)
 
     @property
     def crowded(self) -> bool:
@@ -136,7 +144,7 @@ class Presenter:
             frame.surface.fill(INK)
         visible = frame.area.clip(frame.surface.get_rect())
         if visible == frame.area:
-            pygame.transform.scale(canvas.surface, frame.area.size, frame.surface.subsurface(frame.area))
+            self._scale(canvas.surface, frame.surface.subsurface(frame.area))
         else:  # a window smaller than the canvas: the picture is cut, so that the scale stays whole
             frame.surface.blit(canvas.surface, frame.area)
         frame.boxes.extend((frame.from_canvas(rect), text) for rect, text in canvas.boxes)
@@ -144,7 +152,16 @@ class Presenter:
         frame.fixed.extend(frame.from_canvas(rect) for rect in canvas.fixed)
         return frame
 
+    def _scale(self, canvas, target):
+        """Scale the canvas onto a surface: by a whole number, or by the next one up and smoothly down from there."""
+        if self.frame.zoom == self.frame.scale:
+            pygame.transform.scale(canvas, target.get_size(), target)
+            return
+        larger = pygame.transform.scale_by(canvas, self.frame.scale + 1)
+        target.blit(pygame.transform.smoothscale(larger, target.get_size()), (0, 0))
+
     def to_canvas(self, position: tuple[int, int]) -> tuple[int, int]:
         """Return the canvas pixel (x, y) under a window position. It may lie outside the canvas."""
         area = self.frame.area
-        return (position[0] - area.x) // self.frame.scale, (position[1] - area.y) // self.frame.scale
+        zoom = self.frame.zoom
+        return int((position[0] - area.x) // zoom), int((position[1] - area.y) // zoom)

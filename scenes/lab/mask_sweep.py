@@ -251,7 +251,7 @@ class MaskSweep(Scene):
             x, y, _ = pose
             lens = frame.lens(self.cameras[column])
             clip = lens.clip.copy()
-            clip.width -= COUNTS * frame.scale
+            clip.width -= round(COUNTS * frame.zoom)
             frame.surface.set_clip(clip)
             fading = age / GLOW_STEPS
             if aim is not None:

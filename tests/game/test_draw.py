@@ -47,19 +47,41 @@ def test_rounding_is_half_up_on_both_sides_of_zero():
     assert [whole(v) for v in (-1.5, -0.5, -0.4, 0.5, 1.5)] == [-1, 0, 0, 1, 2]
 
 
-@pytest.mark.parametrize("size", [(480, 270), (1440, 810), (1000, 700), (300, 200), (1920, 1080)])
+@pytest.mark.parametrize(
+    "size", [(480, 270), (960, 540), (1440, 810), (1000, 700), (300, 200), (1920, 1080), (2560, 600)]
+)
 @pytest.mark.parametrize("docked", [False, True])
-def test_presenter_scales_whole_and_maps_back(size, docked):
+def test_presenter_scales_and_maps_back(size, docked):
+    """By a whole number alone, and beside a panel by all that the panel leaves."""
     presenter = Presenter(pygame.Surface(size))
     presenter.docked = docked
     canvas = Canvas()
     canvas.begin((10, 20, 30))
     frame = presenter.present(canvas)
-    assert frame.area.width == 480 * frame.scale
-    middle = (frame.area.x + 240 * frame.scale, frame.area.y + 135 * frame.scale)
-    assert presenter.to_canvas(middle) == (240, 135)
-    if size[0] >= 960:
-        assert not docked or not frame.area.colliderect(presenter.panel_rect)
+    beside = docked and not presenter.crowded
+    assert frame.scale == int(frame.zoom) and (beside or frame.zoom == frame.scale)
+    assert frame.area.size == (round(480 * frame.zoom), round(270 * frame.zoom))
+    assert frame.from_canvas((0, 0, 480, 270)) == frame.area
+    for x, y in ((0, 0), (240, 135), (479, 269)):
+        place = (frame.area.x + (x + 0.5) * frame.zoom, frame.area.y + (y + 0.5) * frame.zoom)
+        assert presenter.to_canvas(place) == (x, y)
+    if beside:
+        free = size[0] - presenter.panel_width
+        assert not frame.area.colliderect(presenter.panel_rect)
+        assert frame.area.width > free - 1 or frame.area.height > size[1] - 1, "the picture takes all the room"
+    shown = frame.area.clip(frame.surface.get_rect())
+    assert tuple(frame.surface.get_at(shown.center))[:3] == pytest.approx((10, 20, 30), abs=2)
+
+
+@pytest.mark.parametrize("size", [(960, 540), (1440, 810), (1100, 600)])
+def test_the_camera_and_the_lens_meet_on_the_frame_beside_a_panel(size):
+    presenter = Presenter(pygame.Surface(size))
+    presenter.docked = True
+    camera = Camera((100, 50, 200, 100), 0.5, 40.0, 60.0)
+    frame = presenter.present(Canvas())
+    x, y = camera.to_canvas(123.0, 77.0)
+    assert frame.lens(camera).points(123.0, 77.0) == pytest.approx((x * frame.zoom, y * frame.zoom))
+    assert frame.lens(camera).clip == frame.from_canvas((100, 50, 200, 100))
 
 
 def test_lens_and_camera_agree():

@@ -71,7 +71,7 @@ class AdviceRows:
         survey, here, advice = self.tuner.survey, self.measuring.now(), self.measuring.advice
         if advice is None:
             known = here in survey.dots and survey.dots[here].sure
-            return "leave it: nothing as good is surely cheaper" if known else "advice comes when this setting is known"
+            return "leave it: nothing is surely cheaper" if known else "advice: not enough runs yet"
         best, proof = advice
         if proof is None:
             return f"trying it on the run so far: {best.label(here)}"

@@ -320,8 +320,8 @@ class CostPanel:
         more = len(ranking) - first - room
         if more > 0 or first:
             y = rect.y + room * ROW * scale
-            less = f"{first} that cost less above" if first else ""
-            line = ", ".join(filter(None, (less, f"{more} that cost more" if more > 0 else "")))
+            less = f"{first} cheaper above" if first else ""
+            line = ", ".join(filter(None, (less, f"{more} dearer below" if more > 0 else "")))
             frame.text(line, rect.x, y + scale, FOG, SMALL, scale)
 
 

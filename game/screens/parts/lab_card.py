@@ -63,7 +63,7 @@ class LabCard:
             self.goals, self.finding = self.scene.check(), self.scene.finding()
         self.age += 1
         scale, area = frame.text_scale, frame.area.clip(frame.rect)
-        head = self.scene.head * frame.scale  # the line on switched settings stays visible
+        head = round(self.scene.head * frame.zoom)  # the line on switched settings stays visible
         area = pygame.Rect(area.x, area.y + head, area.width, area.height - head)
         width = min(WIDTH * scale, area.width)
         lines = self._lines(width - 2 * EDGE * scale, scale, area.height // scale - 2 * EDGE)

@@ -2,7 +2,7 @@
 
 import pygame
 
-from game.drawing.canvas import SMALL
+from game.drawing.canvas import CANVAS_SIZE, SMALL
 from game.drawing.colors import FOG, GOLD, INK, PAPER, Color
 from game.drawing.presenter import Frame
 from game.input.bindings import help_pairs
@@ -89,8 +89,8 @@ def _draw_in_head(frame, text, color, head):
 
     Other text there, except the title, is hidden. Return False, and draw nothing, if it does not fit.
     """
-    band = frame.from_canvas((0, 0, frame.area.width // frame.scale, head)).clip(frame.rect)
-    titles = [box for box, _ in frame.boxes if band.contains(box) and box.left < band.left + HEAD_TITLE * frame.scale]
+    band = frame.from_canvas((0, 0, CANVAS_SIZE[0], head)).clip(frame.rect)
+    titles = [box for box, _ in frame.boxes if band.contains(box) and box.left < band.left + HEAD_TITLE * frame.zoom]
     left = max((box.right for box in titles), default=band.left) + 6 * frame.scale
     room = pygame.Rect(left, band.top, band.right - left, band.height)
     for scale in range(frame.text_scale, 0, -1):
