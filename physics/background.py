@@ -31,11 +31,12 @@ _running: "list[Background]" = []
 def compile_in_background(workers: int | None = None) -> "Background":
     """Run kernels as plain Python until worker processes have compiled them. Return the Background.
 
+    workers: number of processes, at most 8; None: one less than the number of cores, but at least one.
+
     A kernel changes to its compiled form between two steps. Both forms give the same bits, so only the speed changes.
-    The kernels that take the most time per byte of code are compiled first. workers: number of processes, at most 8;
-    None: one less than the number of cores, but at least one. The processes start when a kernel is first called, as
-    `python -m`, so a script needs no `if __name__ == "__main__"`. A frozen program has no workers and compiles in a
-    thread. Without numba the call has no effect.
+    The kernels that take the most time per byte of code are compiled first. The processes start when a kernel is first
+    called, as `python -m`, so a script needs no `if __name__ == "__main__"`. A frozen program has no workers and
+    compiles in a thread. Without numba the call has no effect.
 
     Call it before the first step. Another call returns the same object. Raises ValueError if workers is neither None
     nor a whole number of at least 0.
@@ -50,7 +51,7 @@ def compile_in_background(workers: int | None = None) -> "Background":
 class Background:
     """The background compilation of this program's kernels, as returned by compile_in_background().
 
-    It reports the progress and can be stopped.
+    failed: names of the kernels that stay plain Python.
     """
 
     def __init__(self, workers: int | None = None) -> None:
@@ -82,10 +83,9 @@ class Background:
         return not tiers.wanted and not self._expected and not self.workers.left
 
     def expect(self, jobs: Iterable[Mapping[str, Any]]) -> None:
-        """Announce jobs: for each of them, the kernels of physics.warmup(**job) will be called later.
+        """Announce worlds that will be made later. Their kernels are compiled when no other kernel waits.
 
-        A job holds values that JSON can represent; it must contain `effects` as a list of names (see Effects.names).
-        Kernels of jobs are compiled, job after job, whenever no kernel that was already called waits for compilation.
+        jobs: dicts with the arguments of warmup, of values that JSON can represent; `effects` is a list of names.
         """
         for job in jobs:
             self._expected.append((self._jobs, dict(job)))

@@ -41,9 +41,11 @@ def _set_known(body: Any, name: str, value: Any) -> None:
 class Body(Handle):
     """A handle on one body of a world. Positions in px, angles in rad clockwise on the screen, velocities per second.
 
-    A setter raises TypeError or ValueError, naming the argument, for a value that is not allowed. A setter or method
-    raises KeyError for a removed body and, if it changes the simulation, RuntimeError during a step. A setter that
-    raises leaves the world unchanged.
+    world: the World of the body; identity: the id of the body.
+
+    A Body equals another handle on the same body. A setter raises TypeError or ValueError, naming the argument, for a
+    value that is not allowed. A property, setter or method raises KeyError for a removed body and, if it changes the
+    simulation, RuntimeError during a step. A setter that raises leaves the world unchanged.
     """
 
     __slots__ = ()
@@ -80,7 +82,12 @@ class Body(Handle):
         return bounds_of(self.world, self.id)
 
     def to_world(self, point: Pair) -> Vec2:
-        """Return the world point [px] of a point in body space."""
+        """Return the world point [px] of a point of the body.
+
+        point: (x, y) in body space [px].
+
+        Raises TypeError for a value that is not a point, ValueError for one that is not finite.
+        """
         row = self._row
         x, y = checks.vector("point", point)
         angle = row["angle"].item()
@@ -88,16 +95,25 @@ class Body(Handle):
         return Vec2(row["x"].item() + u, row["y"].item() + v)
 
     def to_local(self, point: Pair) -> Vec2:
-        """Return the point in body space [px] of a world point [px]."""
+        """Return the point in body space [px] of a world point.
+
+        point: (x, y) in the world [px].
+
+        Raises TypeError for a value that is not a point, ValueError for one that is not finite.
+        """
         row = self._row
         x, y = checks.vector("point", point)
         angle = row["angle"].item()
         return Vec2(*rotate(x - row["x"].item(), y - row["y"].item(), math.cos(angle), -math.sin(angle)))
 
     def move_to(self, position: Pair, angle: float | None = None) -> None:
-        """Teleport the body to a position [px] and an angle [rad]. Nothing on the way is hit.
+        """Teleport the body. Nothing on the way is hit; the body and the island that it touched wake.
 
-        angle: None leaves the angle unchanged.
+        position: new origin (x, y) [px].
+        angle: new angle [rad]; None: unchanged.
+
+        Raises TypeError or ValueError for an argument of another type, or one that is not finite or too large,
+        ValueError for an angle other than 0 of a TileGrid.
         """
         teleport.move_to(
             self.world,
@@ -107,12 +123,16 @@ class Body(Handle):
         )
 
     def set_target(self, position: Pair, angle: float | None = None) -> None:
-        """Move a kinematic body to a position [px] and an angle [rad] (None: unchanged) by the end of the next step.
+        """Move a kinematic body to a pose by the end of the next step.
+
+        position: origin at the end of the step (x, y) [px].
+        angle: angle at the end of the step [rad]; None: unchanged.
 
         The velocity follows from the length of the next step. The body carries its riders and pushes other bodies on
-        its path. Afterwards the body stands still until a new target is set. If a velocity is set or the body is
-        teleported before the next step, the target is cancelled. Raises ValueError for a body that is not kinematic,
-        for a position too far for the speed limit, and for a new angle without the effect rotation.
+        its path. Afterwards it stands still until a new target is set. If a velocity is set or the body is teleported
+        before the next step, the target is cancelled. Raises TypeError for arguments of other types; ValueError for a
+        body that is not kinematic, for a position too far for the speed limit, and for a new angle without the effect
+        rotation.
         """
         step.set_target(self.world, self.id, position, angle)
 
@@ -128,7 +148,7 @@ class Body(Handle):
 
     @property
     def velocity(self) -> Vec2:
-        """Velocity of the centre of mass [px/s].
+        """Velocity (x, y) of the centre of mass [px/s].
 
         Setting it to a value other than 0 raises ValueError for a static body.
         """
@@ -193,7 +213,12 @@ class Body(Handle):
         return 0.5 * row["mass"].item() * (vx * vx + vy * vy) + 0.5 * row["inertia"].item() * spin * spin
 
     def velocity_at(self, point: Pair) -> Vec2:
-        """Return the velocity [px/s] of the body at a world point [px]."""
+        """Return the velocity (x, y) [px/s] of the body at a point.
+
+        point: (x, y) in the world [px].
+
+        Raises TypeError for a value that is not a point, ValueError for one that is not finite.
+        """
         row = self._row
         x, y = checks.vector("point", point)
         spin = row["angular_velocity"].item()
@@ -203,10 +228,13 @@ class Body(Handle):
         )
 
     def apply_force(self, force: Pair, point: Pair | None = None) -> None:
-        """Add a force [mass px/s²] for the next step, at the centre of mass or at a world point [px].
+        """Add a force for the next step.
 
-        Raises ValueError for a body that is not dynamic, and in a world with none of the effects response, gravity,
-        drag and wind.
+        force: (x, y) [mass px/s²].
+        point: where it acts, in the world (x, y) [px]; None: at the centre of mass.
+
+        Raises TypeError for arguments of other types; ValueError for numbers that are not finite, for a body that is
+        not dynamic, and in a world with none of the effects response, gravity, drag and wind.
         """
         self.world._unstepped()
         force = checks.vector("force", force)
@@ -223,10 +251,14 @@ class Body(Handle):
             ) * force[0]
 
     def apply_impulse(self, impulse: Pair, point: Pair | None = None) -> None:
-        """Add an impulse at the centre of mass or at a world point [px]: the velocity changes by impulse / mass.
+        """Add an impulse: the velocity changes at once, by impulse / mass.
 
-        With the effect rotation, an impulse at a point also changes the angular velocity. Raises ValueError for a body
-        that is not dynamic.
+        impulse: (x, y) [mass px/s].
+        point: where it acts, in the world (x, y) [px]; with the effect rotation it also changes the angular velocity.
+            None: at the centre of mass.
+
+        Raises TypeError for arguments of other types, ValueError for numbers that are not finite and for a body that is
+        not dynamic.
         """
         self.world._unstepped()
         impulse = checks.vector("impulse", impulse)
@@ -245,9 +277,12 @@ class Body(Handle):
             )
 
     def apply_torque(self, torque: float) -> None:
-        """Add a torque [mass px²/s²] for the next step.
+        """Add a torque for the next step.
 
-        Raises ValueError without the effect rotation, and for a body that is not dynamic.
+        torque: [mass px²/s²], positive clockwise on the screen.
+
+        Raises TypeError for a value that is not a number; ValueError if it is not finite, without the effect rotation,
+        and for a body that is not dynamic.
         """
         self.world._unstepped()
         torque = checks.number("torque", torque)
@@ -284,15 +319,16 @@ class Body(Handle):
     def carve(self, shape: Shape, pose: Pose, crumb: int = 4) -> Carved:
         """Remove from the body's masks all pixels with centres inside a shape, or on its boundary. Return a Carved.
 
-        shape: a Circle, Capsule, Polygon or PixelMask. pose: its pose in the world, (x, y) or (x, y, angle). Pieces are
-        8-connected. In a dynamic body, each carved mask keeps only its largest piece. In a body of another kind, pieces
-        that were separate before the cut stay, and a piece that splits keeps its largest part. On ties, the piece with
-        the first pixel stays. The other pieces become dynamic bodies, whose pixels keep their velocities. Separated
-        pieces of fewer than `crumb` pixels are removed. The body is removed if no shape is left, or if it is dynamic
-        and no mask is left. Bodies that touch carved pixels wake.
+        shape: a Circle, Capsule, Polygon or PixelMask.
+        pose: pose of the shape in the world, (x, y) or (x, y, angle) [px, rad].
+        crumb: separated pieces of fewer pixels are removed, a whole number >= 0.
 
-        Raises TypeError for an argument of another type, ValueError without the effect carving or for a body without a
-        PixelMask, and RuntimeError during a step.
+        Pieces are 8-connected. In a dynamic body, each carved mask keeps only its largest piece. In a body of another
+        kind, pieces that were separate before the cut stay, and a piece that splits keeps its largest part. On ties,
+        the piece with the first pixel stays. The other pieces become dynamic bodies, whose pixels keep their
+        velocities. The body is removed if no shape is left, or if it is dynamic and no mask is left. Bodies that touch
+        carved pixels wake. Raises TypeError for an argument of another type, ValueError without the effect carving, for
+        a body without a PixelMask and for a pose or crumb out of range, RuntimeError during a step.
         """
         self._must_exist()
         found = carving.carve(self.world, self.id, shape, pose, crumb)
@@ -305,10 +341,12 @@ class Body(Handle):
         sleep.disturb(self.world, [self.id])
 
     def set_kind(self, kind: KindName) -> None:
-        """Set the kind: "static", "kinematic" or "dynamic". A body that becomes static stops.
+        """Set the kind. A body that becomes static stops.
 
-        Raises ValueError for another kind, for shapes that a body of this kind cannot have, and for the body of a
-        character, which must stay kinematic.
+        kind: "static", "kinematic" or "dynamic".
+
+        Raises TypeError for a value that is not a string; ValueError for another kind, for shapes that a body of this
+        kind cannot have, and for the body of a character, which must stay kinematic.
         """
         edit.set_kind(self.world, self.id, checks.choice("kind", kind, KINDS))
 
@@ -317,14 +355,14 @@ class Body(Handle):
         edit.restore(self.world, self.id)
 
     def remove(self) -> None:
-        """Remove the body from its world."""
+        """Remove the body from its world, and its joints."""
         self._world._remove_one(self._id)
 
     # --- kind and user value -------------------------------------------------------------------------------------
 
     @property
     def kind(self) -> KindName:
-        """The kind: "static", "kinematic" or "dynamic". See set_kind."""
+        """The kind: "static" (never moves), "kinematic" (moves by its velocity alone) or "dynamic". See set_kind."""
         return KINDS[self._value("kind")]
 
     @property
@@ -414,9 +452,11 @@ class Body(Handle):
 
     @property
     def continuous(self) -> ContinuousName:
-        """Continuous collision of the body: "off", "ray", "swept", "toi" or "auto".
+        """Which path of the body is tested for impacts, so that it cannot pass through others in one step.
 
-        Setting "ray", "swept" or "toi" raises ValueError without the effect continuous.
+        "off": none. "ray": the line of its centre, cheapest. "swept": its shapes without their rotation. "toi": its
+        shapes with their rotation (time of impact). "auto": as "toi", only in steps in which it moves by more than half
+        its size. Setting "ray", "swept" or "toi" raises ValueError without the effect continuous.
         """
         return CONTINUOUS[self._value("continuous")]
 
@@ -449,30 +489,42 @@ class Body(Handle):
     def set_shapes(self, *shapes: Shape) -> None:
         """Replace the shapes. The body keeps its own values, such as its material; Body.tier becomes None.
 
+        *shapes: the new shapes.
+
         The new shapes get new ids, with one exception: if all old and all new shapes are masks, and there are equally
-        many, the ids stay. Contacts on unchanged surface keep their impulses. Raises TypeError or ValueError for
-        invalid shapes.
+        many, the ids stay. Contacts on unchanged surface keep their impulses. Raises TypeError for values that are not
+        shapes, ValueError for shapes that a body of this kind cannot have.
         """
         edit.set_shapes(self.world, self.id, shapes)
 
     def set_cells(self, cells: ArrayLike, solid: ArrayLike) -> None:
         """Make cells of the body's TileGrid solid or empty.
 
-        cells (n, 2) int (column, row); solid: a bool, or one bool for each cell. A one-way cell or a slope also becomes
-        solid or empty. The shape keeps its id. Only bodies that touch a changed cell wake; for all other bodies, no
-        event begins or ends. Raises TypeError for values of other types, and ValueError for a cell outside the grid or
-        for a body that does not have exactly one TileGrid.
+        cells: (n, 2) int, (column, row) of each cell.
+        solid: a bool, or one bool for each cell.
+
+        A one-way cell or a slope also becomes solid or empty. The shape keeps its id. Only bodies that touch a changed
+        cell wake; for all other bodies, no event begins or ends. Raises TypeError for values of other types, and
+        ValueError for a cell outside the grid or for a body that does not have exactly one TileGrid.
         """
         edit.exchange_cells(self.world, self.id, cells, solid)
 
     def add_shape(self, shape: Shape) -> int:
-        """Append a shape, and recompute the mass. Return the id of the shape. Body.tier becomes None."""
+        """Append a shape, and recompute the mass. Return the id of the shape. Body.tier becomes None.
+
+        shape: the new shape, in body space.
+
+        Raises TypeError for a value that is not a shape, ValueError for a shape that a body of this kind cannot have.
+        """
         return edit.add_shape(self.world, self.id, shape)
 
     def remove_shape(self, shape_id: int) -> None:
         """Remove a shape, and recompute the mass. Body.tier becomes None.
 
-        Raises KeyError if shape_id is not the id of a shape of this body.
+        shape_id: one of shape_ids.
+
+        Raises KeyError if shape_id is not the id of a shape of this body, TypeError if it is not a whole number,
+        ValueError if a body of this kind cannot be left with the other shapes.
         """
         edit.remove_shape(self.world, self.id, shape_id)
 

@@ -6,10 +6,11 @@ and velocity are checked and written. Unusual arguments go through add_rows, whi
 """
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypedDict
 
 import numpy as np
 
+from physics.annotations import ContinuousName, KindName, TierName
 from physics.dynamics.integrate import write_center
 from physics.effects import Effects
 from physics.math2d import Vec2
@@ -23,6 +24,24 @@ MOST_SHAPES = 2**30  # beyond this shape id add_rows is used, which checks the n
 NUMBERS = (float, int, type(None))
 PROXY_VALUES = ("membership", "mask", "plane", "avoids")
 POSE = tuple((name, kept + name) for kept in ("previous_", "still_", "rocking_") for name in ("x", "y", "angle"))
+
+
+class Definition(TypedDict, total=False):
+    """The fields of BodyDef as keyword arguments of World.add_bodies."""
+
+    kind: KindName
+    angular_velocity: float
+    mass: float | None
+    material: Material
+    filter: Filter
+    sensor: bool
+    bullet: bool
+    continuous: ContinuousName
+    fixed_rotation: bool
+    gravity_scale: float
+    allow_sleep: bool
+    tier: TierName | None
+    user: Any
 
 
 class Template(NamedTuple):

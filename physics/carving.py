@@ -19,7 +19,12 @@ from physics.world_state import WorldState
 
 
 class Carved(NamedTuple):
-    """The result of Body.carve."""
+    """The result of Body.carve.
+
+    removed: number of pixels that lay in the shape and were removed.
+    fragments: Bodies of the separated pieces, by mask, and for each mask by their first pixels.
+    crumbs: number of pixels of separated pieces that were too small and were removed.
+    """
 
     removed: int  # pixels that lay in the shape and were removed
     fragments: tuple[Any, ...]  # Bodies of the separated pieces, by mask, and for each mask by their first pixels

@@ -1,6 +1,6 @@
 """The inner state of a World as arrays in world pixels, for debug drawing.
 
-The functions do not change the simulation.
+The functions do not change the simulation. Their arguments are not checked.
 """
 
 from collections.abc import Sequence
@@ -26,14 +26,27 @@ __all__ = [
 ]  # fmt: skip
 
 ROW = np.dtype(
-    [(name, np.int64) for name in ("shape", "body", "kind", "membership", "mask")]
-    + [(name, np.bool_) for name in ("sensor", "awake")]
+    [
+        ("shape", np.int64),  # id
+        ("body", np.int64),  # id
+        ("kind", np.int64),  # of the body: STATIC 0, KINEMATIC 1, DYNAMIC 2
+        ("membership", np.int64),  # 32 bits, see Filter
+        ("mask", np.int64),  # 32 bits, see Filter
+        ("sensor", np.bool_),  # it reports overlaps and does not push
+        ("awake", np.bool_),  # the body is awake
+    ]
 )
 LINES = (POLYGON, CAPSULE, SEGMENT, CHAIN)
 
 
 class Structure(NamedTuple):
-    """The data structure of a broad phase, for drawing: boxes of grid cells or tree nodes, or intervals on two axes."""
+    """The data structure of a broad phase, for drawing: boxes of grid cells or tree nodes, or intervals on two axes.
+
+    kind: "brute", "sweep", "hash" or "tree".
+    rects: boxes of cells or nodes (m, 4): min_x, min_y, max_x, max_y [px].
+    depth: (m,) level of a grid cell, or depth of a tree node.
+    intervals: (k, 4): axis (0: x, 1: y), low, high [px], shape id.
+    """
 
     kind: str  # brute, sweep, hash, tree
     rects: np.ndarray  # (m, 4) min_x, min_y, max_x, max_y [px]
@@ -48,7 +61,7 @@ EDGE = np.dtype(
         ("ay", np.float64),
         ("bx", np.float64),
         ("by", np.float64),
-        ("radius", np.float64),
+        ("radius", np.float64),  # [px] rounding of the part
         ("inner", np.bool_),  # lies inside the outline: no body is pushed out through this edge
         ("covered", np.bool_),  # its start is a corner that lies inside the outline
     ]
@@ -58,8 +71,8 @@ CORNERS = 16  # bits of `inner` in SHAPE: edges below bit 16, corners from bit 1
 
 DRAWN_JOINT = np.dtype(
     [
-        ("joint", np.int64),  # ids; -1: the world
-        ("body_a", np.int64),
+        ("joint", np.int64),  # id
+        ("body_a", np.int64),  # ids of the bodies; -1: the world
         ("body_b", np.int64),
         ("kind", np.int64),  # index in physics.joints.kinds.KINDS
         ("coordinate", np.int64),  # NO_COORDINATE ANGLE TRANSLATION LENGTH of tables/joint.py
@@ -77,19 +90,21 @@ DRAWN_JOINT = np.dtype(
         ("by", np.float64),
         ("axis_x", np.float64),  # unit: axis of a slider or wheel, along a length or B's rope, direction of angle 0
         ("axis_y", np.float64),
-        ("value", np.float64),  # the coordinate, or sum of coordinates, [px or rad], and its limits
-        ("lower", np.float64),
-        ("upper", np.float64),
-        ("force_x", np.float64),  # on B in the last step
+        ("value", np.float64),  # the coordinate, or sum of coordinates, [px or rad]
+        ("lower", np.float64),  # its least value; -inf: no limit
+        ("upper", np.float64),  # its greatest value; inf: no limit
+        ("force_x", np.float64),  # [mass px/s2] on B in the last step
         ("force_y", np.float64),
-        ("torque", np.float64),
-        ("awake", np.bool_),
+        ("torque", np.float64),  # [mass px2/s2] likewise
+        ("awake", np.bool_),  # the joint was solved in the last step
     ]
 )
 
 
 def bounds(world: World) -> np.ndarray:
     """Return the tight AABBs (n, 4) [px] of all shapes at their present poses, in the order of shape ids.
+
+    world: a World.
 
     Columns: min_x, min_y, max_x, max_y.
     """
@@ -98,9 +113,9 @@ def bounds(world: World) -> np.ndarray:
 
 
 def shape_rows(world: World) -> np.ndarray:
-    """Return one ROW per shape, in the order of shape ids.
+    """Return one ROW per shape, in the order of shape ids: ids, kind of the body, filter, sensor, awake.
 
-    A ROW holds shape id, body id, kind of the body, filter, sensor, awake.
+    world: a World.
     """
     shapes = world.shapes
     rows = np.zeros(len(shapes), ROW)
@@ -113,6 +128,8 @@ def shape_rows(world: World) -> np.ndarray:
 def motion(world: World) -> np.ndarray:
     """Return the swept AABBs (n, 4) [px] of the last step, for the shapes of bodies that are not static.
 
+    world: a World.
+
     Columns: min_x, min_y, max_x, max_y.
     """
     proxies = world.pairs.proxies
@@ -121,7 +138,10 @@ def motion(world: World) -> np.ndarray:
 
 
 def structure(world: World) -> Structure:
-    """Return the data structure that the broad phase keeps between steps."""
+    """Return the data structure that the broad phase keeps between steps, as a Structure.
+
+    world: a World.
+    """
     strategy = world.broadphase
     rects, depth, intervals = np.zeros((0, 4)), np.zeros(0, int), np.zeros((0, 4))
     if isinstance(strategy, SpatialHashGrid):
@@ -150,7 +170,9 @@ def structure(world: World) -> Structure:
 def pairs(world: World) -> np.ndarray:
     """Return one row (x0, y0, x1, y1, hit) for each candidate pair, (m, 5).
 
-    x0, y0, x1, y1 [px]: the centres of the two AABBs. hit: 1 if the pair has a contact, otherwise 0.
+    world: a World.
+
+    x0, y0, x1, y1 are the centres of the two AABBs [px]; hit is 1 if the pair has a contact, otherwise 0.
     """
     boxes = bounds(world)
     rows = _candidate_rows(world)
@@ -178,9 +200,12 @@ def _candidate_rows(world):
 def outlines(world: World, rows: Sequence[int] | np.ndarray | None = None) -> list:
     """Return the outline of each shape as a tuple in world pixels, whose first item names its kind.
 
-    rows: row numbers in world.shapes, None: all shapes. The tuples, with corners as arrays, are: ("circle", x, y, r),
-    ("polygon", (k, 2)), ("rounded", (k, 2), r), ("capsule", ax, ay, bx, by, r), ("segment", (2, 2)), ("chain", (k, 2)),
-    ("mask", shape id) or ("tiles", shape id). The last corner of a closed chain repeats its first corner.
+    world: a World.
+    rows: row numbers in world.shapes; None: all shapes.
+
+    The tuples, with corners as arrays, are: ("circle", x, y, r), ("polygon", (k, 2)), ("rounded", (k, 2), r),
+    ("capsule", ax, ay, bx, by, r), ("segment", (2, 2)), ("chain", (k, 2)), ("mask", shape id) or ("tiles", shape id).
+    The last corner of a closed chain repeats its first corner.
     """
     shapes = world.shapes if rows is None else world.shapes[rows]
     bodies, boxes = world.bodies[shapes["body_row"]], bounds(world)[slice(None) if rows is None else rows]
@@ -231,7 +256,10 @@ SAME_OF_JOINTS = (
 
 
 def joints(world: World) -> np.ndarray:
-    """Return a DRAWN_JOINT row per joint, in the order of ids: anchors, axis, limits and forces."""
+    """Return a DRAWN_JOINT row per joint, in the order of ids: anchors, axis, limits and forces.
+
+    world: a World.
+    """
     rows, bodies = world.joints, world.bodies
     found = np.zeros(len(rows), DRAWN_JOINT)
     found["joint"] = rows["id"]
@@ -278,8 +306,10 @@ def joints(world: World) -> np.ndarray:
 def part_edges(world: World, rows: np.ndarray | None = None) -> np.ndarray:
     """Return the edges of the convex polygons of which the outlines of masks consist, as EDGE rows.
 
-    rows: row numbers in world.shapes, None: all shapes. Parts of outlines that are circles or capsules have no edges;
-    for these see outlines().
+    world: a World.
+    rows: row numbers in world.shapes; None: all shapes.
+
+    Parts of outlines that are circles or capsules have no edges; for these see outlines().
     """
     shapes = world.shapes
     if rows is None:
@@ -307,7 +337,12 @@ def part_edges(world: World, rows: np.ndarray | None = None) -> np.ndarray:
 
 
 class Drawn(NamedTuple):
-    """Masks rasterised at their present poses. Masks with equal pixels share one array."""
+    """Masks rasterised at their present poses. Masks with equal pixels share one array.
+
+    solids: bool arrays [row, col].
+    which: (n,) index in solids of the pixels of each mask.
+    left, top: (n,) positions of the rasters in the world [px].
+    """
 
     solids: list  # bool arrays [row, column]
     which: np.ndarray  # (n,) index in solids of the pixels of each mask
@@ -316,9 +351,11 @@ class Drawn(NamedTuple):
 
 
 def masks(world: World) -> list:
-    """Return (shape id, left, top, solid[row, column]) of each mask, rasterised at its present pose.
+    """Return (shape id, left, top, solid[row, col]) of each mask, rasterised at its present pose.
 
-    left, top [px]: position of the raster in the world; solid: bool pixels.
+    world: a World.
+
+    left and top are the position of the raster in the world [px], solid its bool pixels.
     """
     ids = world.shapes["id"][world.shapes["kind"] == MASK].tolist()
     found = drawn_masks(world)
@@ -329,7 +366,10 @@ def masks(world: World) -> list:
 
 
 def drawn_masks(world: World) -> Drawn:
-    """Return all masks, rasterised at their present poses, as arrays. The cost grows little with their number."""
+    """Return all masks, rasterised at their present poses, as a Drawn. The cost grows little with their number.
+
+    world: a World.
+    """
     world.queries.refresh(world)
     return _drawn(world, np.flatnonzero(world.shapes["kind"] == MASK))
 
@@ -353,9 +393,11 @@ def _drawn(world, rows):
 
 
 def mask_hits(world: World) -> list:
-    """Return (left, top, shared[row, column]) for each candidate pair of masks that overlap now.
+    """Return (left, top, shared[row, col]) for each candidate pair of masks that overlap now.
 
-    shared: bool, the pixels that both masks contain. left, top [px]: position of `shared` in the world.
+    world: a World.
+
+    shared are the pixels that both masks contain, as bools; left and top its position in the world [px].
     """
     found = []
     rows = _candidate_rows(world)
@@ -380,16 +422,29 @@ def mask_hits(world: World) -> list:
 
 POINT = np.dtype(
     [
-        (name, np.float64)
-        for name in ("point_x", "point_y", "normal_x", "normal_y", "separation", "normal_impulse", "tangent_impulse")
+        ("point_x", np.float64),  # [px] midway between the two surfaces
+        ("point_y", np.float64),
+        ("normal_x", np.float64),  # unit vector from A to B
+        ("normal_y", np.float64),
+        ("separation", np.float64),  # [px] negative for an overlap
+        ("normal_impulse", np.float64),  # [mass px/s] over the whole step
+        ("tangent_impulse", np.float64),  # [mass px/s] friction
+        ("feature", np.int64),  # feature id of the corner, edge, tile or pixel of the contact
+        ("body_a", np.int64),  # ids of the bodies; A has the shape with the smaller id
+        ("body_b", np.int64),
+        ("shape_a", np.int64),  # ids of the shapes
+        ("shape_b", np.int64),
+        ("state", np.int64),  # SPECULATIVE 0, NEW 1, PERSISTED 2, SENSOR 3, ASLEEP 4
+        ("color", np.int64),  # colour in the solver's graph colouring; -1: none
     ]
-    + [(name, np.int64) for name in ("feature", "body_a", "body_b", "shape_a", "shape_b", "state", "color")]
 )
 SPECULATIVE, NEW, PERSISTED, SENSOR, ASLEEP = range(5)
 
 
 def contact_points(world: World) -> np.ndarray:
     """Return the POINT rows of all contacts of the last step, including speculative and sleeping contacts.
+
+    world: a World.
 
     Column state: SPECULATIVE, NEW, PERSISTED, SENSOR or ASLEEP. Column color: the contact's colour in the solver's
     graph colouring, -1 for none.
@@ -431,7 +486,10 @@ def _points(world, contacts, state):
 
 
 def islands(world: World) -> np.ndarray:
-    """Return for each body (n,) the lowest body id in its island, which names the island; -1 for no island."""
+    """Return for each body (n,) the lowest body id in its island, which names the island; -1 for no island.
+
+    world: a World.
+    """
     bodies = world.bodies
     return np.where(
         (bodies["kind"] == DYNAMIC) & ~bodies["quarantined"] & (bodies["island"] >= 0), bodies["island"], -1
@@ -439,12 +497,20 @@ def islands(world: World) -> np.ndarray:
 
 
 GHOST = np.dtype(
-    [("body", np.int64), ("x", np.float64), ("y", np.float64), ("angle", np.float64), ("fraction", np.float64)]
+    [
+        ("body", np.int64),  # id
+        ("x", np.float64),  # [px] origin at the end of the motion that was cut off
+        ("y", np.float64),
+        ("angle", np.float64),  # [rad] likewise
+        ("fraction", np.float64),  # of its motion, at which it was stopped
+    ]
 )
 
 
 def impact_ghosts(world: World) -> np.ndarray:
     """Return the GHOST rows of the bodies that continuous collision stopped in the last step.
+
+    world: a World.
 
     A row holds the pose that the body would have reached, and the fraction of its motion at which it was stopped.
     """

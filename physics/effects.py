@@ -16,8 +16,20 @@ NEEDS |= {name: ("response", "stacking") for name in ("sleeping", "joints")}
 class Effects:
     """The features of the physics that a scene declares. All are off by default except `narrowphase`.
 
-    Without `narrowphase` the collision test stops at AABBs. Raises TypeError for a value that is not a bool, and
-    ValueError if an effect is on and an effect that it needs is off.
+    narrowphase: shapes are tested exactly; without it collision stops at AABBs.
+    response: overlaps are pushed apart. Without it contacts are only found and reported.
+    gravity: World.gravity accelerates bodies; drag: World.drag slows bodies down; wind: World.wind carries bodies.
+    rotation: angular velocity turns bodies, impulses spin them. An angle counts also without it.
+    friction: Material.friction and rolling_resistance act; restitution: bodies bounce by Material.restitution.
+    stacking: stacks are stable: contacts are warm started, and a stacking solver is the default.
+    continuous: fast bodies stop at their first impact, see Body.continuous.
+    sleeping: islands at rest cost nothing until they are disturbed.
+    sensors: shapes with sensor=True report overlaps; persist: events.persist lists pairs that continue to touch.
+    one_way: one-way tiles and masks hold bodies from above; conveyor: Material.surface_speed moves bodies.
+    joints: joints hold bodies, see World.add_joint; carving: Body.carve removes pixels of masks.
+
+    Raises TypeError for a value that is not a bool, and ValueError if an effect is on and an effect that it needs is
+    off.
     """
 
     narrowphase: bool = True
@@ -78,17 +90,20 @@ class Effects:
 
     @classmethod
     def named(cls, names: Iterable[str]) -> "Effects":
-        """Return the Effects in which exactly the named effects are on. `narrowphase`, too, must be named to be on.
+        """Return the Effects in which exactly the named effects are on. It is the inverse of names().
 
-        It is the inverse of names(). Raises TypeError for an unknown effect, and ValueError if an effect that a named
-        one needs is not named.
+        names: names of effects. `narrowphase`, too, must be named to be on.
+
+        Raises TypeError for an unknown effect, and ValueError if an effect that a named one needs is not named.
         """
         if isinstance(names, str):
             raise TypeError(f"names must be a list of names (got {names!r}): write [{names!r}]")
         return cls(narrowphase=False).with_(**dict.fromkeys(names, True))
 
     def with_(self, **changes: bool) -> "Effects":
-        """Return a copy with the given effects changed, for example with_(gravity=True).
+        """Return a copy with some effects changed, for example with_(gravity=True).
+
+        **changes: effects by name, True or False.
 
         Raises TypeError for an unknown effect or a value that is not a bool, and ValueError if an effect is then on
         without an effect that it needs.
@@ -102,16 +117,18 @@ class Effects:
         return replace(self, **changes)
 
     def without(self, name: str) -> "Effects":
-        """Return a copy in which the effect `name`, and all effects that need it, are off.
+        """Return a copy in which an effect, and all effects that need it, are off.
+
+        name: the effect.
 
         Raises TypeError for an unknown effect.
         """
         return self.with_(**{name: False}, **{each: False for each in self.names() if name in NEEDS.get(each, ())})
 
     def and_needed(self, name: str) -> "Effects":
-        """Return a copy in which all effects that the effect `name` needs are on.
+        """Return a copy in which all effects that an effect needs are on. The effect itself is unchanged.
 
-        The effect `name` itself is unchanged.
+        name: the effect.
         """
         return self.with_(**dict.fromkeys(NEEDS.get(name, ()), True))
 

@@ -450,8 +450,11 @@ def _identity(world, value):
 class Joint:
     """A handle on one joint of a world.
 
-    Properties other than world and id raise KeyError for a joint that was removed or broke. A setter raises TypeError
-    or ValueError for an invalid value, RuntimeError during a step. The world is then unchanged.
+    world: the World of the joint; identity: the id of the joint, a whole number.
+
+    Properties other than world and id raise KeyError for a joint that was removed or broke; point, joint_a, joint_b,
+    ratio, phase, ratchet and length raise AttributeError for kinds without them. A setter raises TypeError or
+    ValueError for an invalid value, RuntimeError during a step. The world is then unchanged.
     """
 
     __slots__ = ("_world", "_id")
@@ -601,7 +604,7 @@ class Joint:
 
     @property
     def motor(self) -> Drive | None:
-        """The motor, a Drive or None."""
+        """The motor: a Drive or None. Setting one raises ValueError for a kind without a coordinate."""
         row = self._row
         return Drive(row["motor_speed"].item(), row["motor_max"].item()) if row["motor_max"] > 0.0 else None
 
@@ -612,7 +615,7 @@ class Joint:
 
     @property
     def spring(self) -> Spring | None:
-        """The spring on the joint's angle, translation or length: a Spring or None."""
+        """The spring on the joint's angle, translation or length: a Spring or None. Setting one raises as for motor."""
         row = self._row
         names = ("spring_hertz", "spring_damping", "spring_target")
         return Spring(*(row[name].item() for name in names)) if row["spring_hertz"] > 0.0 else None
@@ -658,7 +661,7 @@ class Joint:
 
     @property
     def breaks(self) -> tuple[float, float]:
-        """The (force, torque) above which the joint breaks. inf means that the joint never breaks by that value."""
+        """The (force [mass px/s²], torque [mass px²/s²]) above which the joint breaks; inf: it never does."""
         row = self._row
         return row["break_force"].item(), row["break_torque"].item()
 
@@ -743,10 +746,7 @@ class Joint:
 
     @property
     def phase(self) -> float:
-        """The sum of coordinates that a Gear holds, or the angle of a tooth of a Ratchet [rad].
-
-        Raises AttributeError for other kinds.
-        """
+        """The sum of coordinates that a Gear holds, or the angle of a tooth of a Ratchet [rad]."""
         return self._is_one_of("phase", "Gear", "Ratchet")["phase"].item()
 
     @phase.setter
@@ -772,10 +772,7 @@ class Joint:
 
     @property
     def length(self) -> float:
-        """The length of the rope of a Pulley [px]. A change hauls the rope in or pays it out.
-
-        Raises AttributeError for other kinds.
-        """
+        """The length of the rope of a Pulley [px]. A change hauls the rope in or pays it out."""
         return self._is_one_of("length", "Pulley")["upper"].item()
 
     @length.setter

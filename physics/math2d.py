@@ -92,6 +92,8 @@ NO_PAIRS = (str, bytes, bytearray, set, frozenset, dict)  # these may have the l
 class Vec2(NamedTuple):
     """A pair (x, y) [px or px/s], y down.
 
+    x, y: coordinates.
+
     A Vec2 equals a plain pair, and every function that takes a Vec2 also takes a plain pair. + − * / work element by
     element with a pair or a number on either side; with an array of a shape other than (2,) the result is an array.
     Another type raises TypeError, and a division by zero ZeroDivisionError.
@@ -111,12 +113,19 @@ class Vec2(NamedTuple):
         return math.atan2(self[1], self[0])
 
     def dot(self, v: Pair) -> float:
-        """Return the scalar product. Raises TypeError for a value that is not a pair of numbers."""
+        """Return the scalar product.
+
+        v: another vector (x, y).
+
+        Raises TypeError for a value that is not a pair of numbers.
+        """
         x, y = _named_pair("v", v)
         return self[0] * x + self[1] * y
 
     def cross(self, v: Pair) -> float:
         """Return x · v.y − y · v.x: positive if v points clockwise from this vector on the screen.
+
+        v: another vector (x, y).
 
         Raises TypeError for a value that is not a pair of numbers.
         """
@@ -124,7 +133,9 @@ class Vec2(NamedTuple):
         return self[0] * y - self[1] * x
 
     def rotated(self, angle: float) -> "Vec2":
-        """Return the vector rotated clockwise on the screen by an angle [rad].
+        """Return the rotated vector.
+
+        angle: [rad], clockwise on the screen.
 
         Raises TypeError for a value that is not a number, and ValueError for an angle that is not finite.
         """

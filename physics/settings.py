@@ -103,7 +103,17 @@ class Limits(NamedTuple):
 
 @dataclass(frozen=True)
 class Tolerances:
-    """The tolerances of one world in its own pixels."""
+    """The tolerances of one world in its own pixels, as world.tolerances holds them.
+
+    pixels_per_meter: their scale.
+    slop: overlap or gap at which a contact persists [px]; speculative: gap at which a contact is prepared [px].
+    recycle: motion below which a manifold is recycled [px].
+    push_speed: fastest push out of an overlap [px/s].
+    sleep_speed: a body that moves no faster on average falls asleep [px/s].
+    restitution_speed: slower impacts do not bounce [px/s]; hit_speed: slower contacts are not in events.hits [px/s].
+    speed_limit: a faster body is quarantined [px/s].
+    limits: the same as a tuple for kernels.
+    """
 
     pixels_per_meter: float
     slop: float

@@ -158,7 +158,7 @@ def _as_laid_out(name, rows, dtype) -> np.ndarray:
 
 
 class Snapshot:
-    """A copy of the state of a world. `save` writes it to a file, `load` reads one from a file."""
+    """A copy of the state of a world, as World.snapshot returns it and World.restore takes it."""
 
     def __init__(self, arrays: dict[str, np.ndarray], facts: dict[str, Any], geometry: Any = None) -> None:
         for name, value in (("arrays", arrays), ("facts", facts)):
@@ -179,8 +179,11 @@ class Snapshot:
     def save(self, path: str | PathLike[str]) -> None:
         """Write the snapshot to a versioned .npz file, which replaces an existing file atomically.
 
+        path: path of the file.
+
         The data is first written to <path>.<process id>.part. Files of this form that were last written more than an
-        hour ago are removed. Raises OSError if writing fails; an existing file is then unchanged.
+        hour ago are removed. Raises OSError if writing fails; an existing file is then unchanged. Raises TypeError if
+        path is not a path.
         """
         arrays, facts = pack_geometry(self.geometry)
         named: dict[str, Any] = {"facts": np.array(json.dumps(self.facts | facts)), **self.arrays, **arrays}
@@ -202,8 +205,10 @@ class Snapshot:
     def load(cls, path: str | PathLike[str]) -> "Snapshot":
         """Read a snapshot file, and return the Snapshot.
 
+        path: path of the file.
+
         Raises OSError if the file cannot be opened; ValueError with path and reason if the file is damaged or has
-        another version.
+        another version; TypeError if path is not a path.
         """
         with open(path, "rb") as file:
             content = io.BytesIO(file.read())

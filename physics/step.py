@@ -171,6 +171,11 @@ def evaluate_contacts_before_sleep(state: StepState) -> None:
             update_contacts(state.bodies, island.contacts)
 
 
+def own_solver(effects: Effects) -> SolverName:
+    """Return the name of the default solver for these effects."""
+    return "soft_step" if effects.stacking else "projection"
+
+
 def ignored_effects(effects: Effects, solver: str) -> tuple[str, ...]:
     """Return the names of the declared effects that a solver ignores, in the order of Effects.names().
 

@@ -48,11 +48,16 @@ def warmup(
 ) -> None:
     """Compile the kernels of a world with these effects on all cores, or load them from the cache.
 
-    The kernels are found by running small worlds. pieces: names in PIECES of the shapes and queries that the world will
-    use; None: all pieces. The kernels of other pieces are compiled at their first call. broadphase: brute, sweep, hash,
-    tree or "all". progress(done, total, name) is called before each small world, for each kernel, and at the end;
-    `total` grows when the number of kernels is known. Without numba the small worlds run, but nothing is compiled.
-    Raises KeyError for an unknown broad phase or piece.
+    effects: the Effects of the world; None: Effects.rigid_bodies().
+    broadphase: "brute", "sweep", "hash", "tree" or "all".
+    solver: one of SOLVERS; None: the default of the effects.
+    progress: function (done, total, name), called before each small world, for each kernel, and at the end; `total`
+        grows when the number of kernels is known.
+    pieces: names of the shapes and queries that the world will use, see physics.warmup.PIECES; None: all. The kernels
+        of other pieces are compiled at their first call.
+
+    The kernels are found by running small worlds. Without numba these run, but nothing is compiled. Raises KeyError for
+    an unknown broad phase or piece.
     """
     runs = _runs(effects, broadphase, solver, pieces)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from time import perf_counter
-from typing import Any, Literal, Never, TypedDict, Unpack, overload
+from typing import Any, Literal, Never, Unpack, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +28,7 @@ from physics.annotations import (
     TierName,
 )
 from physics.body import Body
+from physics.body_templates import Definition
 from physics.broadphase import checked_broadphase
 from physics.broadphase.proxies import PairList, Strategy
 from physics.broadphase.spatial_hash import SpatialHashGrid
@@ -49,10 +50,10 @@ from physics.shapes.library import Library
 from physics.shapes.shape import Filter, Material, Shape
 from physics.snapshot import Snapshot, digest
 from physics.solver.loads import ContactLists
-from physics.step import SOLVERS, STACKING, Workspace, begin, finish, ignored_effects, plans, step_length
+from physics.step import SOLVERS, STACKING, Workspace, begin, finish, ignored_effects, own_solver, plans, step_length
 from physics.tables.body import BODY, BODY_DEF, DYNAMIC, RUN
 from physics.tables.character import CHARACTER
-from physics.tables.columns import JointRows, PointHits, RayHits
+from physics.tables.columns import PointHits, RayHits
 from physics.tables.contact import CONTACT
 from physics.tables.joint import JOINT
 from physics.tables.shape import SHAPE
@@ -60,29 +61,6 @@ from physics.tables.table import Table
 from physics.world_state import Profile, WorldState, checked_accuracy, checked_substeps
 
 PLAIN = Material()  # the default material of bodies
-
-
-class Definition(TypedDict, total=False):
-    """The fields of BodyDef as keyword arguments of World.add_bodies."""
-
-    kind: KindName
-    angular_velocity: float
-    mass: float | None
-    material: Material
-    filter: Filter
-    sensor: bool
-    bullet: bool
-    continuous: ContinuousName
-    fixed_rotation: bool
-    gravity_scale: float
-    allow_sleep: bool
-    tier: TierName | None
-    user: Any
-
-
-def own_solver(effects: Effects) -> SolverName:
-    """Return the name of the default solver for these effects."""
-    return "soft_step" if effects.stacking else "projection"
 
 
 def _set_known(world: Any, name: str, value: Any) -> None:
@@ -96,15 +74,29 @@ def _set_known(world: Any, name: str, value: Any) -> None:
 class World(WorldState):
     """A simulation: its bodies, the declared effects, and the stages of a step that these effects need.
 
-    effects: the declared effects, None for Effects.rigid_bodies(). broadphase: "brute", "sweep", "hash" or "tree", or
-    an instance of one of these strategies; None for SpatialHashGrid(). solver: one of SOLVERS; None: "soft_step" with
-    the effect stacking, "projection" without it. gravity [px/s2], None for 9.8 m/s2 downwards. drag [1/s]. wind [px/s].
-    pixels_per_meter: scale of all tolerances. dt [s]: length of a step. restitution_speed [px/s]: slower impacts do not
-    bounce; None: 1 m/s. seed: seed of `world.random`. Gravity, drag and wind other than 0 need their effects.
+    effects: the declared Effects; None: Effects.rigid_bodies().
+    broadphase: "brute", "sweep", "hash" or "tree", or an instance of a strategy; None: SpatialHashGrid().
+    solver: one of SOLVERS; None: "soft_step" with the effect stacking, "projection" without it.
+    gravity: (x, y) [px/s²]; None: 9.8 m/s² downwards. Other than 0 it needs the effect gravity.
+    drag: rate at which velocities decay [1/s], >= 0. Other than 0 it needs the effect drag or wind.
+    wind: velocity of the air (x, y) [px/s], which acts through the drag. Other than 0 it needs the effect wind.
+    pixels_per_meter: scale of all tolerances and of the default gravity, > 0.
+    dt: length of a step [s], > 0.
+    substeps: substeps of the stacking solvers, 1 to 1000, or "auto": 4 to 32 for each island, as many as keep the sag
+        of its contacts within accuracy; up to 128 for a leaning one. The counter cap_hits counts islands that need
+        more.
+    accuracy: greatest sag of a contact under its load [px], > 0, for substeps="auto"; None: 1 mm.
+    restitution_speed: slower impacts do not bounce [px/s], >= 0; None: 1 m/s.
+    seed: seed of `random`, a whole number >= 0.
 
-    substeps: the number of substeps of the stacking solvers, or "auto". With "auto" each island takes 4 to 32 substeps:
-    as many as keep the sag of its contacts within accuracy [px] (None: 1 mm). A leaning island takes up to 128. An
-    island that needs more than it may take is counted in cap_hits. Raises TypeError or ValueError naming the argument.
+    The state of a world, besides its arrays and settings:
+
+    random: NumPy Generator for the game, seeded with seed; part of snapshots and digests.
+    events: the Events of the last step.
+    profile: the Profile of the last step: times of its stages, and work counters.
+    steps: number of steps so far; time: their total length [s]; tolerances: the Tolerances of this world.
+
+    Raises TypeError or ValueError naming the argument.
     """
 
     _solver: SolverName
@@ -183,10 +175,12 @@ class World(WorldState):
     # --- the step ------------------------------------------------------------------------------------------------
 
     def step(self, dt: float | None = None) -> None:
-        """Advance the simulation by dt [s], or by world.dt if dt is None.
+        """Advance the simulation by one step.
 
-        A step shorter than SHORTEST_STEP counts as 0: it moves nothing, and keeps forces and targets for the next step.
-        Raises TypeError if dt is not a number, ValueError for a negative or non-finite dt, RuntimeError during a step.
+        dt: length of the step [s], >= 0; None: world.dt. A step below 1e-30 s counts as 0: it moves nothing, and keeps
+            forces and targets for the next step.
+
+        Raises TypeError if dt is not a number, ValueError if it is negative or not finite, RuntimeError during a step.
         """
         self._unlocked()
         if tiers.arrived:
@@ -233,11 +227,28 @@ class World(WorldState):
     ) -> Body:
         """Add one body with these shapes, and return it.
 
-        position [px], angle [rad], velocity [px/s], angular_velocity [rad/s]: its initial motion. kind: "static",
-        "kinematic" or "dynamic". mass [density px2] replaces the mass from the densities of the shapes. material,
-        filter, sensor: values for the shapes without own values. A dynamic body with allow_sleep=False keeps its island
-        awake. The other arguments are explained at the properties of Body with the same names. Raises TypeError or
-        ValueError naming the argument, RuntimeError during a step. The world is then unchanged.
+        *shapes: shapes in body space, also none. Of those of a dynamic body, one must have an area; Chain and TileGrid
+            are only for static and kinematic bodies.
+        position: the body's origin (x, y) [px].
+        angle: angle [rad], clockwise on the screen. It must be 0 with a TileGrid.
+        kind: "dynamic": moved by forces and contacts; "kinematic": moved only by its velocity; "static": never moved.
+        velocity: velocity (x, y) of the centre of mass [px/s]; of a static body (0, 0).
+        angular_velocity: [rad/s]. Other than 0 it needs the effect rotation, and a body that is not static.
+        mass: mass [density px²], > 0, in place of the mass from the densities of the shapes; None: that mass.
+        material: the Material of the shapes without a material of their own.
+        filter: the Filter of the shapes without a filter of their own.
+        sensor: whether the shapes without a sensor value of their own are sensors, which report overlaps and do not
+            push. True needs the effect sensors.
+        bullet: whether the body is also swept against other dynamic bodies. True needs the effect continuous.
+        continuous: "off" | "ray" | "swept" | "toi" | "auto", see Body.continuous. "ray", "swept" and "toi" need the
+            effect.
+        fixed_rotation: whether contacts and impulses leave the rotation unchanged.
+        gravity_scale: factor on world.gravity.
+        allow_sleep: False keeps the island of a dynamic body awake.
+        tier: one of TIERS, which replaces a PixelMask by simpler shapes, see fit; None: the shapes as given.
+        user: any value of the game, kept as body.user.
+
+        Raises TypeError or ValueError naming the argument, RuntimeError during a step. The world is then unchanged.
         """
         if others:
             raise hints.unexpected("World.add_body", hints.argument_names(self.add_body), others)
@@ -265,10 +276,15 @@ class World(WorldState):
         angles: Numbers | None = None,
         **definition: Unpack[Definition],
     ) -> NDArray[np.int64]:
-        """Add a body with the same shape at each position, and return the ids (n,) of the bodies.
+        """Add a body with the same shape at each position, and return the ids (n,) int64 of the bodies.
 
-        positions (n, 2) [px]; velocities (n, 2) [px/s], None: 0; angles (n,) [rad], None: 0; definition: the other
-        arguments of add_body, the same for all bodies. Raises the errors of add_body.
+        shape: one shape, which all bodies share.
+        positions: origins of the bodies, (n, 2) [px].
+        velocities: (n, 2) [px/s]; None: 0.
+        angles: (n,) [rad]; None: 0.
+        **definition: the other arguments of add_body, one value for all bodies.
+
+        Raises TypeError or ValueError naming the argument, RuntimeError during a step. The world is then unchanged.
         """
         if wrong := {name: value for name, value in definition.items() if name not in edit.BodyDef._fields}:
             names = ("shape", "positions", "velocities", "angles", *edit.BodyDef._fields)
@@ -284,7 +300,9 @@ class World(WorldState):
         return edit.add_rows(self, (shape,), positions, velocities, angles, edit.BodyDef(**definition))
 
     def remove_body(self, body: BodyRef) -> None:
-        """Remove a body, given as a Body or an id.
+        """Remove a body.
+
+        body: a Body or an id.
 
         Raises KeyError for an unknown body, TypeError for anything but a Body or an id, ValueError for a Body of
         another world, RuntimeError during a step.
@@ -292,57 +310,58 @@ class World(WorldState):
         self._remove_one(self._identity("body", body))
 
     def remove_bodies(self, ids: BodyRefs) -> None:
-        """Remove many bodies, given as Bodies or ids, in one pass over the tables. A body may be listed more than once.
+        """Remove many bodies in one pass over the tables.
 
-        Raises the errors of remove_body. Nothing is removed then.
+        ids: Bodies or ids, in any order. A body may be listed more than once.
+
+        Raises KeyError, TypeError, ValueError and RuntimeError as remove_body. Nothing is removed then.
         """
         self._remove(np.unique(self._identities("ids", ids, repeats=True)))
 
     def move(
         self, ids: BodyRefs, positions: Points, angles: Numbers | None = None, velocities: Points | None = None
     ) -> None:
-        """Teleport bodies to positions (n, 2) [px], as Body.position does, in one call.
+        """Teleport many bodies in one call, as Body.position does. They and the islands that they touched wake.
 
-        ids: n Bodies or ids, each once. angles (n,) [rad] and velocities (n, 2) [px/s]: None for no change. The bodies
-        and the islands that they touched wake; targets are cancelled. Raises KeyError for an unknown body; TypeError,
-        ValueError for invalid arguments, a velocity other than 0 of a static body, or a rotation of a TileGrid;
-        RuntimeError during a step. Nothing is moved then.
+        ids: n Bodies or ids, each once. Their targets are cancelled.
+        positions: new origins, (n, 2) [px].
+        angles: (n,) [rad]; None: unchanged.
+        velocities: (n, 2) [px/s]; None: unchanged.
+
+        Raises KeyError for an unknown body; TypeError or ValueError for invalid arguments, a velocity other than 0 of a
+        static body, or a rotation of a TileGrid; RuntimeError during a step. Nothing is moved then.
         """
         teleport.move(self, ids, positions, angles, velocities)
 
     def touch(self, ids: BodyRefs) -> None:
-        """Report that table columns of these bodies were written. Dynamic bodies wake, and the next step updates boxes.
+        """Report that table columns of bodies were written. Dynamic bodies wake, and the next step updates boxes.
 
-        ids: a Body, an id, or many. Awake bodies, and worlds without the effect sleeping, need no touch. Raises
-        KeyError for an unknown body; TypeError or ValueError for anything but different Bodies or ids; RuntimeError
-        during a step. Nothing is touched then.
+        ids: a Body, an id, or many. Awake bodies, and worlds without the effect sleeping, need no touch.
+
+        Raises KeyError for an unknown body; TypeError or ValueError for anything but different Bodies or ids;
+        RuntimeError during a step. Nothing is touched then.
         """
         self._unlocked()
         teleport.touch(self, ids)
 
     def clear(self) -> None:
-        """Remove all bodies. Their ids, and those of their shapes, are not used again."""
+        """Remove all bodies. Their ids, and those of their shapes, are not used again.
+
+        Raises RuntimeError during a step.
+        """
         self.remove_bodies(self.bodies["id"])
 
     # --- joints ----------------------------------------------------------------------------------------------------
-
-    @property
-    def joints(self) -> JointRows:
-        """JOINT rows in the order of ids: a view, valid until a joint is added, removed or broken.
-
-        Columns with settings may be written between steps. Afterwards call `touch` to wake the bodies.
-        """
-        if self._removed:
-            self._drop_removed()
-        return self._joints.rows  # pyright: ignore[reportReturnType]
 
     def add_joint(self, joint_of: Kind) -> Joint:
         """Add one joint, and return its handle. The bodies of the joint wake.
 
         joint_of: a Revolute, Prismatic, Wheel, Distance, Weld, Angle, Motor, Target, NoContact, Gear, Pulley or
-        Ratchet. Raises TypeError for anything else; ValueError without the effect joints, for equal bodies, without a
-        dynamic body, or for the body of a character; KeyError for an unknown body or joint; RuntimeError during a step.
-        The world is then unchanged.
+            Ratchet.
+
+        Raises TypeError for anything else; ValueError without the effect joints, for equal bodies, without a dynamic
+        body, or for the body of a character; KeyError for an unknown body or joint; RuntimeError during a step. The
+        world is then unchanged.
         """
         return joint.add_one(self, joint_of)
 
@@ -353,29 +372,35 @@ class World(WorldState):
         bodies_b: Sequence[BodyRef | None] | np.ndarray | None,
         **settings: Any,
     ) -> NDArray[np.int64]:
-        """Add a joint of one kind between each of n pairs of bodies, and return their ids (n,).
+        """Add a joint of one kind between each of n pairs of bodies, and return their ids (n,) int64.
 
-        bodies_a, bodies_b: n Bodies or ids; an entry None, or None instead of all entries, means the world. settings:
-        the arguments of the kind, the same for all joints. Anchors (at, or at_a and at_b) and pulleys (ground_a,
-        ground_b) are arrays (n, 2) [px], and an axis may be an array (n, 2). For a Gear, bodies_a and bodies_b are the
-        joints that it couples: Joints, ids of joints, or Bodies. Raises as add_joint.
+        kind: the class of the joints, such as Revolute.
+        bodies_a, bodies_b: n Bodies or ids; an entry None, or None in place of all entries, means the world. For a
+            Gear: the joints that it couples, as Joints, ids of joints, or Bodies.
+        **settings: the other arguments of the kind, one value for all joints. Anchors (at, or at_a and at_b) and
+            pulleys (ground_a, ground_b) are arrays (n, 2) [px]; an axis may be an array (n, 2).
+
+        Raises TypeError, ValueError, KeyError and RuntimeError as add_joint.
         """
         return joint.add_many(self, kind, bodies_a, bodies_b, settings)
 
     def joint(self, identity: Joint | int | np.integer[Any]) -> Joint:
-        """Return the Joint with this id, or the Joint itself if given one.
+        """Return the Joint with this id.
 
-        Raises KeyError for an unknown joint, TypeError or ValueError for an invalid argument.
+        identity: the id of a joint, or the Joint itself.
+
+        Raises KeyError for an unknown joint, TypeError for anything else, ValueError for a Joint of another world.
         """
         return Joint(self, self.joints["id"].item(joint.row_of(self, identity)))
 
     def remove_joints(self, ids: Joint | int | Iterable[Joint | int] | np.ndarray) -> None:
-        """Remove joints, given as Joints or ids, and the gears that couple them. The bodies of the joints wake.
+        """Remove joints and the gears that couple them. The bodies of the joints wake.
 
-        A joint may be listed more than once. The next step reports the gears in events.broken, with reason "removed".
+        ids: Joints or ids, one or many. A joint may be listed more than once.
 
-        Raises KeyError for an unknown joint, TypeError for anything but Joints and ids, ValueError for a Joint of
-        another world, RuntimeError during a step. Nothing is removed then.
+        The next step reports the gears in events.broken, with the reason "removed". Raises KeyError for an unknown
+        joint, TypeError for anything but Joints and ids, ValueError for a Joint of another world, RuntimeError during a
+        step. Nothing is removed then.
         """
         joint.remove(self, ids)
 
@@ -394,12 +419,12 @@ class World(WorldState):
     def touching(self, users: bool = False) -> NDArray[np.int64] | list[tuple[Any, Any]]:
         """Return the pairs of touching bodies after the last step: (n, 2) int64 ids a < b, each pair once, sorted.
 
-        With users=True the result is a list of pairs of the `user` values, in the same order. The pairs are those that
-        `events.begin` has reported and `events.end` has not; sleeping pairs are included. Without the effect response,
-        masks touch if they share pixels, other shapes if separation <= 0. With response, a pair begins to touch by
-        separation <= 0, an impulse or a hit of the sweep; it ends beyond the slop without an impulse. Sensors are not
-        included: `events.sensor_begin` and `.sensor_end` report their overlaps. Raises TypeError if users is not a
-        bool.
+        users: True returns a list of pairs of the `user` values instead, in the same order.
+
+        The pairs are those that events.begin has reported and events.end has not; sleeping pairs are included. Without
+        the effect response, masks touch if they share pixels, other shapes if separation <= 0. With response, a pair
+        begins to touch by separation <= 0, an impulse or a hit of the sweep; it ends beyond the slop without an
+        impulse. Overlaps of sensors are not included. Raises TypeError if users is not a bool.
         """
         pairs = touching_bodies(self)
         if not checks.flag("users", users):
@@ -407,32 +432,23 @@ class World(WorldState):
         user = self._users.get
         return [(user(a), user(b)) for a, b in pairs.tolist()]
 
-    @property
-    def contact_rows(self) -> np.ndarray:
-        """CONTACT rows of the last step, in the order of shape ids.
-
-        Stacking solvers continue from them in the next step.
-        """
-        if self._removed:
-            self._drop_removed()
-        return self._contact_rows
-
-    @contact_rows.setter
-    def contact_rows(self, rows: np.ndarray) -> None:
-        self._contact_rows = rows
-
     # --- digest, snapshot ------------------------------------------------------------------------------------
 
     def digest(self) -> str:
-        """Return the blake2b-128 hash of the state on which the next step depends, see snapshot.digest."""
+        """Return the blake2b-128 hash, 32 hexadecimal digits, of the state on which the next step depends."""
         return digest(self)
 
     def snapshot(self) -> Snapshot:
-        """Return a copy of the state of the world, for restore() or a file."""
+        """Return a copy of the state of the world as a Snapshot, for restore() or a file.
+
+        Raises RuntimeError during a step.
+        """
         return snapshot.take(self)
 
     def restore(self, taken: Snapshot) -> None:
         """Set the world to the state in a snapshot: bodies, joints, time, random numbers and settings.
+
+        taken: a Snapshot of a world with the same effects and pixels_per_meter.
 
         The settings are solver, joint_solver, dt, substeps, accuracy, restitution_speed, gravity, drag and wind. The
         kind of broad phase is unchanged. `user` values are not part of a snapshot: present values are kept for the ids
@@ -471,11 +487,6 @@ class World(WorldState):
         """
         return ignored_effects(self._effects, self._solver)
 
-    @property
-    def sleeps(self) -> bool:
-        """Whether bodies at rest are left out of the steps. This needs the effect sleeping and a stacking solver."""
-        return self.stacks and self._effects.sleeping
-
     def _checked_solver(self, name):
         name = checks.choice("solver", name, SOLVERS)
         self._needs("stacking", f"solver {name!r}", name in STACKING)
@@ -484,11 +495,18 @@ class World(WorldState):
         return name
 
     def set_narrowphase(self, on: bool) -> None:
-        """From the next step on, use the narrow phase (True), or only AABBs (False). Raises TypeError otherwise."""
+        """From the next step on, use the narrow phase, or only AABBs.
+
+        on: True for the narrow phase.
+
+        Raises TypeError for anything but a bool, RuntimeError during a step.
+        """
         self.set_effects(self._effects.with_(narrowphase=checks.flag("narrowphase", on)))
 
     def set_effects(self, effects: Effects) -> None:
         """Replace the effects from the next step on, and wake all bodies.
+
+        effects: the new Effects.
 
         Values for effects that are no longer declared are kept, but have no effect (angular velocity, bullet, sensor,
         material). If stacking is added or removed, or if the solver cannot solve present joints, the solver becomes the
@@ -532,11 +550,7 @@ class World(WorldState):
 
     @property
     def substeps(self) -> Substeps:
-        """Number of substeps of the stacking solvers, or "auto". It can be set between steps.
-
-        With "auto" each island takes 4 to 32 substeps: as many as keep the sag of its contacts within `accuracy`. A
-        leaning island takes up to 128.
-        """
+        """Number of substeps of the stacking solvers, 1 to 1000, or "auto": see World. It can be set between steps."""
         return self._substeps
 
     @substeps.setter
@@ -573,11 +587,10 @@ class World(WorldState):
 
     @property
     def joint_solver(self) -> JointSolverName:
-        """The solver of joints: "iterative", "direct" or "auto". It can be set between steps.
+        """The solver of joints. It can be set between steps; a change wakes all bodies.
 
-        "iterative" converges from substep to substep. "direct" solves each tree of joints exactly, at about three times
-        the cost. "auto" solves trees directly, and meshes, in which many joints close loops, iteratively. A change
-        wakes all bodies.
+        "iterative": converges from substep to substep. "direct": solves each tree of joints exactly, at about three
+        times the cost. "auto": solves trees directly, and meshes, in which many joints close loops, iteratively.
         """
         return self._joint_solver
 
@@ -588,70 +601,6 @@ class World(WorldState):
         if name != self._joint_solver:
             self._joint_solver = name
             sleep.wake_all(self)
-
-    @property
-    def gravity(self) -> Vec2:
-        """Gravity [px/s2]. It can be set between steps; a change wakes all bodies."""
-        return self._gravity
-
-    @gravity.setter
-    def gravity(self, value: Pair) -> None:
-        self._unlocked()
-        gravity = checks.vector("gravity", value)
-        self._needs_fields(gravity=gravity)
-        self._gravity = self._felt(self._gravity, gravity, self._effects.gravity)
-
-    def _felt(self, before, now, felt):
-        """Return `now`, the new value of gravity, drag or wind. If it differs from `before`, wake all sleeping bodies.
-
-        felt: whether the value acts on bodies at all; otherwise none wake.
-        """
-        if felt and now != before:
-            sleep.wake_all(self)
-        return now
-
-    @property
-    def dt(self) -> float:
-        """Length of a step [s]. It can be set between steps."""
-        return self._dt
-
-    @dt.setter
-    def dt(self, value: float) -> None:
-        self._unlocked()
-        self._dt = checks.number("dt", value, above=0.0)
-
-    @property
-    def drag(self) -> float:
-        """Rate [1/s] at which drag slows bodies down. It can be set between steps; a change wakes all bodies."""
-        return self._drag
-
-    @drag.setter
-    def drag(self, value: float) -> None:
-        self._unlocked()
-        felt, drag = self._effects.drag or self._effects.wind, checks.number("drag", value, low=0.0)
-        self._needs_fields(drag=drag)
-        self._drag = self._felt(self._drag, drag, felt)
-
-    @property
-    def wind(self) -> Vec2:
-        """Velocity of the air [px/s], which acts through the drag. A change, between steps, wakes all bodies."""
-        return self._wind
-
-    @wind.setter
-    def wind(self, value: Pair) -> None:
-        self._unlocked()
-        wind = checks.vector("wind", value)
-        self._needs_fields(wind=wind)
-        self._wind = self._felt(self._wind, wind, self._effects.wind)
-
-    def _needs_fields(self, gravity: Vec2 | None = None, drag: float = 0.0, wind: Vec2 | None = None) -> None:
-        """Raise ValueError for a gravity, drag or wind other than 0 whose effect is not declared.
-
-        For drag the effect wind is also enough.
-        """
-        self._needs("gravity", f"gravity={gravity}", bool(gravity and any(gravity)))
-        self._needs("drag", f"drag={drag}", drag != 0.0 and not self._effects.wind)
-        self._needs("wind", f"wind={wind}", bool(wind and any(wind)))
 
     @property
     def restitution_speed(self) -> float:
@@ -673,7 +622,9 @@ class World(WorldState):
     # --- queries: see queries/casts.py for details -------------------------------------------------------------------
 
     def body(self, identity: BodyRef) -> Body:
-        """Return the handle of a body, given as an id or a Body.
+        """Return the handle of a body.
+
+        identity: the id of a body, or the Body itself.
 
         Raises KeyError for an unknown body, TypeError for anything else, ValueError for a Body of another world.
         """
@@ -711,9 +662,14 @@ class World(WorldState):
     def ray_cast(
         self, origin: Pair, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False
     ) -> RayHit[Body] | None:
-        """Return the first RayHit of a ray from `origin` along `translation` [px], or None without a hit.
+        """Return the first RayHit of a ray, or None without a hit.
 
+        origin: start of the ray (x, y) [px].
+        translation: vector from there to its end (x, y) [px]; (0, 0) is a point query.
         filter: which shapes can be hit; sensors: whether sensors can also be hit.
+
+        Inside a shape the fraction is 0, and the normal is opposite to the ray. Equally near hits are in the order of
+        shape ids. Raises TypeError for values of other types, ValueError for numbers that are not finite or too large.
         """
         hits = casts.ray_cast_all(self, origin, translation, filter, sensors, first=True)
         return hits[0] if hits else None
@@ -721,71 +677,96 @@ class World(WorldState):
     def ray_cast_all(
         self, origin: Pair, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False
     ) -> list[RayHit[Body]]:
-        """Return the RayHits of all shapes on a ray from `origin` along `translation` [px], nearest first.
+        """Return the RayHits of all shapes on a ray, nearest first.
 
-        Equally near hits are in the order of shape ids. filter, sensors: as in ray_cast.
+        origin: start of the ray (x, y) [px]; translation: vector from there to its end (x, y) [px].
+        filter: which shapes can be hit; sensors: whether sensors can also be hit.
+
+        Raises TypeError and ValueError as ray_cast.
         """
         return casts.ray_cast_all(self, origin, translation, filter, sensors)
 
     def ray_casts(
         self, origins: Points, translations: Points, filter: Filter = Filter.ALL, sensors: bool = False
     ) -> RayHits:
-        """Return the first hit of each of n rays as an array with the columns of RAY_HIT, in the order of the rays.
+        """Return the first hit of each of n rays as an array (n,) of RAY_HIT rows, in the order of the rays.
 
-        origins, translations: (n, 2) [px]; filter, sensors: as in ray_cast. A ray without a hit has body -1, fraction 1
-        and the end of the ray as its point.
+        origins: starts of the rays (n, 2) [px]; translations: vectors from there to their ends (n, 2) [px].
+        filter: which shapes can be hit; sensors: whether sensors can also be hit.
+
+        A ray without a hit has body -1, fraction 1 and its end as point. Raises TypeError and ValueError as ray_cast.
         """
         return casts.ray_casts(self, origins, translations, filter, sensors)
 
     def shape_cast(
         self, shape: Shape, pose: Pose, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False
     ) -> RayHit[Body] | None:
-        """Return the first RayHit of a shape that moves from a pose by a translation [px], or None without a hit.
+        """Return the first RayHit of a shape that moves along a straight line, or None without a hit.
 
-        pose: (x, y) or (x, y, angle); filter, sensors: as in ray_cast.
+        shape: the moving shape; pose: its start, (x, y) or (x, y, angle) [px, rad].
+        translation: vector from there to its end (x, y) [px].
+        filter: which shapes can be hit; sensors: whether sensors can also be hit.
+
+        Shapes that touch at the start are hit at fraction 0 if the cast shape approaches. Raises as ray_cast TypeError
+        and ValueError.
         """
         return casts.shape_cast(self, shape, pose, translation, filter, sensors)
 
     def closest(
         self, point: Pair, filter: Filter = Filter.ALL, sensors: bool = False
     ) -> tuple[Body, Vec2, float] | None:
-        """Return (body, nearest point on its shapes, distance [px]) for the shape nearest to `point` [px], or None.
+        """Return (body, nearest point on its shapes, distance [px]) for the shape nearest to a point, or None.
 
-        filter, sensors: as in ray_cast.
+        point: (x, y) [px]; filter: which shapes are considered; sensors: whether sensors are, too.
+
+        Inside a shape the distance is 0. Raises TypeError and ValueError as ray_cast.
         """
         return casts.closest(self, point, filter, sensors)
 
     def overlap(self, shape: Shape, pose: Pose, filter: Filter = Filter.ALL, sensors: bool = False) -> list[Body]:
         """Return the bodies that a shape at a pose overlaps, in the order of ids.
 
-        pose: (x, y) or (x, y, angle); filter, sensors: as in ray_cast.
+        shape: the tested shape; pose: (x, y) or (x, y, angle) [px, rad].
+        filter: which shapes are considered; sensors: whether sensors are, too.
+
+        Raises TypeError and ValueError as ray_cast.
         """
         return casts.overlap(self, shape, pose, filter, sensors)
 
     def query_aabb(self, lower: Pair, upper: Pair, filter: Filter = Filter.ALL, sensors: bool = False) -> list[Body]:
-        """Return the bodies with a shape whose AABB meets a box [px], boundary included, in the order of ids.
+        """Return the bodies with a shape whose AABB meets a box, boundary included, in the order of ids.
 
-        lower, upper: corners with the least and the greatest coordinates; filter, sensors: as in ray_cast.
+        lower, upper: corners of the box (x, y) [px] with the least and the greatest coordinates.
+        filter: which shapes are considered; sensors: whether sensors are, too.
+
+        Raises TypeError and ValueError as ray_cast, ValueError also for lower > upper.
         """
         return casts.query_aabb(self, lower, upper, filter, sensors)
 
     def query_rect(self, rect: Rect, filter: Filter = Filter.ALL, sensors: bool = False) -> list[Body]:
-        """Return the bodies with a shape whose AABB meets a rectangle [px], boundary included, in the order of ids.
+        """Return the bodies with a shape whose AABB meets a rectangle, boundary included, in the order of ids.
 
-        rect: (x, y, width, height) or ((x, y), (width, height)), as for pygame.Rect; filter, sensors: as in ray_cast.
+        rect: (x, y, width, height) or ((x, y), (width, height)) [px], such as a pygame.Rect.
+        filter: which shapes are considered; sensors: whether sensors are, too.
+
+        Raises TypeError and ValueError as ray_cast, ValueError also for a negative width or height.
         """
         return casts.query_rect(self, rect, filter, sensors)
 
     def query_point(self, point: Pair, filter: Filter = Filter.ALL, sensors: bool = False) -> list[Body]:
-        """Return the bodies with a shape that contains a point [px], in the order of ids.
+        """Return the bodies with a shape that contains a point, in the order of ids.
 
-        filter, sensors: as in ray_cast.
+        point: (x, y) [px]; filter: which shapes are considered; sensors: whether sensors are, too.
+
+        Raises TypeError and ValueError as ray_cast.
         """
         return casts.query_point(self, point, filter, sensors)
 
     def query_points(self, points: Points, filter: Filter = Filter.ALL, sensors: bool = False) -> PointHits:
-        """Return an array with the columns `point` (index) and `body` (id): which bodies contain which points.
+        """Return which bodies contain which of n points, as an array of POINT_HIT rows, sorted by point, then by body.
 
-        It is sorted by point, then by body. points: (n, 2) [px]; filter, sensors: as in ray_cast.
+        points: (n, 2) [px]; filter: which shapes are considered; sensors: whether sensors are, too.
+
+        Raises TypeError and ValueError as ray_cast.
         """
         return casts.query_points(self, points, filter, sensors)

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from physics import checks
-from physics.annotations import JointSolverName, SolverName, Substeps, TierName
+from physics.annotations import JointSolverName, Pair, SolverName, Substeps, TierName
 from physics.broadphase.proxies import PairList, Strategy, write_rectangles
 from physics.collision.areas import with_areas
 from physics.collision.manifold import contacts_of
@@ -33,7 +33,7 @@ from physics.tables.table import Table, row_number, rows_in, rows_of
 
 
 class Profile:
-    """Times of the stages, and counters of the work done, in the last step."""
+    """Times of the stages, and counters of the work done, in the last step. It is world.profile."""
 
     def __init__(self, names: Sequence[str]) -> None:
         self.work = np.zeros(len(COUNTERS), np.int64)
@@ -152,20 +152,17 @@ class WorldState:
     profile: Profile
     workspace: Any  # a Workspace of step.py
     # Properties of World.
-    contact_rows: np.ndarray
-    joints: JointRows
     joint_solver: JointSolverName
     solver: SolverName
     substeps: Substeps
     accuracy: float
     broadphase: Strategy
-    gravity: Vec2
-    drag: float
-    wind: Vec2
-    dt: float
     stacks: bool
-    sleeps: bool
 
+    _gravity: Vec2
+    _drag: float
+    _wind: Vec2
+    _dt: float
     _effects: Effects
     _plans: tuple[Any, Any]  # Plans of step.py: for a world without characters, with characters
     _stepping: bool
@@ -218,10 +215,20 @@ class WorldState:
 
     @property
     def shapes(self) -> np.ndarray:
-        """SHAPE rows in the order of ids: a view, valid until a body is added or removed."""
+        """SHAPE rows in the order of ids: a view, valid until a body or shape is added or removed."""
         if self._removed:
             self._drop_removed()
         return self._shapes.rows
+
+    @property
+    def joints(self) -> JointRows:
+        """JOINT rows in the order of ids: a view, valid until a joint is added, removed or broken.
+
+        Columns with settings may be written between steps. Afterwards call `touch` to wake the bodies.
+        """
+        if self._removed:
+            self._drop_removed()
+        return self._joints.rows  # pyright: ignore[reportReturnType]
 
     @property
     def contacts(self) -> ContactRows:
@@ -234,6 +241,20 @@ class WorldState:
         """Return the CONTACT rows to which the CONTACT_POINT rows in `contacts` belong."""
         rows, keep = self._reported
         return rows if keep is None or keep.all() else rows[keep]
+
+    @property
+    def contact_rows(self) -> np.ndarray:
+        """CONTACT rows of the last step, in the order of shape ids.
+
+        Stacking solvers continue from them in the next step.
+        """
+        if self._removed:
+            self._drop_removed()
+        return self._contact_rows
+
+    @contact_rows.setter
+    def contact_rows(self, rows: np.ndarray) -> None:
+        self._contact_rows = rows
 
     @property
     def sleeping_contacts(self) -> ContactRows:
@@ -253,13 +274,19 @@ class WorldState:
         return self.pairs.ids(self.shapes).astype(np.int32)
 
     def rows(self, ids: Any) -> np.ndarray:
-        """Return the row numbers in `world.bodies` of Bodies or ids, as an array of the same shape.
+        """Return the row numbers in `world.bodies` of bodies, as an array of the same shape.
 
-        Raises KeyError for a body that is not in this world.
+        ids: Bodies or ids, one or many.
+
+        Raises KeyError for a body that is not in this world, TypeError for anything but Bodies and ids, ValueError for
+        a Body of another world.
         """
         if isinstance(ids, Handle) or (isinstance(ids, (list, tuple)) and any(isinstance(x, Handle) for x in ids)):
             ids = self._identities("ids", ids)
-        ids = np.asarray(ids, np.int64)
+        ids = np.asarray(ids)
+        if ids.size and ids.dtype.kind not in "iu":
+            raise TypeError(f"ids must be Bodies or ids (got {checks.shown(ids)})")
+        ids = ids.astype(np.int64, copy=False)
         if self._removed:
             self._drop_removed()
         rows = rows_in(self._bodies, ids.ravel())
@@ -287,6 +314,11 @@ class WorldState:
         self.pairs.can_recycle.append(self.pairs.changed[:changed].copy())
 
     @property
+    def sleeps(self) -> bool:
+        """Whether bodies at rest are left out of the steps. This needs the effect sleeping and a stacking solver."""
+        return self.stacks and self._effects.sleeping
+
+    @property
     def effects(self) -> Effects:
         """The declared effects; `set_effects` replaces them."""
         return self._effects
@@ -302,6 +334,63 @@ class WorldState:
         The stages of characters are included while the world has a character.
         """
         return list(self._plan_now.names)
+
+    # --- settings, which can be set between steps ---------------------------------------------------------------
+
+    @property
+    def gravity(self) -> Vec2:
+        """Gravity [px/s2]. It can be set between steps; a change wakes all bodies."""
+        return self._gravity
+
+    @gravity.setter
+    def gravity(self, value: Pair) -> None:
+        self._unlocked()
+        gravity = checks.vector("gravity", value)
+        self._needs_fields(gravity=gravity)
+        self._gravity = self._felt(self._gravity, gravity, self._effects.gravity)
+
+    def _felt(self, before, now, felt):
+        """Return `now`, the new value of gravity, drag or wind. If it differs from `before`, wake all sleeping bodies.
+
+        felt: whether the value acts on bodies at all; otherwise none wake.
+        """
+        if felt and now != before:
+            sleep.wake_all(self)
+        return now
+
+    @property
+    def dt(self) -> float:
+        """Length of a step [s]. It can be set between steps."""
+        return self._dt
+
+    @dt.setter
+    def dt(self, value: float) -> None:
+        self._unlocked()
+        self._dt = checks.number("dt", value, above=0.0)
+
+    @property
+    def drag(self) -> float:
+        """Rate [1/s] at which drag slows bodies down. It can be set between steps; a change wakes all bodies."""
+        return self._drag
+
+    @drag.setter
+    def drag(self, value: float) -> None:
+        self._unlocked()
+        felt, drag = self._effects.drag or self._effects.wind, checks.number("drag", value, low=0.0)
+        self._needs_fields(drag=drag)
+        self._drag = self._felt(self._drag, drag, felt)
+
+    @property
+    def wind(self) -> Vec2:
+        """Velocity of the air [px/s], which acts through the drag. A change, between steps, wakes all bodies."""
+        return self._wind
+
+    @wind.setter
+    def wind(self, value: Pair) -> None:
+        self._unlocked()
+        wind = checks.vector("wind", value)
+        self._needs_fields(wind=wind)
+        self._wind = self._felt(self._wind, wind, self._effects.wind)
 
     # --- for World, Body and edit -----------------------------------------------------------------------------------
 
@@ -513,6 +602,15 @@ class WorldState:
     def _needs(self, effect: str, what: str, asked: bool) -> None:
         if asked and not getattr(self._effects, effect):
             raise ValueError(f"{what} needs the effect {effect}: declare it in Effects({effect}=True)")
+
+    def _needs_fields(self, gravity: Vec2 | None = None, drag: float = 0.0, wind: Vec2 | None = None) -> None:
+        """Raise ValueError for a gravity, drag or wind other than 0 whose effect is not declared.
+
+        For drag the effect wind is also enough.
+        """
+        self._needs("gravity", f"gravity={gravity}", bool(gravity and any(gravity)))
+        self._needs("drag", f"drag={drag}", drag != 0.0 and not self._effects.wind)
+        self._needs("wind", f"wind={wind}", bool(wind and any(wind)))
 
     def _needs_velocities(self, what: str) -> None:
         if "integrate_velocities" not in self.stages and not self.stacks:

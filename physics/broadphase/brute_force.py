@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from physics import checks
-from physics.broadphase.proxies import Arena, Box, Query, find_pairs, meets_box, overlaps, write_pair
+from physics.broadphase.pairs_of_boxes import find_pairs
+from physics.broadphase.proxies import Arena, Box, Query, meets_box, overlaps, write_pair
 from physics.jit import kernel, subkernel
 from physics.tables.step_state import PAIRS_TESTED
 
@@ -63,8 +64,9 @@ class BruteForce:
     """Broad phase that tests all pairs: O(n²) in the first step, O(moved · n) in later steps.
 
     incremental: whether to keep the pairs of proxies that have not changed since the last step. False tests all n (n -
-    1) / 2 pairs in every step, as "brute force" means in papers, and finds the same pairs. Raises TypeError for a value
-    that is not a bool.
+        1) / 2 pairs in every step, as "brute force" means in papers, and finds the same pairs.
+
+    Raises TypeError for a value that is not a bool.
     """
 
     name = "brute"
@@ -75,8 +77,9 @@ class BruteForce:
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
         """Return the overlapping pairs of n closed boxes: (m, 2) int32, sorted, each as indices a < b.
 
-        lower, upper (n, 2) [px]: corners of the boxes. Raises TypeError for values that are not numbers, ValueError for
-        a wrong shape, NaN, and lower > upper.
+        lower, upper: corners of the boxes, (n, 2) [px].
+
+        Raises TypeError for values that are not numbers, ValueError for a wrong shape, NaN, and lower > upper.
         """
         return find_pairs(self.fresh(), lower, upper)
 
@@ -85,22 +88,31 @@ class BruteForce:
         return BruteForce(self.incremental)
 
     def update(self, arena: Arena) -> None:
-        """Do nothing: this broad phase stores nothing between steps. arena: see proxies.Arena."""
+        """Do nothing: this broad phase stores nothing between steps.
+
+        arena: see proxies.Arena.
+        """
 
     def query(self, arena: Arena) -> Query:
         """Return a function (pairs, work) -> count, which writes the pairs with a changed proxy to `pairs`.
 
-        arena: the proxies, and which have changed; pairs (capacity, 2) int32: slots; work: counters, see COUNTERS.
+        arena: the proxies, and which have changed.
+
+        pairs (capacity, 2) int32 are slots, work the counters, see COUNTERS.
         """
         return lambda pairs, work: find_all(arena.proxies, arena.changed, pairs, work)
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Find the proxies whose boxes overlap `box`. Write their slots to `slots`, and return their number.
+        """Find the proxies whose boxes overlap a box. Write their slots, and return their number.
 
-        proxies: PROXY table; box [px]: lower x, y, upper x, y; work: counters, see COUNTERS.
+        proxies: PROXY table; box: (lower x, lower y, upper x, upper y) [px].
+        slots: array with room for all proxies, which is written; work: counters, see COUNTERS, which are increased.
         """
         return near_in_all(proxies, box, slots, work)
 
     def structure(self, proxies: np.ndarray) -> tuple:
-        """Return the data that the kernel search_all reads. proxies: PROXY table."""
+        """Return the data that the kernel search_all reads.
+
+        proxies: PROXY table.
+        """
         return (proxies,)

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from physics import checks
-from physics.broadphase.proxies import Arena, Box, Query, find_pairs, meets_box, overlaps, write_pair
+from physics.broadphase.pairs_of_boxes import find_pairs
+from physics.broadphase.proxies import Arena, Box, Query, meets_box, overlaps, write_pair
 from physics.jit import kernel, subkernel
 from physics.settings import AABB_MARGIN, AABB_MARGIN_FRACTION, PIXELS_PER_METER
 from physics.tables.step_state import NODES_VISITED, REINSERTS
@@ -546,9 +547,10 @@ def place_changed(proxies, changed, margins, loose, leaf_of_inout, nodes_inout, 
 class DynamicTree:
     """Broad phase with two dynamic bounding volume trees.
 
-    width: number of children of an inner node, 2 or None (the same). margin [px]: the greatest margin of a moving leaf;
-    None: the setting for a world of 32 px per metre. Raises TypeError or ValueError for another width, and for a margin
-    that is not a number >= 0.
+    width: number of children of an inner node, 2 or None (the same).
+    margin: the greatest margin of a moving leaf [px], >= 0; None: the setting for a world of 32 px per metre.
+
+    Raises TypeError or ValueError for another width, and for a margin that is not a number >= 0.
     """
 
     name = "tree"
@@ -566,8 +568,9 @@ class DynamicTree:
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
         """Return the overlapping pairs of n closed boxes: (m, 2) int32, sorted, each as indices a < b.
 
-        lower, upper (n, 2) [px]: corners of the boxes. Raises TypeError for values that are not numbers, ValueError for
-        a wrong shape, NaN, and lower > upper.
+        lower, upper: corners of the boxes, (n, 2) [px].
+
+        Raises TypeError for values that are not numbers, ValueError for a wrong shape, NaN, and lower > upper.
         """
         return find_pairs(self.fresh(), lower, upper)
 
@@ -576,7 +579,10 @@ class DynamicTree:
         return DynamicTree(self.width, self.margin)
 
     def update(self, arena: Arena) -> None:
-        """Insert or remove leaves, and move the leaves of changed proxies that left their fat boxes."""
+        """Insert or remove leaves, and move the leaves of changed proxies that left their fat boxes.
+
+        arena: see proxies.Arena.
+        """
         if len(self.leaf_of) < len(arena.proxies):
             slots = max(len(arena.proxies), 2 * len(self.leaf_of))
             self.leaf_of = np.concatenate([self.leaf_of, np.full(slots - len(self.leaf_of), -1, np.int64)])
@@ -616,7 +622,9 @@ class DynamicTree:
     def query(self, arena: Arena) -> Query:
         """Return a function (pairs, work) -> count, which writes the pairs with a changed proxy to `pairs`.
 
-        arena: the proxies, and which have changed; pairs (capacity, 2) int32: slots; work: counters, see COUNTERS.
+        arena: the proxies, and which have changed.
+
+        pairs (capacity, 2) int32 are slots, work the counters, see COUNTERS.
         """
         proxies, changed = arena.proxies, arena.changed
         return lambda pairs, work: find_pairs_in_trees(
@@ -624,16 +632,21 @@ class DynamicTree:
         )
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Find the proxies whose boxes overlap `box`. Write their slots to `slots`, and return their number.
+        """Find the proxies whose boxes overlap a box. Write their slots, and return their number.
 
-        The fat boxes of the tree are compared, so proxies up to a margin away may also be found. proxies: unused; box
-        [px]: lower x, y, upper x, y; work: counters, see COUNTERS.
+        proxies: PROXY table (unused); box: (lower x, lower y, upper x, upper y) [px].
+        slots: array with room for all proxies, which is written; work: counters, see COUNTERS, which are increased.
+
+        The fat boxes of the tree are compared, so proxies up to a margin away may also be found.
         """
         nodes, roots, stack = self.structure(proxies)
         return query_trees(nodes, roots, box, stack, slots, work)
 
     def structure(self, proxies: np.ndarray) -> tuple:
-        """Return the data that the kernel search_trees reads. proxies: unused."""
+        """Return the data that the kernel search_trees reads.
+
+        proxies: PROXY table, unused.
+        """
         return self.nodes, self.state[ROOT_MOVING:], self.stack
 
     @property

@@ -16,7 +16,7 @@ from physics.shapes.placement import (
     is_drawn_when_asked,
     refresh_boxes,
     snapped,
-)
+)  # fmt: skip
 from physics.shapes.shape import Filter
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.shape import PART, PIXELS, PROXY
@@ -26,8 +26,7 @@ from physics.tables.table import columns_of, distinct
 # ---- proxies ---------------------------------------------------------------------------------------------------------
 # The boxes that every broad phase works on, and the overlap test of two of them.
 #
-# A proxy is a slot of the PROXY table: box, filter, body. Strategies differ in the pairs that they test, not in the
-# test, so all of them find the same list of pairs.
+# A proxy is a slot of the PROXY table: box, filter, body. All strategies make the same test, and find the same pairs.
 
 Box = tuple[float, float, float, float]  # lower x, y, upper x, y [px]
 Query = Callable[[np.ndarray, np.ndarray], int]  # (pairs, work) -> number of pairs
@@ -109,7 +108,10 @@ class Arena:
 
 
 class Strategy(Protocol):
-    """The interface of a broad phase: BruteForce, SweepAndPrune, SpatialHashGrid or DynamicTree."""
+    """The interface of a broad phase: BruteForce, SweepAndPrune, SpatialHashGrid or DynamicTree.
+
+    name: "brute", "sweep", "hash" or "tree"; incremental: whether pairs of unchanged proxies are kept between steps.
+    """
 
     name: str
     incremental: bool  # whether the pairs of unchanged proxies are kept from the last step
@@ -117,8 +119,9 @@ class Strategy(Protocol):
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
         """Return the pairs of n closed boxes that touch: (m, 2) int32, sorted, each as indices a < b.
 
-        lower, upper (n, 2) [px]: corners of the boxes. Raises TypeError for values that are not numbers, ValueError for
-        a wrong shape, NaN, and lower > upper.
+        lower, upper: corners of the boxes, (n, 2) [px].
+
+        Raises TypeError for values that are not numbers, ValueError for a wrong shape, NaN, and lower > upper.
         """
         ...
 
@@ -127,71 +130,32 @@ class Strategy(Protocol):
         ...
 
     def update(self, arena: Arena) -> None:
-        """Update the data structure with the proxies in the slots arena.changed."""
+        """Update the data structure with the proxies in the slots arena.changed.
+
+        arena: the proxies, and which have changed.
+        """
         ...
 
     def query(self, arena: Arena) -> Query:
         """Return a function (pairs, work) -> count, which writes the pairs with a changed proxy to `pairs`.
 
-        arena: the proxies, and which have changed; pairs (capacity, 2) int32: slots; work: counters, see COUNTERS.
+        arena: the proxies, and which have changed; pairs (capacity, 2) int32 are slots, work the COUNTERS.
         """
         ...
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Find the proxies whose boxes overlap `box`. Write their slots to `slots`, and return their number.
+        """Find the proxies whose boxes overlap a box, or are near it. Write their slots, and return their number.
 
-        proxies: PROXY table; box [px]: lower x, y, upper x, y; slots: array with room for all proxies; work: counters,
-        see COUNTERS. Proxies that are only near the box may also be found.
+        proxies: PROXY table; box: lower x, y, upper x, y [px]; slots: written, as many as proxies; work: counters.
         """
         ...
 
     def structure(self, proxies: np.ndarray) -> tuple:
-        """Return the data that a kernel reads to find the proxies whose boxes overlap a box. proxies: PROXY table."""
+        """Return the data that a kernel reads to find the proxies whose boxes overlap a box.
+
+        proxies: PROXY table.
+        """
         ...
-
-
-def find_pairs(strategy: Strategy, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
-    """Return the pairs of n closed boxes that touch, found by a new broad phase: (m, 2) int32, a < b, sorted.
-
-    strategy: a broad phase without proxies; lower, upper (n, 2) [px]: corners of the boxes. Raises TypeError for values
-    that are not numbers, ValueError for a wrong shape, NaN, and lower > upper.
-    """
-    lower, upper = _corners("lower", lower), _corners("upper", upper)
-    if len(lower) != len(upper):
-        raise ValueError(f"lower and upper must have as many rows (got {len(lower)} and {len(upper)})")
-    wrong = (lower > upper).any(axis=1)
-    if wrong.any():
-        row = int(np.argmax(wrong))
-        raise ValueError(f"lower[{row}] must be <= upper[{row}] (got {lower[row].tolist()} and {upper[row].tolist()})")
-    arena = Arena()
-    arena.proxies = np.zeros(len(lower), PROXY)
-    arena.proxies["lower_x"], arena.proxies["lower_y"] = lower.T
-    arena.proxies["upper_x"], arena.proxies["upper_y"] = upper.T
-    for name in ("row", "body"):
-        arena.proxies[name] = np.arange(len(lower))
-    arena.proxies["membership"] = arena.proxies["mask"] = 1
-    arena.proxies["changed"] = arena.proxies["awake"] = True
-    arena.changed = np.arange(len(lower), dtype=np.int64)
-    strategy.update(arena)
-    count = arena.collect(strategy.query(arena))
-    pairs = np.sort(arena.pairs[:count], axis=1)
-    order = np.argsort(pairs[:, 0].astype(np.int64) << 32 | pairs[:, 1])
-    return np.ascontiguousarray(pairs[order])
-
-
-def _corners(name, value):
-    try:
-        array = np.array(value, dtype=np.float64, order="C")
-    except (TypeError, ValueError):
-        raise TypeError(f"{name} must be an (n, 2) array of numbers (got {type(value).__name__})") from None
-    if array.size == 0:
-        array = array.reshape(0, 2)
-    if array.ndim != 2 or array.shape[1] != 2:
-        raise ValueError(f"{name} must have shape (n, 2) (got {array.shape})")
-    if np.isnan(array).any():
-        row = int(np.argwhere(np.isnan(array))[0][0])
-        raise ValueError(f"{name}[{row}] must not be NaN (got {array[row].tolist()})")
-    return array
 
 
 @kernel

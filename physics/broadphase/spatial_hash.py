@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from physics import checks
-from physics.broadphase.proxies import Arena, Box, Query, find_pairs, may_meet, meets_box, overlaps, write_pair
+from physics.broadphase.pairs_of_boxes import find_pairs
+from physics.broadphase.proxies import Arena, Box, Query, may_meet, meets_box, overlaps, write_pair
 from physics.jit import kernel, subkernel
 from physics.tables.step_state import CELLS_TOUCHED, NODES_VISITED, PAIRS_TESTED, REINSERTS
 
@@ -421,8 +422,9 @@ SMALLEST_CELL = 2.0**-1000  # [px] its inverse is finite
 class SpatialHashGrid:
     """Broad phase with a hierarchical hash grid.
 
-    cell [px]: size of the finest cells; None: the size is derived from the sizes of the boxes. Raises TypeError for a
-    cell that is not a number, ValueError for a cell below 2^-1000.
+    cell: size of the finest cells [px]; None: the size is derived from the sizes of the boxes.
+
+    Raises TypeError for a cell that is not a number, ValueError for a cell below 2^-1000.
     """
 
     name = "hash"
@@ -438,8 +440,9 @@ class SpatialHashGrid:
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
         """Return the overlapping pairs of n closed boxes: (m, 2) int32, sorted, each as indices a < b.
 
-        lower, upper (n, 2) [px]: corners of the boxes. Raises TypeError for values that are not numbers, ValueError for
-        a wrong shape, NaN, and lower > upper.
+        lower, upper: corners of the boxes, (n, 2) [px].
+
+        Raises TypeError for values that are not numbers, ValueError for a wrong shape, NaN, and lower > upper.
         """
         return find_pairs(self.fresh(), lower, upper)
 
@@ -450,8 +453,10 @@ class SpatialHashGrid:
     def update(self, arena: Arena) -> None:
         """Move the changed proxies to their cells.
 
+        arena: see proxies.Arena.
+
         The hash table is enlarged when it has fewer buckets than proxies. The cell size is tuned again when the number
-        of proxies has doubled, or when most proxies are on coarse levels. arena: see proxies.Arena.
+        of proxies has doubled, or when most proxies are on coarse levels.
         """
         proxies = arena.proxies
         changed = arena.changed
@@ -486,21 +491,27 @@ class SpatialHashGrid:
     def query(self, arena: Arena) -> Query:
         """Return a function (pairs, work) -> count, which writes the pairs with a changed proxy to `pairs`.
 
-        arena: the proxies, and which have changed; pairs (capacity, 2) int32: slots; work: counters, see COUNTERS.
+        arena: the proxies, and which have changed.
+
+        pairs (capacity, 2) int32 are slots, work the counters, see COUNTERS.
         """
         return lambda pairs, work: find_in_cells(
             arena.proxies, arena.changed, self.base, self.lists, self.chains, self.near_entries, pairs, work
         )
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Find the proxies whose boxes overlap `box`. Write their slots to `slots`, and return their number.
+        """Find the proxies whose boxes overlap a box. Write their slots, and return their number.
 
-        proxies: PROXY table; box [px]: lower x, y, upper x, y; work: counters, see COUNTERS.
+        proxies: PROXY table; box: (lower x, lower y, upper x, upper y) [px].
+        slots: array with room for all proxies, which is written; work: counters, see COUNTERS, which are increased.
         """
         return near_in_cells(self.base, self.lists, proxies, box, slots, work)
 
     def structure(self, proxies: np.ndarray) -> tuple:
-        """Return the data that the kernel search_cells reads. proxies: PROXY table."""
+        """Return the data that the kernel search_cells reads.
+
+        proxies: PROXY table.
+        """
         return self.base, self.lists, proxies
 
     def cells(self) -> tuple[np.ndarray, np.ndarray]:

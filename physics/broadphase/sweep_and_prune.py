@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from physics import checks
-from physics.broadphase.proxies import Arena, Box, Query, find_pairs, may_meet, write_pair
+from physics.broadphase.pairs_of_boxes import find_pairs
+from physics.broadphase.proxies import Arena, Box, Query, may_meet, write_pair
 from physics.jit import kernel, subkernel
 from physics.tables.step_state import NODES_VISITED, PAIRS_TESTED, SWAPS
 
@@ -297,8 +298,9 @@ class Axis:
 class SweepAndPrune:
     """Broad phase that sorts the boxes along one axis or both.
 
-    axes: "auto" chooses x or y, "both" sorts along both. Raises ValueError for another string, TypeError for a value
-    that is not a string.
+    axes: "auto" chooses x or y, "both" sorts along both.
+
+    Raises ValueError for another string, TypeError for a value that is not a string.
     """
 
     name = "sweep"
@@ -312,8 +314,9 @@ class SweepAndPrune:
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
         """Return the overlapping pairs of n closed boxes: (m, 2) int32, sorted, each as indices a < b.
 
-        lower, upper (n, 2) [px]: corners of the boxes. Raises TypeError for values that are not numbers, ValueError for
-        a wrong shape, NaN, and lower > upper.
+        lower, upper: corners of the boxes, (n, 2) [px].
+
+        Raises TypeError for values that are not numbers, ValueError for a wrong shape, NaN, and lower > upper.
         """
         return find_pairs(self.fresh(), lower, upper)
 
@@ -324,8 +327,9 @@ class SweepAndPrune:
     def update(self, arena: Arena) -> None:
         """Move the changed proxies to their positions in the order.
 
-        With axes "auto", the axis is chosen again every AXIS_INTERVAL updates, and whenever most proxies are new.
         arena: see proxies.Arena.
+
+        With axes "auto", the axis is chosen again every AXIS_INTERVAL updates, and whenever most proxies are new.
         """
         self.updates += 1
         if self.axes == "auto" and (
@@ -355,7 +359,9 @@ class SweepAndPrune:
     def query(self, arena: Arena) -> Query:
         """Return a function (pairs, work) -> count, which writes the pairs with a changed proxy to `pairs`.
 
-        arena: the proxies, and which have changed; pairs (capacity, 2) int32: slots; work: counters, see COUNTERS.
+        arena: the proxies, and which have changed.
+
+        pairs (capacity, 2) int32 are slots, work the counters, see COUNTERS.
         """
         if self.axes == "auto":
             return lambda pairs, work: self.sorted[0].sweep(arena, pairs, work)
@@ -368,12 +374,16 @@ class SweepAndPrune:
         return both
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Find the proxies whose boxes overlap `box`. Write their slots to `slots`, and return their number.
+        """Find the proxies whose boxes overlap a box. Write their slots, and return their number.
 
-        proxies: unused; box [px]: lower x, y, upper x, y; work: counters, see COUNTERS.
+        proxies: PROXY table (unused); box: (lower x, lower y, upper x, upper y) [px].
+        slots: array with room for all proxies, which is written; work: counters, see COUNTERS, which are increased.
         """
         return self.sorted[0].query_box(box, slots, work)
 
     def structure(self, proxies: np.ndarray) -> tuple:
-        """Return the data that the kernel search_order reads. proxies: unused."""
+        """Return the data that the kernel search_order reads.
+
+        proxies: PROXY table, unused.
+        """
         return self.sorted[0].structure()

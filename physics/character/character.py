@@ -32,12 +32,15 @@ MAX_SLOPE = 0.8  # [rad] 46 degrees: a character walks on a slope of one tile pe
 class Moved(NamedTuple):
     """The result of a move: pixels moved, and the contacts of the character after the move.
 
-    x, y: pixels moved. grounded: whether the character stands on ground that it can walk on, or is held by the ground.
-    wall: -1 for a solid at its left, 1 at its right, 0 for none. slope: rise per px to the right of the ground under
-    its feet (1: 45 degrees up to the right), also of ground down which the character slides. riding: the kinematic or
-    dynamic body, or the body of the pushable character, under its feet; None on static ground and in the air. squeezed:
-    whether a moving body left the character no space; True in every move until this body no longer overlaps the
-    character.
+    x, y: pixels moved.
+    grounded: whether the character stands on ground that it can walk on, or is held by the ground.
+    wall: -1 for a solid at its left, 1 at its right, 0 for none.
+    slope: rise per px to the right of the ground under its feet (1: 45 degrees up to the right), also of ground down
+        which the character slides.
+    riding: the kinematic or dynamic body, or the body of the pushable character, under its feet; None on static ground
+        and in the air.
+    squeezed: whether a moving body left the character no space; True in every move until this body no longer overlaps
+        the character.
     """
 
     x: int
@@ -52,20 +55,25 @@ class Moved(NamedTuple):
 class Character:
     """A convex shape that the game moves, in whole pixels, and that never overlaps a solid.
 
+    world: the World, whose effects contain response.
     shape: Polygon, Circle, Capsule, or Bounds of one of them or of a sprite, of at least one pixel. A box without angle
-    is rounded to whole pixels. position [px]: position of the shape's origin, rounded so that the left side and the
-    feet are on the pixel grid. filter: collision filter of the shape. max_slope [rad], 0 <= max_slope < pi/2: the
-    character walks up and down ground of at most this angle, and slides down steeper ground up to 86 degrees. pushable:
-    whether the character is solid for other characters, and they push it. user: any object for the character's body.
+        is rounded to whole pixels.
+    position: position (x, y) of the shape's origin [px], rounded so that the left side and the feet are on the pixel
+        grid.
+    filter: the Filter of the shape.
+    pushable: whether the character is solid for other characters, and they push it.
+    user: any value of the game, kept as body.user.
+    mass: weight, and momentum on landing [density px²], > 0, with the effect stacking; None: the mass of the shape at
+        density 1.
+    push: greatest force per mass with which the character pushes bodies in its way [px/s²], >= 0, with the effect
+        stacking; None: 2000.
+    max_slope: angle of the steepest ground that it walks on [rad], 0 <= max_slope < pi/2. It slides down steeper
+        ground, up to 86 degrees.
 
-    The character's `body` is kinematic, so contacts and sensors see the character. A Character needs the effect
-    response. With the effect stacking, dynamic bodies also stop and carry the character, and the character acts on
-    them. mass [density px2]: sets the weight and the momentum on landing; None: the mass of the shape at density 1.
-    push [px/s2]: the character accelerates bodies in its way to the speed of its moves, with a force of at most mass *
-    push; None for PUSH.
+    body: the kinematic Body of the character, which contacts and sensors see.
 
-    Raises TypeError for values of other types, ValueError for values out of range and for a world without the needed
-    effects.
+    With the effect stacking, dynamic bodies stop and carry the character, and the character acts on them. Raises
+    TypeError for values of other types, ValueError for values out of range and for a world without the needed effects.
     """
 
     def __init__(
@@ -152,13 +160,16 @@ class Character:
         return float(self.world.characters.rows["belt"][self._row])
 
     def move(self, dx: float, dy: float, drop: bool = False) -> Moved:
-        """Move the character by (dx, dy) [px], x first. Return the result of the move.
+        """Move the character, along x first. Return the result as a Moved.
 
-        drop: True if the character falls through one-way tiles. On a slope that is too steep it slides down, by the
-        component of dy along the slope. While the character's body is quarantined, or would be by the next step, the
-        character does not move and touches nothing. A character that was placed in a static solid is moved out, two
-        pixels per move, if there is free space within its own size. Raises TypeError for values of other types,
-        ValueError for a move that is not finite or too long, RuntimeError during a step.
+        dx, dy: the move [px], at most 1e6 each. Parts of a pixel are kept for the next move.
+        drop: True lets the character fall through one-way tiles.
+
+        On a slope that is too steep it slides down, by the component of dy along the slope. While the character's body
+        is quarantined, or would be by the next step, the character does not move and touches nothing. A character that
+        was placed in a static solid is moved out, two pixels per move, if there is free space within its own size.
+        Raises TypeError for values of other types, ValueError for a move that is not finite or too long, KeyError for a
+        removed character, RuntimeError during a step.
         """
         world = self.world
         world._unlocked()
@@ -193,11 +204,13 @@ class Character:
         )
 
     def blocked(self, dx: float, dy: float) -> bool:
-        """Return whether a move by (dx, dy) [px] would not move the character: no pixel in its direction is free.
+        """Return whether a move would not move the character: no pixel in its direction is free.
 
-        Only the signs of dx and dy count. Bodies that a walk pushes, and slopes that the character walks or slides
-        down, do not block. The world is unchanged. Raises TypeError for values that are not numbers, ValueError for a
-        move that is not finite or too long, RuntimeError during a step.
+        dx, dy: the move [px]; only the signs count.
+
+        Bodies that a walk pushes, and slopes that the character walks or slides down, do not block. The world is
+        unchanged. Raises TypeError for values that are not numbers, ValueError for a move that is not finite or too
+        long, KeyError for a removed character, RuntimeError during a step.
         """
         self.world._unlocked()
         dx, dy = _checked_move(dx, dy)
@@ -230,10 +243,12 @@ class Character:
         return walk_for(world, rows, near, spans, world.dt)
 
     def move_to(self, position: Pair) -> None:
-        """Teleport the character: move the shape's origin to a position [px], rounded to the pixel grid.
+        """Teleport the character.
+
+        position: new position (x, y) of the shape's origin [px], rounded to the pixel grid.
 
         Raises TypeError for a value that is not a point, ValueError for a point that is not finite or too far away,
-        RuntimeError during a step.
+        KeyError for a removed character, RuntimeError during a step.
         """
         self.world._unlocked()
         x, y = checks.position("position", position)

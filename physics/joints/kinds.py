@@ -26,10 +26,12 @@ from physics.tables.joint import ANGLE, GEARED, LENGTH, NO_COORDINATE, ON_AXIS, 
 @explained_class
 @dataclass(frozen=True)
 class Drive:
-    """A joint motor: target speed [px/s, or rad/s for an angle], and greatest force or torque.
+    """A joint motor, which drives the coordinate of its joint: an angle, a translation or a length.
 
-    It drives the coordinate of the joint: its angle, translation or length. Raises TypeError if a value is not a
-    number. Raises ValueError if max is missing or below 0, or if a number is not finite.
+    speed: target speed of the coordinate [px/s, or rad/s for an angle].
+    max: greatest force [mass px/s²] or torque [mass px²/s²], >= 0; it must be given.
+
+    Raises TypeError if a value is not a number, ValueError if max is missing or below 0, or if a number is not finite.
     """
 
     speed: float
@@ -45,10 +47,12 @@ class Drive:
 @explained_class
 @dataclass(frozen=True)
 class Spring:
-    """A joint spring: frequency [1/s], damping ratio, and target, the coordinate [px or rad] at which it rests.
+    """A joint spring, on the coordinate of its joint: an angle, a translation or a length.
 
-    If target is None, the spring rests at the coordinate that the joint has when it is made. Raises TypeError if a
-    value is not a number; ValueError for hertz <= 0, damping < 0, or a number that is not finite.
+    hertz: frequency [1/s], > 0; damping: damping ratio, >= 0; 1 is critical.
+    target: the coordinate at which it rests [px or rad]; None: that of the joint when it is made.
+
+    Raises TypeError if a value is not a number; ValueError for hertz <= 0, damping < 0, or a number that is not finite.
     """
 
     hertz: float
@@ -148,11 +152,11 @@ DEFAULTS = {
 
 @dataclass(frozen=True, kw_only=True)
 class Kind:
-    """The common arguments of all joints. a, b: Bodies or body ids, at least one of them dynamic; None for the world.
+    """The common arguments of all joints. A kind also has arguments for its bodies, anchors and coordinate.
 
-    contacts: whether the two bodies may touch each other. breaks: (force, torque) above which the joint breaks; None
-    for an unbreakable joint. local: True if anchors and axes are given in body space, False in world space. user: any
-    object that the caller wants to attach.
+    breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
+    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    user: any value of the game, kept as joint.user.
     """
 
     PARTS: ClassVar[Mapping[str, Any]] = {}  # values of JOINT columns that define the kind
@@ -191,15 +195,26 @@ class Kind:
         return found
 
     def with_lengths(self, rows: np.ndarray, lengths: np.ndarray) -> None:
-        """Write the columns of JOINT rows (n,) that depend on `lengths` (n,) [px], the distances of the anchors."""
+        """Write the columns that depend on the distances of the anchors.
+
+        rows: JOINT rows (n,), which are changed; lengths: distances of the anchors (n,) [px].
+        """
 
 
 @explained_class
 @dataclass(frozen=True)
 class Revolute(Kind):
-    """A hinge: it holds the anchors of both bodies together at one point, `at` [px].
+    """A hinge: it holds the anchors of both bodies together at one point. Its coordinate is the angle of B to A.
 
-    Limits, motor and spring act on the angle of B relative to A [rad].
+    a, b: Bodies or ids; None for one of them: the world.
+    at: the anchor of both bodies (x, y) [px].
+    limits: least and greatest value of the angle (low, high) [rad], None on a side: no limit there; None: no limits.
+    motor: a Drive that drives the angle; None: no motor; spring: a Spring on the angle; None: no spring.
+    breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
+    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    user: any value of the game, kept as joint.user.
+
+    The arguments are checked by World.add_joint, which raises TypeError or ValueError.
     """
 
     PARTS = {"hold": PINNED, "coordinate": ANGLE}
@@ -217,8 +232,18 @@ class Revolute(Kind):
 class Prismatic(Kind):
     """A slider: B moves along an axis that is fixed to A.
 
-    Limits, motor and spring act on the translation along the axis [px], which is 0 when the joint is made. at: the
-    anchor [px]; axis: direction of the axis, of any length; turns: whether B may also rotate.
+    a, b: Bodies or ids; None for one of them: the world.
+    at: the anchor of both bodies (x, y) [px].
+    axis: direction of the axis (x, y), of any length but 0; turns: whether B may also rotate.
+    limits: least and greatest value of the translation (low, high) [px], None on a side: no limit there; None: no
+        limits.
+    motor: a Drive that drives the translation; None: no motor; spring: a Spring on the translation; None: no spring.
+    breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
+    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    user: any value of the game, kept as joint.user.
+
+    The translation is 0 when the joint is made. The arguments are checked by World.add_joint, which raises TypeError or
+    ValueError.
     """
 
     PARTS = {"hold": ON_AXIS, "coordinate": TRANSLATION}
@@ -242,8 +267,16 @@ class Prismatic(Kind):
 class Wheel(Kind):
     """A wheel on a suspension: B rotates freely, and moves along an axis of A against a spring.
 
-    a: the chassis; b: the wheel; at: the anchor [px]; axis: direction of the suspension, of any length. Limits and
-    spring act on the translation along the axis [px], the motor on the angle.
+    a, b: chassis and wheel, Bodies or ids; None for one of them: the world.
+    at: the anchor of both bodies (x, y) [px].
+    axis: direction of the suspension (x, y), of any length but 0.
+    limits: least and greatest translation (low, high) [px], None on a side: no limit there; None: no limits.
+    motor: a Drive that drives the angle of B; None: no motor; spring: a Spring on the translation; None: no spring.
+    breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
+    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    user: any value of the game, kept as joint.user.
+
+    The arguments are checked by World.add_joint, which raises TypeError or ValueError.
     """
 
     PARTS = {"hold": ON_AXIS, "coordinate": TRANSLATION, "turns_motor": True}
@@ -261,11 +294,20 @@ class Wheel(Kind):
 @explained_class
 @dataclass(frozen=True)
 class Distance(Kind):
-    """A rod, rope, spring or winch between two anchors, at_a and at_b [px].
+    """A rod, rope, spring or winch between two anchors. Its coordinate is their distance.
 
-    Limits, motor and spring act on the distance of the anchors [px]. If all three are None, the joint is a rigid rod of
-    `length`. With limits and nothing else it is a rope: the distance is free between the limits. A spring without a
-    target rests at `length`. length None means the distance of the anchors when the joint is made.
+    a, b: Bodies or ids; None for one of them: the world.
+    at_a, at_b: anchors of A and B (x, y) [px], two different points.
+    length: length of the rod, or rest length of a spring without a target [px], > 0; None: the distance of the anchors
+        when the joint is made.
+    limits: least and greatest value of the distance (low, high) [px], None on a side: no limit there; None: no limits.
+    motor: a Drive that drives the distance; None: no motor; spring: a Spring on the distance; None: no spring.
+    breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
+    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    user: any value of the game, kept as joint.user.
+
+    Without limits, motor and spring the joint is a rigid rod. With limits and nothing else it is a rope: the distance
+    is free between the limits. The arguments are checked by World.add_joint, which raises TypeError or ValueError.
     """
 
     PARTS = {"coordinate": LENGTH}
@@ -298,9 +340,17 @@ class Distance(Kind):
 @explained_class
 @dataclass(frozen=True)
 class Weld(Kind):
-    """A rigid connection: it keeps the position and angle of B relative to A. at: the anchor [px].
+    """A rigid connection: it keeps the position and angle of B relative to A.
 
-    spring, angular_spring: make the joint soft in translation and in rotation; their targets are ignored.
+    a, b: Bodies or ids; None for one of them: the world.
+    at: the anchor of both bodies (x, y) [px].
+    spring: a Spring makes the joint soft in translation; angular_spring: a Spring makes it soft in rotation. Their
+        targets are ignored; None: rigid.
+    breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
+    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    user: any value of the game, kept as joint.user.
+
+    The arguments are checked by World.add_joint, which raises TypeError or ValueError.
     """
 
     PARTS = {"hold": PINNED, "locks_angle": True}
@@ -324,9 +374,17 @@ class Weld(Kind):
 @explained_class
 @dataclass(frozen=True)
 class Angle(Kind):
-    """A rotary spring, limit or motor between two bodies that no anchor holds together.
+    """A rotary spring, limit or motor on the angle of B relative to A, without an anchor.
 
-    Limits, motor and spring act on the angle of B relative to A [rad], which is 0 when the joint is made.
+    a, b: Bodies or ids; None for one of them: the world.
+    limits: least and greatest value of the angle (low, high) [rad], None on a side: no limit there; None: no limits.
+    motor: a Drive that drives the angle; None: no motor; spring: a Spring on the angle; None: no spring.
+    breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
+    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    user: any value of the game, kept as joint.user.
+
+    The angle is 0 when the joint is made. The arguments are checked by World.add_joint, which raises TypeError or
+    ValueError.
     """
 
     PARTS = {"coordinate": ANGLE}
@@ -344,9 +402,19 @@ class Angle(Kind):
 class Motor(Kind):
     """A motor that drives B relative to A with bounded force and torque: friction joints, top-down tyres, conveyors.
 
-    velocity [px/s], in the space of A, and angular_velocity [rad/s]: target motion of B relative to A. max_force,
-    max_torque: greatest force and torque. at: the anchor [px], None for the centre of mass of B. With a `spring` the
-    motor has no target velocity: it pulls B back to the pose relative to A that B had when the joint was made.
+    a, b: Bodies or ids; None for one of them: the world.
+    at: the anchor (x, y) [px]; None: the centre of mass of B.
+    velocity: target velocity of B relative to A (x, y) [px/s], in the space of A.
+    angular_velocity: target angular velocity of B relative to A [rad/s].
+    max_force: greatest force [mass px/s²]; max_torque: greatest torque [mass px²/s²]. Both must be given, >= 0.
+    spring: a Spring in place of target velocities: it pulls B back to the pose relative to A that B had when the joint
+        was made; None: no spring.
+    breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
+    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    user: any value of the game, kept as joint.user.
+
+    Raises ValueError if max_force or max_torque is missing. The arguments are checked by World.add_joint, which raises
+    TypeError or ValueError.
     """
 
     PARTS = {"hold": PINNED, "locks_angle": True, "axis_x": 1.0}
@@ -388,8 +456,15 @@ class Motor(Kind):
 class Target(Kind):
     """A spring that pulls a point of a body to a point of the world: mouse drag, grapple, tractor beam.
 
-    at: the point of the body [px]; point: the target in the world [px], None for the position of `at`. The property
-    joint.point changes the target. max_force: greatest force, None for no bound.
+    body: the pulled body, a Body or an id.
+    at: the point of the body (x, y) [px].
+    point: the target in the world (x, y) [px], which joint.point changes; None: the position of `at`.
+    spring: the Spring; its target is ignored; max_force: greatest force [mass px/s²], >= 0; None: no bound.
+    breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
+    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    user: any value of the game, kept as joint.user.
+
+    The arguments are checked by World.add_joint, which raises TypeError or ValueError.
     """
 
     PARTS = {"hold": PINNED}
@@ -419,7 +494,15 @@ class Target(Kind):
 @explained_class
 @dataclass(frozen=True)
 class NoContact(Kind):
-    """A joint without forces, which only prevents contacts between two bodies."""
+    """A joint without forces, which only prevents contacts between two bodies.
+
+    a, b: Bodies or ids; None for one of them: the world.
+    breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
+    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    user: any value of the game, kept as joint.user.
+
+    The arguments are checked by World.add_joint, which raises TypeError or ValueError.
+    """
 
     POINTS = ()
     COORDINATE = ()
@@ -434,11 +517,16 @@ class Gear(Kind):
     """A gear that holds a sum of two coordinates: coordinate of A plus ratio times coordinate of B equals the phase.
 
     joint_a, joint_b: Joints or their ids. The coordinate of a hinge (Revolute, Wheel, Angle, Ratchet) is its angle
-    [rad], that of a slider (Prismatic) its translation [px]: two hinges are a pair of gears, a hinge and a slider are a
-    rack and pinion. A Body in place of a joint stands for its angle in the world. ratio: any number but 0. With a
-    positive ratio the sides turn in opposite directions, as gears with teeth outside do, and B is slower by this
-    factor: the ratio is the number of teeth of B over that of A. phase: None for the present sum. The force and torque
-    of the gear act on B. A gear is removed with each of its joints.
+        [rad], that of a slider (Prismatic) its translation [px]. A Body stands for its angle in the world.
+    ratio: any number but 0: teeth of B over teeth of A. If positive, the sides turn in opposite directions.
+    phase: the sum that is held; None: the present sum.
+    breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
+    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    user: any value of the game, kept as joint.user.
+
+    Two hinges are a pair of gears, a hinge and a slider are a rack and pinion. The force and torque of the gear act on
+    B. A gear is removed with each of its joints. The arguments are checked by World.add_joint, which raises TypeError,
+    ValueError or KeyError.
     """
 
     PARTS = {"hold": GEARED, "point_max": 0.0}
@@ -464,13 +552,19 @@ class Gear(Kind):
 @explained_class
 @dataclass(frozen=True)
 class Pulley(Kind):
-    """A rope from one body up over two pulleys and down to another body.
+    """A rope from one body up over two pulleys and down to another body. Its coordinate is the length in use.
 
-    The rope has the length `length` = distance of A's anchor from its pulley + ratio · distance of B's anchor from its
-    pulley [px], None for the present length. It pulls A with its tension, and B with ratio times its tension (a block
-    and tackle). It can be slack; with rigid=True it also pushes. An anchor stops at its pulley. at_a, at_b: the anchors
-    [px]; ground_a, ground_b: the pulleys, points of the world [px]; ratio > 0. The coordinate of the joint,
-    `translation`, is the length in use.
+    a, b: Bodies or ids; None for one of them: the world.
+    at_a, at_b: anchors of A and B (x, y) [px].
+    ground_a, ground_b: the pulleys, points of the world (x, y) [px].
+    ratio: factor on B's length of rope, and on the tension on B (a block and tackle), > 0.
+    length: distance of A's anchor from its pulley + ratio · that of B's [px], > 0; None: the present length.
+    rigid: True: the rope also pushes; False: it can be slack.
+    breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
+    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    user: any value of the game, kept as joint.user.
+
+    An anchor stops at its pulley. The arguments are checked by World.add_joint, which raises TypeError or ValueError.
     """
 
     PARTS = {"hold": SLUNG, "point_max": 0.0}
@@ -495,7 +589,11 @@ class Pulley(Kind):
         return super().columns() | {"ratio": checks.number("ratio", self.ratio, above=0.0)}
 
     def with_rope(self, rows: np.ndarray, lengths_a: np.ndarray, lengths_b: np.ndarray) -> None:
-        """Write the length of the rope to JOINT rows (n,). lengths_a, lengths_b (n,): anchors from pulleys [px]."""
+        """Write the length of the rope.
+
+        rows: JOINT rows (n,), which are changed; lengths_a, lengths_b: distances of the anchors from their pulleys (n,)
+            [px].
+        """
         rows["upper"] = lengths_a + self.ratio * lengths_b if self.length is None else self.length
         if self.rigid:
             rows["lower"] = rows["upper"]
@@ -506,9 +604,16 @@ class Pulley(Kind):
 class Ratchet(Kind):
     """A ratchet: B may turn one way relative to A, and back only to the last tooth that it has passed.
 
-    ratchet: angle from tooth to tooth [rad]. B may turn on in the direction of its sign. phase: angle of a tooth
-    relative to the present angle [rad]. Its coordinate is the angle, 0 when the joint is made; `limits` is the present
-    tooth.
+    a, b: Bodies or ids; None for one of them: the world.
+    phase: angle of a tooth relative to the present angle [rad].
+    ratchet: angle from tooth to tooth [rad], other than 0; B may turn on in the direction of its sign. It must be
+        given.
+    breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
+    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    user: any value of the game, kept as joint.user.
+
+    Its coordinate is the angle, 0 when the joint is made; `limits` of the Joint is the present tooth. Raises ValueError
+    if ratchet is missing. The arguments are checked by World.add_joint, which raises TypeError or ValueError.
     """
 
     PARTS = {"hold": TOOTHED, "point_max": 0.0, "coordinate": ANGLE}

@@ -221,8 +221,10 @@ HitBody = TypeVar("HitBody")  # Body, whose module imports this one
 class RayHit(Generic[HitBody]):
     """A hit of a ray or of a cast shape: the body and shape that were hit, and where.
 
-    shape: id of the shape; point [px]; normal: unit normal of the hit surface; fraction: fraction of the translation
-    before the hit.
+    body: the Body; shape: id of its shape.
+    point: where it was hit (x, y) [px].
+    normal: unit normal of the hit surface.
+    fraction: fraction of the translation before the hit, 0 to 1.
     """
 
     body: HitBody

@@ -273,7 +273,13 @@ CORNERS = ("lower_x", "lower_y", "upper_x", "upper_y")
 
 
 class Visited(NamedTuple):
-    """The boxes [px] that a query searched, and the boxes that it compared with them, in order and with repetitions."""
+    """The boxes that a query searched, and the boxes that it compared with them, in order and with repetitions.
+
+    kind: "brute", "sweep", "hash" or "tree".
+    asked: searched boxes (k, 4): min_x, min_y, max_x, max_y [px].
+    rects: compared boxes (m, 4): nodes of the tree, cells of the hash, or boxes of shapes [px].
+    met: (m,) bool, whether the compared box meets the searched box.
+    """
 
     kind: str  # brute, sweep, hash, tree
     asked: np.ndarray  # (k, 4) min_x min_y max_x max_y
@@ -282,7 +288,10 @@ class Visited(NamedTuple):
 
 
 def visited(world: IndexedWorld) -> Visited:
-    """Return the boxes that the last query of a world visited. The world must not have changed since."""
+    """Return the boxes that the last query of a world visited. The world must not have changed since.
+
+    world: a World.
+    """
     strategy, asked = world.broadphase, np.array(world.queries.asked).reshape(-1, 4)
     boxes = asked.tolist() if world.queries.asks_broadphase(world) else []
     found = [_rects(strategy, world.pairs.proxies, tuple(box)) for box in boxes]

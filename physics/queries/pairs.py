@@ -174,11 +174,13 @@ NAMES = CONTACT.names or ()
 
 @dataclass(frozen=True)
 class Manifold:
-    """A contact of two shapes: one unit normal, from A to B, and n points.
+    """A contact of two shapes, as collide returns it. len() is the number n of its points.
 
-    points (n, 2) [px] lie midway between the surfaces. separations (n,) [px] are negative where the shapes overlap.
-    features (n,) identify the points. area [px2] is the shared area of two masks. len() is the number of points;
-    without points the normal is (0, 0).
+    normal: unit vector from A to B; (0, 0) without points.
+    points: (n, 2) [px], midway between the two surfaces.
+    separations: (n,) [px], negative where the shapes overlap.
+    features: (n,) int64, ids of the corners, edges, tiles or pixels that touch.
+    area: area shared by two masks [px²], 0 for other shapes.
     """
 
     normal: Vec2
@@ -201,7 +203,11 @@ class Manifold:
 
 
 def collide(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose, margin: float = 0.0) -> Manifold:
-    """Return the contact of two shapes at poses (x, y) or (x, y, angle). Its points are within margin [px].
+    """Return the contact of two shapes as a Manifold.
+
+    shape_a, shape_b: the shapes.
+    pose_a, pose_b: their poses, (x, y) or (x, y, angle) [px, rad].
+    margin: greatest separation of a point [px], >= 0.
 
     If the two shapes are swapped, the points and separations are the same, and the normal is reversed. Against a
     TileGrid or a Chain, the points of all tiles or links are returned, with the normal of the deepest point. Two shapes
@@ -282,10 +288,12 @@ NEXT_TO_NOTHING = math.ulp(
 
 @dataclass(frozen=True)
 class Distance:
-    """The distance [px] of two shapes, negative for an overlap, with nearest points and unit normal from A to B.
+    """The distance of two shapes, as the function distance returns it.
 
-    point_b = point_a + distance · normal. For overlapping shapes the distance is minus the shortest translation of B
-    along the normal that ends the overlap, and the points lie on the two surfaces. iterations: rounds of GJK and EPA.
+    distance: [px], negative for an overlap: minus the shortest translation of B along the normal that ends it.
+    point_a, point_b: nearest points on the two surfaces [px]; point_b = point_a + distance · normal.
+    normal: unit vector from A to B.
+    iterations: rounds of GJK and EPA.
     """
 
     distance: float
@@ -296,7 +304,10 @@ class Distance:
 
 
 def distance(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> Distance:
-    """Return the distance of two shapes at poses (x, y) or (x, y, angle).
+    """Return the distance of two shapes and their nearest points.
+
+    shape_a, shape_b: the shapes.
+    pose_a, pose_b: their poses, (x, y) or (x, y, angle) [px, rad].
 
     Convex shapes: exact up to rounding. Concave shapes: the distance of the nearest parts, or for an overlap minus the
     depth of `collide`. A mask is measured by its pixels, at the pose at which it is tested (as drawn if snap=True).
@@ -416,10 +427,12 @@ LOOKS = 1024  # number of parts of a motion at which touching shapes are tested 
 
 @dataclass(frozen=True)
 class TimeOfImpact:
-    """The first impact of two moving shapes.
+    """The first impact of two moving shapes, as time_of_impact returns it.
 
-    hit: whether there is an impact; fraction 0..1 of the motion at which the shapes touch; point [px]; unit normal from
-    A to B. Without an impact hit is False, fraction is 1, and point and normal are None.
+    hit: whether there is an impact.
+    fraction: fraction of the motion at which the shapes touch, 0 to 1; 1 without an impact.
+    point: where they touch (x, y) [px]; None without an impact.
+    normal: unit vector from A to B; None without an impact.
     """
 
     hit: bool
@@ -436,9 +449,13 @@ def time_of_impact(
 ) -> TimeOfImpact:
     """Return the first impact of two shapes whose poses move linearly from start to end.
 
-    Poses are (x, y) or (x, y, angle); angles are not wrapped. Two discs are solved in closed form, other convex shapes
-    to 1e-13 of their size and motion. If the shapes touch or overlap at the start, the impact is at fraction 0 if they
-    approach; otherwise the search continues until they approach.
+    shape_a, shape_b: the shapes.
+    start_a, start_b: their poses at the start, (x, y) or (x, y, angle) [px, rad].
+    end_a, end_b: their poses at the end; angles are not wrapped.
+
+    Two discs are solved in closed form, other convex shapes to 1e-13 of their size and motion. If the shapes touch or
+    overlap at the start, the impact is at fraction 0 if they approach; otherwise the search continues until they
+    approach.
 
     A Chain is hit from its front, a one-way tile from above. Seams between tiles or links are not hit. Tiles and chains
     do not collide with each other. Grazing contacts with tiles, links and PixelMasks are not impacts. A PixelMask moves

@@ -360,9 +360,11 @@ BAND = 1 << 14  # pixels rotated per pass: temporary arrays stay in the cache an
 
 @dataclass(frozen=True)
 class Turned:
-    """A mask rotated to one angle: its pixels solid[row, col], its origin, and the source of each pixel.
+    """A mask rotated to one angle, as PixelMask.turned returns it.
 
-    origin [px] is measured from the top left corner of `solid`.
+    solid: its pixels, bool [row, col].
+    origin: origin of body space (x, y) [px], from the top left corner of `solid`.
+    source_x, source_y: column and row of each pixel's source in the unrotated mask, int16 [row, col]; -1 where clear.
     """
 
     solid: np.ndarray

@@ -27,7 +27,9 @@ from physics.tables.shape import BOUNDS, MASK, SHAPE
 
 
 def hull(points: Points) -> Polygon:
-    """Return the convex hull of points (n, 2) [px] as a Polygon of at most 16 corners.
+    """Return the convex hull of points as a Polygon of at most 16 corners.
+
+    points: (n, 2) [px].
 
     If the exact hull has more corners, the edges whose removal adds the least area are removed, and their neighbours
     are extended until they meet. The polygon contains all points, up to rounding errors. Raises ValueError for fewer
@@ -44,16 +46,16 @@ def hull(points: Points) -> Polygon:
 
 
 def decompose(points: Points, holes: Sequence[Points] = (), tolerance: float = 0.0) -> tuple[Polygon, ...]:
-    """Divide a simple polygon, points (n, 2) [px] in either winding, into convex polygons.
+    """Divide a simple polygon into convex polygons of 3 to 16 corners.
 
-    The parts have 3 to 16 corners. holes: polygons inside the outer polygon that are cut out; they may touch at
-    corners. tolerance [px]: bumps and notches up to this depth are ignored, which saves parts. With tolerance 0 the
-    parts cover exactly the polygon, and are cut along lines between its corners. For a polygon of at most 40 corners
-    without holes, there is then no decomposition into fewer parts along such lines, unless a part would need more than
-    16 corners.
+    points: corners (n, 2) [px], in either winding.
+    holes: polygons (n, 2) inside it that are cut out [px]; they may touch at corners.
+    tolerance: bumps and notches up to this depth are ignored [px], >= 0, which saves parts.
 
-    Raises ValueError for edges that cross or touch (the message names both), for zero area, and for a hole that is not
-    inside; TypeError if points or holes are not numbers.
+    With tolerance 0 the parts cover exactly the polygon, and are cut along lines between its corners. For a polygon of
+    at most 40 corners without holes, there is then no decomposition into fewer parts along such lines, unless a part
+    would need more than 16 corners. Raises ValueError for edges that cross or touch (the message names both), for zero
+    area, and for a hole that is not inside; TypeError if points or holes are not numbers.
     """
     outer = checks.columns("points", points)
     if isinstance(holes, (str, bytes)) or not isinstance(holes, (Sequence, np.ndarray)):
@@ -89,7 +91,11 @@ TIERS: tuple[TierName, ...] = get_args(TierName)
 def fit(mask: PixelMask, tier: TierName, tolerance: float = 1.0) -> tuple[Shape, ...]:
     """Return the shapes that replace a mask at one tier (level of accuracy); () for a mask without pixels.
 
-    tier:
+    mask: a PixelMask.
+    tier: one of TIERS, below.
+    tolerance: of the tier "parts" [px], > 0.
+
+    The tiers, from coarse to exact:
         "circle": the smallest circle around all pixels
         "aabb": the AABB of the pixels at each pose
         "obb": the smallest oriented box
@@ -159,7 +165,18 @@ def _snapped(mask, snap):
 
 
 class Fit(NamedTuple):
-    """Accuracy and cost of shapes that replace a mask. The function `measure` returns it and describes the fields."""
+    """Accuracy and cost of shapes that replace a mask, as measure returns them.
+
+    over: area of the shapes outside the mask's pixels [px²].
+    missed: area of the pixels outside the shapes [px²].
+    iou: intersection over union of the areas, 0 to 1.
+    hausdorff: Hausdorff distance of the two boundaries [px], at most 1e-6 too small.
+    area_error: difference of the areas, divided by the pixels' area.
+    center_error: distance of the centres of area [px].
+    inertia_error: difference of the moments of inertia, each about its own centre, divided by the pixels' moment.
+    corners: number of corners: 1 per Circle, 2 per Capsule, 4 per Bounds; for a PixelMask, of its pixels' edges.
+    bytes: memory of the shapes in a world: their table rows, corners and pixels (at one angle).
+    """
 
     over: float
     missed: float
@@ -173,18 +190,10 @@ class Fit(NamedTuple):
 
 
 def measure(mask: PixelMask, shapes: Shape | Sequence[Shape]) -> Fit:
-    """Measure how accurately shapes represent a mask. Return a Fit. The shapes are in the mask's body space.
+    """Measure how accurately shapes represent a mask. Return a Fit.
 
-    Overlapping shapes count as their union. The fields of the result:
-        over: area of the shapes outside the mask's pixels [px²]
-        missed: area of the pixels outside the shapes [px²]
-        iou: intersection over union of the areas
-        hausdorff: Hausdorff distance of the two boundaries [px], at most 1e-6 too small
-        area_error: difference of the areas, divided by the pixels' area
-        center_error: distance of the centres of area [px]
-        inertia_error: difference of the moments of inertia, each about its own centre, divided by the pixels' moment
-        corners: number of corners: 1 per Circle, 2 per Capsule, 4 per Bounds; for a PixelMask, of its pixels' edges
-        bytes: memory of the shapes in a world: their table rows, corners and pixels (at one angle)
+    mask: a PixelMask.
+    shapes: a shape or shapes with an area, in the mask's body space. Overlapping shapes count as their union.
 
     Areas, centres and moments are exact up to rounding. A PixelMask counts as the union of its pixel squares, a Bounds
     as its box at the angle 0. Errors are never negative. If only the shapes or only the pixels are missing, iou is 0,

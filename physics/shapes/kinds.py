@@ -25,7 +25,9 @@ from physics.tables.shape import BOUNDS
 class Bounds(EqualByValue):
     """A shape that is the world AABB of another shape at its pose. It has the other's material, filter and sensor.
 
-    Raises TypeError for a shape other than Circle, Capsule, Polygon or PixelMask.
+    shape: a Circle, Capsule, Polygon or PixelMask.
+
+    Raises TypeError for another shape.
     """
 
     shape: Shape
@@ -56,7 +58,10 @@ class Bounds(EqualByValue):
         return self.shape.mass_of(density)
 
     def reach(self, x: float, y: float) -> float:
-        """Return an upper bound of the distance [px] from (x, y) to the farthest point of the AABB, for any angle."""
+        """Return an upper bound of the distance [px] from a point to the farthest point of the AABB, for any angle.
+
+        x, y: the point in body space [px]; they are not checked.
+        """
         return math.sqrt(2.0) * self.shape.reach(0.0, 0.0) + math.hypot(x, y)
 
     def _hulls(self) -> list[tuple[np.ndarray, float]]:
@@ -146,10 +151,13 @@ def rank_of(shape: Shape) -> int:
 
 
 def mass_of(shapes: Shape | tuple[Shape, ...] | list[Shape], density: float) -> Mass:
-    """Return the total mass of one or more shapes, with the inertia about their common centre of mass.
+    """Return the total Mass of one or more shapes, with the inertia about their common centre of mass.
 
-    Area that shapes share counts once, with the highest of their densities. density [mass per px2]: density of shapes
-    without a material. Raises TypeError for a value that is not a shape, ValueError for a density that is not > 0.
+    shapes: a shape, or a tuple or list of shapes. Area that they share counts once, with the highest of their
+        densities.
+    density: mass per area [per px²], > 0, of shapes without a material.
+
+    Raises TypeError for a value that is not a shape, ValueError for a density that is not > 0.
     """
     density = checks.number("density", density, above=0.0)
     parts = checked_shapes("shapes", shapes if isinstance(shapes, (tuple, list)) else (shapes,))

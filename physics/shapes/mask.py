@@ -34,18 +34,21 @@ TURNED_KEPT = 1 << 20  # [px] of rotated copies that a mask caches: 5 MB, all an
 class PixelMask(Shape):
     """The solid pixels of a sprite as a shape: pixel (i, j) is the square [i, i+1) x [j, j+1), minus the origin.
 
-    snap=True: the mask is tested as it is drawn, at a whole pixel and at the nearest of 128 angles, by AND of packed
-    64-bit words. snap=False: the mask is tested as the union of its squares at the exact pose. Two masks are tested as
-    drawn if both have snap=True, else at their exact poses. Response, sweeps and characters use the outline of the
-    mask, smoothed by up to `smooth` [px].
+    solid: solid pixels, bool [row, col].
+    origin: origin of body space in the image (x, y) [px]; None: the centre of the image.
+    snap: True: tested as it is drawn, at a whole pixel and at the nearest of 128 angles, by AND of packed 64-bit words.
+        False: tested as the union of its squares at the exact pose. Two masks are tested as drawn if both have
+        snap=True.
+    smooth: greatest distance of the outline from the pixels' edges [px], >= 0. Response, sweeps and characters use the
+        outline.
+    one_way: whether bodies pass through the mask from below. Only for static and kinematic bodies.
 
-    one_way=True: bodies pass through the mask from below. The mask pushes only with the upper side of its outline, and
-    only bodies that were above that side. Bodies that come from below or from a side, or overlap the mask, pass. As
-    with one-way tiles, there is no response without the effect `one_way`. Tests by pixels are unaffected. Only static
-    and kinematic bodies can have a one-way mask.
+    size: (width, height) of the image [px].
 
-    Raises TypeError or ValueError if solid is not a grid of bools, if smooth is not a number >= 0, and if snap or
-    one_way is not a bool.
+    A one-way mask pushes only with the upper side of its outline, and only bodies that were above that side. Bodies
+    that come from below or from a side, or overlap the mask, pass. As with one-way tiles, there is no response without
+    the effect one_way. Tests by pixels are unaffected. Raises TypeError or ValueError if solid is not a grid of bools,
+    if smooth is not a number >= 0, if origin is not a finite point, and if snap or one_way is not a bool.
     """
 
     _kind, _has_mass = MASK, True
@@ -94,10 +97,12 @@ class PixelMask(Shape):
         sensor: bool | None = None,
         one_way: bool | None = None,
     ) -> PixelMask:
-        """Return a copy of the mask with its own material, filter and sensor; None: the body's value applies.
+        """Return a copy of the mask with values of its own, which do not change when the body's values change.
 
-        one_way: whether bodies pass through the mask from below; None: as in this mask. Raises TypeError for a value of
-        another type.
+        material, filter, sensor: a Material, a Filter, a bool; None for each: the body's value applies.
+        one_way: whether bodies pass through the mask from below; None: as in this mask.
+
+        Raises TypeError for a value of another type.
         """
         wanted = self.one_way if one_way is None else checks.flag("one_way", one_way)
         if wanted == self.one_way:
@@ -168,9 +173,13 @@ class PixelMask(Shape):
         smooth: float = SMOOTH,
         one_way: bool = False,
     ) -> PixelMask:
-        """Return a mask of the array solid[row, col]. origin [px]: origin of body space in the image; None: its centre.
+        """Return a mask of an array, as PixelMask itself.
 
-        Raises TypeError or ValueError for arguments that PixelMask rejects. snap, smooth, one_way: see PixelMask.
+        solid: solid pixels, bool [row, col]; origin: origin of body space in the image (x, y) [px], None: its centre.
+        snap: True: tested as drawn, False: at the exact pose; smooth: distance of the outline [px], >= 0.
+        one_way: whether bodies pass through the mask from below.
+
+        Raises TypeError or ValueError as PixelMask.
         """
         return cls(solid, origin, snap, smooth, one_way)
 
@@ -185,11 +194,14 @@ class PixelMask(Shape):
         smooth: float = SMOOTH,
         one_way: bool = False,
     ) -> PixelMask:
-        """Return a mask of a pygame surface: solid where alpha > threshold, clear where it has its colour key.
+        """Return a mask of a pygame surface.
 
-        origin [px]: origin of body space in the image; None: its centre. Raises TypeError if surface is not a
-        pygame.Surface, ValueError for a threshold outside 0..255, and both for arguments that PixelMask rejects.
-        snap, smooth, one_way: see PixelMask.
+        surface: a pygame.Surface: solid where alpha > threshold, clear where it has its colour key.
+        threshold: 0 to 255; origin: origin of body space in the image (x, y) [px], None: its centre.
+        snap: True: tested as drawn, False: at the exact pose; smooth: distance of the outline [px], >= 0.
+        one_way: whether bodies pass through the mask from below.
+
+        Raises TypeError if surface is not a pygame.Surface, ValueError for a threshold out of range, both as PixelMask.
         """
         import pygame  # pygame is needed only for this import of sprites
 
@@ -211,10 +223,13 @@ class PixelMask(Shape):
     def from_mask(
         cls, mask: Any, origin: Pair | None = None, snap: bool = True, smooth: float = SMOOTH, one_way: bool = False
     ) -> PixelMask:
-        """Return a mask of a pygame Mask. origin [px]: origin of body space in the image; None: its centre.
+        """Return a mask of a pygame Mask.
 
-        Raises TypeError if mask is not a pygame.Mask, TypeError or ValueError for arguments that PixelMask rejects.
-        snap, smooth, one_way: see PixelMask.
+        mask: a pygame.Mask; origin: origin of body space in the image (x, y) [px], None: its centre.
+        snap: True: tested as drawn, False: at the exact pose; smooth: distance of the outline [px], >= 0.
+        one_way: whether bodies pass through the mask from below.
+
+        Raises TypeError if mask is not a pygame.Mask, TypeError or ValueError as PixelMask.
         """
         import pygame
 
@@ -226,7 +241,9 @@ class PixelMask(Shape):
         return cls(np.ascontiguousarray(pygame.surfarray.array_alpha(drawn).T > 0), origin, snap, smooth, one_way)
 
     def flipped(self, x: bool = False, y: bool = False) -> PixelMask:
-        """Return the mask mirrored left to right (x) and top to bottom (y), together with its origin.
+        """Return the mirrored mask, together with its origin.
+
+        x: mirror left to right; y: mirror top to bottom.
 
         snap, smooth, one_way, material, filter and sensor are kept. Raises TypeError for an x or y that is not a bool.
         """
@@ -237,11 +254,12 @@ class PixelMask(Shape):
         return PixelMask(solid, origin, self.snap, self.smooth).with_values_of(self)
 
     def scaled(self, factor: float) -> PixelMask:
-        """Return the mask and its origin scaled by a factor, by nearest-neighbour sampling at pixel centres.
+        """Return the mask and its origin scaled, by nearest-neighbour sampling at pixel centres.
 
-        A side of n px becomes n · factor, rounded, at least 1. snap, smooth, one_way, material, filter and sensor are
-        kept. Raises TypeError for a factor that is not a number, ValueError for a factor <= 0 or one that makes a side
-        longer than 32768 px.
+        factor: > 0. A side of n px becomes n · factor, rounded, at least 1.
+
+        snap, smooth, one_way, material, filter and sensor are kept. Raises TypeError for a factor that is not a number,
+        ValueError for a factor <= 0 or one that makes a side longer than 32768 px.
         """
         factor = checks.number("factor", factor, above=0.0)
         if max(self.size) * factor > LARGEST:
@@ -251,7 +269,9 @@ class PixelMask(Shape):
         return PixelMask(self.solid[np.ix_(rows, columns)], origin, self.snap, self.smooth).with_values_of(self)
 
     def turned(self, angle: float = 0.0) -> Turned:
-        """Return the pixels rotated to `angle` [rad], rounded to the nearest of 128 angles.
+        """Return the rotated pixels as a Turned. They are what is tested by pixels if snap=True.
+
+        angle: [rad], rounded to the nearest of 128 angles.
 
         The unrotated pixels are always the source, so errors do not add up. Results are cached, for large masks only
         the latest. Raises TypeError or ValueError for an angle that is not a finite number.
@@ -348,7 +368,10 @@ class PixelMask(Shape):
         return min(self.bounds[2] - self.bounds[0], self.bounds[3] - self.bounds[1]) / 2.0
 
     def mass_of(self, density: float) -> Mass:
-        """Return the mass of the solid pixels, as the union of their squares. density [mass per px2]."""
+        """Return the Mass of the solid pixels, as the union of their squares.
+
+        density: mass per area [per px²]; it is not checked.
+        """
         if self.centroid is None:
             return NOTHING
         count, x, y, squares = self._sums

@@ -32,7 +32,12 @@ from physics.outline.measure import (
 
 @dataclass(frozen=True)
 class Mass:
-    """Mass, centre of mass in body space [px], and inertia about the centre of mass [mass · px²]."""
+    """Mass of shapes, as mass_of returns it.
+
+    mass: [density px²].
+    center: centre of mass (x, y) in body space [px].
+    inertia: moment of inertia about the centre of mass [density px⁴].
+    """
 
     mass: float
     center: Vec2

@@ -21,10 +21,13 @@ from physics.tables.geometry import Geometry
 
 @dataclass(frozen=True)
 class Filter:
-    """Collision filter: a set of categories that a shape belongs to, and a set that it collides with, 32 bits each.
+    """Collision filter: categories that a shape belongs to, and categories that it collides with, 32 bits each.
 
-    Shapes a and b collide if a.membership & b.mask and b.membership & a.mask are not 0. Raises TypeError for a value
-    that is not a whole number, ValueError for a value outside 0..0xFFFFFFFF.
+    membership: bits of the shape's own categories, 0 to 0xFFFFFFFF.
+    mask: bits of the categories that it collides with, 0 to 0xFFFFFFFF.
+
+    Shapes a and b collide if a.membership & b.mask and b.membership & a.mask are not 0. Filter.ALL collides with every
+    shape. Raises TypeError for a value that is not a whole number, ValueError for a value out of range.
     """
 
     ALL: ClassVar["Filter"]  # collides with every shape
@@ -41,7 +44,12 @@ class Filter:
 
     @classmethod
     def from_packed(cls, bits: int) -> "Filter":
-        """Return the filter that is packed in 32 bits: membership in the low 16 bits, mask in the high 16 bits."""
+        """Return the filter that is packed in 32 bits.
+
+        bits: membership in the low 16 bits, mask in the high 16 bits, 0 to 0xFFFFFFFF.
+
+        Raises TypeError for a value that is not a whole number, ValueError for a value out of range.
+        """
         bits = checks.whole("bits", bits, 0, 0xFFFFFFFF)
         return cls(bits & 0xFFFF, bits >> 16)
 
@@ -55,11 +63,16 @@ Filter.ALL = Filter(0xFFFFFFFF, 0xFFFFFFFF)
 
 @dataclass(frozen=True)
 class Material:
-    """Density and surface of a shape: density [mass per px2] > 0; friction, restitution, rolling_resistance >= 0.
+    """Density and surface of a shape.
 
-    surface_speed [px/s]: speed of the surface along its tangent, as on a conveyor belt. rolling_resistance: the torque
-    against rolling is at most rolling_resistance · radius · load. Raises TypeError for a value that is not a number,
-    ValueError for a value out of range.
+    density: mass per area [per px²], > 0.
+    friction: >= 0; a contact has the geometric mean of its two.
+    restitution: share of the approach speed after an impact, >= 0; a contact has the greater of its two.
+    rolling_resistance: >= 0; the torque against rolling is at most rolling_resistance · radius · load; the greater.
+    surface_speed: speed of the surface along its tangent [px/s], as on a conveyor belt.
+
+    A value counts only with the effect of its name, surface_speed with conveyor, rolling_resistance with friction.
+    Raises TypeError for a value that is not a number, ValueError for a value out of range.
     """
 
     density: float = 1.0
@@ -195,6 +208,10 @@ class Placed(NamedTuple):
 class Shape:
     """Base of all shapes. A shape is an immutable value in body space [px], x right, y down, without a pose.
 
+    material, filter, sensor: its own Material, Filter and bool, see with_; None for each: the value of its body.
+    points: corners of a convex shape, clockwise on the screen, or ends of the links of a chain [px].
+    radius: radius of a circle or capsule, rounding of a polygon [px], 0 for other shapes.
+
     Callers use these methods and never test the type. The defaults here suit ground: no mass, and hulls that rotate
     with the body. Convex (values.py) computes all results from corners and a radius. SHAPES (kinds.py) lists the types.
     """
@@ -214,7 +231,10 @@ class Shape:
     _may_turn: bool = True  # a body with this shape may have an angle other than 0
 
     def mass_of(self, density: float) -> Mass:
-        """Return the mass of the shape. density [mass per px2]."""
+        """Return the Mass of the shape, 0 for lines and tiles.
+
+        density: mass per area [per px²]; it is not checked.
+        """
         return NOTHING
 
     @property
@@ -233,7 +253,10 @@ class Shape:
         return self.min_half_extent
 
     def reach(self, x: float, y: float) -> float:
-        """Return the distance [px] from (x, y) to the farthest point of the shape, both in body space."""
+        """Return the distance [px] from a point to the farthest point of the shape.
+
+        x, y: the point in body space [px]; they are not checked.
+        """
         return max(math.hypot(px - x, py - y) for px, py in self.points) + self.radius
 
     @property
@@ -290,10 +313,11 @@ class Shape:
         """Raise ValueError if bodies of this kind at these angles [rad] cannot have the shape."""
 
     def with_(self, material: Material | None = None, filter: Filter | None = None, sensor: bool | None = None) -> Self:
-        """Return a copy of the shape with its own material, filter and sensor; None: the body's value applies.
+        """Return a copy of the shape with values of its own, which do not change when the body's values change.
 
-        Own values do not change when the body's values change. An own density counts in the body's mass. Raises
-        TypeError for a value of another type.
+        material, filter, sensor: a Material, a Filter, a bool; None for each: the body's value applies.
+
+        An own density counts in the body's mass. Raises TypeError for a value of another type.
         """
         material = None if material is None else checked_material(material)
         filter = None if filter is None else checked_filter(filter)

@@ -93,7 +93,13 @@ class Convex(EqualByValue):
 
 @dataclass(frozen=True)
 class Circle(Convex):
-    """A disc. Raises TypeError or ValueError for a radius that is not a number > 0, or a center that is not a point."""
+    """A disc.
+
+    radius: [px], > 0.
+    center: (x, y) in body space [px].
+
+    Raises TypeError or ValueError for a radius that is not a number > 0, or a center that is not a finite point.
+    """
 
     radius: float = field()
     center: Vec2 = MIDDLE
@@ -112,7 +118,11 @@ class Circle(Convex):
 class Capsule(Convex):
     """All points within a radius of the line from a to b.
 
-    Raises ValueError for a radius <= 0, and for a and b so close to each other that the line has no direction.
+    a, b: ends of the line (x, y), in body space [px], two different points.
+    radius: [px], > 0.
+
+    Raises TypeError for arguments of other types, ValueError for a radius <= 0, and for a and b so close to each other
+    that the line has no direction.
     """
 
     a: Vec2
@@ -139,10 +149,13 @@ class Capsule(Convex):
 
 @dataclass(frozen=True)
 class Polygon(Convex):
-    """A convex polygon of 3 to 16 corners in either winding, stored clockwise on the screen, rounded by a radius.
+    """A convex polygon, rounded by a radius.
 
-    Raises ValueError for fewer than 3 or more than 16 corners, for zero area, for equal corners or three collinear
-    corners, for a concave outline, and for a radius that is not >= 0.
+    points: 3 to 16 corners (n, 2) in body space [px], in either winding; they are stored clockwise on the screen.
+    radius: rounding, added around the corners [px], >= 0.
+
+    Raises TypeError for arguments of other types. Raises ValueError for another number of corners, for zero area, for
+    equal corners or three collinear corners, for a concave outline (decompose it), and for a radius below 0.
     """
 
     points: tuple[Vec2, ...]
@@ -174,7 +187,9 @@ class Polygon(Convex):
 
     @classmethod
     def known(cls, points: list[list[float]]) -> Polygon:
-        """Return a polygon whose corners [px] are not checked. They must be convex and clockwise on the screen.
+        """Return a polygon whose corners are not checked.
+
+        points: corners [px], convex and clockwise on the screen.
 
         This saves time for the outlines of masks, which have thousands of polygons.
         """
@@ -185,7 +200,14 @@ class Polygon(Convex):
     @classmethod
     @explained
     def box(cls, width: float, height: float, center: Pair = (0.0, 0.0), angle: float = 0.0) -> Polygon:
-        """Return a box of full width and height [px] around `center` [px], rotated by `angle` [rad] about it."""
+        """Return a rectangle as a Polygon.
+
+        width, height: full sizes [px], > 0.
+        center: its centre (x, y) in body space [px].
+        angle: its rotation about this centre [rad].
+
+        Raises TypeError for arguments of other types, ValueError for values out of range.
+        """
         half_width = checks.number("width", width, above=0.0) / 2.0
         half_height = checks.number("height", height, above=0.0) / 2.0
         x, y = checks.vector("center", center)
@@ -225,12 +247,16 @@ def solid_blocks(solid: np.ndarray) -> list[tuple[int, int, int, int]]:
 
 
 class TileGrid(Shape):
-    """A grid of square tiles of one size; the origin is the top left corner of tile (0, 0).
+    """A grid of square tiles of one size, for static and kinematic bodies at angle 0.
 
-    solid[row, col] bool. one_way[row, col] bool: platforms, through which bodies pass from below. slopes[row, col] =
-    (left, right): height of the surface above the tile's bottom at its left and right side, as a fraction 0..1 of the
-    tile. (0, 1) rises to the right, (0, 0) means no slope. Raises ValueError if the arrays differ in shape, a slope is
-    out of range, or a cell is more than one of solid, one-way and slope; TypeError for arrays of other types.
+    solid: solid tiles, bool [row, col]. The origin of body space is the top left corner of tile [0, 0].
+    tile_size: side of a tile [px], > 0.
+    one_way: platforms, through which bodies pass from below, bool [row, col], with the effect one_way; None: none.
+    slopes: number [row, col, 2]: height of the surface above the tile's bottom at its left and right side, as a
+        fraction 0 to 1 of the tile; (0, 1) rises to the right, (0, 0) is no slope; None: no slopes.
+
+    Raises ValueError if the arrays differ in shape, a slope is out of range, or a cell is more than one of solid,
+    one-way and slope; TypeError for arrays of other types.
     """
 
     _kind, _is_ground, _may_turn = TILES, True, False
@@ -381,7 +407,12 @@ def _check_length(name, a, b):
 
 @dataclass(frozen=True)
 class Segment(Convex):
-    """The line from a to b, solid from both sides, without mass. Raises ValueError if a and b coincide."""
+    """The line from a to b, solid from both sides, without mass.
+
+    a, b: ends of the line (x, y), in body space [px], two different points.
+
+    Raises TypeError for arguments of other types, ValueError if a and b coincide.
+    """
 
     a: Vec2
     b: Vec2
@@ -402,13 +433,16 @@ class Segment(Convex):
 class Chain(EqualByValue):
     """Connected one-sided lines (links) from point to point, without mass; for static and kinematic bodies.
 
-    A link of direction (dx, dy) is solid from the side to which (dy, -dx) points. So list the points of a floor from
-    left to right, those of a solid island clockwise on the screen, and those of a room counter-clockwise.
+    points: ends of the links (n, 2), in body space [px]; at least 2, at least 3 for a loop.
+    loop: whether the last point is linked to the first.
+    ghosts: (before, after), points (x, y) [px] that continue the chain at both ends and only smooth collisions there;
+        each may be None.
+    materials: one Material per link; None: the body's.
 
-    loop: whether the last point is linked to the first. ghosts: (before, after), points that continue the chain at both
-    ends; they only smooth collisions there, and each may be None. materials: one Material per link; None: the body's.
-    Raises ValueError for too few points, a link without length, a number of materials other than the number of links,
-    and ghosts of a loop.
+    A link of direction (dx, dy) is solid from the side to which (dy, -dx) points. So list the points of a floor from
+    left to right, those of a solid island clockwise on the screen, and those of a room counter-clockwise. Raises
+    TypeError for arguments of other types; ValueError for too few points, a link without length, a number of materials
+    other than the number of links, and ghosts of a loop.
     """
 
     points: tuple[Vec2, ...]

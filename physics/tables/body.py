@@ -25,46 +25,46 @@ BODY = in_lines(
         ("vx", np.float64),  # [px/s] of the centre of mass
         ("vy", np.float64),
         ("angular_velocity", np.float64),  # [rad/s]
-        ("id", np.int64),
-        ("kind", np.int64),  # STATIC KINEMATIC DYNAMIC
-        ("awake", np.bool_),
+        ("id", np.int64),  # given once, never used again
+        ("kind", np.int64),  # STATIC 0, KINEMATIC 1, DYNAMIC 2
+        ("awake", np.bool_),  # it is simulated; False: its island sleeps
         ("active", np.bool_),  # a step visits the body; True for all bodies in a world without sleeping
         ("dirty", np.bool_),  # added or edited before this step, in a world with sleeping
         ("quarantined", np.bool_),  # disabled because a number was not finite or out of range
         ("bullet", np.bool_),  # also swept against moving bodies
-        ("fixed_rotation", np.bool_),
+        ("fixed_rotation", np.bool_),  # contacts and impulses leave its rotation unchanged
         ("allow_sleep", np.bool_),  # False: its island stays awake
         ("forced", np.bool_),  # a force acted on it in this step, in a world without stacking
         ("has_current_contacts", np.bool_),  # its contacts were updated to its present pose; see contacts/cache.py
-        ("inverse_mass", np.float64),  # 0: infinite mass
-        ("inverse_inertia", np.float64),  # 0: infinite inertia
+        ("inverse_mass", np.float64),  # 1 / mass; 0: infinite mass
+        ("inverse_inertia", np.float64),  # 1 / inertia; 0: infinite inertia
         ("extent", np.float64),  # [px] distance from the centre of mass to the furthest point of its shapes
         ("min_half_extent", np.float64),  # [px] least distance from the middle of a shape to its surface
         (
             "inradius",
             np.float64,
         ),  # [px] the same for the thinnest part of a shape; a body that moves further in a step is swept
-        ("previous_x", np.float64),  # [px] pose before the step, for interpolated drawing and for rollback
+        ("previous_x", np.float64),  # [px, rad] pose before the step, for interpolated drawing and for rollback
         ("previous_y", np.float64),
         ("previous_angle", np.float64),
-        ("settled_x", np.float64),  # [px] last pose that was finite
+        ("settled_x", np.float64),  # [px, rad] last pose that was finite
         ("settled_y", np.float64),
         ("settled_angle", np.float64),
         ("fraction", np.float64),  # fraction of this step's motion before the first impact; 1 without an impact
-        ("continuous", np.int64),  # OFF RAY SWEPT AUTO TOI
-        ("force_x", np.float64),  # accumulated since the last step
+        ("continuous", np.int64),  # OFF 0, RAY 1, SWEPT 2, AUTO 3, TOI 4
+        ("force_x", np.float64),  # [mass px/s2] accumulated since the last step
         ("force_y", np.float64),
-        ("torque", np.float64),
-        ("gravity_scale", np.float64),
+        ("torque", np.float64),  # [mass px2/s2] likewise
+        ("gravity_scale", np.float64),  # factor on the gravity of the world
         ("mass", np.float64),  # [density px2] 0 for bodies without mass
         ("inertia", np.float64),  # [density px4] about the centre of mass
         ("local_center_x", np.float64),  # [px] centre of mass in body space
         ("local_center_y", np.float64),
-        ("still_x", np.float64),  # [px] reference pose of the sleep test
+        ("still_x", np.float64),  # [px, rad] reference pose of the sleep test
         ("still_y", np.float64),
         ("still_angle", np.float64),
         ("sleep_time", np.float64),  # [s] time spent near the reference pose
-        ("rocking_x", np.float64),  # [px] reference pose of the test for bodies that rock in place
+        ("rocking_x", np.float64),  # [px, rad] reference pose of the test for bodies that rock in place
         ("rocking_y", np.float64),
         ("rocking_angle", np.float64),
         ("rocking_time", np.float64),  # [s] time spent around that reference pose

@@ -27,17 +27,17 @@ class Quarantined(Record):
 
 CONTACT_FIELDS = np.dtype(
     [
-        ("body_a", np.int64),  # ids; A is the shape with the smaller id
+        ("body_a", np.int64),  # ids of the bodies; A has the shape with the smaller id
         ("body_b", np.int64),
-        ("shape_a", np.int64),
+        ("shape_a", np.int64),  # ids of the shapes
         ("shape_b", np.int64),
         ("point_x", np.float64),  # [px] midway between the two surfaces
         ("point_y", np.float64),
-        ("normal_x", np.float64),  # unit, from A to B
+        ("normal_x", np.float64),  # unit vector from A to B
         ("normal_y", np.float64),
         ("separation", np.float64),  # [px] negative for an overlap
-        ("normal_impulse", np.float64),  # over the whole step
-        ("tangent_impulse", np.float64),
+        ("normal_impulse", np.float64),  # [mass px/s] along the normal, over the whole step
+        ("tangent_impulse", np.float64),  # [mass px/s] friction, along (-normal_y, normal_x)
         ("area", np.float64),  # [px2] area shared by two masks; 0 for other shapes
         ("feature", np.int64),  # feature id of the corner, edge, tile or pixel of the contact
     ],
@@ -45,22 +45,36 @@ CONTACT_FIELDS = np.dtype(
 )
 EVENT_FIELDS = np.dtype(
     [
-        ("body_a", np.int64),
+        ("body_a", np.int64),  # ids of the bodies; A has the shape with the smaller id
         ("body_b", np.int64),
-        ("shape_a", np.int64),
+        ("shape_a", np.int64),  # ids of the shapes
         ("shape_b", np.int64),
-        ("point_x", np.float64),
+        ("point_x", np.float64),  # [px] midway between the two surfaces
         ("point_y", np.float64),
-        ("normal_x", np.float64),
+        ("normal_x", np.float64),  # unit vector from A to B
         ("normal_y", np.float64),
     ],
     align=True,
 )
-HIT_FIELDS = np.dtype(EVENT_FIELDS.descr + [("speed", np.float64), ("normal_impulse", np.float64)])
+HIT_FIELDS = np.dtype(
+    [
+        *EVENT_FIELDS.descr,
+        ("speed", np.float64),  # [px/s] approach speed along the normal, before the response
+        ("normal_impulse", np.float64),  # [mass px/s] along the normal, over the whole step
+    ]
+)
 CONTACT_POINT, EVENT, HIT = (
     np.dtype(each) for each in ((Contact, CONTACT_FIELDS), (Event, EVENT_FIELDS), (Hit, HIT_FIELDS))
 )
-QUARANTINE = np.dtype((Quarantined, [("body", np.int64), ("reason", "U96")]))
+QUARANTINE = np.dtype(
+    (
+        Quarantined,
+        [
+            ("body", np.int64),  # id
+            ("reason", "U96"),  # the rule that a number of it, of its shapes or of its character breaks
+        ],
+    )
+)
 
 # ---- contact ---------------------------------------------------------------------------------------------------------
 # CONTACT: two shapes that touch or may touch in this step. A row holds the manifold of the narrow phase, and the

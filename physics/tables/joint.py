@@ -14,11 +14,11 @@ FREE, PINNED, ON_AXIS, TOOTHED, GEARED, SLUNG = 0, 1, 2, 3, 4, 5
 NO_COORDINATE, ANGLE, TRANSLATION, LENGTH = 0, 1, 2, 3
 
 STATE = (  # fields on which the next step depends
-    ("id", np.int64),
+    ("id", np.int64),  # given once, never used again
     ("kind", np.int64),  # index in joints.kinds.KINDS
-    ("body_a", np.int64),  # ids; WORLD: none
+    ("body_a", np.int64),  # ids of the bodies; -1: the world
     ("body_b", np.int64),
-    ("enabled", np.bool_),
+    ("enabled", np.bool_),  # the joint acts
     ("contacts", np.bool_),  # the two bodies may touch each other
     ("locks_angle", np.bool_),  # the angle of B relative to A is held
     ("follows_point", np.bool_),  # anchors are held together; False: only their relative velocity is controlled
@@ -27,10 +27,10 @@ STATE = (  # fields on which the next step depends
     ("awake", np.bool_),  # the joint was solved in the last step
     ("direct", np.bool_),  # the joint is in a tree, see solver/joint_direct.py
     ("broken", np.bool_),  # a breaking force or torque was exceeded in the last step
-    ("hold", np.int64),  # FREE PINNED ON_AXIS TOOTHED GEARED SLUNG
-    ("coordinate", np.int64),  # NO_COORDINATE ANGLE TRANSLATION LENGTH
+    ("hold", np.int64),  # FREE 0, PINNED 1, ON_AXIS 2, TOOTHED 3, GEARED 4, SLUNG 5
+    ("coordinate", np.int64),  # NO_COORDINATE 0, ANGLE 1, TRANSLATION 2, LENGTH 3
     # Geometry.
-    ("local_ax", np.float64),  # [px] anchor in the space of body A, in the world for a joint to the world
+    ("local_ax", np.float64),  # [px] anchors in the spaces of A and B, in the world for a joint to the world
     ("local_ay", np.float64),
     ("local_bx", np.float64),
     ("local_by", np.float64),
@@ -38,44 +38,44 @@ STATE = (  # fields on which the next step depends
     ("axis_y", np.float64),
     ("reference", np.float64),  # [rad] angle of B relative to A at which `angle` is 0
     # Settings. A coordinate is in px or rad; forces are torques where it is an angle.
-    ("lower", np.float64),  # limits of the coordinate; -inf, inf: no limit; equal limits hold the coordinate
-    ("upper", np.float64),
-    ("motor_speed", np.float64),  # [1/s] times the unit of the coordinate
-    ("motor_max", np.float64),  # greatest force or torque of the motor; 0: no motor
+    ("lower", np.float64),  # least coordinate; -inf: no limit
+    ("upper", np.float64),  # greatest coordinate; inf: no limit; equal limits hold the coordinate
+    ("motor_speed", np.float64),  # target speed of the coordinate [px/s or rad/s]
+    ("motor_max", np.float64),  # greatest force [mass px/s2] or torque [mass px2/s2] of the motor; 0: no motor
     ("spring_hertz", np.float64),  # [1/s] 0: no spring
     ("spring_damping", np.float64),  # damping ratio
-    ("spring_target", np.float64),  # coordinate at which the spring rests
+    ("spring_target", np.float64),  # coordinate at which it rests [px or rad]
     ("point_hertz", np.float64),  # [1/s] frequency of a soft hold of the anchors; 0: rigid
-    ("point_damping", np.float64),
-    ("point_max", np.float64),  # greatest force that holds the anchors
+    ("point_damping", np.float64),  # damping ratio of that hold
+    ("point_max", np.float64),  # [mass px/s2] greatest force that holds the anchors
     ("angle_hertz", np.float64),  # [1/s] frequency of a soft hold of the angle; 0: rigid
-    ("angle_damping", np.float64),
-    ("angle_max", np.float64),  # greatest torque that holds the angle
+    ("angle_damping", np.float64),  # damping ratio of that hold
+    ("angle_max", np.float64),  # [mass px2/s2] greatest torque that holds the angle
     ("target_vx", np.float64),  # [px/s] controlled velocity of B's anchor relative to A, in the space of A
     ("target_vy", np.float64),
     ("target_spin", np.float64),  # [rad/s] controlled angular velocity of B relative to A
-    ("break_force", np.float64),  # inf: unbreakable
-    ("break_torque", np.float64),
+    ("break_force", np.float64),  # [mass px/s2] force above which it breaks; inf: never
+    ("break_torque", np.float64),  # [mass px2/s2] likewise a torque
     # State after the last step.
     ("angle", np.float64),  # [rad] angle of B relative to A, 0 when the joint was made
     ("translation", np.float64),  # [px] translation along the axis, distance of the anchors, or sum of a gear or pulley
-    ("speed", np.float64),  # rate of change of the coordinate; without a coordinate of the angle
+    ("speed", np.float64),  # rate of change of the coordinate [px/s or rad/s]; without a coordinate of the angle
     ("separation", np.float64),  # [px] error: distance of held anchors, distance from the axis, or excess over limits
-    ("force_x", np.float64),  # force on B at its anchor: impulse of the step per second
+    ("force_x", np.float64),  # [mass px/s2] force on B at its anchor: impulse of the step per second
     ("force_y", np.float64),
-    ("torque", np.float64),  # on B, beside that force
-    ("strain", np.float64),  # greatest force of late that held the anchors, see joint_direct.add_inertia
+    ("torque", np.float64),  # [mass px2/s2] on B, beside that force
+    ("strain", np.float64),  # [mass px/s2] greatest force of late that held the anchors, see joint_direct.add_inertia
     # Impulses per second with which the next step starts.
-    ("point_force_x", np.float64),
-    ("point_force_y", np.float64),  # ON_AXIS: force across the axis; SLUNG: forces that stop A, B at their pulleys
-    ("hold_torque", np.float64),
-    ("spring_force", np.float64),
-    ("motor_force", np.float64),
-    ("lower_force", np.float64),
-    ("upper_force", np.float64),
+    ("point_force_x", np.float64),  # impulse per second that holds the anchors
+    ("point_force_y", np.float64),  # likewise; ON_AXIS: across the axis; SLUNG: forces that stop A, B at their pulleys
+    ("hold_torque", np.float64),  # impulse per second that holds the angle
+    ("spring_force", np.float64),  # impulse per second of the spring
+    ("motor_force", np.float64),  # impulse per second of the motor
+    ("lower_force", np.float64),  # impulse per second of the lower limit
+    ("upper_force", np.float64),  # impulse per second of the upper limit
 )
 SCRATCH = (  # rows in this step, and solver fields, which the solver writes before it reads them
-    ("body_row_a", np.int32),  # rows of BODY; WORLD: none
+    ("body_row_a", np.int32),  # rows of BODY; -1: the world
     ("body_row_b", np.int32),
     ("motion_a", np.int32),  # rows of MOTION
     ("motion_b", np.int32),
@@ -87,26 +87,26 @@ SCRATCH = (  # rows in this step, and solver fields, which the solver writes bef
     ("base_y", np.float64),
     ("start_nx", np.float64),  # axis at the start of the step
     ("start_ny", np.float64),
-    ("start_angle", np.float64),
+    ("start_angle", np.float64),  # [rad] angle of the joint at the start of the step
     ("ax", np.float64),  # [px] moment arms in the present substep, see joint_rows.place_joint
     ("ay", np.float64),
     ("bx", np.float64),
     ("by", np.float64),
     ("apart_x", np.float64),  # [px] vector from A's anchor to B's anchor in the present substep
     ("apart_y", np.float64),
-    ("nx", np.float64),
-    ("ny", np.float64),
+    ("nx", np.float64),  # axis in the present substep
+    ("ny", np.float64),  # likewise
     ("turn", np.float64),  # [rad] angle of the joint in the present substep
     ("point_x", np.float64),  # impulses in the present substep
     ("point_y", np.float64),
-    ("hold_impulse", np.float64),
-    ("spring", np.float64),
-    ("motor", np.float64),
-    ("low", np.float64),
-    ("high", np.float64),
+    ("hold_impulse", np.float64),  # impulse that holds the angle
+    ("spring", np.float64),  # impulse of the spring
+    ("motor", np.float64),  # impulse of the motor
+    ("low", np.float64),  # impulse of the lower limit
+    ("high", np.float64),  # impulse of the upper limit
     ("total_x", np.float64),  # impulses of the step on B
     ("total_y", np.float64),
-    ("total_torque", np.float64),
+    ("total_torque", np.float64),  # angular impulse of the step on B
 )
 COUPLED_STATE = (  # fields of gears, pulleys and ratchets on which the next step depends; 0 for other kinds
     ("joint_a", np.int64),  # ids of the joints that a gear couples; NO_JOINT: it couples body_a, body_b itself
@@ -159,12 +159,12 @@ BROKEN = np.dtype(
     (
         Broken,
         [
-            ("joint", np.int64),
-            ("body_a", np.int64),
+            ("joint", np.int64),  # id
+            ("body_a", np.int64),  # ids of its bodies; -1: the world
             ("body_b", np.int64),
-            ("force", np.float64),
-            ("torque", np.float64),
-            ("reason", "U8"),  # force torque removed
+            ("force", np.float64),  # [mass px/s2] magnitude of its force in the last step
+            ("torque", np.float64),  # [mass px2/s2] its torque in the last step
+            ("reason", "U8"),  # "force", "torque": it broke by it; "removed": with a body or joint
         ],
     )
 )

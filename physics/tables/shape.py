@@ -40,33 +40,33 @@ TURNS = 32766.0 / SHARPEST  # [1/rad] scale of a turn stored in 15 bits
 WHOLE_MASK = -1  # tile number of a row that belongs to no tile
 SHAPE = in_lines(
     [  # ordered by use: the first cache line holds the fields that every candidate needs
-        ("min_x", np.float64),  # [px] tight AABB at the final pose of the step
+        ("min_x", np.float64),  # [px] least corner of the tight AABB at the final pose of the step
         ("min_y", np.float64),
-        ("max_x", np.float64),
+        ("max_x", np.float64),  # [px] its greatest corner
         ("max_y", np.float64),
-        ("body_row", np.int64),
-        ("id", np.int64),
-        ("kind", np.int64),  # CIRCLE POLYGON BOUNDS TILES MASK CAPSULE SEGMENT CHAIN
-        ("sensor", np.bool_),
+        ("body_row", np.int64),  # row in world.bodies
+        ("id", np.int64),  # given once, never used again
+        ("kind", np.int64),  # CIRCLE 0, POLYGON 1, BOUNDS 2, TILES 3, MASK 4, CAPSULE 5, SEGMENT 6, CHAIN 7
+        ("sensor", np.bool_),  # it reports overlaps and does not push
         ("snap", np.bool_),  # a mask that is tested as drawn, on the pixel grid; otherwise at its exact pose
-        ("own_material", np.bool_),  # the material is set on the shape, not on the body; likewise filter and sensor
-        ("own_filter", np.bool_),
-        ("own_sensor", np.bool_),
+        ("own_material", np.bool_),  # the material is set on the shape, not on the body
+        ("own_filter", np.bool_),  # likewise the filter
+        ("own_sensor", np.bool_),  # likewise the sensor flag
         ("parent", np.int64),  # id of the mask of which this shape is a part; otherwise the id of the shape
-        ("role", np.int64),  # WHOLE PIXELS PART
+        ("role", np.int64),  # WHOLE 0, PIXELS 1, PART 2
         ("geometry", np.int64),  # row of the corners, grids (TILES), masks (MASK) or chains (CHAIN); -1: none
         ("radius", np.float64),  # [px] radius of a circle or capsule, rounding of a polygon
-        ("friction", np.float64),
-        ("restitution", np.float64),
-        ("rolling_resistance", np.float64),
+        ("friction", np.float64),  # see Material
+        ("restitution", np.float64),  # see Material
+        ("rolling_resistance", np.float64),  # see Material
         ("surface_speed", np.float64),  # [px/s] along the tangent, see Material
-        ("raster", np.int64),  # raster of a mask at its body's angle; left, top: pixel column and row of the drawing
-        ("left", np.int64),
-        ("top", np.int64),
+        ("raster", np.int64),  # raster of a mask at its body's angle
+        ("left", np.int64),  # [px] pixel column of the drawing of a mask
+        ("top", np.int64),  # [px] pixel row of the drawing of a mask
         # Four 16-bit fields: polygon edges inside the parent shape, which push nothing out; corners that other parts
         # cover; corners that are blunter in the outline than in this part; the greatest turn of the outline at these
         # blunter corners. See outline/tile_seams.py.
-        ("inner", np.int64),
+        ("inner", np.int64),  # edges and corners of a part that lie inside its mask, as bits
         ("tile", np.int64),  # tile of a large mask that contains a PART; otherwise WHOLE_MASK
         ("body", np.int64),  # id
         ("local_x", np.float64),  # [px] centre of a circle, in body space
@@ -74,7 +74,7 @@ SHAPE = in_lines(
         ("wrapped", np.int64),  # kind of the shape that a BOUNDS encloses
         ("membership", np.int64),  # 32 bits
         ("mask", np.int64),  # 32 bits
-        ("density", np.float64),
+        ("density", np.float64),  # [mass per px2]
         ("proxy", np.int64),  # slot in the broad phase, -1: none
     ]
 )

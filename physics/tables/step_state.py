@@ -11,10 +11,28 @@ from physics.settings import Tolerances
 # Work counters of a step: their names, and the index of each in the int64 array that kernels add to.
 
 COUNTERS = (
-    "bodies_integrated", "nodes_visited", "pairs_tested", "candidates", "filtered", "narrow_tests", "mask_tests",
-    "contacts", "toi_calls", "solver_rows", "tangent_rows", "restitution_rows", "gjk_iterations", "cap_hits",
-    "sensor_tests", "joints_solved", "islands", "carved_pixels", "swaps", "reinserts", "cells_touched",
-)  # fmt: skip
+    "bodies_integrated",  # bodies moved by their velocities
+    "nodes_visited",  # cells, tree nodes or list entries that the broad phase read
+    "pairs_tested",  # pairs of boxes that the broad phase compared
+    "candidates",  # pairs that passed broad phase and filters, world.candidates
+    "filtered",  # pairs of boxes that overlap and that a filter rejected
+    "narrow_tests",  # pairs of shapes whose geometry was tested
+    "mask_tests",  # tests in which pixels of a mask were read
+    "contacts",  # contact points of pairs that touch
+    "toi_calls",  # searches for a time of impact
+    "solver_rows",  # contact points that the solver solved
+    "tangent_rows",  # of these, points with friction
+    "restitution_rows",  # of these, points that bounced
+    "gjk_iterations",  # rounds of GJK in searches for a time of impact
+    "cap_hits",  # searches that reached their greatest number of rounds, and islands that need more substeps
+    "sensor_tests",  # pairs with a sensor whose geometry was tested
+    "joints_solved",  # joints that the solver solved
+    "islands",  # awake islands
+    "carved_pixels",  # pixels that Body.carve removed since the last step
+    "swaps",  # places by which boxes moved in the order of sweep and prune
+    "reinserts",  # boxes inserted again into the tree or grid
+    "cells_touched",  # cells of the grid into which boxes were written
+)
 (
     BODIES_INTEGRATED, NODES_VISITED, PAIRS_TESTED, CANDIDATES, FILTERED, NARROW_TESTS, MASK_TESTS,
     CONTACTS, TOI_CALLS, SOLVER_ROWS, TANGENT_ROWS, RESTITUTION_ROWS, GJK_ITERATIONS, CAP_HITS,

@@ -494,3 +494,14 @@ def test_empty_worlds_and_worlds_of_statics_step(name):
 def test_missing_snapshot_file_is_the_plain_error():
     with pytest.raises(FileNotFoundError):
         Snapshot.load("/nowhere/at all.npz")
+
+
+@pytest.mark.parametrize("ids", [1.7, [1.2], np.array([0.5]), [10**300], [True], None, "0", object(), [np.inf]])
+def test_rows_are_looked_up_by_whole_numbers(ids):
+    """A fraction is no id: it was cut off, and the row of another body returned."""
+    world = World(ALL)
+    bodies = [world.add_body(BALL, position=(30 * k, 0)) for k in range(3)]
+    with pytest.raises(TypeError, match="ids must be Bodies or ids"):
+        world.rows(ids)
+    assert world.rows(np.array([[2], [0]], np.int32)).tolist() == [[2], [0]] and world.rows([]).shape == (0,)
+    assert world.rows(bodies[1]).tolist() == [1]
