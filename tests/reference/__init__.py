@@ -1,0 +1,1 @@
+"""docs/reference.md, from docstrings, signatures and tables: `python -m tests.reference`; `--check` compares."""
