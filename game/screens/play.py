@@ -297,6 +297,8 @@ class Play(SceneScreen):
     def feed(self, event: pygame.event.Event) -> bool:
         """Process an event that has a function on this screen, before the game gets it. Return whether it was used."""
         hint = None if self.open_panel is not None else self.hint
+        if isinstance(hint, LabCard) and hint.turned_by(event):
+            return True
         if hint is not None and hint.dismissed_by(event, self.devices.pressed_button(event)):
             if self.settings is not None:
                 hint.remember(self.settings)

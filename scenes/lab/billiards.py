@@ -1,5 +1,8 @@
 """Fifteen balls, a cue ball and six pockets: does a break keep the momentum it was given?
 
+In short: until a ball meets a cushion, all momenta together equal that of the cue ball. The error is shown at the
+right.
+
 What to see: the table is seen from above, so there is no gravity, only the drag of the cloth. Until a ball meets a
 cushion, the total momentum of all balls equals that of the cue ball, in size and direction. No collision of two balls
 adds energy. Pockets are sensors: they push nothing and report each ball.

@@ -1,5 +1,7 @@
 """Four broad phases on the same bodies: do they find the same pairs, and what does each pay for it?
 
+In short: all four report the same pairs. Which one is cheapest depends on the layout; brute force tests every pair.
+
 What to see: each layout has another cheapest strategy. The hash suits up to a thousand slow bodies; the sweep suits
 fast ones, because speed costs it little; the tree suits many still bodies and few movers. Brute force tests all n
 squared pairs.

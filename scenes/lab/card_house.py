@@ -1,5 +1,8 @@
 """A house of cards: how much friction does it need to stand?
 
+In short: two cards that lean on each other need a friction of 0.223. One pair has 5 % less and slides apart, one 5 %
+more and stands.
+
 What to see: two cards that lean on each other push their feet apart. The force is half their weight times the tangent
 of their lean, so one pair needs a friction of 0.223 at the table. Of the two pairs on the right, one has 5 % less and
 one 5 % more. The house, whose lower cards carry the upper ones, needs twice that.

@@ -1,5 +1,7 @@
 """Belts that run, level, up and down: does everything that lies on them end up at the belt's speed?
 
+In short: above, belts carry crates by their surface speed. Below, the same belts without the effect carry nothing.
+
 What to see: above, the surfaces of the belts carry boxes, a hexagon, a capsule and a wheel with rolling resistance.
 Below, the same belts are in a world without the effect "conveyor", and the same crates stay where they fall. Turn the
 speed.

@@ -1,5 +1,8 @@
 """Five steel balls in a row, struck by one or two: do only as many leave at the other end?
 
+In short: with a gap, each collision is one of two balls. Without it several meet in one step, and projection scatters
+its row.
+
 What to see: three channels with the same row, one per solver. With a small gap between the balls, each collision is one
 of two balls, and momentum and energy allow one result: the last ball leaves with the whole speed. Without the gap
 several balls meet in one step, and the result is open. Sequential impulse and soft step solve such hits together: as

@@ -1,5 +1,7 @@
 """The shooter's own traffic, judged by nine tiers: how often does each say hit where no pixel is shared, or miss a hit?
 
+In short: the game plays by exact pixels. Wrong answers of every tier are counted; you cannot die here.
+
 What to see: the game uses the exact pixels. Ten times a second every tier tests the same moment, and its wrong answers
 are counted. Choose a tier with the wheel: its wrong pairs in the last moment are lit. The curves settle with the number
 of hits; the bars are 95 % intervals of the rates. You cannot die here: fly into the traffic and count the hits of your

@@ -1,5 +1,8 @@
 """Two rows of dominoes, the second four times as large: does its wave run twice as fast?
 
+In short: gravity is the only clock: at four times the size everything takes twice the time. A hidden length in the
+solver would break this.
+
 What to see: gravity is the only clock here, so a row of four times the size takes twice the time (Froude's rule). A
 length hidden in the solver (a slop, a margin, a fixed speed) would break this rule. So the second wave is half as fast
 on the screen, and twice as fast over the ground.

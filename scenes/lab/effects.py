@@ -1,5 +1,8 @@
 """Seventeen effects in one busy yard, each switched off while it runs: what would be missed, and what does it cost?
 
+In short: gold runs with the chosen effect, blue without it. The table shows what differs after two seconds, and the
+cost.
+
 What to see: choose an effect. From then on the yard runs twice, with the effect (gold) and without it (blue); a thing
 whose place differs is outlined in both colours. Switch the effect off: the solid picture is now the blue one, and
 stages that only this effect needs leave the time graph. After two seconds you see how far both yards differ, and the

@@ -1,5 +1,7 @@
 """Six kinds of thing, all pairs of kinds: which may meet? A pair needs a yes from both sides.
 
+In short: each cell swings two discs together. They touch only if both masks say yes; a click switches one yes.
+
 What to see: each cell holds two discs that swing into each other, the row's kind on the left and the column's on the
 right. A click switches whether the row's mask contains the column's kind: its yes. The discs touch only if both say
 yes. The broad phase drops all other pairs before it writes them, so they cost nothing later.

@@ -1,5 +1,7 @@
 """A floor of boxes, a floor of tiles, a chain: all equally flat, and no seam of them is felt.
 
+In short: a box, a disc and a capsule slide over three floors without friction. Their speed stays the same on each.
+
 What to see: a box, a disc and a capsule slide over 260 tile lengths of each floor, without friction. Tiles are merged,
 and links of a chain know their neighbours. Separate boxes do not: if the surface under a body continues flush, a
 contact with the side or corner of the next box is dropped. The speed stays the same on each floor.

@@ -1,5 +1,7 @@
 """The accuracy ladder: one sprite at every tier, from a circle to its exact pixels. What does each rung buy?
 
+In short: red is covered but not drawn, blue is drawn but not covered. Closer shapes take more bytes.
+
 What to see: red pixels are covered by the shape only, blue ones by the sprite only. Down the ladder, the shapes lie
 closer to the pixels, and take more bytes and more time to build. The time of a test goes up, and at the pixels down
 again.

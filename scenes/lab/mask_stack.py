@@ -1,5 +1,8 @@
 """The same sprites in five worlds, pushed by their box, hull, parts, outline and by every single pixel: what is felt?
 
+In short: boxes and hulls hold up air, so sprites hover. The outline fits within half a pixel, and its seams are not
+felt.
+
 What to see: boxes and hulls include the air beside a bracket or under an arm, so the drawn sprites hover. Separate
 parts fit, but their inner edges are felt. The outline is within half a pixel, its seams are never felt, and round
 sprites stay round. With the edge of every pixel, a disc has fifty corners to roll over. The cost is written under each

@@ -1,5 +1,7 @@
 """Bullets and spinning swords fly at walls of one pixel, swept and not: which of them come through?
 
+In short: at the left only the poses after each step are tested, and most shots pass. The white mark is a swept impact.
+
 What to see: a shot moves sixty pixels per step, and a wall is one pixel thick. If only the poses after each step are
 tested, most shots pass the wall. Swept to the time of impact, including rotation, none passes: each stops where its own
 outline first meets the wall's. The white mark is that place, and the number is the time of impact, as a share of the

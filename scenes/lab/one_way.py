@@ -1,5 +1,7 @@
 """Planks that are open from below, and a lift: do crates and the hero agree about what is solid?
 
+In short: springs throw crates up through planks, and they come to rest on top. The lift carries a crate and a walker.
+
 What to see: springs throw crates, balls and nuts up through the planks, and they come to rest on top. The hero jumps
 through the same planks and stands on them. The lift carries a crate, which the solver moves, and a walker, which walks
 in whole pixels: neither slips.

@@ -1,5 +1,7 @@
 """A pyramid of crates: does it stand still, and what does standing cost per step?
 
+In short: its load grows with the rows. Fewer substeps save time, and crates overlap more: the plot shows both.
+
 What to see: the number of crates grows with the square of the rows, and so does the weight on the lowest ones. With
 fewer substeps or another solver, the overlap grows and the top starts to wander.
 

@@ -1,5 +1,7 @@
 """Rays, casts, overlaps, areas, the closest point among hundreds of shapes: what do four broad phases look at for it?
 
+In short: one query, four worlds, one answer. Drawn is what each strategy visits for it; beside it, how many boxes.
+
 What to see: the same query runs in four worlds in every step, one per strategy. All give the same answer: hits with
 their normals and fractions. The places that each one visits are drawn: boxes of the tree that were entered or rejected;
 cells of the hash; the stretch of the sweep; all boxes of brute force. A long slanted ray is split into several query

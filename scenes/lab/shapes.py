@@ -1,5 +1,8 @@
 """Any two convex shapes: how far apart are they, or how deep in each other, and do three methods agree?
 
+In short: at the right, all differences A - B of their points: the shapes overlap if these contain the origin. GJK walks
+towards it.
+
 What to see: drag and turn the shapes. Below them is the best axis of SAT, with both projections. At the right is the
 set of all differences A - B of their points: the shapes overlap if it contains the origin. GJK moves towards the origin
 with a simplex; EPA grows a polygon from inside to the edge. Enter shows the next iteration.

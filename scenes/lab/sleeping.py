@@ -1,5 +1,8 @@
 """Heaps that fall asleep, and a ball that wakes one of them: who wakes whom, and what does lying still cost?
 
+In short: bodies at rest for half a second sleep, darker, and cost next to nothing. A knock wakes the island that it
+meets.
+
 What to see: a heap that has been at rest for half a second falls asleep and is drawn darker. It keeps its contacts and
 forces, and a step costs next to nothing. A knock wakes the island that it meets and no other. A falling column wakes
 the next one, and so a wave of waking, lit up, runs along the columns. Then all fall asleep again.

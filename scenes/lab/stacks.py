@@ -1,5 +1,7 @@
 """The same column of crates in three worlds, one per solver: which of them stands straight?
 
+In short: projection falls: it forgets the weight above. The other two keep their impulses from step to step, and stand.
+
 What to see: projection pushes each overlap out by itself and forgets the weight above, so the column jitters apart.
 Sequential impulse keeps its impulses from step to step. Soft step does too, and its contacts give like stiff springs:
 its column stands a third of a percent lower, and comes to rest after a nudge.

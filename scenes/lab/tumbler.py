@@ -1,5 +1,8 @@
 """A turning drum full of shapes that are carried up and fall: does any of them ever get out?
 
+In short: the drum is one kinematic body of many boxes, which move into the shapes from every side. A leak would show at
+once.
+
 What to see: the drum is one kinematic body of many boxes. In every step its walls move into the shapes that lie on
 them, from every side, with the weight of the whole load above. A leak, a jitter or a gain of energy would show at once.
 

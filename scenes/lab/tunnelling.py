@@ -1,5 +1,7 @@
 """The same shots in four lanes: tested where they stand, along a ray, swept, and at their time of impact. Which miss?
 
+In short: a fast ball is before the plate in one step, beyond it in the next. The red number counts missed shots.
+
 What to see: a fast ball is on one side of a thin plate in one step and beyond it in the next. The ray of its centre
 finds the plate, but misses it if the ball only grazes the edge. The sweep finds both, as long as nothing rotates: a
 spinning rod reaches the plate with an end that was elsewhere when the step began. Bullets that fly at each other are

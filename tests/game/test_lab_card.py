@@ -7,6 +7,7 @@ import pytest
 
 from game.files.settings import Settings, load_settings
 from game.input.devices import DeviceSource
+from game.registry import Registry
 from game.run.picture import Picture
 from game.screens.parts.first_hint import HintCard
 from game.screens.parts.lab_card import LabCard, first_card, what_to_see
@@ -16,6 +17,7 @@ from tests.game.arena import Arena
 from tests.lockstep import make_scene
 
 K = pygame
+SCENE_CLASSES = Registry(SCENES)
 LABS = [name for name in SCENES if name.startswith("lab/")]
 SIZES = [(480, 270), (960, 540), (1440, 810), (1920, 1080)]
 
@@ -40,17 +42,29 @@ def down(key, text=""):
 
 
 @pytest.mark.parametrize("name", LABS)
-def test_every_lab_says_what_to_see_and_all_of_it_can_be_read(name):
+def test_the_first_page_has_sixty_words_at_most(name):
+    text = what_to_see(SCENE_CLASSES.scene_class(name))
+    assert len(" ".join((text.question, text.short, text.to_try)).split()) <= 60
+
+
+@pytest.mark.parametrize("page", (0, 1))
+@pytest.mark.parametrize("name", LABS)
+def test_every_lab_says_what_to_see_and_all_of_it_can_be_read(name, page):
     play = screen(name)
     assert isinstance(play.hint, LabCard)
     for _ in range(3):
         play.step()
+    if page:
+        play.feed(down(K.K_F1))
+    assert play.hint.page == page
     for size in SIZES:
         picture = Picture(pygame.Surface(size))
         frame = play.draw(picture)
         text = words(frame)
-        assert all(play.hint.text), "what to see, why it matters, what to try and whose method it is"
-        assert all(word in text for word in " ".join(play.hint.text).split())
+        question, short, see, why, to_try, source = play.hint.text
+        shown = (question, see, why, source) if page else (question, short, to_try)
+        assert all(shown), "in short and what to try; what to see, why it matters, and whose method it is"
+        assert all(word in text for word in " ".join(shown).split())
         inside = [rect for rect, _ in frame.boxes if play.hint.rect.colliderect(rect)]
         assert frame.surface.get_rect().contains(play.hint.rect), size
         assert all(play.hint.rect.contains(rect) for rect in inside), "nothing else is written there, and nothing cut"
@@ -67,7 +81,10 @@ def test_the_card_comes_once_and_when_it_is_asked_for(drive):
     assert load_settings()[0].labs_seen == ["lab/cradle"]
     d.post(K.KEYDOWN, key=K.K_F1, unicode="", mod=0)
     d.turns(2)
-    assert isinstance(d.screen.hint, LabCard)
+    assert isinstance(d.screen.hint, LabCard) and d.screen.hint.page == 0
+    d.post(K.KEYDOWN, key=K.K_F1, unicode="", mod=0)
+    d.turns(2)
+    assert isinstance(d.screen.hint, LabCard) and d.screen.hint.page == 1
     d.post(K.KEYDOWN, key=K.K_SLASH, unicode="?", mod=K.KMOD_SHIFT)
     d.turns(2)
     assert d.screen.hint is None and load_settings()[0].labs_seen == ["lab/cradle"]
@@ -85,6 +102,7 @@ def test_the_card_comes_once_and_when_it_is_asked_for(drive):
 
 def test_the_goals_are_what_the_lab_has_measured():
     play = screen("lab/tunnelling")
+    play.feed(down(K.K_F1))
     picture = Picture(pygame.Surface((1440, 810)))
     for _ in range(90):
         play.step()
@@ -113,6 +131,7 @@ def test_it_stays_where_it_is_while_the_lab_goes_on():
 
 def test_what_has_no_room_is_counted():
     play = screen("lab/gallery")
+    play.feed(down(K.K_F1))
     frame = play.draw(Picture(pygame.Surface((480, 270))))
     shown = sum(goal.name in words(frame) for goal in play.hint.goals)
     assert shown < len(play.hint.goals)

@@ -1,4 +1,4 @@
-"""A lab's card: its question, what to see, why it matters, things to try, the source, and the lab's findings."""
+"""A lab's card: its question, the answer in short and a thing to try; on a second page all about it, and its goals."""
 
 import sys
 from collections.abc import Iterable
@@ -13,9 +13,10 @@ from game.files.settings import Settings
 from game.scene import Goal, Scene
 from game.screens.parts.first_hint import HintCard
 
-SECTIONS = ("What to see", "Why it matters", "To try", "Source")  # in the docstring at the head of a lab's source
-INKS = (PAPER, FOG, SKY, FOG)  # of the sections
-FOOT = "F1 or ?: this card   Enter or a click puts it away"
+SECTIONS = ("In short", "What to see", "Why it matters", "To try", "Source")  # of the docstring at the head of a lab
+INKS = {"In short": PAPER, "What to see": PAPER, "Why it matters": FOG, "To try": SKY, "Source": FOG}
+PAGES = (("In short", "To try"), ("What to see", "Why it matters", "Source"))  # sections of each page
+FEET = ("F1 or ?: more about it   Enter or a click: close", "F1, ?, Enter or a click: close")
 KEYS = (pygame.K_F1, pygame.K_RETURN, pygame.K_KP_ENTER, pygame.K_ESCAPE)
 BUTTONS = ("a", "b", "start")
 WIDTH, EDGE, MARK = 236, 7, 3  # [text px] of the card, of its margin, and of a mark before a line
@@ -26,7 +27,7 @@ EVERY = 30  # pictures between two checks of the goals
 
 
 class LabCard:
-    """Card about a lab, shown at the first visit and on demand, until it is closed.
+    """Card about a lab, shown at the first visit and on demand, until it is closed. page: 0 or 1.
 
     Raises ValueError for a scene whose module docstring has no "What to see:".
     """
@@ -42,7 +43,14 @@ class LabCard:
         self.rect = self.area = pygame.Rect(0, 0, 0, 0)
         self.place = (0, 0)
         self.goals: list[Goal] = []
-        self.age = 0
+        self.age = self.page = 0
+
+    def turned_by(self, event: pygame.event.Event) -> bool:
+        """Turn from the first page to the second if the event is the key that opens the card. Return whether it was."""
+        if self.page or event.type != pygame.KEYDOWN or not asks_for_card(event):
+            return False
+        self.page, self.area = 1, pygame.Rect(0, 0, 0, 0)  # placed anew, with its new size
+        return True
 
     def dismissed_by(self, event: pygame.event.Event, button: str | None) -> bool:
         """Return whether this event closes the card. button: the pad button that the event presses, or None."""
@@ -89,12 +97,13 @@ class LabCard:
     def _lines(self, width, scale, room):
         """Return the card's lines from top to bottom. width: of a line [frame px]; room: for all lines [text px]."""
         lines = [Line(text, GOLD, TEXT) for text in wrap(self.text.question, width, TEXT, scale)]
-        for section, words, ink in zip(SECTIONS, self.text[1:], INKS, strict=True):
-            words = words if section == SECTIONS[0] else f"{section}: {words}"
-            lines += paragraph(words, width, scale, ink)
+        sections = dict(zip(SECTIONS, self.text[1:], strict=True))
+        for section in PAGES[self.page]:
+            words = sections[section] if INKS[section] == PAPER else f"{section}: {sections[section]}"
+            lines += paragraph(words, width, scale, INKS[section])
         end = paragraph(f"Found: {self.finding}", width, scale, GOLD) if self.finding else []
-        end.append(Line(FOOT, FOG, gap=4))
-        if self.goals:
+        end.append(Line(FEET[self.page], FOG, gap=4))
+        if self.goals and self.page == 1:
             lines.append(Line("what it must show, and what it has measured", SKY, gap=4))
             lines += self._goal_lines(width, scale, min(GOALS, room - height_of([*lines, *end])))
         return [*lines, *end]
@@ -125,6 +134,7 @@ class CardText(NamedTuple):
     """A lab's question, and the text of each section in SECTIONS ("" for a missing one)."""
 
     question: str
+    short: str
     see: str
     why: str
     to_try: str
@@ -197,7 +207,7 @@ def what_to_see(scene_class: type[Scene]) -> CardText | None:
         name, _, text = " ".join(each.split()).partition(": ")
         if name in found:
             found[name] = text[:1].upper() + text[1:]
-    return CardText(" ".join(question.split()), *found.values()) if found[SECTIONS[0]] else None
+    return CardText(" ".join(question.split()), *found.values()) if found["What to see"] else None
 
 
 def asks_for_card(event: pygame.event.Event) -> bool:

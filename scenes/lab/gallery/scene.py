@@ -1,5 +1,7 @@
 """Hard cases, a page each: the naive way and ours side by side, with the error and the time of both.
 
+In short: left fails, right holds. Below each side: its error, the limit of the page, and the time of a step.
+
 What to see: two worlds with the same bodies. The left world uses a simple method: tests at the poses only, a fixed
 number of substeps, no sleep, hulls, or a simple solver of the page itself. The right world uses the full method. Below
 each are its error, the limit of the page, and the time of a step. On some pages both sides should be alike: a thousand
