@@ -21,6 +21,7 @@ from game.overlays.layer_ghosts import Ghosts
 from game.overlays.layer_impulses import Impulses
 from game.overlays.layer_invariants import Invariants
 from game.overlays.layer_islands import Islands
+from game.overlays.layer_joints import Joints
 from game.overlays.layer_masks import Masks
 from game.overlays.layer_outlines import Outlines
 from game.overlays.layer_pairs import Pairs
@@ -40,6 +41,7 @@ LAYERS: list[type[Layer]] = [
     Times,
     Impulses,
     Features,
+    Joints,
     Islands,
     Colors,
     Centers,

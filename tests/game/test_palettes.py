@@ -63,7 +63,7 @@ def drawn(palette, layers):
 
 
 @pytest.mark.parametrize(
-    "layer", [name for name in layer_names() if name not in ("impulses", "colors", "ghosts", "islands")]
+    "layer", [name for name in layer_names() if name not in ("impulses", "colors", "ghosts", "islands", "joints")]
 )
 def test_a_palette_is_seen_in_each_layer(layer):
     plain = drawn("standard", ())
