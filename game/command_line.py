@@ -133,11 +133,12 @@ def read_options(arguments: Sequence[str], registry: Registry) -> Options:
     if options.tier is not None:
         _check_tier(options, registry)
     if options.solver is not None and options.scene is not None:
-        valid = registry.scene_class(options.scene).valid_solvers()
+        scene = registry.scene_class(options.scene)
+        valid = scene.valid_solvers()
         if options.solver not in valid:
+            why = "does not solve joints" if scene.effects.joints else "needs the effect stacking"
             raise UsageError(
-                f"--solver: {options.scene} cannot use {options.solver}, which needs the effect stacking; "
-                f"valid: {', '.join(valid)}"
+                f"--solver: {options.scene} cannot use {options.solver}, which {why}; valid: {', '.join(valid)}"
             )
     return options
 

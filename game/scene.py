@@ -31,6 +31,7 @@ from physics.outline import kept
 
 kept.use(OUTLINES)
 STEP_SECONDS = 1.0 / 60.0
+SOLVERS_OF_JOINTS: tuple[SolverName, ...] = ("sequential_impulse", "soft_step")
 SUBSTEPS = (1, 2, 4, 8, 16, 32, "auto")  # the player's choices
 # What labs are about, in the order of the menu.
 FAIR, STANDS, FAST, COSTS = "Which hits are fair?", "What stands?", "What is fast?", "What does it cost?"
@@ -319,6 +320,8 @@ class Scene:
     @classmethod
     def valid_solvers(cls) -> tuple[SolverName, ...]:
         """Return the names of the solvers that the scene's effects allow."""
+        if cls.effects.joints:
+            return SOLVERS_OF_JOINTS
         return tuple(SOLVERS) if cls.effects.stacking else ("blocking", "projection")
 
     @classmethod

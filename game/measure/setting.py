@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from game.drawing.number_text import count_text, plain_name
-from game.scene import SUBSTEPS
+from game.scene import SOLVERS_OF_JOINTS, SUBSTEPS
 from physics import BROADPHASES, SOLVERS, TIERS, Effects
 from physics.annotations import SolverName, Substeps, TierName
 
@@ -75,7 +75,8 @@ def _tiers(here) -> Iterator[Setting]:
 def _solvers(here, effects) -> Iterator[Setting]:
     if here.solver is None:
         return
-    for solver in reversed(SOLVERS) if effects.stacking else ("projection", "blocking"):
+    valid = [name for name in reversed(SOLVERS) if not effects.joints or name in SOLVERS_OF_JOINTS]
+    for solver in valid if effects.stacking else ("projection", "blocking"):
         if solver in SUBSTEPPED:
             for substeps in SUBSTEPS:
                 if solver == "soft_step" or substeps != "auto":
