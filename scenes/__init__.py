@@ -30,6 +30,8 @@ PLACES = {  # name -> ".module:Class" in this package
     "lab/sleeping": ".lab.sleeping:Sleeping",
     "lab/mask_stack": ".lab.mask_stack:MaskStack",
     "lab/carving": ".lab.carving:Carving",
+    # joints
+    "lab/joints": ".lab.joints:Joints",
     # collisions and bounces
     "lab/cradle": ".lab.cradle:Cradle",
     "lab/billiards": ".lab.billiards:Billiards",

@@ -1,0 +1,272 @@
+"""Six machines of joints, solved twice: what does an exact solver cost, and what is its gain?
+
+What to see: the same machine runs in two worlds, with the same hands and motors. One solves joints one after another;
+the other solves each tree of joints at once, as a linear system. The large numbers are the widest gap of a joint.
+
+Why it matters: Heavy loads on light parts pull iterative joints apart.
+
+To try: change the tier on the bridge, then drag, stop and break each machine.
+
+Source: Baraff, Linear-Time Dynamics using Lagrange Multipliers, 1996.
+"""
+
+from collections import deque
+
+import pygame
+
+from game.drawing.camera import Camera
+from game.drawing.canvas import SMALL
+from game.drawing.colors import FOG, GOLD, GREEN, INK, ORANGE, PAPER, RED, SKY, SLATE
+from game.input.drag import Drag
+from game.input.inputs import InputFrame
+from game.measurement_requests import MeasuredRun, Recipe, RunRequest
+from game.scene import STANDS, Goal, Scene, Slider
+from physics import Effects, World
+from scenes.lab.costs import cost_of, cost_text, difference_of
+from scenes.lab.looks import Looks
+from scenes.lab.machines.kinds import MACHINES
+from scenes.lab.machines.machine import HALF, HIGH
+from scenes.lab.yard import HEAD, Yard, plate
+
+NAMES = tuple(machine.name for machine in MACHINES)
+TIERS = ("iterative", "direct", "auto")
+COLORS = {"iterative": ORANGE, "direct": GREEN, "auto": SKY}
+FLOOR = 218  # [canvas px]
+STRIP = (0, 226, 480, 44)
+BOXES = ((226, 228, 124, 40), (352, 228, 124, 40))  # of the two tiers in the strip
+KEPT = 60  # steps of the shown gap
+SUBSTEPS = 4  # of both worlds: the number is what the iterative tier converges by
+WIDE = 0.5  # [px] from which the gap of a joint is drawn red
+RUN_AFTER, RUN_STEPS = 60, 120  # steps of a measured run: the first of them are not measured
+TURN = 400  # the bot's steps with each machine
+BREAK_AT = 330  # the bot's step with a machine at which it breaks it
+DRAG_AT, DRAG_FOR = 250, 50
+
+
+class Joints(Scene):
+    """Scene with two worlds that hold the same machine, one for each tier of joint solvers."""
+
+    name = "lab/joints"
+    title = "Joints"
+    question = STANDS
+    about = "A bridge, a doll, a car, a walker, gears and a crane to drag, start and break; joints solved two ways."
+    effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True, joints=True)
+    features = (
+        "hinges, limits, motors, springs, gears, ropes, breaking forces",
+        "joints solved iteratively and directly: gap and microseconds",
+        "Theo Jansen's walker; a ball of a hundred planks on a bridge",
+    )
+    sliders = (
+        Slider("machine", 0, len(NAMES) - 1, 0, choices=NAMES),
+        Slider("joints", 0, len(TIERS) - 1, 0, choices=TIERS),
+    )
+    actions = (("left right", "machine"), ("up down", "solver"), ("Space", "motor"), ("X", "break"))
+    draggable = True
+    head = HEAD
+    legend_at = (4, 20)
+
+    def build(self):
+        """Build the background, and open the machine."""
+        self.yard = Yard(FLOOR, 60)
+        self.camera = Camera(((0, 0), (480, STRIP[1])), 1.0, x=-HALF, y=-float(FLOOR))
+        self.results = {}  # (machine, tier) -> (worst gap [px], figures..., joints broken)
+        self.mirror = Drag()  # of the world that is not shown
+        self.open()
+
+    def open(self):
+        """Build the chosen machine anew in both worlds."""
+        self.worlds = []
+        for _ in range(2):
+            self.add_world(substeps=SUBSTEPS, seed=self.seed)
+        self._set_tiers()
+        self.machines = [MACHINES[int(self.values["machine"])](world) for world in self.worlds]
+        self.looks = [Looks(world, self.camera) for world in self.worlds]
+        self.gaps = [deque(maxlen=KEPT) for _ in self.worlds]
+        self.since = 0
+
+    def _set_tiers(self):
+        """Give the first world the iterative solver of joints, and the second the chosen one, or the direct one."""
+        chosen = TIERS[int(self.values["joints"])]
+        self.tiers_shown = ("iterative", "auto" if chosen == "auto" else "direct")
+        for world, tier in zip(self.worlds, self.tiers_shown, strict=True):
+            world.joint_solver = tier
+
+    @property
+    def shown(self):
+        """Index of the world that is shown and dragged."""
+        return int(self.values["joints"] > 0)
+
+    @property
+    def machine(self):
+        """The machine that is shown."""
+        return self.machines[self.shown]
+
+    def change_slider(self, name, value):
+        """Set a slider. Another machine is built from its start; another tier shows its world as it is."""
+        super().change_slider(name, value)
+        if name == "machine":
+            self.open()
+        else:
+            self._set_tiers()
+
+    def update(self, inputs):
+        """Process keys, drag in the hidden world as in the shown one, step both, and keep their gaps."""
+        turn = inputs.pressed("right") - inputs.pressed("left")
+        if turn:
+            self.change_slider("machine", (self.values["machine"] + turn) % len(NAMES))
+        turn = inputs.pressed("up") - inputs.pressed("down")
+        if turn:
+            self.change_slider("joints", (self.values["joints"] + turn) % len(TIERS))
+        if inputs.pressed("fire"):
+            on = not self.machine.running
+            for machine in self.machines:
+                machine.run(on)
+            self.play("blip")
+        if inputs.pressed("bomb"):
+            for machine in self.machines:
+                machine.smash()
+            self.play("hit", None, 0.6)
+        self.mirror.step(inputs, [(self.worlds[1 - self.shown], self.camera)])
+        for machine, gaps, tier in zip(self.machines, self.gaps, self.tiers_shown, strict=True):
+            machine.disturbed |= self.drag.holds or self.mirror.holds
+            machine.step()
+            gaps.append(machine.recent)
+            self.results[machine.name, tier] = (machine.worst, machine.broken, *machine.figures())
+        self.since += 1
+
+    def views(self):
+        """Return a list with the shown (world, camera)."""
+        return [(self.worlds[self.shown], self.camera)]
+
+    def measured(self):
+        """Return the runs that the measuring process times during the game: the machine under each tier."""
+        return RunRequest([self._run_name(tier) for tier in TIERS], self._make)
+
+    def _run_name(self, tier):
+        return NAMES[int(self.values["machine"])], tier, self.broadphase, self.world.solver, self.world.substeps
+
+    def _make(self, name):
+        machine, tier, broadphase, solver, substeps = name
+        effects = [each for each in self.effects.names() if getattr(self.effects, each)]
+        made = Recipe(f"{__name__}:running", (machine, tier, solver, substeps, effects))
+        return MeasuredRun([made], broadphase, RUN_STEPS)
+
+    def draw(self, canvas, alpha):
+        """Draw the background, the machine, and the strip with its name and numbers."""
+        title = f"{int(self.values['machine']) + 1} of {len(NAMES)}: {self.machine.name}"
+        self.yard.draw(canvas, "JOINTS", title)
+        looks = self.looks[self.shown]
+        for identity, paint in self.machine.paints.items():
+            if identity not in looks.known and (looks.world.bodies["id"] == identity).any():
+                looks.known[identity] = (looks.world.body(identity).shapes, paint, False)
+        self.machine.draw_behind(canvas, self.camera, alpha)
+        looks.draw(canvas, alpha)
+        self.machine.draw(canvas, self.camera, alpha)
+        self._draw_strip(canvas)
+
+    def _draw_strip(self, canvas):
+        plate(canvas, STRIP, (20, 16, 32, 230))
+        machine = self.machine
+        canvas.text(machine.name.upper(), 6, 229, GOLD)
+        canvas.text(machine.figure(), 218, 230, PAPER, SMALL, align="right")
+        canvas.text(machine.seen, 6, 240, PAPER, SMALL)
+        canvas.text(f"Space {machine.starts}", 6, 249, GOLD if machine.running else FOG, SMALL)
+        canvas.text(f"X {machine.breaks}", 6, 258, RED if machine.broken else FOG, SMALL)
+        if machine.broken:
+            canvas.text(f"{machine.broken} broken", 218, 258, RED, SMALL, align="right")
+        for number, (tier, rect) in enumerate(zip(self.tiers_shown, BOXES, strict=True)):
+            self._draw_tier(canvas, tier, rect, number)
+
+    def _draw_tier(self, canvas, tier, rect, number):
+        """Draw the widest gap of the last second, and the cost of a step, of one of the two worlds."""
+        x, y, width, _ = rect
+        shown = number == self.shown
+        pygame.draw.rect(canvas.surface, INK, rect)
+        pygame.draw.rect(canvas.surface, COLORS[tier] if shown else SLATE, rect, 1)
+        canvas.text(f"{tier}{', shown' if shown else ''}", x + 4, y + 3, COLORS[tier], SMALL)
+        canvas.text(cost_text(self, self._run_name(tier)), x + width - 4, y + 3, PAPER, SMALL, align="right")
+        canvas.text(f"{gap_text(self.gap(number))} px", x + width // 2, y + 12, COLORS[tier], scale=2, align="center")
+        canvas.text("widest gap of the last second", x + width // 2, y + 31, FOG, SMALL, align="center")
+
+    def gap(self, number):
+        """Return the widest gap of a joint in the last second [px]. number: of the world."""
+        return max(self.gaps[number], default=0.0)
+
+    def draw_on_frame(self, frame):
+        """Draw small parts, rods and ropes, and the pins; a gap between two anchors is red."""
+        looks = self.looks[self.shown]
+        looks.draw_on_frame(frame)
+        lens = frame.lens(self.camera)
+        frame.surface.set_clip(lens.clip)
+        self.machine.draw_on_frame(frame, lens)
+        frame.surface.set_clip(None)
+
+    def finding(self):
+        """Return a sentence with both tiers' widest gap in this run of the machine, and their costs."""
+        if self.since < KEPT:
+            return "not yet: the machine has to run for a second"
+        words = []
+        for number, tier in enumerate(self.tiers_shown):
+            machine, cost = self.machines[number], cost_of(self, self._run_name(tier))
+            time = "" if cost is None else f" ({cost_text(self, self._run_name(tier))} a step)"
+            words.append(f"{tier} {gap_text(machine.worst)} px{time}")
+        more = difference_of(self, self._run_name(self.tiers_shown[1]), self._run_name("iterative"))
+        costs = "" if more is None else f"; exactness costs {more.text()} us"
+        return f"{self.machine.name}: widest gap of a joint, {', '.join(words)}{costs}"
+
+    def check(self):
+        """Return the scene's goals, a list of Goal: those of each machine, in the world with the exact tier."""
+        return [
+            Goal(f"{machine.name}: {name}", (number + 1) * TURN, met, detail)
+            for number, machine in enumerate(MACHINES)
+            for name, met, detail in machine.goals(
+                *(self.results.get((machine.name, tier)) for tier in ("iterative", "direct"))
+            )
+        ]
+
+    def bot(self):
+        """Return the bot's input for the next step: it opens each machine in turn, drags it, and breaks it."""
+        number, step = divmod(self.frame, TURN)
+        if number >= len(NAMES):
+            number, step = number % len(NAMES), step
+        if step == 0 and self.values["machine"] != number:
+            return InputFrame(changes=(("slider:machine", number),))
+        if step == BREAK_AT:
+            return InputFrame(frozenset(("bomb",)))
+        if DRAG_AT <= step < DRAG_AT + DRAG_FOR:
+            x, y = self.machine.handle()
+            rise = (step - DRAG_AT) * 30.0 / DRAG_FOR
+            place = round(x + HALF), round(y + FLOOR - rise * (step > DRAG_AT))
+            return InputFrame(pointer=place, pointer_down=True)
+        return InputFrame()
+
+    def state(self):
+        """Return the scene's own state for the digest: the measurements. The worlds are hashed separately."""
+        machines = (
+            value
+            for machine in self.machines
+            for value in (machine.steps, machine.broken, machine.running, machine.disturbed, machine.worst)
+        )
+        figures = (value for key in sorted(self.results) for value in (*key, *self.results[key]))
+        return (self.frame, self.since, *self.values.values(), *machines, *figures)
+
+
+def gap_text(gap):
+    """Return a gap [px] as text with two digits, "0" below a millionth of a pixel."""
+    if gap < 1e-6:
+        return "0"
+    return f"{gap:.1g}" if gap < 0.001 else f"{gap:.3f}" if gap < 0.1 else f"{gap:.2f}" if gap < 10 else f"{gap:.0f}"
+
+
+def running(machine, tier, solver, substeps, effects):
+    """Return the snapshot of a world in which a machine has run for a second, for the measuring process.
+
+    machine: its name; tier: the solver of its joints; effects: list of the names of the declared effects.
+    """
+    declared = Effects(**dict.fromkeys(effects, True))
+    world = World(declared, solver=solver, substeps=substeps)
+    world.joint_solver = tier
+    made = next(each for each in MACHINES if each.name == machine)(world)
+    for _ in range(RUN_AFTER):
+        made.step()
+    return world.snapshot()

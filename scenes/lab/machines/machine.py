@@ -1,0 +1,173 @@
+"""Machine: base class of the machines of lab/joints, one of which is built in a world on a floor.
+
+The floor is at y = 0, and the view reaches from x = -240 to 240 and up to y = -196. Lengths are in pixels, 32 to the
+metre.
+"""
+
+from collections.abc import Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+import pygame
+
+from game.drawing.camera import Camera
+from game.drawing.canvas import Canvas
+from game.drawing.colors import GOLD, INK, PAPER, RED
+from game.drawing.presenter import Frame, Lens
+from physics import Body, Joint, Material, Polygon, World, debug
+
+METER = 32.0  # [px]
+GRAVITY = 9.8 * METER  # [px/s2] of a world by default
+HALF, HIGH = 240.0, 196.0  # [px] of the view, from the middle and above the floor
+FLOOR_DEPTH = 64.0
+APART = 0.5  # [px] from which the gap of a pin is drawn red
+WOOD, STEEL, TEAL, CORAL, VIOLET, GOLDEN = "wood", "steel", "teal", "coral", "violet", "gold"  # names of RAMPS
+
+
+class Machine:
+    """A machine of bodies and joints in a world.
+
+    paints: {body id: name of its colours}; broken: number of joints that have broken; worst: greatest separation of a
+    joint [px] before anything was dragged or broken; recent: of the last step; steps: steps so far.
+    """
+
+    name: ClassVar[str]
+    seen: ClassVar[str]  # one line: what it is, and what moves it
+    starts: ClassVar[str]  # what its motor does
+    breaks: ClassVar[str]  # what the key for breaking does
+    needs_motor: ClassVar[bool] = True  # whether the motor runs from the start
+
+    def __init__(self, world: World) -> None:
+        self.world = world
+        self.paints: dict[int, str] = {}
+        self.weak: list[Joint] = []  # joints that break() breaks
+        self.steps = self.broken = 0
+        self.worst = self.recent = 0.0
+        self.running = self.disturbed = False
+        self.add_floor()
+        self.build()
+        if self.needs_motor:
+            self.run(True)
+
+    def build(self) -> None:
+        """Add the bodies and joints."""
+        raise NotImplementedError
+
+    def drive(self) -> None:
+        """Set the motors of `running`; called when it changes, and by control()."""
+
+    def control(self) -> None:
+        """Act before each step; most machines do nothing."""
+
+    def measure(self) -> None:
+        """Read the machine's own figures after each step; most machines have none."""
+
+    def figure(self) -> str:
+        """Return the machine's own figure as short text."""
+        return ""
+
+    def figures(self) -> Sequence[float]:
+        """Return the numbers that measure() keeps, for the state of the scene."""
+        return ()
+
+    @classmethod
+    def goals(cls, iterative: Sequence[float] | None, direct: Sequence[float] | None) -> list[tuple[str, bool, str]]:
+        """Return (name, met, detail) of the machine's goals.
+
+        iterative, direct: (widest gap [px], joints broken, *figures()) under each tier, None before it has run.
+        """
+        raise NotImplementedError
+
+    def handle(self) -> tuple[float, float]:
+        """Return the place (x, y) [px] of a body that the bot drags."""
+        raise NotImplementedError
+
+    def draw_behind(self, canvas: Canvas, camera: Camera, alpha: float) -> None:
+        """Draw on the canvas what is behind the bodies; most machines draw nothing."""
+
+    def draw(self, canvas: Canvas, camera: Camera, alpha: float) -> None:
+        """Draw on the canvas what is before the bodies; most machines draw nothing."""
+
+    def draw_on_frame(self, frame: Frame, lens: Lens) -> None:
+        """Draw the rods, ropes and pins at window resolution, at the poses of the last step.
+
+        A pin is a dot on an axle; where its anchors are apart by more than APART, a red line joins them.
+        """
+        width = max(1, frame.scale - 1)
+        rows = debug.joints(self.world)
+        starts = np.column_stack(lens.points(rows["ax"], rows["ay"])).tolist()
+        ends = np.column_stack(lens.points(rows["bx"], rows["by"])).tolist()
+        for start, end, hold, coordinate, gap in zip(
+            starts, ends, rows["hold"].tolist(), rows["coordinate"].tolist(), self.world.joints["separation"].tolist(),
+            strict=True,
+        ):  # fmt: skip
+            if hold == FREE and coordinate == LENGTH:
+                pygame.draw.line(frame.surface, INK, start, end, width + 2)
+                pygame.draw.line(frame.surface, PAPER, start, end, width)
+            elif hold == PINNED:
+                for place in (start, end):
+                    pygame.draw.circle(frame.surface, INK, place, 2.0 * frame.scale)
+                if gap > APART:
+                    pygame.draw.line(frame.surface, RED, start, end, 2 * frame.scale)
+                for place in (start, end):
+                    pygame.draw.circle(frame.surface, RED if gap > APART else GOLD, place, 1.2 * frame.scale)
+
+    def run(self, on: bool) -> None:
+        """Start or stop the motors."""
+        self.running = on
+        self.drive()
+
+    def smash(self) -> None:
+        """Lower the breaking force of the weak joints below what they bear, so that they break in the next step."""
+        self.disturbed = True
+        for joint in self.weak:
+            if self.holds(joint):
+                joint.breaks = (max(0.5 * joint.force, 1.0), max(0.5 * abs(joint.torque), 1.0))
+
+    def holds(self, joint: Joint) -> bool:
+        """Return whether a joint is still there."""
+        return bool((self.world.joints["id"] == joint.id).any())
+
+    def step(self) -> None:
+        """Make one step, and measure it."""
+        self.control()
+        self.world.step()
+        self.steps += 1
+        self.broken += len(self.world.events.broken)
+        self.recent = separation(self.world)
+        if not self.disturbed and not self.broken:
+            self.worst = max(self.worst, self.recent)
+        self.measure()
+
+    def add_floor(self) -> None:
+        """Add the floor, and walls outside the view."""
+        rough = Material(friction=0.9)
+        floor = Polygon.box(4 * HALF, FLOOR_DEPTH)
+        self.world.add_body(floor, position=(0, FLOOR_DEPTH / 2), kind="static", material=rough)
+        for side in (-1, 1):
+            self.fixed(Polygon.box(FLOOR_DEPTH, 3 * HIGH), side * (HALF + FLOOR_DEPTH / 2), -1.5 * HIGH + 20)
+
+    def add(self, shape: Any, x: float, y: float, paint: str, **more: Any) -> Body:
+        """Add a body of a shape at (x, y) [px], painted in the colours `paint`. more: arguments of World.add_body."""
+        body = self.world.add_body(shape, position=(x, y), **more)
+        self.paints[body.id] = paint
+        return body
+
+    def fixed(self, shape: Any, x: float, y: float, **more: Any) -> Body:
+        """Add a static body at (x, y) [px]."""
+        return self.world.add_body(shape, position=(x, y), kind="static", **more)
+
+
+def separation(world: World) -> float:
+    """Return the greatest separation of a joint that holds anchors together [px]; 0 without such joints.
+
+    A Target, the mouse, is none of them: its separation is the distance of the pointer.
+    """
+    rows = world.joints
+    held = rows["separation"][np.isin(rows["hold"], HOLDS) & (rows["point_hertz"] == 0.0) & rows["enabled"]]
+    lengths = rows["separation"][(rows["coordinate"] == LENGTH) & (rows["hold"] == FREE)]
+    return float(max(held.max(initial=0.0), lengths.max(initial=0.0)))
+
+
+PINNED, ON_AXIS, FREE, LENGTH = 1, 2, 0, 3  # values of the columns hold and coordinate, see physics.debug.joints
+HOLDS = (PINNED, ON_AXIS)
