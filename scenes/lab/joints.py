@@ -36,11 +36,11 @@ STRIP = (0, 226, 480, 44)
 BOXES = ((226, 228, 124, 40), (352, 228, 124, 40))  # of the two tiers in the strip
 KEPT = 60  # steps of the shown gap
 SUBSTEPS = 4  # of both worlds: the number is what the iterative tier converges by
-WIDE = 0.5  # [px] from which the gap of a joint is drawn red
+FINE = 0.01  # [px] smaller gaps are not compared
 RUN_AFTER, RUN_STEPS = 60, 120  # steps of a measured run: the first of them are not measured
 TURN = 400  # the bot's steps with each machine
 BREAK_AT = 330  # the bot's step with a machine at which it breaks it
-DRAG_AT, DRAG_FOR = 250, 50
+DRAG_AT, DRAG_FOR = 270, 40
 
 
 class Joints(Scene):
@@ -69,12 +69,15 @@ class Joints(Scene):
         """Build the background, and open the machine."""
         self.yard = Yard(FLOOR, 60)
         self.camera = Camera(((0, 0), (480, STRIP[1])), 1.0, x=-HALF, y=-float(FLOOR))
-        self.results = {}  # (machine, tier) -> (worst gap [px], figures..., joints broken)
+        self.results = {}  # (machine, tier) -> (widest gap [px], joints broken, *figures) of its first run
+        self.done = set()  # names of machines that were opened, started, broken, and left
+        self.machines = []
         self.mirror = Drag()  # of the world that is not shown
         self.open()
 
     def open(self):
         """Build the chosen machine anew in both worlds."""
+        self.done |= {machine.name for machine in self.machines if machine.broken}
         self.worlds = []
         for _ in range(2):
             self.add_world(substeps=SUBSTEPS, seed=self.seed)
@@ -131,7 +134,8 @@ class Joints(Scene):
             machine.disturbed |= self.drag.holds or self.mirror.holds
             machine.step()
             gaps.append(machine.recent)
-            self.results[machine.name, tier] = (machine.worst, machine.broken, *machine.figures())
+            if machine.name not in self.done:
+                self.results[machine.name, tier] = (machine.worst, machine.broken, *machine.figures())
         self.since += 1
 
     def views(self):
@@ -162,7 +166,21 @@ class Joints(Scene):
         self.machine.draw_behind(canvas, self.camera, alpha)
         looks.draw(canvas, alpha)
         self.machine.draw(canvas, self.camera, alpha)
+        canvas.text(self.sentence(), 240, FLOOR + 2, PAPER, SMALL, align="center")
         self._draw_strip(canvas)
+
+    def sentence(self):
+        """Return one sentence on what the exact tier gains in this run, and what it costs."""
+        loose, tight = (machine.worst for machine in self.machines)
+        exact = self.tiers_shown[1]
+        if self.since < 2 or max(loose, tight) < FINE:
+            return "no joint has been apart by a hundredth of a pixel so far"
+        more = difference_of(self, self._run_name(exact), self._run_name("iterative"))
+        costs = "" if more is None or not more.counts else f", for {more.text()} us a step"
+        if loose > 2.0 * tight:
+            gain = f"{loose / tight:,.0f} times" if tight > 0.001 * loose else "over 1,000 times"
+            return f"widest gap so far {gap_text(loose)} px iteratively: {exact}, it is {gain} smaller{costs}"
+        return f"widest gap so far {gap_text(loose)} px iteratively, {gap_text(tight)} {exact}: alike{costs}"
 
     def _draw_strip(self, canvas):
         plate(canvas, STRIP, (20, 16, 32, 230))
@@ -227,17 +245,16 @@ class Joints(Scene):
     def bot(self):
         """Return the bot's input for the next step: it opens each machine in turn, drags it, and breaks it."""
         number, step = divmod(self.frame, TURN)
-        if number >= len(NAMES):
-            number, step = number % len(NAMES), step
+        number %= len(NAMES)
         if step == 0 and self.values["machine"] != number:
             return InputFrame(changes=(("slider:machine", number),))
         if step == BREAK_AT:
             return InputFrame(frozenset(("bomb",)))
         if DRAG_AT <= step < DRAG_AT + DRAG_FOR:
-            x, y = self.machine.handle()
-            rise = (step - DRAG_AT) * 30.0 / DRAG_FOR
-            place = round(x + HALF), round(y + FLOOR - rise * (step > DRAG_AT))
-            return InputFrame(pointer=place, pointer_down=True)
+            x, y = self.pointer
+            if step == DRAG_AT:
+                x, y = (round(each) for each in lens_of(self.camera, self.machine.handle()))
+            return InputFrame(pointer=(x, y - (step > DRAG_AT)), pointer_down=True)
         return InputFrame()
 
     def state(self):
@@ -249,6 +266,11 @@ class Joints(Scene):
         )
         figures = (value for key in sorted(self.results) for value in (*key, *self.results[key]))
         return (self.frame, self.since, *self.values.values(), *machines, *figures)
+
+
+def lens_of(camera, point):
+    """Return the canvas place of a world point (x, y) [px]."""
+    return tuple(float(each) for each in camera.to_canvas(*point, 1.0))
 
 
 def gap_text(gap):

