@@ -24,6 +24,7 @@ from game.scene import STANDS, Goal, Scene, Slider
 from physics import Effects, World
 from scenes.lab.costs import cost_of, cost_text, difference_of
 from scenes.lab.looks import Looks
+from scenes.lab.machines.earth import earth_picture
 from scenes.lab.machines.kinds import MACHINES
 from scenes.lab.machines.machine import HALF, HIGH
 from scenes.lab.yard import HEAD, Yard, plate
@@ -31,7 +32,7 @@ from scenes.lab.yard import HEAD, Yard, plate
 NAMES = tuple(machine.name for machine in MACHINES)
 TIERS = ("iterative", "direct", "auto")
 COLORS = {"iterative": ORANGE, "direct": GREEN, "auto": SKY}
-FLOOR = 218  # [canvas px]
+FLOOR = 216  # [canvas px]
 STRIP = (0, 226, 480, 44)
 BOXES = ((226, 228, 124, 40), (352, 228, 124, 40))  # of the two tiers in the strip
 KEPT = 60  # steps of the shown gap
@@ -83,6 +84,7 @@ class Joints(Scene):
             self.add_world(substeps=SUBSTEPS, seed=self.seed)
         self._set_tiers()
         self.machines = [MACHINES[int(self.values["machine"])](world) for world in self.worlds]
+        self.earth = None
         self.looks = [Looks(world, self.camera) for world in self.worlds]
         self.gaps = [deque(maxlen=KEPT) for _ in self.worlds]
         self.since = 0
@@ -163,10 +165,12 @@ class Joints(Scene):
         for identity, paint in self.machine.paints.items():
             if identity not in looks.known and (looks.world.bodies["id"] == identity).any():
                 looks.known[identity] = (looks.world.body(identity).shapes, paint, False)
+        for picture, place in self._earth():
+            canvas.surface.blit(picture, place)
         self.machine.draw_behind(canvas, self.camera, alpha)
         looks.draw(canvas, alpha)
         self.machine.draw(canvas, self.camera, alpha)
-        canvas.text(self.sentence(), 240, FLOOR + 2, PAPER, SMALL, align="center")
+        canvas.text(self.sentence(), 240, FLOOR + 4, PAPER, SMALL, align="center", outline=True)
         self._draw_strip(canvas)
 
     def sentence(self):
@@ -176,11 +180,23 @@ class Joints(Scene):
         if self.since < 2 or max(loose, tight) < FINE:
             return "no joint has been apart by a hundredth of a pixel so far"
         more = difference_of(self, self._run_name(exact), self._run_name("iterative"))
-        costs = "" if more is None or not more.counts else f", for {more.text()} us a step"
+        costs = "" if more is None or not more.counts else f", for {1e6 * more.seconds:,.0f} us more a step"
         if loose > 2.0 * tight:
             gain = f"{loose / tight:,.0f} times" if tight > 0.001 * loose else "over 1,000 times"
             return f"widest gap so far {gap_text(loose)} px iteratively: {exact}, it is {gain} smaller{costs}"
         return f"widest gap so far {gap_text(loose)} px iteratively, {gap_text(tight)} {exact}: alike{costs}"
+
+    def _earth(self):
+        """Return [(picture, place on the canvas)] of the static bodies of the machine, drawn once."""
+        if self.earth is None:
+            world, looks = self.worlds[self.shown], self.looks
+            bodies = [world.body(identity) for identity in self.machine.grounds]
+            for look in looks:
+                look.known |= {body.id: ((), None, False) for body in bodies}  # drawn here
+            self.earth = [
+                earth_picture(body.shapes[0], self.camera.to_canvas(*body.position)) for body in reversed(bodies)
+            ]
+        return self.earth
 
     def _draw_strip(self, canvas):
         plate(canvas, STRIP, (20, 16, 32, 230))

@@ -72,7 +72,13 @@ class Crane(Machine):
         """Draw the rail."""
         x, y = camera.to_canvas(-240.0, RAIL, alpha)
         surface = canvas.surface
-        for dy, color in ((-3, (32, 28, 48)), (-2, (92, 96, 124)), (-1, (190, 196, 216)), (0, (92, 96, 124)), (1, (32, 28, 48))):
+        for dy, color in (
+            (-3, (32, 28, 48)),
+            (-2, (92, 96, 124)),
+            (-1, (190, 196, 216)),
+            (0, (92, 96, 124)),
+            (1, (32, 28, 48)),
+        ):
             surface.fill(color, (round(x), round(y) + dy, 480, 1))
 
     @classmethod

@@ -1,6 +1,6 @@
 """Machine: base class of the machines of lab/joints, one of which is built in a world on a floor.
 
-The floor is at y = 0, and the view reaches from x = -240 to 240 and up to y = -196. Lengths are in pixels, 32 to the
+The floor is at y = 0, and the view reaches from x = -240 to 240 and up to y = -194. Lengths are in pixels, 32 to the
 metre.
 """
 
@@ -18,7 +18,7 @@ from physics import Body, Joint, Material, Polygon, World, debug
 
 METER = 32.0  # [px]
 GRAVITY = 9.8 * METER  # [px/s2] of a world by default
-HALF, HIGH = 240.0, 196.0  # [px] of the view, from the middle and above the floor
+HALF, HIGH = 240.0, 194.0  # [px] of the view, from the middle and above the floor
 FLOOR_DEPTH = 64.0
 WEAK = 1.0  # [mass px/s2, and px2/s2] of smash(): far below any weight here
 APART = 0.5  # [px] from which the gap of a pin is drawn red
@@ -41,6 +41,7 @@ class Machine:
     def __init__(self, world: World) -> None:
         self.world = world
         self.paints: dict[int, str] = {}
+        self.grounds: list[int] = []  # ids of the static bodies
         self.weak: list[Joint] = []  # joints that break() breaks
         self.steps = self.broken = 0
         self.worst = self.recent = 0.0
@@ -144,7 +145,7 @@ class Machine:
         """Add the floor, and walls outside the view."""
         rough = Material(friction=0.9)
         floor = Polygon.box(4 * HALF, FLOOR_DEPTH)
-        self.world.add_body(floor, position=(0, FLOOR_DEPTH / 2), kind="static", material=rough)
+        self.grounds.append(self.world.add_body(floor, position=(0, FLOOR_DEPTH / 2), kind="static", material=rough).id)
         for side in (-1, 1):
             self.fixed(Polygon.box(FLOOR_DEPTH, 3 * HIGH), side * (HALF + FLOOR_DEPTH / 2), -1.5 * HIGH + 20)
 
@@ -155,8 +156,10 @@ class Machine:
         return body
 
     def fixed(self, shape: Any, x: float, y: float, **more: Any) -> Body:
-        """Add a static body at (x, y) [px]."""
-        return self.world.add_body(shape, position=(x, y), kind="static", **more)
+        """Add a static body at (x, y) [px], which is drawn as earth with grass on it."""
+        body = self.world.add_body(shape, position=(x, y), kind="static", **more)
+        self.grounds.append(body.id)
+        return body
 
 
 def separation(world: World) -> float:

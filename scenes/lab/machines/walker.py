@@ -45,7 +45,7 @@ class Walker(Machine):
     """A body with a crank, and three pairs of legs with two plates and two rods each."""
 
     name = "walker"
-    seen = "Theo Jansen's legs: one crank moves six, by 18 rods."
+    seen = "Theo Jansen's legs: one crank moves six, by 24 rods."
     starts = "turns the crank"
     breaks = "breaks a leg off"
 
