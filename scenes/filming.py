@@ -77,6 +77,7 @@ SHOTS = {
     "lab/mask_stack": Shot(400, 0, 100, 1),
     "lab/carving": Shot(250, 160, 76),
     "lab/mask_sweep": Shot(150, 260, 106, 1),
+    "lab/joints": Shot(1300, 126, 112, 1),
     "lab/cradle": Shot(80, 227, 14, 1),
     "lab/billiards": Shot(150, 62, 20),
     "lab/tunnelling": Shot(240, 196, 142, 1),

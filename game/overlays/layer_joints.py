@@ -131,7 +131,7 @@ class Joints(Layer):
         reach, now = NEEDLE * frame.scale, zero + joint["value"]
         tip = (x + reach * cos(now), y + reach * sin(now))
         pygame.draw.line(frame.surface, frame.tone(PAPER), (x, y), tip, max(1, frame.scale - 1))
-        self._label(f"{round(joint['value'], 2) + 0.0:.2f}", *tip, YELLOW)
+        self._label(f"{round(joint['value'], 2) + 0.0:.2f}", tip[0], tip[1], YELLOW)
 
     def _draw_range(self, frame, lens, joint, tone):
         """Draw the range of a translation along the axis, or of a length from A's anchor, with a mark at its value."""
@@ -218,9 +218,9 @@ def anchored(world: World) -> np.ndarray:
 def is_awake(world: World) -> np.ndarray:
     """Return (n,) bool: whether a body of each joint is dynamic and awake, in the order of world.joints."""
     found, bodies = np.zeros(len(world.joints), bool), world.bodies
-    for name in ("body_a", "body_b"):
-        mine = np.flatnonzero(world.joints[name] != WORLD)
-        at = world.rows(world.joints[name][mine])
+    for ids in (world.joints["body_a"], world.joints["body_b"]):
+        mine = np.flatnonzero(ids != WORLD)
+        at = world.rows(ids[mine])
         found[mine] |= bodies["awake"][at] & (bodies["kind"][at] == DYNAMIC)
     return found
 

@@ -26,7 +26,7 @@ from scenes.lab.costs import cost_of, cost_text, difference_of
 from scenes.lab.looks import Looks
 from scenes.lab.machines.earth import earth_picture
 from scenes.lab.machines.kinds import MACHINES
-from scenes.lab.machines.machine import HALF, HIGH
+from scenes.lab.machines.machine import HALF
 from scenes.lab.yard import HEAD, Yard, plate
 
 NAMES = tuple(machine.name for machine in MACHINES)
@@ -281,7 +281,7 @@ class Joints(Scene):
             for value in (machine.steps, machine.broken, machine.running, machine.disturbed, machine.worst)
         )
         figures = (value for key in sorted(self.results) for value in (*key, *self.results[key]))
-        return (self.frame, self.since, *self.values.values(), *machines, *figures)
+        return (self.frame, self.since, len(self.done), *self.values.values(), *machines, *figures)
 
 
 def lens_of(camera, point):

@@ -1,13 +1,14 @@
 """A crane: a trolley on a rail, a chain, and a heavy claw that holds a crate."""
 
 from physics import Drive, Polygon, Prismatic, Revolute, Weld
-from scenes.lab.machines.machine import GOLDEN, GRAVITY, STEEL, TEAL, VIOLET, WOOD, Machine
+from scenes.lab.machines.machine import GRAVITY, STEEL, TEAL, VIOLET, WOOD, Machine
 
 RAIL = -178.0  # [px] its height
 LINKS, LONG, THICK = 9, 13.0, 4.0
 HEAVY = 60.0  # links: mass of the claw; the crate has as much
 ROOM = 150.0  # [px] from the middle: there the trolley turns back
 SPEED = 80.0  # [px/s] of the trolley
+PULL = 0.15  # of the whole weight: greatest force of its motor
 GRIP = 60.0  # times the crate's weight: breaking force of the claw's hold
 
 
@@ -42,7 +43,7 @@ class Crane(Machine):
     def drive(self):
         """Drive the trolley in its present direction, or brake it."""
         speed = self.way * SPEED if self.running else 0.0
-        self.slide.motor = Drive(speed, max=3.0 * self.load * GRAVITY)
+        self.slide.motor = Drive(speed, max=PULL * self.load * GRAVITY)
 
     def control(self):
         """Turn back at both ends of the rail."""
@@ -87,7 +88,7 @@ class Crane(Machine):
         tight, broken, carried = direct or (9.0, 0, 0.0)
         loose = 0.0 if iterative is None else iterative[0]
         return [
-            ("the crate is carried", carried > 200.0, f"{carried:.0f} px"),
+            ("the crate is carried", carried > 150.0, f"{carried:.0f} px"),
             ("exact pins hold the load", tight < 0.2, f"{tight:.4f} px"),
             ("iterative pins come apart", loose > 4 * tight, f"{loose:.4f} px"),
             ("the claw lets go", broken == 1, f"{broken} joints"),
