@@ -1,6 +1,7 @@
 """Compilation ahead of time: small worlds call the kernels that a world with given effects will call."""
 
 from collections.abc import Callable, Iterable
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from physics.character.character import Character
 from physics.collision.manifold import contacts_of
 from physics.effects import Effects
 from physics.jit import tiers
+from physics.joints.kinds import Gear, Pulley, Revolute, Target, Weld
 from physics.settings import LARGE_MASK, MASK_TILE, SLEEP_TIME
 from physics.shapes.kinds import Bounds
 from physics.shapes.mask import PixelMask
@@ -99,6 +101,8 @@ def _runs(effects, broadphase, solver, pieces):
     strategy = STRATEGIES[names[0]]
     if effects.stacking:
         runs.append(("rest", lambda: _rest(effects, solver)))
+    if effects.joints:
+        runs.append(("joints", lambda: _joints(effects, solver)))
     if "tree" in names:
         runs.append(("broad phase tree", lambda: _crowd(effects)))
     if effects.response and effects.sensors:
@@ -217,6 +221,27 @@ def _rest(effects, solver):
     world.add_body(Circle(4), position=(7.0, 7.0), velocity=(-99.0, -99.0))
     world.step()
     world.substeps = 4
+    world.step()
+
+
+def _joints(effects, solver):
+    """Step a world with a tree of joints, a loop, a pulley and a gear, under each solver of joints; one joint breaks."""
+    world = World(effects, solver=solver)
+    bodies = [world.add_body(Circle(4), position=(7.0 * k, 0.0)) for k in range(4)]
+    hinges = [world.add_joint(Revolute(None, body, at=body.position)) for body in bodies[:2]]
+    world.add_joint(Gear(hinges[0], hinges[1]))
+    chain = [world.add_joint(Weld(a, b, at=b.position)) for a, b in pairwise(bodies[1:])]
+    over = {"at_a": bodies[2].position, "at_b": bodies[3].position, "ground_a": (14.0, -90.0), "ground_b": (21.0, -90.0)}
+    world.add_joint(Pulley(bodies[2], bodies[3], **over))
+    drag = world.add_joint(Target(bodies[3], at=bodies[3].position))
+    for name in ("iterative", "direct", "auto"):
+        world.joint_solver = name
+        drag.point = (21.0, len(name))
+        for substeps in ("auto", 4):
+            world.substeps = substeps
+            world.step()
+    chain[1].breaks = (1e-9, 1e-9)
+    world.step()
     world.step()
 
 

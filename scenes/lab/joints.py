@@ -69,7 +69,7 @@ class Joints(Scene):
     def build(self):
         """Build the background, and open the machine."""
         self.yard = Yard(FLOOR, 60)
-        self.camera = Camera(((0, 0), (480, STRIP[1])), 1.0, x=-HALF, y=-float(FLOOR))
+        self.camera = Camera((0, HEAD, 480, STRIP[1] - HEAD), 1.0, x=-HALF, y=float(HEAD - FLOOR))
         self.results = {}  # (machine, tier) -> (widest gap [px], joints broken, *figures) of its first run
         self.done = set()  # names of machines that were opened, started, broken, and left
         self.machines = []

@@ -28,7 +28,7 @@ PLAYED = {
     "lab/disagreement": (215, 290), "lab/effects": (125, 305), "lab/stacks": (130, 150), "lab/card_house": (70, 100),
     "lab/dominoes": (300, 300), "lab/tumbler": (185, 250), "lab/sleeping": (245, 330), "lab/cradle": (130, 430),
     "lab/conveyor": (300, 530), "lab/one_way": (230, 290), "lab/gallery": (3, 9), "lab/billiards": (60, 300),
-    "lab/carving": (60, 200), "lab/filters": (60, 110),
+    "lab/carving": (60, 200), "lab/joints": (90, 480), "lab/filters": (60, 110),
     "lab/mask_stack": (110, 140),
 }  # fmt: skip
 USUAL = (60, 90)
