@@ -225,13 +225,21 @@ def _rest(effects, solver):
 
 
 def _joints(effects, solver):
-    """Step a world with a tree of joints, a loop, a pulley and a gear, under each solver of joints; one joint breaks."""
+    """Step a world with a tree of joints, a pulley and a gear under each solver of joints. One joint breaks."""
     world = World(effects, solver=solver)
+    if not world.stacks:
+        return  # the solver does not solve joints
     bodies = [world.add_body(Circle(4), position=(7.0 * k, 0.0)) for k in range(4)]
     hinges = [world.add_joint(Revolute(None, body, at=body.position)) for body in bodies[:2]]
-    world.add_joint(Gear(hinges[0], hinges[1]))
+    if effects.rotation:
+        world.add_joint(Gear(hinges[0], hinges[1]))
     chain = [world.add_joint(Weld(a, b, at=b.position)) for a, b in pairwise(bodies[1:])]
-    over = {"at_a": bodies[2].position, "at_b": bodies[3].position, "ground_a": (14.0, -90.0), "ground_b": (21.0, -90.0)}
+    over = {
+        "at_a": bodies[2].position,
+        "at_b": bodies[3].position,
+        "ground_a": (14.0, -90.0),
+        "ground_b": (21.0, -90.0),
+    }
     world.add_joint(Pulley(bodies[2], bodies[3], **over))
     drag = world.add_joint(Target(bodies[3], at=bodies[3].position))
     for name in ("iterative", "direct", "auto"):

@@ -150,8 +150,8 @@ class Joints(Layer):
         for end, limit in ((low, joint["lower"]), (high, joint["upper"])):
             if abs(limit) < inf and not (along and end == 0.0):
                 x, y = place(end)
-                sides = [(x + way * tick * ny, y - way * tick * nx) for way in (-1, 1)]
-                pygame.draw.line(frame.surface, tone, *sides, frame.edge)
+                dx, dy = tick * ny, -tick * nx
+                pygame.draw.line(frame.surface, tone, (x - dx, y - dy), (x + dx, y + dy), frame.edge)
         x, y = place(joint["value"])
         pygame.draw.circle(frame.surface, frame.tone(PAPER), (x, y), max(1, frame.scale))
         self._label(f"{round(joint['value'], 1) + 0.0:.1f}", x + tick, y, YELLOW)
@@ -209,7 +209,8 @@ def anchored(world: World) -> np.ndarray:
         mine = np.flatnonzero(loose & (rows[f"body_{side}"] != WORLD))
         at = world.rows(rows[f"body_{side}"][mine])
         for axis in ("x", "y"):
-            rows[side + axis][mine] = bodies["center_" + axis][at]
+            centers = bodies["center_x"] if axis == "x" else bodies["center_y"]
+            rows[side + axis][mine] = centers[at]
             alone = mine[rows[f"body_{other}"][mine] == WORLD]
             rows[other + axis][alone] = rows[side + axis][alone]
     return rows

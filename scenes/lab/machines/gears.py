@@ -113,7 +113,7 @@ class Gears(Machine):
             draw_gear(canvas.surface, (x[row], y[row]), radius, angle[row] + phase, RAMPS[paint])
         row = self.world.rows([self.rack.id])[0]
         pitch = 2 * pi * PITCH
-        left, middle = x[row] - RACK[0] / 2, y[row]
+        left, middle = float(x[row]) - RACK[0] / 2, float(y[row])
         # A tooth of the last gear points at the rack where its share is whole.
         share = self.phases[2] / (2 * pi / count_of(RADII[2]))
         first = -RACK[1] / 2 + (RACK[1] / 2 + (share + 0.5) * pitch) % pitch
