@@ -290,10 +290,10 @@ def lens_of(camera, point):
 
 
 def gap_text(gap):
-    """Return a gap [px] as text with two digits, "0" below a millionth of a pixel."""
-    if gap < 1e-6:
-        return "0"
-    return f"{gap:.1g}" if gap < 0.001 else f"{gap:.3f}" if gap < 0.1 else f"{gap:.2f}" if gap < 10 else f"{gap:.0f}"
+    """Return a gap [px] as short text: to thousandths below a tenth of a pixel, "0" below a millionth."""
+    if gap < 0.001:
+        return "0" if gap < 1e-6 else "<0.001"
+    return f"{gap:.3f}" if gap < 0.1 else f"{gap:.2f}" if gap < 10 else f"{gap:.0f}"
 
 
 def running(machine, tier, solver, substeps, effects):
