@@ -412,7 +412,7 @@ def flail(speed, solver):
 @pytest.mark.parametrize("speed", [100.0, 300.0, 600.0, 1200.0])
 @pytest.mark.parametrize("solver", ["iterative", "direct"])
 def test_u4_joints_that_jerk_act_within_the_step(speed, solver):
-    """What they seem to gain by it is not held against them; a turn of a percent from nowhere is."""
+    """Their seeming gain is allowed for, and a turn of a percent from nowhere is still found."""
     watch = Watch()
     assert breaks(watched(flail(speed, solver), 300, watch=watch)) == {}
     world, watch = flail(speed, solver), Watch()

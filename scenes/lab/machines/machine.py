@@ -53,7 +53,7 @@ class Machine:
 
     def build(self) -> None:
         """Add the bodies and joints."""
-        raise NotImplementedError
+        raise TypeError(f"{type(self).__name__} must define build")
 
     def drive(self) -> None:
         """Set the motors of `running`; called when it changes, and by control()."""
@@ -78,11 +78,11 @@ class Machine:
 
         iterative, direct: (widest gap [px], joints broken, *figures()) under each tier, None before it has run.
         """
-        raise NotImplementedError
+        raise TypeError(f"{cls.__name__} must define goals")
 
     def handle(self) -> tuple[float, float]:
         """Return the place (x, y) [px] of a body that the bot drags."""
-        raise NotImplementedError
+        raise TypeError(f"{type(self).__name__} must define handle")
 
     def draw_behind(self, canvas: Canvas, camera: Camera, alpha: float) -> None:
         """Draw on the canvas what is behind the bodies; most machines draw nothing."""
