@@ -1,11 +1,11 @@
-"""Six machines of joints, solved twice: what does an exact solver cost, and what is its gain?
+"""Six machines of joints, solved twice: what is gained by an exact solver, and what does it cost?
 
-What to see: the same machine runs in two worlds, with the same hands and motors. One solves joints one after another;
-the other solves each tree of joints at once, as a linear system. The large numbers are the widest gap of a joint.
+What to see: one machine in two worlds. In one its joints are solved one after another, in the other each tree of joints
+at once. The large numbers are the widest gap of a joint.
 
 Why it matters: Heavy loads on light parts pull iterative joints apart.
 
-To try: change the tier on the bridge, then drag, stop and break each machine.
+To try: change the solver on the bridge; drag and break.
 
 Source: Baraff, Linear-Time Dynamics using Lagrange Multipliers, 1996.
 """
