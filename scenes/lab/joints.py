@@ -42,6 +42,7 @@ RUN_AFTER, RUN_STEPS = 60, 120  # steps of a measured run: the first of them are
 TURN = 400  # the bot's steps with each machine
 BREAK_AT = 330  # the bot's step with a machine at which it breaks it
 DRAG_AT, DRAG_FOR = 270, 40
+PHASES = 5  # moments at which bots of different seeds drag and break
 
 
 class Joints(Scene):
@@ -259,11 +260,15 @@ class Joints(Scene):
         ]
 
     def bot(self):
-        """Return the bot's input for the next step: it opens each machine in turn, drags it, and breaks it."""
+        """Return the bot's input for the next step: it opens each machine in turn, drags it, and breaks it.
+
+        The moments of the last two depend on the seed.
+        """
         number, step = divmod(self.frame, TURN)
         number %= len(NAMES)
         if step == 0 and self.values["machine"] != number:
             return InputFrame(changes=(("slider:machine", number),))
+        step -= self.seed % PHASES * 4
         if step == BREAK_AT:
             return InputFrame(frozenset(("bomb",)))
         if DRAG_AT <= step < DRAG_AT + DRAG_FOR:

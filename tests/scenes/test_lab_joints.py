@@ -42,7 +42,7 @@ def opened(name, tier="direct", seed=1, **settings):
 
 
 @needs_speed
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", range(5))
 def test_the_bot_reaches_every_goal(seed):
     scene = Joints(seed)
     session = Session(scene, BotSource())
