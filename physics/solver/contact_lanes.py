@@ -57,7 +57,7 @@ from physics.solver.lanes import (
     write_masses,
 )
 from physics.solver.motions import Motions
-from physics.solver.restitution import make_impacts, restore_bounces
+from physics.solver.restitution import list_impacts, make_impacts, restore_bounces
 from physics.solver.step_context import StepContext
 from physics.tables.contact import SQUEEZE
 from physics.tables.step_state import CAP_HITS, StepState
@@ -570,7 +570,8 @@ def make_finish_lanes(restitution: bool, friction: bool) -> Callable:
         as contacts. motions_inout: MOTION rows; blocks_inout: the contacts, see lanes.Blocks; work_inout: counters, see
         COUNTERS.
         """
-        if restitution:
+        found = list_impacts(blocks_inout, count, impacts_inout) if restitution else 0
+        if restitution and found > 0:
             # Impact speeds are measured at the start of the step, so its normals and moment arms are used.
             for block in range(count):
                 if blocks_inout.turns[block]:
@@ -580,7 +581,9 @@ def make_finish_lanes(restitution: bool, friction: bool) -> Callable:
                         c[at.NY + lane] = c[at.START_NY + lane]
                         write_arms(lane, 1.0, 0.0, 1.0, 0.0, c)
                         write_masses(lane, c)
-            restore_bounces(contacts_inout, count, context, impacts_inout, motions_inout, blocks_inout, work_inout)
+            restore_bounces(
+                contacts_inout, count, found, context, impacts_inout, motions_inout, blocks_inout, work_inout
+            )
         if friction:
             limit_friction(count, motions_inout, blocks_inout)
         store_lanes(blocks_inout, count, context.inverse_h, context.share, contacts_inout)

@@ -775,12 +775,12 @@ def hand_on(count, fastest, impacts_inout, motions_inout, blocks_inout):
 
 
 @subkernel
-def restore_bounces(contacts, count, context, impacts_inout, motions_inout, blocks_inout, work_inout):
+def restore_bounces(contacts, count, found, context, impacts_inout, motions_inout, blocks_inout, work_inout):
     """Make points that hit in this step separate at restitution times their impact speed. O(lanes).
 
-    count: number of blocks; context: see StepContext; impacts_inout: IMPACT rows for scratch use, one for each contact.
+    count: number of blocks; found: number of impacts, as list_impacts wrote them; context: see StepContext;
+    impacts_inout: IMPACT rows, with room for all contacts.
     """
-    found = list_impacts(blocks_inout, count, impacts_inout)
     solve_simultaneous(contacts, found, context.dt, impacts_inout, motions_inout, blocks_inout, work_inout)
     bouncing, shared = list_bounces(contacts, found, motions_inout, impacts_inout, blocks_inout, work_inout)
     if bouncing == 0:
