@@ -28,6 +28,7 @@ from physics.solver.joint_rows import (
     place_joint,
     softness_of,
     solve_joints,
+    spring_inverse_mass,
     sum_joints,
     warm_joints,
 )
@@ -146,7 +147,7 @@ def soften(hertz, damping, h, inverse_mass, row_out):
     """Write the compliance of a JOINT_ROW from the spring that holds it. Without a spring (hertz 0) the row is rigid.
 
     hertz [1/s], damping: frequency and damping ratio of the spring; h [s]: length of a substep; inverse_mass: inverse
-    effective mass of the row without other joints.
+    effective mass of the row without other joints, to which the frequency refers.
     """
     row_out.compliance = 0.0
     if hertz > 0.0:
@@ -183,10 +184,9 @@ def write_rows(joint, h, a, b, first, rows_out):
         hertz = 0.0 if j.lower == j.upper else j.spring_hertz
         if j.coordinate == ANGLE:
             write_turn(rows_out[at])
-            soften(hertz, j.spring_damping, h, turning, rows_out[at])
         else:
             write_line(j, j.nx, j.ny, rows_out[at])
-            soften(hertz, j.spring_damping, h, inverse_mass_along(j, j.nx, j.ny, a, b), rows_out[at])
+        soften(hertz, j.spring_damping, h, spring_inverse_mass(j, a, b), rows_out[at])
 
 
 @subkernel

@@ -15,6 +15,7 @@ from physics.tables.joint import ANGLE, FREE, GEARED, LENGTH, NO_COORDINATE, NO_
 from physics.tables.step_state import JOINTS_SOLVED
 from physics.tables.table import row_of
 
+LEAST_INVERSE = 1e-9  # least share of an inverse inertia that an arm leaves of it: beyond, rounding decides
 LIMIT_SHARE = 0.25  # fraction of the error of a limit that a substep removes, for a joint that a tree solves
 
 # ---- selection -------------------------------------------------------------------------------------------------------
@@ -239,6 +240,19 @@ def inverse_mass_along(joint, nx, ny, a, b):
 
 
 @subkernel
+def point_inverse_mass(joint, a, b):
+    """Return the inverse effective mass of a joint at its anchors, as (k_11, k_12, k_22) of the symmetric matrix.
+
+    joint: JOINT row; a, b: MOTION rows.
+    """
+    j = joint
+    k_11 = a.inverse_mass + b.inverse_mass + a.inverse_inertia * j.ay * j.ay + b.inverse_inertia * j.by * j.by
+    k_12 = -a.inverse_inertia * j.ax * j.ay - b.inverse_inertia * j.bx * j.by
+    k_22 = a.inverse_mass + b.inverse_mass + a.inverse_inertia * j.ax * j.ax + b.inverse_inertia * j.bx * j.bx
+    return k_11, k_12, k_22
+
+
+@subkernel
 def coordinate_of(joint):
     """Return the coordinate of a JOINT row at the present poses: its angle [rad], translation [px] or length [px]."""
     j = joint
@@ -260,6 +274,30 @@ def coordinate_inverse_mass(joint, a, b):
     """
     j = joint
     return a.inverse_inertia + b.inverse_inertia if j.coordinate == ANGLE else inverse_mass_along(j, j.nx, j.ny, a, b)
+
+
+@subkernel
+def spring_inverse_mass(joint, a, b):
+    """Return the inverse effective mass that the spring on a joint's coordinate moves if the joint's holds are rigid.
+
+    The frequency and the damping ratio of the spring refer to it: a door on a spring swings about its hinge, with the
+    inertia that it has there, and a slider does not rotate. (Box2D v3 takes the moments of inertia about the centres: a
+    door of twice that inertia then swings slower, and overshoots when critically damped.) The axis of a Wheel and a
+    Distance count with coordinate_inverse_mass. joint: JOINT row; a, b: MOTION rows.
+    """
+    j = joint
+    if j.hold == ON_AXIS and j.coordinate == TRANSLATION and j.locks_angle:
+        return a.inverse_mass + b.inverse_mass
+    inverse = coordinate_inverse_mass(j, a, b)
+    if j.hold == PINNED and j.coordinate == ANGLE:
+        k_11, k_12, k_22 = point_inverse_mass(j, a, b)
+        determinant = k_11 * k_22 - k_12 * k_12
+        if determinant > 0.0:
+            x = a.inverse_inertia * j.ay + b.inverse_inertia * j.by
+            y = a.inverse_inertia * j.ax + b.inverse_inertia * j.bx
+            shared = (k_22 * x * x + 2.0 * k_12 * x * y + k_11 * y * y) / determinant
+            return max(inverse - shared, LEAST_INVERSE * inverse)
+    return inverse
 
 
 @inlined
@@ -376,7 +414,9 @@ def solve_coordinate(biased, context, joint_inout, a_inout, b_inout):
     now = coordinate_of(j)
     if j.spring_hertz > 0.0 and not j.direct:
         rate, mass_share, give = softness_of(j.spring_hertz, j.spring_damping, context.h)
-        change = -mass * mass_share * (coordinate_speed(j, a, b) + rate * (now - j.spring_target)) - give * j.spring
+        compliance = give * spring_inverse_mass(j, a, b) / mass_share if mass_share > 0.0 else 0.0
+        change = -(coordinate_speed(j, a, b) + rate * (now - j.spring_target) + compliance * j.spring)
+        change /= inverse + compliance
         j.spring += change
         push_coordinate(j, change, a, b)
     if j.motor_max > 0.0 and not j.turns_motor:
@@ -454,9 +494,7 @@ def solve_hold_of_point(biased, context, joint_inout, a_inout, b_inout):
     a_inout, b_inout: MOTION rows.
     """
     j, a, b = joint_inout, a_inout, b_inout
-    k_11 = a.inverse_mass + b.inverse_mass + a.inverse_inertia * j.ay * j.ay + b.inverse_inertia * j.by * j.by
-    k_12 = -a.inverse_inertia * j.ax * j.ay - b.inverse_inertia * j.bx * j.by
-    k_22 = a.inverse_mass + b.inverse_mass + a.inverse_inertia * j.ax * j.ax + b.inverse_inertia * j.bx * j.bx
+    k_11, k_12, k_22 = point_inverse_mass(j, a, b)
     determinant = k_11 * k_22 - k_12 * k_12
     if determinant <= 0.0:
         return

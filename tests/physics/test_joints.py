@@ -124,6 +124,57 @@ def test_a_spring_has_its_period_and_a_critical_one_does_not_overshoot(hertz, su
 
 
 @pytest.mark.parametrize("setting", SETTINGS)
+@pytest.mark.parametrize("hertz", [0.5, 1.0, 2.0])
+@pytest.mark.parametrize(
+    ("place", "tier"),
+    # Iterations do not converge within a substep where the hinge is far outside the leaf.
+    [(0.0, "iterative"), (10.0, "iterative"), (30.0, "iterative"), *((x, "direct") for x in (0.0, 10.0, 30.0, 90.0))],
+)
+@pytest.mark.parametrize("held", ["world", "free body"])
+def test_a_sprung_door_has_its_period_and_a_critical_one_does_not_overshoot(held, place, hertz, tier, setting):
+    """Wherever its hinge is, on the leaf or beyond, and if the frame gives way as well."""
+    for damping in (0.0, 1.0):
+        world = world_of(setting, FLOATING)
+        world.joint_solver = tier
+        leaf = world.add_body(Polygon.box(60, 6), position=(place, 0.0))
+        frame = None if held == "world" else world.add_body(Polygon.box(40, 10), position=(-20.0, 5.0))
+        hinge = world.add_joint(Revolute(frame, leaf, at=(0, 0), spring=Spring(hertz, damping, target=-0.8)))
+        crossings, before, least = [], 0.8, 0.8
+        while world.time < 3.2 / hertz:
+            world.step()
+            now = hinge.angle + 0.8
+            if before > 0.0 >= now:
+                crossings.append(world.time + now / (before - now) * world.dt)
+            before, least = now, min(least, now)
+        if damping == 0.0:
+            period = crossings[1] - crossings[0]
+            # The inertia of two free bodies changes with the angle; a whole step integrates 2 Hz to 2 %.
+            room = 0.05 if frame or setting[0] == "sequential_impulse" else 0.02
+            assert period * hertz == pytest.approx(1.0, rel=room)
+        else:
+            assert least > -0.8 * 0.005, "critically damped"
+            assert hinge.angle == pytest.approx(-0.8, abs=0.01)
+
+
+@pytest.mark.parametrize("setting", SETTINGS)
+@pytest.mark.parametrize(("at", "tier"), [(0.0, "iterative"), (8.0, "iterative"), (8.0, "direct"), (40.0, "direct")])
+def test_a_sprung_slider_has_its_period_wherever_its_anchor_is(at, tier, setting):
+    world = world_of(setting, FLOATING)
+    world.joint_solver = tier
+    box = world.add_body(Polygon.box(20, 20))
+    slide = world.add_joint(Prismatic(None, box, at=(0.0, at), axis=(1, 0), spring=Spring(1.0, 0.0, target=15.0)))
+    crossings, before = [], -15.0
+    while world.time < 3.2:
+        world.step()
+        now = slide.translation - 15.0
+        if before < 0.0 <= now:
+            crossings.append(world.time - now / (now - before) * world.dt)
+        before = now
+    assert crossings[1] - crossings[0] == pytest.approx(1.0, rel=0.02)
+    assert abs(box.angle) < 1e-3
+
+
+@pytest.mark.parametrize("setting", SETTINGS)
 @pytest.mark.parametrize("speed", [-8.0, -1.0, 0.5, 3.0, 20.0])
 def test_a_motor_reaches_its_speed_with_no_more_than_its_torque(speed, setting):
     world = world_of(setting, FLOATING)
