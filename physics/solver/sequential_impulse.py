@@ -43,7 +43,7 @@ from physics.solver.motions import (
     run_solver,
 )
 from physics.solver.restitution import bounce_once
-from physics.solver.soft_step import WARM_LANES, clear_impulses, turn_arms
+from physics.solver.soft_step import WARM_LANES, clear_impulses, follow_inertias, turn_arms
 from physics.solver.step_context import context_of, separation_speed
 from physics.tables.step_state import StepState, stage
 
@@ -373,9 +373,12 @@ def make_passes(drag: bool, rotation: bool, friction: bool, joints: bool) -> Cal
         velocities(members, context.h, context.drag, motions_inout)
         if rotation and turns_any(count, blocks_inout):
             foresee_turns(members, kinematic, LEAD * context.h, count, motions_inout, blocks_inout)
-        warm_start(count, motions_inout, blocks_inout)
         if joints:
             begin_trees(context, joints_inout, motions_inout)
+            if len(joints_inout.order) > 0:
+                follow_inertias(count, motions_inout, blocks_inout)
+        warm_start(count, motions_inout, blocks_inout)
+        if joints:
             start_joints(context, joints_inout, motions_inout)
         for n in range(passes.count):
             if joints and n > 0:

@@ -515,6 +515,27 @@ def turn_impulses(count, motions_inout, blocks_inout):
             b.vy -= c[at.IM_B + lane] * removed_y
 
 
+@subkernel
+def follow_inertias(count, motions, blocks_inout):
+    """Write the present inverse inertias of the bodies of contacts, and the effective masses that follow. O(lanes).
+
+    Tension in a tree of joints raises the inertia of its links (see joint_direct.add_inertia). Contacts must push with
+    the same inertia, as passes over constraints that see different masses need not converge. count: number of blocks;
+    motions: MOTION rows; blocks_inout: the contacts, see lanes.Blocks.
+    """
+    for block in range(count):
+        c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
+        for lane in range(lanes_of(blocks_inout.contact, block)):
+            on_a = motions[blocks_inout.motion_a[block, lane]].inverse_inertia
+            on_b = motions[blocks_inout.motion_b[block, lane]].inverse_inertia
+            if on_a == c[at.II_A + lane] and on_b == c[at.II_B + lane]:
+                continue
+            c[at.II_A + lane] = on_a
+            c[at.II_B + lane] = on_b
+            write_masses(lane, c)
+            c[at.ROLLING_MASS + lane] = 1.0 / (on_a + on_b) if on_a + on_b > 0.0 else 0.0
+
+
 # ---- soft step -------------------------------------------------------------------------------------------------------
 # Small substeps with soft contacts: each substep has one pass with springs that separate overlaps, and a relaxing pass.
 #

@@ -13,6 +13,7 @@ FOUND = (
     "candidates_of_carved_masks",
     "characters_put_into_solids",
     "characters_stay_kinematic",
+    "contacts_of_bodies_in_trees",
     "contacts_of_masks_tell_all",
     "corners_where_three_parts_meet",
     "deep_parts_are_told_once",

@@ -18,7 +18,7 @@ from physics import Effects, World
 
 FOUR, DEFAULTS = "4 substeps", "defaults"
 SETTINGS = (FOUR, DEFAULTS)
-MAKERS = {"metres", "pixels"}  # functions that make a world of the present settings, …
+MAKERS = {"metres", "pixels", "jointed"}  # functions that make a world of the present settings, …
 BUILDERS = {"heap"}  # … and those of other modules that call them
 
 SWEEP = 10
