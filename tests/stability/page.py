@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from tests.stability import found, peers
+from tests.stability import found, joint_peers, peers
 from tests.stability.faults import table as faults
 from tests.stability.rows import SECTIONS
 from tests.stability.settings import DEFAULTS, FOUR
@@ -91,6 +91,7 @@ def page(sections=SECTIONS, kept=None):
         ]
         parts.append("\n".join([f"## {section.letter}. {section.title}\n", HEADER, *lines]) + "\n")
     parts.append(peers.section())
+    parts.append(joint_peers.section())
     parts.append(faults.section())
     parts.append(f"## What the suite found\n\n{found.section()}\n")
     return "\n".join(parts)
