@@ -41,14 +41,24 @@ def energy(world, gravity=GRAVITY):
 
 
 class Gaps:
-    """The errors of pins, welds and rods [m], from the poses of their bodies: none when this is made."""
+    """The errors of pins, welds and rods [m], from the poses of their bodies: none when this is made.
+
+    No body may be added or removed afterwards.
+    """
 
     def __init__(self, world):
         self.world = world
         joints = [joint for joint in map(world.joint, world.joints["id"].tolist()) if self._holds(joint)]
         self.rods = np.array([joint.kind == "Distance" for joint in joints])
-        self.sides = [self._side([each(joint) for joint in joints]) for each in (self._first, self._second)]
-        self.lengths = np.hypot(*self._apart().T)
+        ends = [(joint.body_a, joint.anchor_a) for joint in joints] + [
+            (joint.body_b, joint.anchor_b) for joint in joints
+        ]
+        fixed = len(world.bodies)  # the row of the world, see _poses
+        self.rows = np.array([fixed if body is None else world.rows([body.id])[0] for body, _ in ends])
+        x, y, cos, sin = self._poses()
+        u, v = np.array([tuple(at) for _, at in ends]).T - (x, y)
+        self.local = cos * u + sin * v, cos * v - sin * u
+        self.lengths = self._apart()
 
     @staticmethod
     def _holds(joint):
@@ -56,43 +66,22 @@ class Gaps:
             return joint.limits is not None and joint.limits[0] == joint.limits[1]
         return joint.kind in ("Revolute", "Weld")
 
-    @staticmethod
-    def _first(joint):
-        return joint.body_a, joint.anchor_a
-
-    @staticmethod
-    def _second(joint):
-        return joint.body_b, joint.anchor_b
-
-    def _side(self, ends):
-        """(ids of bodies, -1 for the world; anchors (n, 2) in the bodies' space) of bodies and points of the world."""
-        ids = np.array([-1 if body is None else body.id for body, _ in ends])
-        points = np.array([tuple(at) for _, at in ends], float)
-        x, y, cos, sin = self._poses(ids)
-        across = points - np.column_stack([x, y])
-        local = np.column_stack([cos * across[:, 0] + sin * across[:, 1], cos * across[:, 1] - sin * across[:, 0]])
-        return ids, local
-
-    def _poses(self, ids):
-        held = ids >= 0
-        rows = self.world.bodies[self.world.rows(ids[held])]
-        x, y, angle = (np.zeros(len(ids)) for _ in range(3))
-        x[held], y[held], angle[held] = rows["x"], rows["y"], rows["angle"]
-        return x, y, np.cos(angle), np.sin(angle)
+    def _poses(self):
+        """x, y, cosine and sine of the body of each end; A's ends, then B's."""
+        b = self.world.bodies
+        x, y, angle = (np.append(b[name], 0.0) for name in ("x", "y", "angle"))
+        return x[self.rows], y[self.rows], np.cos(angle)[self.rows], np.sin(angle)[self.rows]
 
     def _apart(self):
-        ends = []
-        for ids, local in self.sides:
-            x, y, cos, sin = self._poses(ids)
-            ends.append(
-                np.column_stack([x + cos * local[:, 0] - sin * local[:, 1], y + sin * local[:, 0] + cos * local[:, 1]])
-            )
-        return ends[1] - ends[0]
+        x, y, cos, sin = self._poses()
+        u, v = self.local
+        x, y, half = x + cos * u - sin * v, y + sin * u + cos * v, len(self.rods)
+        return np.hypot(x[half:] - x[:half], y[half:] - y[:half])
 
     def worst(self):
         """The greatest error of any joint now."""
-        lengths = np.hypot(*self._apart().T)
-        return float(np.where(self.rods, np.abs(lengths - self.lengths), lengths).max())
+        apart = self._apart()
+        return float(np.where(self.rods, np.abs(apart - self.lengths), apart).max())
 
 
 class Worst:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from physics import Circle, Distance, Drive, Filter, Gear, Material, Polygon, Prismatic, Revolute, Spring, Wheel
-from tests.stability.jointed import ALONE, GRAVITY, NAIVE, Gaps, Worst, jointed, named, rod, run, stairs
+from tests.stability.jointed import ALONE, GRAVITY, Gaps, Worst, jointed, named, rod, run, stairs
 from tests.stability.piles import SOLVERS, floor, needs_speed, on_slope
 from tests.stability.settings import phase
 
@@ -40,7 +40,8 @@ class Crank:
 
 def turn_crank(measured, solver, seconds, name=""):
     world = jointed(solver)
-    crank, off, least, most = Crank(world, phase(2.0 * math.pi)), Worst(), math.inf, -math.inf
+    turn = 0.0 if name else phase(2.0 * math.pi)
+    crank, off, least, most = Crank(world, turn), Worst(), math.inf, -math.inf
     for _ in range(round(seconds / world.dt)):
         world.step()
         x = crank.piston.position.x
@@ -59,14 +60,13 @@ def test_n9_a_slider_crank_keeps_its_stroke(measured, solver):
 
 
 @needs_speed
-@pytest.mark.parametrize("solver", SOLVERS)
-def test_n9_a_slider_crank_keeps_its_stroke_for_a_thousand_turns(measured, solver):
-    turn_crank(measured, solver, 494.0 if phase(1.0) == 0.0 else 50.0, ", the long run" if phase(1.0) == 0.0 else "")
+def test_n9_a_slider_crank_keeps_its_stroke_for_a_thousand_turns(measured):
+    turn_crank(measured, "soft_step", 494.0, ", the long run")
 
 
-def geared(solver, tier="auto"):
+def geared(solver):
     """Three wheels, B half as fast as A, C two thirds of B; A comes up to ten turns a second in a second."""
-    world = jointed(solver, tier=tier)
+    world = jointed(solver)
     wheels = [world.add_body(Circle(0.2 * (k + 1)), position=(k, 0), angle=phase(6), filter=ALONE) for k in range(3)]
     hinges = [world.add_joint(Revolute(None, wheel, at=wheel.position)) for wheel in wheels]
     world.add_joints(Gear, hinges[:1], hinges[1:2], ratio=2.0)
@@ -78,9 +78,8 @@ def geared(solver, tier="auto"):
 
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
-@pytest.mark.parametrize("tier", [NAIVE, "auto"])
-def test_n10_gears_keep_their_ratio_over_a_thousand_turns(measured, tier, solver):
-    world, (a, b, c) = geared(solver, tier)
+def test_n10_gears_keep_their_ratio_over_a_thousand_turns(measured, solver):
+    world, (a, b, c) = geared(solver)
     off, step = Worst(), 0
     for step in range(1, 6061):
         world.step()
@@ -117,9 +116,11 @@ def lift(world, stages, turn):
 
 
 @needs_speed
-@pytest.mark.parametrize("solver", SOLVERS)
-@pytest.mark.parametrize("tier", ["auto", "direct"])
-@pytest.mark.parametrize("stages", [3, 8])
+@pytest.mark.parametrize(
+    ("stages", "tier", "solver"),
+    [(stages, tier, "soft_step") for stages in (3, 8) for tier in ("auto", "direct")]
+    + [(3, "direct", "sequential_impulse")],
+)
 def test_n11_a_scissor_lift_rises_as_its_foot_moves_in(measured, stages, tier, solver):
     """The platform is n sqrt(l² - x²) high; the motor's force is that of virtual work, weight of all by dh/dx."""
     world, turn = jointed(solver, tier=tier), 0.5 + phase(0.5)
@@ -294,7 +295,7 @@ def test_n16_ragdolls_fall_down_stairs_and_sleep(measured, solver):
     world = jointed(solver, effects={"sleeping": True})
     torsos = stairs(world, 26, phase(6.0))
     over, gaps, gap, moving = Worst(), Gaps(world), Worst(), 0.0
-    while world.time < 14.0 and (world.time < 1.0 or any(torso.awake for torso in torsos)):
+    while world.time < 12.0 and (world.time < 1.0 or any(torso.awake for torso in torsos)):
         world.step()
         joints, rows = world.joints, world.bodies
         over(np.maximum(joints["lower"] - joints["angle"], joints["angle"] - joints["upper"]).max())
@@ -303,6 +304,6 @@ def test_n16_ragdolls_fall_down_stairs_and_sleep(measured, solver):
             moving = world.time
     measured("N16", named("limits exceeded", solver), math.degrees(over.value))
     measured("N16", named("greatest gap", solver), gap.value)
-    measured("N16", named("asleep after the last at 1 m/s", solver), world.time - moving)
-    measured("N16", named("asleep", solver), world.time)
-    measured("N16", "ragdolls awake at the end", sum(torso.awake for torso in torsos))
+    if solver == "soft_step":
+        measured("N16", "asleep after the last was at 1 m/s", world.time - moving)
+    measured("N16", named("ragdolls awake after 12 s", solver), sum(torso.awake for torso in torsos))

@@ -127,20 +127,20 @@ def test_n20_a_slider_stops_at_its_limit(measured, load, solver):
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-@pytest.mark.parametrize("masses", [0.1, 0.5, 2.0, 30.0])
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 3.0])
-def test_n21_a_pulley_falls_and_pulls_as_atwoods(measured, ratio, masses, solver):
-    """B falls by g (m - ratio) / (m + ratio²), with m = mass of B over A; the rope stands aside by up to 1 m."""
-    world = jointed(solver)
-    a = world.add_body(Circle(0.2), position=(0.0, 15.0), mass=0.1)
-    b = world.add_body(Circle(0.2), position=(3.0, 12.0), mass=0.1 * masses)
-    wheels = {"ground_a": (0.0, phase(5.0)), "ground_b": (3.0, -phase(5.0))}
-    rope = world.add_joint(Pulley(a, b, at_a=(0, 15), at_b=(3, 12), ratio=ratio, **wheels))
-    run(world, 0.4)
-    falls = GRAVITY * (masses - ratio) / (masses + ratio**2)
-    measured("N21", "error of the acceleration, of g", abs(b.velocity.y / 0.4 - falls) / GRAVITY)
-    measured("N21", "error of the pull", abs(rope.force / (b.mass * (GRAVITY - falls)) - 1.0))
-    measured("N21", named("error of the length", solver), abs(rope.translation - rope.length))
+def test_n21_a_pulley_falls_and_pulls_as_atwoods(measured, ratio, solver):
+    """B falls by g (m - ratio) / (m + ratio²), with m = mass of B over A; ropes from 0 to 5 m longer."""
+    for masses in (0.1, 0.5, 2.0, 30.0):
+        world = jointed(solver)
+        a = world.add_body(Circle(0.2), position=(0.0, 15.0), mass=0.1)
+        b = world.add_body(Circle(0.2), position=(3.0, 12.0), mass=0.1 * masses)
+        wheels = {"ground_a": (0.0, phase(5.0)), "ground_b": (3.0, -phase(5.0))}
+        rope = world.add_joint(Pulley(a, b, at_a=(0, 15), at_b=(3, 12), ratio=ratio, **wheels))
+        run(world, 0.4)
+        falls = GRAVITY * (masses - ratio) / (masses + ratio**2)
+        measured("N21", "error of the acceleration, of g", abs(b.velocity.y / 0.4 - falls) / GRAVITY)
+        measured("N21", "error of the pull", abs(rope.force / (b.mass * (GRAVITY - falls)) - 1.0))
+        measured("N21", named("error of the length", solver), abs(rope.translation - rope.length))
 
 
 @pytest.mark.parametrize("solver", SOLVERS)

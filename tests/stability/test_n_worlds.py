@@ -158,7 +158,7 @@ def test_n26_a_snapshot_in_mid_swing_goes_on_alike(measured, tier, solver, tmp_p
     taken.save(tmp_path / "swing.npz")
     run(world, 0.7)
     digests = [world.digest()]
-    for again in (world, machine(solver), World(world.effects)):
+    for again in (world, machine(solver), World(world.effects, pixels_per_meter=1.0)):
         again.restore(taken if again is world else Snapshot.load(tmp_path / "swing.npz"))
         run(again, 0.7)
         digests.append(again.digest())

@@ -13,6 +13,7 @@ from tests.stability.rows.j_far_away import FAR_AWAY
 from tests.stability.rows.k_bad_input import BAD_INPUT
 from tests.stability.rows.l_time import TIME
 from tests.stability.rows.m_effects import EFFECTS
+from tests.stability.rows.n_joints import JOINTS
 from tests.stability.rows.row import Limit, Row, Section
 
 __all__ = ["ROWS", "SECTIONS", "Limit", "Row", "Section"]
@@ -31,5 +32,6 @@ SECTIONS = (
     BAD_INPUT,
     TIME,
     EFFECTS,
+    JOINTS,
 )
 ROWS = {row.id: row for section in SECTIONS for row in section.rows}
