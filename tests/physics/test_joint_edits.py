@@ -1,31 +1,23 @@
-"""The API of joints: handles, columns, many at once, removal, breaking, snapshots, digests and bad input."""
+"""The API of joints: handles, columns, many at once, removal, breaking, digests and bad input."""
 
-import itertools
 import math
-import pickle
 
-import numpy as np
 import pytest
 
 import physics
 from physics import (
     Angle,
-    BruteForce,
     Character,
     Circle,
     Distance,
     Drive,
-    DynamicTree,
     Effects,
     Motor,
     NoContact,
     Polygon,
     Prismatic,
     Revolute,
-    Snapshot,
-    SpatialHashGrid,
     Spring,
-    SweepAndPrune,
     Target,
     Weld,
     Wheel,
@@ -55,27 +47,6 @@ def every_kind(a, b):
         Target(b, at=(30, 0), point=(50, 0)),
         NoContact(a, b),
     ]
-
-
-def machine(**more):
-    """A world with every kind of joint, contacts, and a chain that swings."""
-    world = World(EFFECTS, **more)
-    world.add_body(Polygon.box(800, 20), position=(0, 200), kind="static")
-    for k, kind in enumerate(every_kind(0, 1)):
-        a = world.add_body(BOX, position=(-300.0 + 80.0 * k, 100.0))
-        b = world.add_body(BOX, position=(-270.0 + 80.0 * k, 100.0))
-        moved = {"a": a, "b": b} if hasattr(kind, "a") else {"body": b}
-        for name in type(kind).POINTS:
-            x, y = getattr(kind, name) or (0.0, 0.0)
-            if getattr(kind, name) is not None:
-                moved[name] = (x - 300.0 + 80.0 * k, y + 100.0)
-        world.add_joint(type(kind)(**{**vars(kind), **moved}))
-    before = None
-    for k in range(8):
-        link = world.add_body(Polygon.box(16, 4), position=(8.0 + 16.0 * k, -100.0))
-        world.add_joint(Revolute(before, link, at=(16.0 * k, -100.0)))
-        before = link
-    return world
 
 
 def run(world, steps):
@@ -266,42 +237,6 @@ def test_several_joints_of_a_pair_and_a_loop_hold():
     assert b.angle == pytest.approx(0.0, abs=0.02)
 
 
-# --- the same, whatever finds and solves it -----------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse"])
-def test_four_broad_phases_give_one_digest(solver):
-    digests = set()
-    for strategy in (BruteForce(), SweepAndPrune(), SpatialHashGrid(), DynamicTree()):
-        world = machine(broadphase=strategy, solver=solver)
-        run(world, 120)
-        digests.add(world.digest())
-    assert len(digests) == 1
-
-
-@pytest.mark.parametrize("joint_solver", ["iterative", "direct", "auto"])
-def test_a_snapshot_in_mid_swing_goes_on_alike(joint_solver, tmp_path):
-    world = machine()
-    world.joint_solver = joint_solver
-    run(world, 40)
-    taken = world.snapshot()
-    taken.save(tmp_path / "swing.npz")
-    run(world, 40)
-    expected = world.digest()
-    for again in (machine(), World(EFFECTS)):
-        again.restore(Snapshot.load(tmp_path / "swing.npz"))
-        assert again.joint_solver == joint_solver
-        run(again, 40)
-        assert again.digest() == expected
-    world.restore(taken)
-    run(world, 40)
-    assert world.digest() == expected
-    copied = pickle.loads(pickle.dumps(world))
-    run(world, 5)
-    run(copied, 5)
-    assert world.digest() == copied.digest()
-
-
 def test_a_digest_tells_joints_apart():
     def digest(**more):
         world, a, b = two()
@@ -321,44 +256,6 @@ def test_a_digest_tells_joints_apart():
         )
         == 5
     )
-
-
-@pytest.mark.parametrize("seed", range(3))
-def test_joints_of_one_island_do_not_change_another(seed):
-    def left_alone(extra):
-        world = World(EFFECTS)
-        random = np.random.default_rng(seed)
-        bodies = [world.add_body(BOX, position=(40.0 * k, 10.0 * random.random())) for k in range(5)]
-        for a, b in itertools.pairwise(bodies):
-            world.add_joint(Revolute(a, b, at=(a.position.x + 20.0, 0.0)))
-        if extra:
-            far = [world.add_body(BOX, position=(5000.0 + 40.0 * k, 0.0)) for k in range(3)]
-            for a, b in itertools.pairwise(far):
-                world.add_joint(Weld(a, b, at=(a.position.x + 20.0, 0.0)))
-            world.add_joint(Revolute(None, far[0], at=(5000.0, 0.0)))
-        run(world, 90)
-        return [(*body.position, body.angle) for body in bodies]
-
-    assert left_alone(False) == left_alone(True)
-
-
-@pytest.mark.parametrize("scale", [1.0, 32.0, 2.0**7])
-def test_a_world_in_other_units_moves_alike(scale):
-    """pixels_per_meter of 1 and 32: the same to the bit, as the factor is a power of two."""
-
-    def places(scale):
-        world = World(EFFECTS, pixels_per_meter=scale)
-        size = scale / 32.0
-        before = None
-        for k in range(6):
-            link = world.add_body(Polygon.box(16 * size, 4 * size), position=((8.0 + 16.0 * k) * size, 0.0))
-            spring = Spring(4.0, 0.3, target=0.1) if k == 3 else None
-            world.add_joint(Revolute(before, link, at=(16.0 * k * size, 0.0), spring=spring))
-            before = link
-        run(world, 100)
-        return (world.bodies["x"] / size).tolist()
-
-    assert places(scale) == places(32.0)
 
 
 # --- bad input ------------------------------------------------------------------------------------------------------
