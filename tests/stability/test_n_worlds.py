@@ -232,4 +232,5 @@ def test_n29_a_net_swings_and_sleeps_and_costs_nothing(measured, solver):
         world.step()
     measured("N29", named("greatest gap", solver), gap.value)
     measured("N29", named("balls awake after 40 s", solver), world.bodies["awake"].sum())
-    measured("N29", named("joints solved while asleep", solver), world.profile.counters["joints_solved"])
+    if not world.bodies["awake"].any():
+        measured("N29", named("joints solved while asleep", solver), world.profile.counters["joints_solved"])
