@@ -227,7 +227,7 @@ MACHINES = (
             at_most("ragdolls awake after 12 s" + SI, 26),
         ),
         "Box2D Ragdoll, SleepingTest",
-        defaults=(at_most("limits exceeded", 1.0, "degrees"), at_most("greatest gap", 0.0025, "m")),
+        defaults=(at_most("limits exceeded", 0.95, "degrees"), at_most("greatest gap", 0.0025, "m")),
     ),
 )
 
