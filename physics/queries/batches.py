@@ -136,7 +136,7 @@ def may_hit(x, y, dx, dy, shape, beyond):
     )
 
 
-def make_candidate_search(search):
+def make_candidate_search(search: Any) -> Any:
     """Return the kernel that lists the candidates of rays. search: function that searches a broad phase by a box."""
 
     @kernel

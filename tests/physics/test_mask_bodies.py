@@ -169,7 +169,7 @@ def test_what_asks_for_pixels_gets_pixels_and_what_asks_for_the_outline_gets_tha
     on_it = world.add_body(Circle(4), sensor=True, kind="static", position=(16.0, 0.0))
     probe = world.add_body(PixelMask(ring), position=(300.0, 0.0), velocity=(1.0, 0.0))
     world.step()
-    assert world.query_point((0.0, 0.0)) == [inside]
+    assert world.query_point((0.0, 0.0), sensors=True) == [inside]
     assert world.query_point((0.0, 16.0)) == [body]
     assert world.overlap(Circle(4), (0.0, 0.0)) == [inside]
     hit = world.ray_cast((0.0, 0.0), (30.0, 0.0))

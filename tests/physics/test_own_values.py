@@ -101,7 +101,7 @@ def test_one_body_senses_with_one_shape_and_stands_on_the_other():
         world.step()
         began += world.events.sensor_begin["shape_b"].tolist()
     assert body.position.y == pytest.approx(80, abs=0.5) and began == [body.shape_ids[1]]
-    assert world.query_point((0, 95)) == [floor, body]
+    assert world.query_point((0, 95), sensors=True) == [floor, body] and world.query_point((0, 95)) == [floor]
 
 
 def test_tiers_and_wrappers_keep_them():
