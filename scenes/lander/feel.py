@@ -32,8 +32,8 @@ BLAST, CRASH_BLAST = 20.0, 28.0  # [px] radius of a crater
 PUSH_REACH, PUSH = 64.0, 105.0  # [px] range of a blast; [px/s] change of velocity next to it
 CRUMB = 14  # area in pixels: smaller pieces are removed
 # The line
-REACH, LINE = 62.0, 48.0  # [px] range of the claw; length of the taut line
-LINE_RATE, LINE_DAMPING, SNAP = 4.0, 0.55, 150.0  # [Hz], damping ratio, [px] length at which the line tears
+REACH, LINE, LINKS = 62.0, 48.0, 8  # [px] range of the claw; length of the line, and its links: an even number
+LINE_MASS, LINE_STRENGTH = 4.0, 7.5e5  # [mass] of the line; [mass px/s2] force at which it tears
 # Cargo
 CARGO_HARMLESS, CARGO_DAMAGE = 55.0, 0.7  # [px/s] harmless change of velocity; damage (of 100) per px/s above it
 
@@ -53,7 +53,7 @@ DELIVERED = steps(0.6)  # steps for which cargo must rest on a pad before it cou
 REFUEL, REPAIR, REARM = 30.0 / 60, 16.0 / 60, steps(0.45)  # fuel per step, hull per step, steps per shell
 
 
-GROUND_BIT, SHIP_BIT, SHELL_BIT, LOOSE_BIT, ZONE_BIT, CAN_BIT = (1 << bit for bit in range(6))
+GROUND_BIT, SHIP_BIT, SHELL_BIT, LOOSE_BIT, ZONE_BIT, CAN_BIT, LINE_BIT = (1 << bit for bit in range(7))
 FILTER_NAMES = {
     GROUND_BIT: "ground and pads",
     SHIP_BIT: "ship",
@@ -61,13 +61,15 @@ FILTER_NAMES = {
     LOOSE_BIT: "cargo and rocks",
     ZONE_BIT: "over a pad",
     CAN_BIT: "fuel",
+    LINE_BIT: "line",
 }
-GROUND = Filter(GROUND_BIT, SHIP_BIT | SHELL_BIT | LOOSE_BIT)
+GROUND = Filter(GROUND_BIT, SHIP_BIT | SHELL_BIT | LOOSE_BIT | LINE_BIT)
 SHIP = Filter(SHIP_BIT, GROUND_BIT | LOOSE_BIT | CAN_BIT)
 SHELL = Filter(SHELL_BIT, GROUND_BIT | LOOSE_BIT)
 LOOSE = Filter(LOOSE_BIT, GROUND_BIT | SHIP_BIT | SHELL_BIT | LOOSE_BIT | ZONE_BIT)
 ZONE = Filter(ZONE_BIT, LOOSE_BIT)
 FUEL_CAN = Filter(CAN_BIT, SHIP_BIT)
+LINE_FILTER = Filter(LINE_BIT, GROUND_BIT)
 
 
 def approach(value, target, change):

@@ -1,21 +1,31 @@
-"""The line: a rope between ship and load. It pulls, but never pushes.
+"""The line: a rope of links between ship and load. It bends around rock, and tears under too great a force.
 
-If the rope is longer than LINE, it pulls as a damped spring. The force acts at the centres of mass of ship and load, so
-it causes no torque.
+Each link is a thin capsule, pinned to the next; the ends are pinned to the centres of mass of ship and load, so the
+rope causes no torque there. The pins form a tree, which the solver of joints solves exactly, however heavy the load is.
+Links collide with the ground and with nothing else.
 """
 
-from math import hypot, pi
+from itertools import pairwise
+from math import atan2, cos, hypot, sin, sqrt
 from typing import Any
 
-from scenes.lander.feel import LINE, LINE_DAMPING, LINE_RATE, REACH, SNAP
+from physics import Capsule, Revolute
+from scenes.lander.feel import LINE, LINE_FILTER, LINE_MASS, LINE_STRENGTH, LINKS, REACH
+
+THICK = 1.0  # [px] radius of a link
 
 
 class Line:
-    """The rope on which the ship carries a load. load: its body, or None; torn: whether the rope tore in this step."""
+    """The rope on which the ship carries a load. load: its body, or None; torn: whether the rope tore in this step.
 
-    def __init__(self):
+    links: the bodies of the rope, from the ship to the load.
+    """
+
+    def __init__(self, world):
+        self.world = world
         self.load: Any = None
         self.torn = False
+        self.links = []
 
     def toggle(self, ship, loose):
         """Let go of the load or, without a load, catch the nearest of the bodies `loose` that is within REACH.
@@ -23,44 +33,75 @@ class Line:
         Return "let go", "caught", or "missed" if no body is in reach.
         """
         if self.load is not None:
-            self.load = None
+            self.let_go()
             return "let go"
         near = [(hypot(body.center.x - ship.x, body.center.y - ship.y), body.id, body) for body in loose]
         near = [each for each in near if each[0] < REACH]
-        if not near:
+        if not near or not self.world.effects.joints:
             return "missed"
         self.load = min(near)[2]
-        self.load.wake()
+        self._tie(ship.body)
         return "caught"
 
-    def pull(self, ship):
-        """Apply the rope's force to ship and load for the next step, or let the rope tear if it is too long."""
-        self.torn = False
-        load = self.load
-        if load is None or not ship.here:
-            self.load = None
-            return
-        body = ship.body
-        dx, dy = load.center.x - body.center.x, load.center.y - body.center.y
-        length = hypot(dx, dy)
-        if length > SNAP:
-            self.load, self.torn = None, True
-            return
-        if length <= LINE:
-            return
-        ux, uy = dx / length, dy / length
-        mass = body.mass * load.mass / (body.mass + load.mass)
-        rate = 2.0 * pi * LINE_RATE
-        parting = (load.velocity.x - body.velocity.x) * ux + (load.velocity.y - body.velocity.y) * uy
-        force = mass * (rate * rate * (length - LINE) + 2.0 * LINE_DAMPING * rate * parting)
-        if force > 0.0:
-            body.apply_force((force * ux, force * uy))
-            load.apply_force((-force * ux, -force * uy))
+    def _tie(self, body):
+        """Make the rope between the ship's body and the load: straight, or in a zigzag if they are near each other."""
+        start, end = body.center, self.load.center
+        away = hypot(end.x - start.x, end.y - start.y)
+        length = max(LINE, away) / LINKS  # of a link
+        ux, uy = ((end.x - start.x) / away, (end.y - start.y) / away) if away > 0.0 else (0.0, 1.0)
+        along = away / (LINKS * length)
+        aside = sqrt(max(0.0, 1.0 - along * along)) * length
+        ends = []
+        for number in range(LINKS + 1):
+            step, bend = number * along * length, aside * (number % 2)
+            ends.append((start.x + step * ux - bend * uy, start.y + step * uy + bend * ux))
+        for (ax, ay), (bx, by) in pairwise(ends):
+            angle = atan2(by - ay, bx - ax)
+            half = 0.5 * length
+            self.links.append(
+                self.world.add_body(
+                    Capsule((-half, 0.0), (half, 0.0), THICK),
+                    position=((ax + bx) / 2.0, (ay + by) / 2.0),
+                    angle=angle,
+                    velocity=tuple(body.velocity),
+                    mass=LINE_MASS / LINKS,
+                    filter=LINE_FILTER,
+                    user="line",
+                )
+            )
+        bodies = [body, *self.links, self.load]
+        for (a, b), at in zip(pairwise(bodies), ends, strict=True):
+            self.world.add_joint(Revolute(a, b, at=at, breaks=(LINE_STRENGTH, None), contacts=False))
+
+    def let_go(self):
+        """Remove the rope."""
+        self.world.remove_bodies([link.id for link in self.links])
+        self.load, self.links = None, []
+
+    def read(self, ship):
+        """Read from the events of a step whether the rope tore. It is let go also if there is no ship any more."""
+        self.torn = any(row["reason"] in ("force", "torque") for row in self.world.events.broken)
+        if self.load is not None and (self.torn or not ship.here):
+            self.let_go()
+
+    def points(self, alpha):
+        """Return the ends of the links (x, y) [px] from the ship to the load, interpolated between the last two steps.
+
+        alpha: 0 for the last step but one, 1 for the last step.
+        """
+        rows = self.world.bodies[self.world.rows([link.id for link in self.links])]
+        back, found = 1.0 - alpha, []
+        for row, link in zip(rows, self.links, strict=True):
+            x, y, angle = (row[name] - (row[name] - row[f"previous_{name}"]) * back for name in ("x", "y", "angle"))
+            (left, _), (right, _) = link.shapes[0].points
+            ends = [(x + at * cos(angle), y + at * sin(angle)) for at in (left, right)]
+            found += ends if not found else ends[1:]
+        return found
 
     def drop(self, identity):
         """Let go of the load if it is the body `identity`. Call it before this body is removed."""
         if self.load is not None and self.load.id == identity:
-            self.load = None
+            self.let_go()
 
     def state(self):
         """Return this object's part of Scene.state(), a flat tuple."""

@@ -37,15 +37,16 @@ class Lander(Scene):
         continuous=True,
         sleeping=True,
         sensors=True,
+        joints=True,
         carving=True,
     )
-    pieces = ("masks", "circles", "boxes")
+    pieces = ("masks", "circles", "boxes", "capsules")
     features = (
         "the ship's own pixels are its body, so are moon, pads, cargo and rocks",
         "ground of 4,096 x 1,024 pixels with caves and overhangs, one body",
         "shells and wrecks carve craters; what comes loose falls, rolls and can be carried away",
         "damage by the impulse of each knock",
-        "cargo swings on a line, rolls, and is delivered whole or in pieces",
+        "cargo swings on a rope of joints that bends around rock, rolls, and is delivered whole or in pieces",
         "gravity, thin air and gusts",
     )
     filter_names = FILTER_NAMES
@@ -63,7 +64,7 @@ class Lander(Scene):
         self.ground = Ground(world, self.moon)
         self.yard = Yard(world, self.moon)
         self.ship = Ship(world, self.moon)
-        self.gun, self.line = Gun(world), Line()
+        self.gun, self.line = Gun(world), Line(world)
         self.weather = Weather(self.random, self.moon)
         self.course, self.score = Course(self.moon), Score()
         self.pilot, self.gaze = Pilot(), Gaze(self.camera, self.ship, self.moon)
@@ -88,11 +89,11 @@ class Lander(Scene):
             self.spectacle.arrived()
         self.weather.step(self.frame * STEP_SECONDS, ship.x, ship.y)
         self.weather.blow(self.world, *self._in_the_air())
-        self.line.pull(ship)
-        if self.line.torn:
-            self.spectacle.line_torn()
         self.gone += self.gun.step()
         self.world.step()
+        self.line.read(ship)
+        if self.line.torn:
+            self.spectacle.line_torn()
         self._read_events()
         ship.read()
         self.course.step(self)
@@ -214,7 +215,7 @@ class Lander(Scene):
         ship = self.ship
         x, y = ship.body.center
         self.gone.append(ship.lose())
-        self.line.load = None
+        self.line.let_go()
         self.score.lost += 1
         self.spectacle.ship_lost(x, y)
         self.blast(x, y, CRASH_BLAST)

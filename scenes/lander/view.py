@@ -13,7 +13,7 @@ from game.drawing.rotated import RotatedPicture
 from game.drawing.sprites import lit, load_atlas
 from scenes.lander import banners, board
 from scenes.lander.backdrop import Backdrop
-from scenes.lander.feel import LINE, REACH
+from scenes.lander.feel import REACH
 from scenes.lander.moon import the_moon
 from scenes.lander.rubble_picture import RubblePictures
 from scenes.lander.terrain_picture import TerrainPicture
@@ -28,7 +28,6 @@ WHITE = 120  # brightness that an impact adds to the ship
 BOB = 2.0  # [px] amplitude of the bobbing of cans and marks
 TUMBLES = 14  # quarter turns of debris a second
 ROPE = ((30, 26, 44), (214, 206, 190))
-SLACK_PARTS = 8
 LIT = 0.25  # [s] that a burst lights its surroundings
 
 
@@ -149,17 +148,7 @@ class View:
             self._mark_reach(scene, x, y)
             return
         load_x, load_y, _ = self.pose(scene, line.load.id)
-        long = ((load_x - x) ** 2 + (load_y - y) ** 2) ** 0.5
-        sag = max(LINE - long, 0.0) * 0.5
-        points = []
-        for part in range(SLACK_PARTS + 1):
-            share = part / SLACK_PARTS
-            points.append(
-                (
-                    whole(x + (load_x - x) * share) - self.left,
-                    whole(y + (load_y - y) * share + 4.0 * sag * share * (1.0 - share)) - self.top,
-                )
-            )
+        points = [(whole(px) - self.left, whole(py) - self.top) for px, py in line.points(self.alpha)]
         for color, lift in ((ROPE[0], 1), (ROPE[1], 0)):
             pygame.draw.lines(self.surface, color, False, [(px, py + lift) for px, py in points])
         self.centred(self.atlas["hook"], load_x, load_y)
