@@ -171,12 +171,12 @@ def test_what_asks_for_pixels_gets_pixels_and_what_asks_for_the_outline_gets_tha
     world.step()
     assert world.query_point((0.0, 0.0), sensors=True) == [inside]
     assert world.query_point((0.0, 16.0)) == [body]
-    assert world.overlap(Circle(4), (0.0, 0.0)) == [inside]
+    assert world.overlap(Circle(4), (0.0, 0.0), sensors=True) == [inside]
     hit = world.ray_cast((0.0, 0.0), (30.0, 0.0))
     assert hit.body == body and hit.shape == body.shape_ids[0] and hit.point.x == pytest.approx(12.0, abs=0.8)
     found = world.closest((0.0, 3.0))
     assert found[0] == body and found[2] == pytest.approx(9.0, abs=0.8)
-    assert on_it in world.overlap(Circle(2), (16.0, 0.0)) and probe.awake
+    assert on_it in world.overlap(Circle(2), (16.0, 0.0), sensors=True) and probe.awake
 
 
 @pytest.mark.parametrize("seed", range(8) if JIT else [4])
