@@ -32,7 +32,7 @@ from physics.settings import SHORTEST_STEP, STALL
 from physics.solver.blocking import IGNORED as IGNORED_BY_BLOCKING
 from physics.solver.blocking import blocking
 from physics.solver.contact_lanes import ContactLanes
-from physics.solver.joint_report import measure_joints
+from physics.solver.joint_report import mark_sleeping, measure_joints
 from physics.solver.motions import Motions
 from physics.solver.projection import IGNORED as IGNORED_BY_PROJECTION
 from physics.solver.projection import PushSet, projection
@@ -158,7 +158,7 @@ def swept_aabbs_of_finite_bodies(state: StepState) -> None:
     motion_rectangles(state)
 
 
-@stage("rest", reads=rest.reads, writes=rest.writes)
+@stage("rest", reads=(*rest.reads, "joints"), writes=(*rest.writes, "joints.awake"))
 def evaluate_contacts_before_sleep(state: StepState) -> None:
     """Put islands at rest to sleep.
 
@@ -169,6 +169,8 @@ def evaluate_contacts_before_sleep(state: StepState) -> None:
         for key in np.unique(state.fell_asleep[1]).tolist():
             island = state.sleeping_set.islands[key]
             update_contacts(state.bodies, island.contacts)
+        if len(state.joints):
+            mark_sleeping(state.bodies, state.joints)
 
 
 def own_solver(effects: Effects) -> SolverName:

@@ -383,7 +383,7 @@ def take_broken_by_solver(rows, course, bodies_inout, broken_out):
     return take_broken_bodies(rows, course, bodies_inout, broken_out)
 
 
-@stage("quarantine", reads=(*READS, "workspace"), writes=(*WRITES, "workspace"))
+@stage("quarantine", reads=(*READS, "joints", "workspace"), writes=(*WRITES, "workspace"))
 def quarantine(state: StepState) -> None:
     """Disable and report bodies with numbers that are not finite or out of range, before they affect neighbours."""
     awake, bodies, workspace = state.awake, state.bodies, state.workspace
@@ -399,7 +399,7 @@ def quarantine(state: StepState) -> None:
         _take_out(state, workspace.broken[:found])
 
 
-@stage("quarantine_solved", reads=(*READS, "non_finite_count", "workspace"), writes=(*WRITES, "workspace"))
+@stage("quarantine_solved", reads=(*READS, "joints", "non_finite_count", "workspace"), writes=(*WRITES, "workspace"))
 def quarantine_solved(state: StepState) -> None:
     """Disable bodies whose numbers a solver left out of range, and drop their contacts, before sweeps and reports."""
     if not state.non_finite_count:

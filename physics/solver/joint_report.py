@@ -1,5 +1,7 @@
 """The state of joints after a step, as `world.joints` reports it: coordinates, speeds, errors, breaking."""
 
+import numpy as np
+
 from physics.jit import kernel, subkernel
 from physics.math2d import norm, rotation_of
 from physics.solver.joint_rows import turns
@@ -145,3 +147,9 @@ def report_joints(bodies, joints_inout):
 def measure_joints(state: StepState) -> None:
     """Measure all joints at the final poses of the step, and mark the joints that broke."""
     report_joints(state.bodies, state.joints)
+
+
+def mark_sleeping(bodies: np.ndarray, joints: np.ndarray) -> None:
+    """Clear the column `awake` of the joints whose bodies are asleep. bodies: BODY; joints: JOINT rows."""
+    a, b = joints["body_row_a"], joints["body_row_b"]
+    joints["awake"] &= ((a >= 0) & bodies["awake"][a]) | ((b >= 0) & bodies["awake"][b])

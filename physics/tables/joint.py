@@ -24,7 +24,7 @@ STATE = (  # fields on which the next step depends
     ("follows_point", np.bool_),  # anchors are held together; False: only their relative velocity is controlled
     ("follows_angle", np.bool_),  # likewise for the angle
     ("turns_motor", np.bool_),  # the motor acts on the angle instead of the coordinate
-    ("awake", np.bool_),  # the joint was solved in the last step
+    ("awake", np.bool_),  # the joint was solved in the last step, and has not fallen asleep in it
     ("direct", np.bool_),  # the joint is in a tree, see solver/joint_direct.py
     ("broken", np.bool_),  # a breaking force or torque was exceeded in the last step
     ("hold", np.int64),  # FREE 0, PINNED 1, ON_AXIS 2, TOOTHED 3, GEARED 4, SLUNG 5

@@ -132,3 +132,26 @@ def test_a_car_and_a_welded_heap_sleep():
     world.add_joint(Weld(a, b, at=(160, 15)))
     run(world, 10.0)
     assert not any(body.awake for body in (chassis, a, b))
+
+
+@pytest.mark.parametrize("broken", [False, True])
+@pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse"])
+def test_the_column_awake_is_what_the_joints_say(solver, broken):
+    """Of a welded pair on the floor that falls asleep, is knocked and falls asleep again, beside one that swings."""
+    world = World(EFFECTS, solver=solver)
+    world.add_body(Polygon.box(400, 20), position=(0, 10), kind="static")
+    pair = [world.add_body(Polygon.box(20, 20), position=(20.0 * k, -10)) for k in range(2)]
+    world.add_joint(Weld(*pair, at=(10, -10)))
+    bob = world.add_body(Circle(5), position=(100, -100), allow_sleep=False)
+    world.add_joint(Revolute(None, bob, at=(100, -150)))
+    seen = set()
+    for number in range(400):
+        if number == 200:
+            pair[0].apply_impulse((0.0, -20000.0))
+        if broken and number == 100:
+            world.joint(1).enabled = False
+        world.step()
+        column = world.joints["awake"].tolist()
+        assert column == [world.joint(0).awake, world.joint(1).awake], number
+        seen.add(column[0])
+    assert seen == {True, False} and not pair[0].awake
