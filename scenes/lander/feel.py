@@ -33,7 +33,7 @@ PUSH_REACH, PUSH = 64.0, 105.0  # [px] range of a blast; [px/s] change of veloci
 CRUMB = 14  # area in pixels: smaller pieces are removed
 # The line
 REACH, LINE, LINKS = 62.0, 48.0, 8  # [px] range of the claw; length of the line, and its links: an even number
-LINE_MASS, LINE_STRENGTH = 4.0, 7.5e5  # [mass] of the line; [mass px/s2] force at which it tears
+LINE_MASS, LINE_STRENGTH = 4.0, 2.5e6  # [mass] of the line; [mass px/s2] force at which it tears
 # Cargo
 CARGO_HARMLESS, CARGO_DAMAGE = 55.0, 0.7  # [px/s] harmless change of velocity; damage (of 100) per px/s above it
 

@@ -80,6 +80,19 @@ def test_it_bends_around_a_rock(speed, side):
     assert bent > 5, "it was bent at all"
 
 
+@pytest.mark.parametrize("high", [36.0, 38.0, 40.0, 42.0, 46.0, 50.0, 55.0])
+def test_a_gentle_lift_does_not_tear_it(high):
+    """Thrust alone takes a load off the ground, from every height within reach; a slack rope tightens without harm."""
+    flight = Flight()
+    _, piece = flight.piece()
+    x, y = piece.body.position
+    flight.put(x, y - high)
+    flight.step(2)
+    flight.step(1, ["bomb"])
+    flight.until(lambda: piece.body.position.y < y - 40.0, 400, ["up"])
+    assert flight.scene.line.load is piece.body
+
+
 @pytest.mark.parametrize("speed, tears", [(20.0, False), (60.0, False), (400.0, True), (900.0, True)])
 def test_it_tears_when_it_is_jerked(speed, tears):
     flight, load = hooked(0.0, 40.0, (0.0, speed))
