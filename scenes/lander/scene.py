@@ -46,7 +46,7 @@ class Lander(Scene):
         "ground of 4,096 x 1,024 pixels with caves and overhangs, one body",
         "shells and wrecks carve craters; what comes loose falls, rolls and can be carried away",
         "damage by the impulse of each knock",
-        "cargo swings on a rope of joints that bends around rock, rolls, and is delivered whole or in pieces",
+        "cargo on a rope that bends around rock and tears",
         "gravity, thin air and gusts",
     )
     filter_names = FILTER_NAMES

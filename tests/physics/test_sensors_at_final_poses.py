@@ -138,7 +138,7 @@ def asked_of_the_world(world):
     found = set()
     for body, shape in sides(world).values():
         if senses(body, shape):
-            for other in world.overlap(shape, pose(body)):
+            for other in world.overlap(shape, pose(body), sensors=True):
                 if other != body and not body.kind == other.kind == "static":
                     found.add((min(body.id, other.id), max(body.id, other.id)))
     return found
