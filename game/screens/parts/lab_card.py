@@ -14,7 +14,7 @@ from game.scene import Goal, Scene
 from game.screens.parts.first_hint import HintCard
 
 SECTIONS = ("In short", "What to see", "Why it matters", "To try", "Source")  # of the docstring at the head of a lab
-INKS = {"In short": PAPER, "What to see": PAPER, "Why it matters": FOG, "To try": SKY, "Source": FOG}
+INKS: dict[str, Color] = {"In short": PAPER, "What to see": PAPER, "Why it matters": FOG, "To try": SKY, "Source": FOG}
 PAGES = (("In short", "To try"), ("What to see", "Why it matters", "Source"))  # sections of each page
 FEET = ("F1 or ?: more about it   Enter or a click: close", "F1, ?, Enter or a click: close")
 KEYS = (pygame.K_F1, pygame.K_RETURN, pygame.K_KP_ENTER, pygame.K_ESCAPE)
@@ -97,7 +97,7 @@ class LabCard:
     def _lines(self, width, scale, room):
         """Return the card's lines from top to bottom. width: of a line [frame px]; room: for all lines [text px]."""
         lines = [Line(text, GOLD, TEXT) for text in wrap(self.text.question, width, TEXT, scale)]
-        sections = dict(zip(SECTIONS, self.text[1:], strict=True))
+        sections: dict[str, str] = dict(zip(SECTIONS, self.text[1:], strict=True))
         for section in PAGES[self.page]:
             words = sections[section] if INKS[section] == PAPER else f"{section}: {sections[section]}"
             lines += paragraph(words, width, scale, INKS[section])
