@@ -42,7 +42,7 @@ from physics.jit import tiers
 from physics.joint import Joint
 from physics.joints.kinds import Kind
 from physics.math2d import Vec2
-from physics.queries import casts
+from physics.queries import batches, casts
 from physics.queries.casts import RayHit
 from physics.queries.index import QueryIndex
 from physics.settings import ACCURACY, PIXELS_PER_METER, POSITION_LIMIT, STANDARD_GRAVITY, tolerances
@@ -696,7 +696,7 @@ class World(WorldState):
 
         A ray without a hit has body -1, fraction 1 and its end as point. Raises TypeError and ValueError as ray_cast.
         """
-        return casts.ray_casts(self, origins, translations, filter, sensors)
+        return batches.ray_casts(self, origins, translations, filter, sensors)
 
     def shape_cast(
         self, shape: Shape, pose: Pose, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False
@@ -769,4 +769,4 @@ class World(WorldState):
 
         Raises TypeError and ValueError as ray_cast.
         """
-        return casts.query_points(self, points, filter, sensors)
+        return batches.query_points(self, points, filter, sensors)

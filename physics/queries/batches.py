@@ -4,6 +4,7 @@ A long slanted ray is cut into pieces, and the broad phase is searched with the 
 are the admitted shapes whose AABBs the ray crosses. A point is a ray of length 0.
 """
 
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,8 +19,9 @@ from physics.ccd.time_of_impact import MISS
 from physics.distance.gjk import copy_part
 from physics.jit import kernel, subkernel
 from physics.math2d import rotate
-from physics.queries.index import ROUNDING, AskedWorld
+from physics.queries.index import ROUNDING, AskedWorld, meets_aabb
 from physics.queries.rays import cast_on_disc, cast_on_hull, cast_on_shape, crosses_box
+from physics.settings import DRAWN, MASK_ANGLE_BUCKETS, POSITION_LIMIT
 from physics.shapes.library import draw_masks
 from physics.shapes.placement import cosine_and_sine
 from physics.shapes.shape import Filter, Parts, checked_filter, parts_of
@@ -77,7 +79,6 @@ class Admitted(NamedTuple):
     membership: int  # bits of the query's Filter
     mask: int
     sensors: bool  # whether sensors are admitted
-    by_pixels: bool  # whether masks are tested by their pixels, otherwise by their outlines
     known: bool  # whether the broad phase is searched
     beyond: float  # [px] how far an outline may extend beyond the AABB of its shape
     piece: float  # [px] width of a piece of a ray
@@ -96,10 +97,14 @@ class MaskOutlines(NamedTuple):
 
 
 @subkernel
-def is_admitted(shape, admitted):
-    """Return whether a query admits a SHAPE row. admitted: an Admitted."""
+def is_admitted(shape, point, admitted):
+    """Return whether a query admits a SHAPE row.
+
+    point: whether a point is asked for, which is tested against the pixels of masks, as rays are against outlines;
+    admitted: an Admitted.
+    """
     return (
-        shape.role != (PART if admitted.by_pixels else PIXELS)
+        shape.role != (PART if point else PIXELS)
         and (shape.membership & admitted.mask) != 0
         and (shape.mask & admitted.membership) != 0
         and (admitted.sensors or not shape.sensor)
@@ -118,19 +123,8 @@ def box_around(x, y, dx, dy, margin):
 
 
 @subkernel
-def meets_aabb(shape, box):
-    """Return whether the AABB of a SHAPE row meets a closed box (lower x, y, upper x, y) [px]."""
-    return shape.min_x <= box[2] and shape.max_x >= box[0] and shape.min_y <= box[3] and shape.max_y >= box[1]
-
-
-@subkernel
 def may_hit(x, y, dx, dy, shape, beyond):
-    """Return whether a ray from (x, y) by (dx, dy) [px] crosses the AABB of a SHAPE row, enlarged by `beyond` [px].
-
-    A point may hit every shape.
-    """
-    if dx == 0.0 and dy == 0.0:
-        return True
+    """Return whether a ray from (x, y) by (dx, dy) [px] crosses the AABB of a SHAPE row, enlarged by `beyond` [px]."""
     return crosses_box(
         x, y, dx, dy, shape.min_x - beyond, shape.min_y - beyond, shape.max_x + beyond, shape.max_y + beyond
     )
@@ -161,6 +155,7 @@ def make_candidate_search(search: Any) -> Any:
         loose, slots, stamps = targets.loose, workspace.slots, workspace.stamps
         for i in range(len(rays)):
             x, y, dx, dy = rays[i, 0], rays[i, 1], rays[i, 2], rays[i, 3]
+            point = dx == 0.0 and dy == 0.0
             pieces = 1 + int(min(RAY_PIECES - 1.0, min(abs(dx), abs(dy)) / admitted.piece))
             workspace.starts[i] = count
             for piece in range(pieces):
@@ -178,7 +173,7 @@ def make_candidate_search(search: Any) -> Any:
                         continue
                     stamps[row] = admitted.stamp + i
                     s = targets.shapes[row]
-                    if is_admitted(s, admitted) and may_hit(x, y, dx, dy, s, admitted.beyond):
+                    if is_admitted(s, point, admitted) and (point or may_hit(x, y, dx, dy, s, admitted.beyond)):
                         if count < len(workspace.rows):
                             workspace.rows[count] = row
                         count += 1
@@ -316,12 +311,10 @@ class Found(NamedTuple):
     count: int
 
 
-def find_candidates(
-    world: AskedWorld, rays: np.ndarray, filter: Filter, sensors: bool, by_pixels: bool, beyond: float
-) -> Found:
+def find_candidates(world: AskedWorld, rays: np.ndarray, filter: Filter, sensors: bool) -> Found:
     """Return the candidates of rays (n, 4): start and vector (x, y, dx, dy) [px].
 
-    The other arguments are as in Admitted.
+    filter: Filter of the rays; sensors: whether sensors are admitted.
     """
     index = world.queries
     index.begin(world)
@@ -333,10 +326,11 @@ def find_candidates(
     loose = index.loose[: index.loose_count]
     targets = Targets(world.library.tables, world.bodies, world.shapes, index.row_of_slot, loose)
     starts, rows = np.zeros(count + 2, np.int64), np.zeros(max(64, 8 * count), np.int64)
+    beyond = beyond_drawn(world)
     boxes = np.empty((count * RAY_PIECES, 4))  # only the boxes in use are ever touched
     while True:
         stamp = index.next_stamps(count)
-        admitted = Admitted(filter.membership, filter.mask, sensors, by_pixels, known, beyond, piece, stamp)
+        admitted = Admitted(filter.membership, filter.mask, sensors, known, beyond, piece, stamp)
         workspace = Workspace(starts, rows, boxes, index.slots, index.stamps, index.corners)
         found = search(targets, rays, admitted, structure, workspace, index.work)
         if found <= len(rows):
@@ -356,31 +350,36 @@ def cast(world: AskedWorld, found: Found, nearest: bool) -> np.ndarray:
         index.outlines = OutlineStore()
     library, targets, met = world.library, found.targets, index.outlines.outlines
     masks = rows[world.shapes["kind"][rows] == MASK] if library.masks else rows[:0]
-    if len(masks) and found.rays[:, 2:].any():
-        met = index.outlines.with_all(library, np.unique(world.shapes["geometry"][masks]).tolist())
-    elif len(masks):
-        draw_masks(library, masks, world.bodies, world.shapes)  # the pixels at their present angles
-        targets = targets._replace(geometry=library.tables)
+    if len(masks):
+        directed = found.rays[:, 2:].any(axis=1)
+        if directed.any():
+            met = index.outlines.with_all(library, np.unique(world.shapes["geometry"][masks]).tolist())
+        if not directed.all():
+            draw_masks(library, masks, world.bodies, world.shapes)  # for points: the pixels at their present angles
+            targets = targets._replace(geometry=library.tables)
     hits = np.zeros((len(found.rays) if nearest else found.count, 4))
     cast_candidates(targets, met, found.rays, int(nearest), found.workspace, hits, index.work)
     return hits
 
 
-def ray_casts(
-    world: AskedWorld, origins: Points, translations: Points, filter: Filter, sensors: bool, beyond: float
-) -> Any:
-    """Return the first hit of each ray as RAY_HIT rows. beyond [px]: as in Admitted. For errors see World.ray_casts."""
+def beyond_drawn(world: AskedWorld) -> float:
+    """Return an upper bound [px] of how far the outline of a mask at its exact pose extends beyond its drawn pixels.
+
+    The bound holds for all masks of the world.
+    """
+    if not world.library.masks or not len(world.bodies):
+        return 0.0
+    extent = world.bodies["extent"]
+    return DRAWN + float(extent[extent < POSITION_LIMIT].max(initial=0.0)) * math.pi / MASK_ANGLE_BUCKETS
+
+
+def ray_casts(world: AskedWorld, origins: Points, translations: Points, filter: Filter, sensors: bool) -> Any:
+    """Return the first hit of each ray as RAY_HIT rows. For errors see World.ray_casts."""
     origins = checks.positions("origins", origins)
     translations = checks.columns("translations", translations, len(origins), like="origins")
     filter, sensors = checked_filter(filter), checks.flag("sensors", sensors)
     rays = np.concatenate([origins, translations], axis=1)
-    points = ~translations.any(axis=1)
-    hits = np.zeros((len(rays), 4))
-    for by_pixels in (False, True):  # points are tested against pixels, rays against outlines
-        some = np.flatnonzero(points == by_pixels)
-        if len(some):
-            asked = find_candidates(world, rays[some], filter, sensors, by_pixels, beyond)
-            hits[some] = cast(world, asked, True)
+    hits = cast(world, find_candidates(world, rays, filter, sensors), True)
     rows, found = hits[:, ROW].astype(np.int64), np.zeros(len(rays), RAY_HIT)
     hit = rows >= 0
     found["body"], found["shape"] = -1, -1
@@ -391,15 +390,12 @@ def ray_casts(
     return found
 
 
-def query_points(world: AskedWorld, points: Points, filter: Filter, sensors: bool, beyond: float) -> Any:
-    """Return the bodies that contain points as POINT_HIT rows. beyond [px]: as in Admitted.
-
-    For errors see World.query_points.
-    """
+def query_points(world: AskedWorld, points: Points, filter: Filter, sensors: bool) -> Any:
+    """Return the bodies that contain points as POINT_HIT rows. For errors see World.query_points."""
     points = checks.positions("points", points)
     filter, sensors = checked_filter(filter), checks.flag("sensors", sensors)
     rays = np.concatenate([points, np.zeros_like(points)], axis=1)
-    asked = find_candidates(world, rays, filter, sensors, True, beyond)
+    asked = find_candidates(world, rays, filter, sensors)
     hits = cast(world, asked, False)
     inside = hits[:, FRACTION] <= 1.0
     owners = world.shapes["body_row"][hits[inside, ROW].astype(np.int64)]

@@ -7,7 +7,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 
 from physics import checks
-from physics.annotations import Pair, Points, Pose
+from physics.annotations import Pair, Pose
 from physics.ccd.rotational import (
     Mover,
     advance_parts,
@@ -31,12 +31,10 @@ from physics.ccd.time_of_impact import (
 from physics.collision.hulls import ALL_EDGES, Hull
 from physics.collision.narrow_phase import NarrowPhase
 from physics.distance.gjk import AX, AY, BX, BY, NX, NY, ROUNDS, new_gap_workspace, separate_parts, shape_separation
-from physics.jit import kernel, subkernel
+from physics.jit import kernel
 from physics.math2d import Vec2
-from physics.queries import batches
-from physics.queries.batches import cast, find_candidates
+from physics.queries.batches import beyond_drawn, cast, find_candidates, query_points, write_hit
 from physics.queries.index import AskedWorld, IndexedWorld
-from physics.settings import DRAWN, MASK_ANGLE_BUCKETS, POSITION_LIMIT
 from physics.shapes.kinds import checked_pose
 from physics.shapes.library import place
 from physics.shapes.placement import hull_at, is_hull, refresh_aabbs, rounding
@@ -118,19 +116,6 @@ def with_content(world: IndexedWorld, rows: np.ndarray) -> np.ndarray:
 # A ray, a shape that moves without rotation, or a point, against listed shapes at rest.
 
 
-@subkernel
-def write_hit(row, fraction, nx, ny, found, hits_out):
-    """Write a hit (row, fraction, normal) to hits_out[found]. Return found + 1.
-
-    row: SHAPE row that was hit; fraction: fraction of the cast's translation at the hit; nx, ny: unit normal.
-    """
-    hits_out[found, 0] = float(row)
-    hits_out[found, 1] = fraction
-    hits_out[found, 2] = nx
-    hits_out[found, 3] = ny
-    return found + 1
-
-
 @kernel
 def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out, work_inout):
     """Write (row, fraction, normal) of every listed shape that a moving hull hits to hits_out. Return their number.
@@ -172,7 +157,8 @@ def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out,
         work_inout[GJK_ITERATIONS] += int(r.totals[0])
         work_inout[CAP_HITS] += int(r.totals[1])
         if fraction < MISS:
-            found = write_hit(rows[k], fraction, nx, ny, found, hits_out)
+            write_hit(rows[k], (fraction, nx, ny), found, hits_out)
+            found += 1
     return found
 
 
@@ -247,9 +233,7 @@ def ray_cast_all(
     x, y = checks.position("origin", origin)
     dx, dy = checks.vector("translation", translation)
     filter, sensors = checked_filter(filter), checks.flag("sensors", sensors)
-    by_pixels = dx == 0.0 and dy == 0.0  # points are tested against pixels, rays against outlines
-    asked = find_candidates(world, np.array([(x, y, dx, dy)]), filter, sensors, by_pixels, _beyond_drawn(world))
-    hits = cast(world, asked, first)
+    hits = cast(world, find_candidates(world, np.array([(x, y, dx, dy)]), filter, sensors), first)
     hits = hits[hits[:, 1] <= 1.0]
     if len(hits) > 1:
         hits = hits[np.lexsort((hits[:, 0], hits[:, 1]))]
@@ -259,16 +243,6 @@ def ray_cast_all(
         _hit(world, row, fraction, nx, ny, (x + fraction * dx, y + fraction * dy))
         for row, fraction, nx, ny in hits.tolist()
     ]
-
-
-def ray_casts(world: AskedWorld, origins: Points, translations: Points, filter: Filter, sensors: bool) -> Any:
-    """Return the first hit of each ray as RAY_HIT rows; see World.ray_casts."""
-    return batches.ray_casts(world, origins, translations, filter, sensors, _beyond_drawn(world))
-
-
-def query_points(world: AskedWorld, points: Points, filter: Filter, sensors: bool) -> Any:
-    """Return the bodies that contain points as POINT_HIT rows; see World.query_points."""
-    return batches.query_points(world, points, filter, sensors, _beyond_drawn(world))
 
 
 def shape_cast(
@@ -292,7 +266,7 @@ def shape_cast(
     index.begin(world)
     with world.library.visited():
         bodies, shapes = _probe(world, shape, pose)
-        beyond = _beyond_drawn(world)
+        beyond = beyond_drawn(world)
         box = [float(shapes[name][0]) for name in ("min_x", "min_y", "max_x", "max_y")]
         rows = _allowed(
             world,
@@ -383,14 +357,13 @@ def closest(world: AskedWorld, point: Pair, filter: Filter, sensors: bool) -> tu
 
     Of several shapes at the same distance, the one with the smallest id is returned. If `point` lies inside a shape,
     the nearest point is `point` itself and the distance 0. filter: Filter of the point; sensors: whether sensors are
-    included. A Chain is measured from both sides, a
-    one-way tile by its top. Raises TypeError for values of other types, ValueError for a point that is not finite or
-    too far away.
+    included. A Chain is measured from both sides, a one-way tile by its top. Raises TypeError for values of other
+    types, ValueError for a point that is not finite or too far away.
     """
     x, y = checks.position("point", point)
     filter, sensors, index = checked_filter(filter), checks.flag("sensors", sensors), world.queries
     index.begin(world)
-    reach, beyond, found = 2.0 * world.tolerances.pixels_per_meter, _beyond_drawn(world), None
+    reach, beyond, found = 2.0 * world.tolerances.pixels_per_meter, beyond_drawn(world), None
     while True:
         around = reach + beyond
         rows = index.rows_in(world, (x - around, y - around), (x + around, y + around))
@@ -436,7 +409,7 @@ def query_point(world: AskedWorld, point: Pair, filter: Filter, sensors: bool) -
     Raises TypeError for a value that is not a point, ValueError for a point that is not finite or too far away.
     """
     x, y = checks.position("point", point)
-    found = batches.query_points(world, [(x, y)], filter, sensors, _beyond_drawn(world))
+    found = query_points(world, [(x, y)], filter, sensors)
     return [world.body(each) for each in found["body"].tolist()]
 
 
@@ -450,7 +423,7 @@ def overlap(world: AskedWorld, shape: Shape, pose: Pose, filter: Filter, sensors
     world.queries.begin(world)
     with world.library.visited():
         bodies, shapes = _probe(world, shape, pose)
-        s, beyond = shapes[0], _beyond_drawn(world)
+        s, beyond = shapes[0], beyond_drawn(world)
         box = (s["min_x"] - beyond, s["min_y"] - beyond), (s["max_x"] + beyond, s["max_y"] + beyond)
         rows = _allowed(world, world.queries.rows_in(world, *box), filter, sensors, PART)
         contacts = _contacts(world, bodies, shapes, rows)
@@ -515,17 +488,6 @@ def _box_around(start, end, beyond):
         (min(start[0], end[0]) - beyond, min(start[1], end[1]) - beyond),
         (max(start[0], end[0]) + beyond, max(start[1], end[1]) + beyond),
     )
-
-
-def _beyond_drawn(world):
-    """Return an upper bound [px] of how far the outline of a mask at its exact pose extends beyond its drawn pixels.
-
-    The bound holds for all masks of the world.
-    """
-    if not world.library.masks or not len(world.bodies):
-        return 0.0
-    extent = world.bodies["extent"]
-    return DRAWN + float(extent[extent < POSITION_LIMIT].max(initial=0.0)) * math.pi / MASK_ANGLE_BUCKETS
 
 
 def _hit(world, row, fraction, nx, ny, point):

@@ -90,6 +90,12 @@ def find_loose(rows, bodies, shapes, proxies, known, row_of_slot_inout, loose_ou
     return found
 
 
+@subkernel
+def meets_aabb(shape, box):
+    """Return whether the AABB of a SHAPE row meets a closed box (lower x, y, upper x, y) [px]."""
+    return shape.min_x <= box[2] and shape.max_x >= box[0] and shape.min_y <= box[3] and shape.max_y >= box[1]
+
+
 @kernel
 def rows_meeting(shapes, row_of_slot, slots, loose, box, rows_out, work_inout):
     """List the shape rows whose AABBs meet a closed box (lower x, y, upper x, y) [px]. Return their number.
@@ -97,7 +103,6 @@ def rows_meeting(shapes, row_of_slot, slots, loose, box, rows_out, work_inout):
     slots: slots of proxies that the broad phase found; row_of_slot: SHAPE row of each slot, or -1; loose: further SHAPE
     rows to test; rows_out: the result. work_inout: counters, see COUNTERS.
     """
-    lower_x, lower_y, upper_x, upper_y = box
     found = 0
     for k in range(len(slots) + len(loose)):
         if k >= len(slots):
@@ -107,8 +112,7 @@ def rows_meeting(shapes, row_of_slot, slots, loose, box, rows_out, work_inout):
             row = row_of_slot[slots[k]]
         if row < 0:
             continue
-        s = shapes[row]
-        if s.min_x <= upper_x and s.max_x >= lower_x and s.min_y <= upper_y and s.max_y >= lower_y:
+        if meets_aabb(shapes[row], box):
             rows_out[found] = row
             found += 1
     return found

@@ -94,6 +94,23 @@ def test_many_rays_are_each_of_them(broadphase, effects, sensors):
 
 
 @pytest.mark.parametrize("effects", [DETECTS, PUSHES], ids=["detects", "pushes"])
+@pytest.mark.parametrize("broadphase", BROADPHASES)
+def test_the_work_of_a_call_is_that_of_its_rays_and_points(broadphase, effects):
+    """Counters and searched boxes: nothing is lost where rays and points are mixed."""
+    world = crowd(effects, broadphase, 11)
+    origins, ways = rays(12)
+    assert ways.any(axis=1).any() and not ways.any(axis=1).all()
+    world.ray_casts(origins, ways)
+    together, boxes = world.queries.counters, np.array(world.queries.asked).tolist()
+    singly, asked = dict.fromkeys(together, 0), []
+    for origin, way in zip(origins, ways, strict=True):
+        world.ray_casts([origin], [way])
+        singly = {name: count + singly[name] for name, count in world.queries.counters.items()}
+        asked += np.array(world.queries.asked).tolist()
+    assert together == singly and boxes == asked and together["narrow_tests"] > 0
+
+
+@pytest.mark.parametrize("effects", [DETECTS, PUSHES], ids=["detects", "pushes"])
 def test_four_broad_phases_find_the_same(effects):
     found = []
     for name in BROADPHASES:
