@@ -134,6 +134,18 @@ class Film:
         self.session.step()
         self.overlays.note(self.scene)
 
+    def run_to(self, moment):
+        """Step until `moment.after` steps after the moment. Raises ValueError, naming a moment that does not come."""
+        while not moment.when(self.scene):
+            if self.scene.frame >= MOST:
+                raise ValueError(
+                    f"{self.scene.name}, seed {self.scene.seed}: moment {moment.caption!r} did not come within {MOST} "
+                    f"frames"
+                )
+            self.step()
+        for _ in range(moment.after):
+            self.step()
+
     def take(self):
         """Return the current picture, an array (810, 1440, 3) uint8."""
         self.picture.draw_scene(self.scene, self.overlays)
@@ -160,12 +172,7 @@ def film_moments(name, seed, moments):
     """
     running, taken = Film(name, seed), []
     for moment in moments:
-        while not moment.when(running.scene):
-            if running.scene.frame >= MOST:
-                raise ValueError(f"{name}, seed {seed}: moment {moment.caption!r} did not come within {MOST} frames")
-            running.step()
-        for _ in range(moment.after):
-            running.step()
+        running.run_to(moment)
         taken.append(running.take())
     return taken
 
@@ -177,8 +184,13 @@ def reduced(pixels, part=(0, 0, *FRAME), zoom=1):
     """
     left, top, width, height = (value * SCREENSHOT_SCALE for value in part)
     share = SCREENSHOT_SCALE * zoom
-    seen = pixels[top : top + height, left : left + width].astype(np.int64)
-    blocks = seen.reshape(height // share, share, width // share, share, 3)
+    return averaged(pixels[top : top + height, left : left + width], share)
+
+
+def averaged(pixels, share):
+    """Return a picture (height, width, 3) uint8 with one pixel, the mean, for each square of `share` px per side."""
+    height, width = pixels.shape[:2]
+    blocks = pixels.astype(np.int64).reshape(height // share, share, width // share, share, 3)
     return ((blocks.sum(axis=(1, 3)) + share * share // 2) // (share * share)).astype(np.uint8)
 
 
@@ -230,20 +242,14 @@ def reel(name, seed, first, last, every, columns=8):
 def clip_pictures(clip):
     """Yield the pictures of a clip, every EVERY-th step, as arrays (405, 720, 3) uint8."""
     running = Film(clip.scene, SEED)
-    while not clip.start.when(running.scene):
-        if running.scene.frame >= MOST:
-            raise ValueError(f"{clip.scene}: moment {clip.start.caption!r} did not come within {MOST} frames")
-        running.step()
+    running.run_to(clip.start)
     number = 0
     for steps, layers in clip.parts:
         running.overlays.on = set(layers)
         for _ in range(steps):
             running.step()
             if number % EVERY == 0:
-                taken = running.take().astype(np.uint16)
-                height, width = taken.shape[0] // SHRINK, taken.shape[1] // SHRINK
-                blocks = taken.reshape(height, SHRINK, width, SHRINK, 3).sum(axis=(1, 3), dtype=np.uint16)
-                yield ((blocks + SHRINK * SHRINK // 2) // (SHRINK * SHRINK)).astype(np.uint8)
+                yield averaged(running.take(), SHRINK)
             number += 1
 
 

@@ -78,21 +78,20 @@ class Line:
         self.world.remove_bodies([link.id for link in self.links])
         self.load, self.links = None, []
 
-    def read(self, ship):
-        """Read from the events of a step whether the rope tore. It is let go also if there is no ship any more."""
+    def read(self):
+        """Read from the events of a step whether the rope tore."""
         self.torn = any(row["reason"] in ("force", "torque") for row in self.world.events.broken)
-        if self.load is not None and (self.torn or not ship.here):
+        if self.torn:
             self.let_go()
 
-    def points(self, alpha):
-        """Return the ends of the links (x, y) [px] from the ship to the load, interpolated between the last two steps.
+    def points(self, pose):
+        """Return the ends of the links (x, y) [px] from the ship to the load.
 
-        alpha: 0 for the last step but one, 1 for the last step.
+        pose(id): function that returns the pose (x, y, angle) [px, rad] at which a link is shown.
         """
-        rows = self.world.bodies[self.world.rows([link.id for link in self.links])]
-        back, found = 1.0 - alpha, []
-        for row, link in zip(rows, self.links, strict=True):
-            x, y, angle = (row[name] - (row[name] - row[f"previous_{name}"]) * back for name in ("x", "y", "angle"))
+        found = []
+        for link in self.links:
+            x, y, angle = pose(link.id)
             (left, _), (right, _) = link.shapes[0].points
             ends = [(x + at * cos(angle), y + at * sin(angle)) for at in (left, right)]
             found += ends if not found else ends[1:]

@@ -91,7 +91,7 @@ class Lander(Scene):
         self.weather.blow(self.world, *self._in_the_air())
         self.gone += self.gun.step()
         self.world.step()
-        self.line.read(ship)
+        self.line.read()
         if self.line.torn:
             self.spectacle.line_torn()
         self._read_events()

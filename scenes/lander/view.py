@@ -3,7 +3,7 @@
 Drawing changes no state of the scene; pictures are cached.
 """
 
-from functools import lru_cache
+from functools import lru_cache, partial
 from math import cos, sin
 
 import pygame
@@ -148,7 +148,7 @@ class View:
             self._mark_reach(scene, x, y)
             return
         load_x, load_y, _ = self.pose(scene, line.load.id)
-        points = [(whole(px) - self.left, whole(py) - self.top) for px, py in line.points(self.alpha)]
+        points = [(whole(px) - self.left, whole(py) - self.top) for px, py in line.points(partial(self.pose, scene))]
         for color, lift in ((ROPE[0], 1), (ROPE[1], 0)):
             pygame.draw.lines(self.surface, color, False, [(px, py + lift) for px, py in points])
         self.centred(self.atlas["hook"], load_x, load_y)

@@ -12,6 +12,7 @@ import math
 import sys
 from collections.abc import Iterator
 from functools import cache
+from itertools import islice
 from pathlib import Path
 from typing import NamedTuple
 
@@ -113,7 +114,7 @@ def false_hits(sprite: str) -> dict[str, tuple[int, int]]:
     low, high = 0.0, 4.0 * radius
     for _ in range(7):
         middle = 0.5 * (low + high)
-        met = np.mean([first.intersection(second).area > 0.0 for first, second, _, _ in list_of(meeting(middle), 300)])
+        met = np.mean([first.intersection(second).area > 0.0 for first, second, _, _ in islice(meeting(middle), 300)])
         low, high = (middle, high) if met > 0.5 else (low, middle)
     found = {tier: [0, 0] for tier in ("circle", "aabb", "hull")}
     for first, second, (x, y), (turn_a, turn_b) in meeting(high):
@@ -129,11 +130,6 @@ def false_hits(sprite: str) -> dict[str, tuple[int, int]]:
             found[tier][1] += hit
             found[tier][0] += hit and not true
     return {tier: (wrong, hits) for tier, (wrong, hits) in found.items()}
-
-
-def list_of(some, count):
-    """Return the first `count` of an iterator as a list."""
-    return [each for _, each in zip(range(count), some, strict=False)]
 
 
 def tiers() -> Iterator[Point]:
