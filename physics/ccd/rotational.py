@@ -24,7 +24,7 @@ from physics.ccd.time_of_impact import (
     separate_at,
 )
 from physics.collision.chains import lies_across
-from physics.collision.hulls import ALL_EDGES, Hull, middle_of, part_feature
+from physics.collision.hulls import ALL_EDGES, Hull, middle_of, part_feature, write_normals
 from physics.collision.tiles import tile_at
 from physics.distance.gjk import FIRST_A, FIRST_B, NX, NY, copy_part
 from physics.jit import kernel, subkernel
@@ -427,6 +427,7 @@ def starts_across(geometry, chain, local, mover, workspace):
     u, v = rotate(local[0], local[1], math.cos(other[ANGLE]), math.sin(other[ANGLE]))
     place_at(workspace.mover, count, motion, 0.0, motion[CENTER_X], motion[CENTER_Y], workspace.advance.a)
     x, y = other[CENTER_X] - motion[CENTER_X] - u, other[CENTER_Y] - motion[CENTER_Y] - v
+    write_normals(count, workspace.advance.a)
     hull = Hull(workspace.advance.a, count, radius, ALL_EDGES)
     return lies_across(geometry, chain, x, y, other[ANGLE], hull, slack, workspace.advance.b)
 

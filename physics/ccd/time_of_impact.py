@@ -202,7 +202,7 @@ class AdvanceWorkspace(NamedTuple):
 
     local_a: np.ndarray  # (16, 2) corners from the centre of rotation of each side [px], at angle 0
     local_b: np.ndarray
-    a: np.ndarray  # (16, 2) corners at the present fraction, from A's centre of rotation at the start [px]
+    a: np.ndarray  # (16, 4) corners at the present fraction, from A's centre of rotation at the start [px], and normals
     b: np.ndarray
     motion_a: np.ndarray  # (6,) centre of rotation and angle at the start, and their changes until the end
     motion_b: np.ndarray
@@ -214,8 +214,8 @@ def new_advance_workspace() -> AdvanceWorkspace:
     return AdvanceWorkspace(
         np.zeros((16, 2)),
         np.zeros((16, 2)),
-        np.zeros((16, 2)),
-        np.zeros((16, 2)),
+        np.zeros((16, 4)),
+        np.zeros((16, 4)),
         np.zeros(6),
         np.zeros(6),
         np.zeros(2),

@@ -22,6 +22,7 @@ from physics.collision.hulls import (
     collide_hull_circle,
     collide_hulls,
     pushing_edges,
+    write_normals,
 )
 from physics.collision.manifold import POINTS
 from physics.collision.tiles import pushing_edges_on_tile, run_at, tile_at
@@ -179,6 +180,8 @@ def meet_hull(scratch, count, radius, corners, rounded, edges, deepest):
         scratch.points[0] = 1.0 if depth > 0.0 else 0.0
         return depth, -nx, -ny, x, y
     own = pushing_edges(Hull(mine, count, radius, ALL_EDGES), theirs, False)
+    write_normals(count, mine)
+    write_normals(corners, scratch.theirs)
     points = collide_hulls(Hull(mine, count, radius, own), theirs, 0.0, 0.0, deepest, scratch.points)
     return manifold_depth(points, scratch.points)
 
@@ -195,6 +198,8 @@ def meet_link(links, link, scratch, count, radius):
             links[link], scratch.theirs, scratch.mine[0, 0], scratch.mine[0, 1], radius
         )
         return -separation if hit and separation < 0.0 else 0.0, -nx, -ny, x, y
+    write_normals(count, scratch.mine)
+    write_normals(2, scratch.theirs)
     hull = Hull(scratch.mine, count, radius, ALL_EDGES)
     points = collide_link_hull(links[link], scratch.theirs, hull, 0.0, 0.0, False, scratch.points)
     depth, nx, ny, x, y = manifold_depth(points, scratch.points)
@@ -269,6 +274,7 @@ def is_across(walk, me, row, left, top):
         most = deepest_on(walk, b)
         # A link that moves down does not approach the characters on it, and does not lift characters that it passes.
         most -= max(0.0, b.vy * math.cos(b.angle) - b.vx * math.sin(b.angle)) * walk.settings.dt
+    write_normals(count, walk.scratch.mine)
     hull = Hull(walk.scratch.mine, count, radius, ALL_EDGES)
     return lies_across(walk.geometry, s.geometry, b.x, b.y, b.angle, hull, most, walk.scratch.theirs)
 
@@ -417,6 +423,8 @@ def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
         facing = pushing_edges(Hull(mine, count, radius, ALL_EDGES), tile, False)
     elif edges != ALL_EDGES:
         facing = pushing_edges_on_tile(mine, count, edges)
+    write_normals(count, mine)
+    write_normals(corners, scratch.theirs)
     points = collide_hulls(tile, Hull(mine, count, radius, facing), 0.0, 0.0, deepest, scratch.points)
     depth, nx, ny, x, y = manifold_depth(points, scratch.points)
     return depth, -nx, -ny
@@ -488,8 +496,8 @@ def in_tile_outlines(walk, me, row, left, top, way_x, way_y):
 class Scratch(NamedTuple):
     """Scratch arrays for the test of a character against one shape."""
 
-    mine: np.ndarray  # (16, 2) corners of the character [px]
-    theirs: np.ndarray  # (16, 2) corners of the other shape
+    mine: np.ndarray  # (16, 4) corners of the character [px], with normals where a test needs them: hulls.write_normals
+    theirs: np.ndarray  # (16, 4) corners of the other shape
     points: np.ndarray  # (POINTS,) a manifold, see collision/hulls.py
 
 
@@ -520,7 +528,7 @@ class Walk(NamedTuple):
 
 def new_scratch() -> Scratch:
     """Return the scratch arrays for the characters of one world."""
-    return Scratch(np.zeros((16, 2)), np.zeros((16, 2)), np.zeros(POINTS))
+    return Scratch(np.zeros((16, 4)), np.zeros((16, 4)), np.zeros(POINTS))
 
 
 def walk_for(tables: WorldTables, characters: np.ndarray, near: np.ndarray, spans: np.ndarray, dt: float) -> Walk:

@@ -29,6 +29,7 @@ from physics.collision.hulls import (
     part_feature,
     segment_distance,
     support_manifold,
+    write_normals,
 )
 from physics.collision.manifold import CHAIN_ANY, NOTHING, SURFACE_ANY, add_point, hull_of, make_pass, sides_by_kind
 from physics.collision.masks import offset_line
@@ -313,9 +314,10 @@ def keep_owned(link, points, x, y, count, manifold_out):
 def collide_link_hull(link, points, hull, margin, bias, is_second, manifold_out):
     """Write the manifold of a link and a Hull of two or more corners. Return the number of points.
 
-    link: LINK row; points: see link_at; margin, bias, manifold_out: see hulls.collide_hulls. A contact near the end of
-    a link is reported by one of the two links there. If each left it to the other, the caller makes a second pass over
-    the links. is_second: whether this is the second pass, in which no contact is left to a neighbour.
+    link: LINK row; points: see link_at; margin, bias, manifold_out: see hulls.collide_hulls. The points and the Hull
+    need their normals, see hulls.write_normals. A contact near the end of a link is reported by one of the two links
+    there. If each left it to the other, the caller makes a second pass over the links. is_second: whether this is the
+    second pass, in which no contact is left to a neighbour.
     """
     corners = hull.corners
     count = hull.count
@@ -474,6 +476,7 @@ def collide_chain_pair(batch, pair, workspace, manifolds_out, found, work_inout)
                     near += 1
                     time = 0.0
                     met = hull
+                    write_normals(2, points)
                     piece = Hull(points, 2, 0.0, ALL_EDGES)
                     if travel.time > 0.0 and attempt == 0:
                         time = advance_to_piece(travel, margin, piece, hull, workspace.c)
@@ -502,7 +505,8 @@ collide_chain_pairs = make_pass(CHAIN_ANY, collide_chain_pair)
 def line_separation(line, hull):
     """Return the separation [px] of a Hull from a line segment; negative if the Hull lies across it.
 
-    line: array whose first two rows are the ends of the segment.
+    line (16, 4): its first two rows are the ends of the segment. Line and Hull need their normals, see
+    hulls.write_normals.
     """
     corners = hull.corners
     count = hull.count
@@ -527,8 +531,8 @@ def line_separation(line, hull):
 def lies_across(geometry, chain, x, y, angle, hull, most, line_out):
     """Return whether a Hull lies across a chain by more than `most` [px].
 
-    The chain is extended horizontally at both ends. chain: row number in geometry.chains; x, y, angle: pose of the
-    chain's body; line_out (16, 2): scratch. O(links near the Hull).
+    The chain is extended horizontally at both ends. The Hull needs its normals, see hulls.write_normals. chain: row
+    number in geometry.chains; x, y, angle: pose of the chain's body; line_out (16, 4): scratch. O(links near the Hull).
     """
     span = geometry.chains[chain]
     cosine, sine = math.cos(angle), math.sin(angle)
@@ -547,6 +551,7 @@ def lies_across(geometry, chain, x, y, angle, hull, most, line_out):
             link = geometry.links[k]
             if not misses_box(link.ax, link.ay, link.bx, link.by, min_x, min_y, max_x, max_y):
                 link_at(geometry.links, k, x, y, cosine, sine, line_out)
+                write_normals(2, line_out)
                 if line_separation(line_out, hull) < -most:
                     return True
     for end in range(2):
@@ -559,6 +564,7 @@ def lies_across(geometry, chain, x, y, angle, hull, most, line_out):
                 du, dv = rotate(u if k == 0 else beyond, v, cosine, sine)
                 line_out[k, 0] = x + du
                 line_out[k, 1] = y + dv
+            write_normals(2, line_out)
             if line_separation(line_out, hull) < -most:
                 return True
     return False
@@ -581,6 +587,7 @@ def was_across(batch, surface, other, most, workspace):
     else:
         count = hull_at(batch.geometry, batch.shapes, other, q.previous_x, q.previous_y, q.previous_angle, corners)
         radius = rounding(batch.shapes, other)
+    write_normals(count, corners)
     hull = Hull(corners, count, radius, ALL_EDGES)
     return lies_across(
         batch.geometry, s.geometry, p.previous_x, p.previous_y, p.previous_angle, hull, most, workspace.a

@@ -13,12 +13,12 @@ from physics.collision.hulls import (
     collide_aabbs,
     collide_hull_circle,
     collide_hulls,
-    edge_normal,
     extent_along,
     find_max_separation,
     move_corners,
     path_misses,
     pushing_edges,
+    write_normals,
 )
 from physics.collision.manifold import (
     CIRCLES,
@@ -29,7 +29,9 @@ from physics.collision.manifold import (
     add_points,
     center_velocity,
     circle_at,
-    hull_of,
+    closing_speed_bound,
+    hull_in,
+    hulls_in,
     make_pass,
     queue_fallback,
     relative_velocity,
@@ -77,6 +79,12 @@ def speculative_distance(a, b, speed, margin, lookahead):
 
 
 @subkernel
+def turning_speed(a, b):
+    """Return an upper bound [px/s] of the speed at which rotation alone closes a gap of two bodies. a, b: BODY rows."""
+    return abs(a.angular_velocity) * a.extent + abs(b.angular_velocity) * b.extent
+
+
+@subkernel
 def speculative_rotation(a, b, speed, margin, lookahead):
     """Return the largest gap [px] that the rotation of two bodies may close in `lookahead` [s]; at least the margin.
 
@@ -86,7 +94,7 @@ def speculative_rotation(a, b, speed, margin, lookahead):
     distance = lookahead * speed
     if needs_ccd(a, distance) or needs_ccd(b, distance):
         return margin
-    turn = lookahead * (abs(a.angular_velocity) * a.extent + abs(b.angular_velocity) * b.extent)
+    turn = lookahead * turning_speed(a, b)
     return max(margin, min(turn, 0.5 * min(a.extent, b.extent)))
 
 
@@ -137,9 +145,9 @@ def time_of_closest_approach(dx, dy, vx, vy):
 def toi_hulls(a, vx, vy, target, most, b_inout):
     """Return the time [s] at which the gap of two Hulls has shrunk to `target` [px] (conservative advancement).
 
-    a, b_inout: the Hulls; Hull B moves at vx, vy [px/s] relative to Hull A. Its corners are moved to their place at the
-    returned time. If the gap stops shrinking before, the time of least distance is returned. If the target is not
-    reached within `most` [s], NEVER is returned. O(corners²) an iteration.
+    a, b_inout: the Hulls, with their normals (hulls.write_normals); Hull B moves at vx, vy [px/s] relative to Hull A.
+    Its corners are moved to their place at the returned time. If the gap stops shrinking before, the time of least
+    distance is returned. If the target is not reached within `most` [s], NEVER is returned. O(corners²) an iteration.
     """
     time = 0.0
     corners = b_inout.corners
@@ -150,10 +158,9 @@ def toi_hulls(a, vx, vy, target, most, b_inout):
         if gap <= target:
             return time
         if of_a >= of_b:
-            nx, ny = edge_normal(a.corners, a.count, a_edge)
+            nx, ny = a.corners[a_edge, 2], a.corners[a_edge, 3]
         else:
-            nx, ny = edge_normal(corners, b_inout.count, b_edge)
-            nx, ny = -nx, -ny
+            nx, ny = -corners[b_edge, 2], -corners[b_edge, 3]
         speed = -(vx * nx + vy * ny)
         if speed <= 0.0:
             return time  # least distance: a deflection must not drive the bodies into each other
@@ -162,27 +169,38 @@ def toi_hulls(a, vx, vy, target, most, b_inout):
         # Half the target gap is left, so that rounding cannot miss the target.
         span = (gap - 0.5 * target) / speed
         move_corners(b_inout.count, span * vx, span * vy, corners)
+        write_normals(b_inout.count, corners)
         time += span
     return NEVER
 
 
 @subkernel
-def advance_to_contact(margin, lookahead, p, q, a, b_inout):
-    """Move the corners of Hull B to its predicted contact with Hull A. Slow pairs are not moved.
+def copy_corners(hull, corners_out):
+    """Copy the corners and normals of a Hull to corners_out (16, 4)."""
+    for k in range(hull.count):
+        for column in range(4):
+            corners_out[k, column] = hull.corners[k, column]
 
-    a, b_inout: the Hulls; p, q: BODY rows of A and B; margin [px]: gap at the predicted contact; lookahead [s]:
-    greatest time. Return (time, vx, vy, reach). time [s]: time of the contact, 0 for slow pairs, or NEVER; vx, vy
-    [px/s]: velocity of B relative to A; reach [px]: largest separation of a contact point at the moved place. It
-    exceeds the margin if rotation may close a wider gap.
+
+@subkernel
+def advance_to_contact(margin, lookahead, p, q, a, b, corners_out):
+    """Write the corners and normals of Hull B at its predicted contact with Hull A, where the pair is fast.
+
+    a, b: the Hulls; p, q: BODY rows of A and B; margin [px]: gap at the predicted contact; lookahead [s]: greatest
+    time. Return (time, vx, vy, reach). time [s]: time of the contact, NEVER, or 0 if B need not be moved; then
+    corners_out (16, 4) may be unwritten; vx, vy [px/s]: velocity of B relative to A; reach [px]: largest separation of
+    a contact point at the moved place. It exceeds the margin if rotation may close a wider gap.
     """
-    if lookahead == 0.0:
+    if lookahead * closing_speed_bound(p, q) <= margin and lookahead * turning_speed(p, q) <= margin:
         return 0.0, 0.0, 0.0, margin
     vx, vy, speed = center_velocity(p, q)
     far = speculative_distance(p, q, speed, margin, lookahead)
     reach = max(far, speculative_rotation(p, q, speed, margin, lookahead))
     if far <= margin or lookahead * speed <= margin:
         return 0.0, 0.0, 0.0, reach
-    return toi_hulls(a, vx, vy, margin, lookahead, b_inout), vx, vy, reach
+    copy_corners(b, corners_out)
+    moved = Hull(corners_out, b.count, b.radius, b.edges)
+    return toi_hulls(a, vx, vy, margin, lookahead, moved), vx, vy, reach
 
 
 @subkernel
@@ -275,12 +293,9 @@ def advance_to_piece(travel, margin, piece, hull, corners_out):
     """Write the corners [px] of a Hull at its predicted contact with a piece of ground. Return the time [s] or NEVER.
 
     margin [px]: gap at the predicted contact; piece: Hull of a run of tiles or of a link. If travel.time is 0, there is
-    no prediction: the Hull is not moved, and the time is 0. corners_out (16, 2): the result.
+    no prediction: the Hull is not moved, and the time is 0. corners_out (16, 4): the result, with normals.
     """
-    corners = hull.corners
-    for k in range(hull.count):
-        corners_out[k, 0] = corners[k, 0]
-        corners_out[k, 1] = corners[k, 1]
+    copy_corners(hull, corners_out)
     if travel.time == 0.0:
         return 0.0
     return toi_hulls(
@@ -309,7 +324,7 @@ def piece_misses_circle(meeting, graze, disc, separation, feature, corners_out):
     """Return whether the predicted contact of a disc with a corner is false, because the disc's path misses the piece.
 
     graze [px]: a contact with at most this separation is always kept; disc: (x, y, radius) at the predicted contact;
-    separation [px], feature: of this contact; corners_out (16, 2): scratch.
+    separation [px], feature: of this contact; corners_out (16, 4): scratch.
     """
     travel = meeting.travel
     if travel.time == 0.0 or separation <= graze or feature < CIRCLE_CORNER:
@@ -429,7 +444,7 @@ def collide_polygon_circle_pair(batch, pair, workspace, manifolds_out, found, wo
     bodies, shapes, margin = batch.bodies, batch.shapes, batch.margin
     side, circle, polygon = sides_by_kind(batch, pair, CIRCLE)
     p, q = bodies[shapes[polygon].body_row], bodies[shapes[circle].body_row]
-    hull = hull_of(batch.geometry, bodies, shapes, polygon, workspace.a)
+    hull = hull_in(batch, polygon, workspace)
     x, y, radius = circle_at(bodies, shapes, circle)
     time = 0.0
     vx, vy = 0.0, 0.0
@@ -512,7 +527,6 @@ def collide_polygon_pair(batch, pair, workspace, manifolds_out, found, work_inou
 
     Arguments: see manifold.make_pass.
     """
-    geometry = batch.geometry
     bodies, shapes, candidates, margin = batch.bodies, batch.shapes, batch.candidates, batch.margin
     manifold = workspace.points
     row_a = candidates[pair, 0]
@@ -523,13 +537,11 @@ def collide_polygon_pair(batch, pair, workspace, manifolds_out, found, work_inou
         points = collide_aabbs(s, o, margin, manifold)
         if points == 1 and manifold[5] > 0.0:
             vx, vy = relative_velocity(p, q, manifold[3], manifold[4], manifold[3], manifold[4])
-            a = hull_of(geometry, bodies, shapes, row_a, workspace.a)
-            b = hull_of(geometry, bodies, shapes, row_b, workspace.b)
+            a, b = hulls_in(batch, row_a, row_b, workspace)
             if path_misses(a, b, 0.0, vx, vy):
                 return found
         return add_points(shapes, candidates, pair, 1.0, manifold, 0, manifolds_out, found)
-    a = hull_of(geometry, bodies, shapes, row_a, workspace.a)
-    b = hull_of(geometry, bodies, shapes, row_b, workspace.b)
+    a, b = hulls_in(batch, row_a, row_b, workspace)
     deepest = math.inf
     if s.inner != 0 or o.inner != 0:
         a_edges = a.edges & pushing_edges(a, b, True)
@@ -538,9 +550,11 @@ def collide_polygon_pair(batch, pair, workspace, manifolds_out, found, work_inou
         b = Hull(b.corners, b.count, b.radius, b_edges)
         # Without a dynamic body there is no response, so the contact of any part is sufficient.
         deepest = margin if p.kind == DYNAMIC or q.kind == DYNAMIC else math.inf
-    time, vx, vy, reach = advance_to_contact(margin, batch.lookahead, p, q, a, b)
+    time, vx, vy, reach = advance_to_contact(margin, batch.lookahead, p, q, a, b, workspace.c)
     if time < 0.0:
         return found
+    if time > 0.0:
+        b = Hull(workspace.c, b.count, b.radius, b.edges)
     points = collide_hulls(a, b, reach, batch.bias, deepest, manifold)
     if manifold[0] == COVERED_OVERLAP:
         queue_fallback(pair, workspace.fallback)

@@ -102,7 +102,7 @@ ALL_EDGES = 0xFFFFFFFF
 class Hull(NamedTuple):
     """A convex hull with rounded corners. With one corner it is a disc, with two a line segment or a capsule."""
 
-    corners: np.ndarray  # (16, 2) [px], clockwise on the screen
+    corners: np.ndarray  # (16, 4) corners [px], clockwise on the screen, and edge normals: see write_normals
     count: int  # number of corners
     radius: float  # [px] rounding: the surface is this far outside the polygon of the corners
     edges: int  # bits of the touchable edges and corners, see ALL_EDGES
@@ -118,6 +118,20 @@ def edge_normal(corners, count, k):
     if length == 0.0:
         return 0.0, -1.0
     return dy / length, -dx / length
+
+
+@subkernel
+def write_normals(count, corners_inout):
+    """Write the outward unit normal of each hull edge beside its first corner. O(count).
+
+    count: number of corners; corners_inout (16, 4): columns 0 and 1 are the corners [px], columns 2 and 3 receive the
+    normals. Functions that test many edges of the same hull read them from there, because a square root and two
+    divisions for each edge take longer than the tests.
+    """
+    for k in range(count):
+        nx, ny = edge_normal(corners_inout, count, k)
+        corners_inout[k, 2] = nx
+        corners_inout[k, 3] = ny
 
 
 @subkernel
@@ -156,18 +170,18 @@ def is_normal_at_corner(corners, count, edges, corner, nx, ny):
 def find_max_separation(corners, count, allowed, other, other_count):
     """Find the edge of a polygon along whose normal another polygon is farthest away (separating axis test).
 
-    corners, other (16, 2) [px]; count, other_count: numbers of corners; allowed: bit k is set if edge k may be
-    returned. Return (edge or -1, greatest separation over the allowed edges [px], greatest separation over all edges
-    [px]). O(count · other_count).
+    corners (16, 4) [px]: with normals, see write_normals; other (16, any) [px]; count, other_count: numbers of corners;
+    allowed: bit k is set if edge k may be returned. Return (edge or -1, greatest separation over the allowed edges
+    [px], greatest separation over all edges [px]). O(count · other_count).
     """
     best = -1
     best_separation = -math.inf
     overall = -math.inf
     for k in range(count):
-        nx, ny = edge_normal(corners, count, k)
+        x, y, nx, ny = corners[k, 0], corners[k, 1], corners[k, 2], corners[k, 3]
         least = math.inf
         for i in range(other_count):
-            least = min(least, nx * (other[i, 0] - corners[k, 0]) + ny * (other[i, 1] - corners[k, 1]))
+            least = min(least, nx * (other[i, 0] - x) + ny * (other[i, 1] - y))
         overall = max(overall, least)
         if (allowed >> k) & 1 and least > best_separation:
             best = k
@@ -179,21 +193,21 @@ def find_max_separation(corners, count, allowed, other, other_count):
 def clip_edges(reference, edge, incident, limit, flipped, manifold_out):
     """Write the manifold of an edge of the Hull `reference` and the opposite edge of the Hull `incident`.
 
-    The opposite edge is clipped to the reference edge. edge: index of the reference edge; limit [px]: points with a
-    larger separation are dropped; flipped: True if `reference` is B, so that the normal is inverted. manifold_out (11,)
-    float64: number of points, normal x and y from A to B, then x, y, separation [px] and feature of each of two points.
-    Return the number of points.
+    The opposite edge is clipped to the reference edge. Both Hulls need their normals, see write_normals. edge: index of
+    the reference edge; limit [px]: points with a larger separation are dropped; flipped: True if `reference` is B, so
+    that the normal is inverted. manifold_out (11,) float64: number of points, normal x and y from A to B, then x, y,
+    separation [px] and feature of each of two points. Return the number of points.
     """
     corners, count, radius, _ = reference
     others, other_count, other_radius, _ = incident
     following = edge + 1 if edge + 1 < count else 0
-    nx, ny = edge_normal(corners, count, edge)
+    nx, ny = corners[edge, 2], corners[edge, 3]
     facing = 0
     most = math.inf
     for k in range(other_count):
-        mx, my = edge_normal(others, other_count, k)
-        if mx * nx + my * ny < most:
-            most = mx * nx + my * ny
+        along = others[k, 2] * nx + others[k, 3] * ny
+        if along < most:
+            most = along
             facing = k
     far = facing + 1 if facing + 1 < other_count else 0
     tx, ty = -ny, nx
@@ -242,9 +256,9 @@ def support_manifold(reference, edge, incident, flipped, manifold_out):
 
     Arguments as in clip_edges. Return 1, the number of points.
     """
-    corners, count, radius, _ = reference
+    corners, _, radius, _ = reference
     others, other_count, other_radius, _ = incident
-    nx, ny = edge_normal(corners, count, edge)
+    nx, ny = corners[edge, 2], corners[edge, 3]
     deepest = 0
     least = math.inf
     for k in range(other_count):
@@ -662,8 +676,8 @@ def collide_hulls(a, b, margin, bias, deepest, manifold_out):
     bias [px]: B has the reference face only if its greatest face separation exceeds that of A by more than this. So the
     reference does not alternate between equal faces. deepest [px]: a deeper overlap is left to a neighbouring part, if
     that part covers an edge behind which the overlap is less deep. Then 0 is returned and manifold_out[0] is
-    COVERED_OVERLAP. If the separation exceeds `margin` [px], 0 is returned. manifold_out (11,): see clip_edges.
-    O(corners of A · corners of B).
+    COVERED_OVERLAP. If the separation exceeds `margin` [px], 0 is returned. Both Hulls need their normals, see
+    write_normals. manifold_out (11,): see clip_edges. O(corners of A · corners of B).
     """
     a_corners, a_count, a_radius, a_edges = a
     b_corners, b_count, b_radius, b_edges = b

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from physics.collision.hulls import ALL_EDGES, Hull, aabb_corners, part_of
+from physics.collision.hulls import ALL_EDGES, Hull, aabb_corners, part_of, write_normals
 from physics.jit import copy_head, inlined, kernel, subkernel
 from physics.math2d import norm, rotate, rotation_of
 from physics.shapes.placement import polygon_at
@@ -99,6 +99,7 @@ def mixed(geometry, a, b, manifold):
 # Kinds of pairs; each pass processes the candidates of one kind.
 CIRCLES, POLYGON_CIRCLE, POLYGONS, MASKS, MASKS_EXACT, MASK_HULL, GRID_ANY, CHAIN_ANY = range(8)  # exact: not snapped
 SURFACE_ANY, NOTHING = 8, 9  # surface: a chain that is the upper side of a one-way mask
+HULLS = 4096  # most hulls that a pass keeps for further pairs, a power of two: 2 MB
 BLOCK = 64  # candidates that a pass lists before it collides them
 POINTS = 11  # floats of a manifold before it is stored: see "clipping" in hulls.py
 
@@ -121,7 +122,7 @@ class Batch(NamedTuple):
 class Workspace(NamedTuple):
     """Scratch memory of the narrow phase, mostly for the pair that is being tested."""
 
-    a: np.ndarray  # (16, 2) corners [px]
+    a: np.ndarray  # (16, 4) corners [px], with normals where a test needs them: see hulls.write_normals
     b: np.ndarray
     c: np.ndarray
     points: np.ndarray  # (POINTS,) manifold of the pair, see "clipping" in hulls.py
@@ -129,22 +130,30 @@ class Workspace(NamedTuple):
     previous: np.ndarray  # CONTACT rows of the last step, for pairs with one-way ground
     memory: np.ndarray  # (candidates, 2) first row of each pair in `previous`, number of its rows
     block: np.ndarray  # (BLOCK,) candidates that a pass collides next
+    hulls: np.ndarray  # (16 · n, 4) corners and normals of the shapes that this pass has placed, see hull_in
+    hull_rows: np.ndarray  # (n, 2) SHAPE row of each of them or -1, and its number of corners; n is a power of two
     fallback: np.ndarray  # (candidates + 1,) number of candidates for the fallback of mask_parts.py, then their indices
 
 
 def new_workspace() -> Workspace:
     """Return a new Workspace, without room for candidates."""
     return Workspace(
-        np.zeros((16, 2)),
-        np.zeros((16, 2)),
-        np.zeros((16, 2)),
+        np.zeros((16, 4)),
+        np.zeros((16, 4)),
+        np.zeros((16, 4)),
         np.zeros(POINTS),
         np.zeros(16),
         np.zeros(0, CONTACT),
         np.zeros((0, 2), np.int64),
         np.zeros(BLOCK, np.int64),
+        *empty_hulls(1),
         np.zeros(2, np.int64),
     )
+
+
+def empty_hulls(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return (Workspace.hulls, Workspace.hull_rows) with room for `count` hulls, a power of two, and without hulls."""
+    return np.zeros((16 * count, 4)), np.full((count, 2), -1)
 
 
 @subkernel
@@ -250,7 +259,7 @@ def circle_at(bodies, shapes, row):
 def hull_of(geometry, bodies, shapes, row, corners_out):
     """Return the Hull of a shape in the world. A BOUNDS has the corners of its AABB, a CIRCLE has one corner.
 
-    row: row number in SHAPE; corners_out (16, 2) receives the corners [px].
+    row: row number in SHAPE; corners_out (16, 4) receives the corners [px] and normals, see hulls.write_normals.
     """
     s = shapes[row]
     b = bodies[s.body_row]
@@ -263,7 +272,38 @@ def hull_of(geometry, bodies, shapes, row, corners_out):
     else:
         c = math.cos(b.angle)
         count = polygon_at(geometry.polygons, geometry.corners, s.geometry, b.x, b.y, c, math.sin(b.angle), corners_out)
+    if count > 1:
+        write_normals(count, corners_out)
     return Hull(corners_out, count, radius, ALL_EDGES ^ s.inner)
+
+
+@inlined
+def hull_in(batch, row, workspace):
+    """Return the Hull of a shape in the world, which is placed once in a pass for all of its pairs.
+
+    The shape has two or more corners. row: row number in SHAPE. Shapes share the places in workspace.hulls, so that a
+    Hull is valid until a shape of the same place is asked for. batch: see Batch.
+    """
+    place = row & (len(workspace.hull_rows) - 1)
+    corners = workspace.hulls[16 * place : 16 * place + 16]
+    s = batch.shapes[row]
+    if workspace.hull_rows[place, 0] != row:
+        hull = hull_of(batch.geometry, batch.bodies, batch.shapes, row, corners)
+        workspace.hull_rows[place, 0] = row
+        workspace.hull_rows[place, 1] = hull.count
+    radius = 0.0 if s.kind == BOUNDS else s.radius
+    return Hull(corners, workspace.hull_rows[place, 1], radius, ALL_EDGES ^ s.inner)
+
+
+@inlined
+def hulls_in(batch, row_a, row_b, workspace):
+    """Return (Hull of shape A, Hull of shape B) in the world, see hull_in. row_a, row_b: row numbers in SHAPE."""
+    a = hull_in(batch, row_a, workspace)
+    if ((row_a ^ row_b) & (len(workspace.hull_rows) - 1)) == 0:  # both have the same place
+        b = hull_of(batch.geometry, batch.bodies, batch.shapes, row_b, workspace.b)
+    else:
+        b = hull_in(batch, row_b, workspace)
+    return a, b
 
 
 # ---- passes ----------------------------------------------------------------------------------------------------------

@@ -13,6 +13,7 @@ from physics.collision.manifold import (
     CHAIN_ANY,
     CIRCLES,
     GRID_ANY,
+    HULLS,
     MASK_HULL,
     MASKS,
     MASKS_EXACT,
@@ -24,6 +25,7 @@ from physics.collision.manifold import (
     add_manifold,
     center_velocity,
     closing_speed_bound,
+    empty_hulls,
     is_before,
     is_of,
     measure_approach,
@@ -382,6 +384,9 @@ class NarrowPhase:
             workspace = workspace._replace(fallback=np.zeros(2 * batch.count + 1, np.int64))
             self.workspace = self.workspace._replace(fallback=workspace.fallback)
 
+        if counts[POLYGONS] or counts[POLYGON_CIRCLE]:
+            workspace = self._without_hulls(workspace, len(batch.shapes))
+
         def run_all():
             found = recycled
             workspace.fallback[0] = 0
@@ -397,6 +402,15 @@ class NarrowPhase:
         self._make_room(found + len(rest))
         self.raw[found : found + len(rest)] = rest
         return found + len(rest), len(used) + (len(rest) > 0)
+
+    def _without_hulls(self, workspace, shapes):
+        """Return the workspace without hulls of earlier poses, with room for those of this number of shapes."""
+        if len(workspace.hull_rows) < min(shapes, HULLS):
+            hulls, rows = empty_hulls(min(HULLS, 1 << (2 * shapes).bit_length()))
+            workspace = workspace._replace(hulls=hulls, hull_rows=rows)
+            self.workspace = self.workspace._replace(hulls=hulls, hull_rows=rows)
+        workspace.hull_rows.fill(-1)
+        return workspace
 
     def _remember(self, batch, previous):
         """Write the contacts of the last step with one-way ground to the workspace, and return it."""

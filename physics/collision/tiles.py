@@ -21,6 +21,7 @@ from physics.collision.hulls import (
     edge_normal,
     part_feature,
     part_of,
+    write_normals,
 )
 from physics.collision.manifold import GRID_ANY, add_point, hull_of, make_pass, sides_by_kind
 from physics.collision.masks_exact import collide_mask_part, tested_aabb
@@ -331,6 +332,7 @@ def make_grid_pass(one_way: bool) -> Any:
                     else:
                         time = 0.0
                         met = hull
+                        write_normals(corners, tile)
                         if travel.time > 0.0 and attempt == 0:
                             time = advance_to_piece(travel, margin, piece, hull, workspace.c)
                             met = Hull(workspace.c, hull.count, hull.radius, ALL_EDGES)
