@@ -268,7 +268,7 @@ def collide_mask_shape(geometry, bodies, shapes, mask, other, workspace):
 #
 # In this section A is the mask in whose raster space (the frame) the test runs; see raster/exact.py.
 
-NOISE = 1e-9  # rounding error of area differences, as a share of the area
+NOISE = 1e-9  # rounding error of area differences, as a share of the area, or of a pixel
 
 
 @subkernel
@@ -283,18 +283,14 @@ def boxes_normal(a, b):
 
 
 @subkernel
-def area_normal(pair, area):
+def area_normal(shares):
     """Return (nx, ny, whether it exists): the direction of the move of B that shrinks the shared area fastest.
 
     nx, ny: unit vector in A's raster space. The direction does not exist if a move changes the area only by rounding.
-    pair: SquaresPair; area [px2]: present shared area of the two masks.
+    shares: Shares of the two masks.
     """
-    before, _, _ = shared_squares(pair, pair.u - 1.0, pair.v)
-    behind, _, _ = shared_squares(pair, pair.u + 1.0, pair.v)
-    above, _, _ = shared_squares(pair, pair.u, pair.v - 1.0)
-    below, _, _ = shared_squares(pair, pair.u, pair.v + 1.0)
-    nx, ny = unit(before - behind, above - below, 1.0, 0.0)
-    return nx, ny, norm(before - behind, above - below) > NOISE * area
+    nx, ny = unit(shares.loss_x, shares.loss_y, 1.0, 0.0)
+    return nx, ny, norm(shares.loss_x, shares.loss_y) > NOISE * max(shares.area, 1.0)
 
 
 @subkernel
@@ -316,11 +312,11 @@ def exact_contact(pair, a, b, turn_cosine, turn_sine):
     negative: minus the length of the move along the normal that ends the overlap. pair: SquaresPair of the masks; a, b:
     their SHAPE rows; turn_cosine, turn_sine: cosine and sine of A's angle.
     """
-    area, x, y = shared_squares(pair, pair.u, pair.v)
+    shares = shared_squares(pair)
     slack = slack_of(pair.rasters[pair.frame], pair.rasters[pair.other])
-    area = max(area, slack * slack)
+    area = max(shares.area, slack * slack)
     axis_x, axis_y, least = least_overlap(a.max_x - b.min_x, b.max_x - a.min_x, a.max_y - b.min_y, b.max_y - a.min_y)
-    nx, ny, is_sloped = area_normal(pair, area)
+    nx, ny, is_sloped = area_normal(shares)
     nx, ny = rotate(nx, ny, turn_cosine, turn_sine)
     if not is_sloped:
         nx, ny, is_sloped = boxes_normal(a, b)
@@ -330,7 +326,7 @@ def exact_contact(pair, a, b, turn_cosine, turn_sine):
     if depth > least:
         nx, ny = axis_x, axis_y
         depth = depth_of_squares(pair, nx, ny, turn_cosine, turn_sine, least)
-    return area, x / area, y / area, nx, ny, -depth
+    return area, shares.moment_x / area, shares.moment_y / area, nx, ny, -depth
 
 
 # ---- mask exact pairs ------------------------------------------------------------------------------------------------
@@ -382,7 +378,7 @@ def exact_mask_area(geometry, bodies, a, b):
     f = a if first else b
     o = b if first else a
     pair = squares_pair(geometry, bodies, f, o)
-    return shared_squares(pair, pair.u, pair.v)[0]
+    return shared_squares(pair).area
 
 
 def make_exact_mask_pass(full: bool) -> Any:
@@ -410,7 +406,7 @@ def make_exact_mask_pass(full: bool) -> Any:
         o = b if first else a
         p = bodies[f.body_row]
         squares = squares_pair(geometry, bodies, f, o)
-        hit, x, y, column, row = first_squares(squares, squares.u, squares.v)
+        hit, x, y, column, row = first_squares(squares, squares.u, squares.v, 0)
         if not hit:
             return found
         if first:

@@ -5,10 +5,23 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics.jit import subkernel
+from physics.jit import inlined, subkernel
 from physics.jit.plain import popcount, word
 from physics.math2d import clamp
-from physics.raster.bits import bits_from, both, columns_up_to, first_pixel, is_set, lowest_bit, without_lowest
+from physics.raster.bits import (
+    bits_from,
+    both,
+    columns_up_to,
+    first_pixel,
+    first_run,
+    has_bit,
+    is_set,
+    lowest_bit,
+    minus,
+    run_bits,
+    sum_of_places,
+    without_lowest,
+)
 
 # ---- exact -----------------------------------------------------------------------------------------------------------
 # Overlap of two masks as unions of pixel squares, one rotated and moved by any amount.
@@ -90,14 +103,14 @@ def leave_square(dx, dy, cosine, sine, reach, nx, ny):
 
 
 @subkernel
-def box_in_raster(a, b, u, v, cosine, sine):
+def box_in_raster(a, b, u, v, cosine, sine, margin):
     """Return the box (left, top, right, bottom) of B's pixels that may overlap the solid bounds of mask A.
 
-    a, b: RASTER rows; u, v [px]: top left corner of B's raster in A's raster; cosine, sine: of B's angle in A's raster.
-    Right and bottom are exclusive.
+    a, b: RASTER rows; u, v [px]: top left corner of B's raster in A's raster; cosine, sine: of B's angle in A's raster;
+    margin [px]: by which the bounds are enlarged. Right and bottom are exclusive.
     """
-    half_x, half_y = 0.5 * (a.set_right - a.set_left), 0.5 * (a.set_bottom - a.set_top)
-    dx, dy = a.set_left + half_x - u, a.set_top + half_y - v
+    half_x, half_y = 0.5 * (a.set_right - a.set_left) + margin, 0.5 * (a.set_bottom - a.set_top) + margin
+    dx, dy = a.set_left - margin + half_x - u, a.set_top - margin + half_y - v
     x, y = cosine * dx + sine * dy, cosine * dy - sine * dx
     reach_x = abs(cosine) * half_x + abs(sine) * half_y
     reach_y = abs(sine) * half_x + abs(cosine) * half_y
@@ -171,11 +184,12 @@ def first_upright(pair, u, v):
 
 
 @subkernel
-def first_squares(pair, u, v):
+def first_squares(pair, u, v, start_row):
     """Return (found, column in A, row in A, column in B, row in B) of the first overlapping pixels of masks A and B.
 
     The search ends at the first overlap. pair: SquaresPair; u, v [px]: top left corner of B's raster in A's raster,
-    which replaces pair.u, pair.v. O(pixels of B within A's bounds) at worst.
+    which replaces pair.u, pair.v; start_row: row of B with which the search begins; the rows above it come last.
+    O(pixels of B within A's bounds) at worst.
     """
     cosine, sine, words = pair.cosine, pair.sine, pair.words
     if cosine == 1.0 and sine == 0.0:
@@ -183,8 +197,11 @@ def first_squares(pair, u, v):
     a, b = pair.rasters[pair.frame], pair.rasters[pair.other]
     reach = reach_of(cosine, sine)
     near = reach - slack_of(a, b)
-    left, top, right, bottom = box_in_raster(a, b, u, v, cosine, sine)
-    for row in range(top, bottom):
+    left, top, right, bottom = box_in_raster(a, b, u, v, cosine, sine, 0.0)
+    start_row = min(max(start_row, top), bottom)
+    for k in range(top, bottom):
+        row = k + start_row - top
+        row = row if row < bottom else row - (bottom - top)
         x, y = u + 0.5 * cosine - (row + 0.5) * sine, v + 0.5 * sine + (row + 0.5) * cosine
         start, end = run_near(a, left, right, x, y, cosine, sine, reach - 0.5)
         while start < end:
@@ -213,9 +230,10 @@ def squares_way_out(pair, nx, ny, most):
     reach = reach_of(cosine, sine)
     slack = slack_of(pair.rasters[pair.frame], pair.rasters[pair.other])
     depth = 0.0
+    row = 0
     while depth <= most:
         x, y = pair.u + depth * nx, pair.v + depth * ny
-        found, i, j, column, row = first_squares(pair, x, y)
+        found, i, j, column, row = first_squares(pair, x, y, row)  # the next overlap is often in the same row
         if not found:
             return depth
         dx = x + cosine * (column + 0.5) - sine * (row + 0.5) - (i + 0.5)
@@ -402,18 +420,14 @@ def share_under(words, a, x, y, cosine, sine):
 
 
 @subkernel
-def shared_squares(pair, u, v):
-    """Return (area [px2], moment of x, moment of y [px3]) of the area that the masks of a SquaresPair share.
-
-    u, v [px]: top left corner of mask B's raster in A's raster. The moments divided by the area are the area's centroid
-    in A's raster.
-    """
-    cosine, sine, words = pair.cosine, pair.sine, pair.words
+def sum_squares(pair):
+    """Return (area [px2], moment of x, moment of y [px3]) of the area that two masks share, summed square by square."""
+    u, v, cosine, sine, words = pair.u, pair.v, pair.cosine, pair.sine, pair.words
     a, b = pair.rasters[pair.frame], pair.rasters[pair.other]
     area = 0.0
     moment_x, moment_y = 0.0, 0.0
     margin = reach_of(cosine, sine) - 0.5
-    left, top, right, bottom = box_in_raster(a, b, u, v, cosine, sine)
+    left, top, right, bottom = box_in_raster(a, b, u, v, cosine, sine, 0.0)
     for row in range(top, bottom):
         x, y = u + 0.5 * cosine - (row + 0.5) * sine, v + 0.5 * sine + (row + 0.5) * cosine
         start, end = run_near(a, left, right, x, y, cosine, sine, margin)
@@ -430,3 +444,199 @@ def shared_squares(pair, u, v):
                     moment_y += my
             start += 64
     return area, moment_x, moment_y
+
+
+# ---- shared outline --------------------------------------------------------------------------------------------------
+# Shared area of two masks from the outline of mask B. A, B, u, v, cosine, sine: see the comment under "exact".
+#
+# By Green's theorem the area is the integral of X dy along the outline of B, where X(x, y) is the length of the solid
+# pixels of A to the left of x in the row of y. X is linear within a pixel, so the integral over each piece of the
+# outline between two lines of A's pixel grid is exact. The moments are integrals of the same kind. The change of the
+# area when B moves by one pixel to each side has the length of the solid pixels within one pixel of (x, y) as its
+# integrand. O(outline of B within A's bounds), where square by square it is O(pixels). Rounding errors are relative to
+# the size of the masks.
+
+
+class Shares(NamedTuple):
+    """Sums over the outline of mask B: the area that it shares with mask A, its moments, and its changes by a move."""
+
+    area: float  # [px2]
+    moment_x: float  # [px3] area times the centroid in A's raster
+    moment_y: float
+    loss_x: float  # [px2] by how much the area with B one pixel to the left exceeds that with B one pixel to the right
+    loss_y: float  # [px2] the same with B one pixel above, and below
+
+
+@subkernel
+def solid_before(words, row, stride, column):
+    """Return (number of solid pixels in the columns of a row before `column`, sum of the x of their centres [px]).
+
+    words: pixels of all rasters; row: index of the row's first word; stride: number of words per row.
+    """
+    count = 0.0
+    centers = 0.0
+    for k in range(min(stride, (column + 63) >> 6)):
+        solid = both(words[row + k], columns_up_to(column - 64 * k))
+        found = popcount(solid)
+        count += found
+        centers += sum_of_places(solid) + (64.0 * k + 0.5) * found
+    return count, centers
+
+
+@subkernel
+def length_at(words, a, column, row):
+    """Return 1.0 if the pixel of mask A in a column and row is solid, else 0.0, also outside the raster.
+
+    words: pixels of all rasters; a: RASTER row of A.
+    """
+    if 0 <= column < a.width and 0 <= row < a.height and is_set(words, a.offset + row * a.stride, column):
+        return 1.0
+    return 0.0
+
+
+@inlined
+def share_in_row(words, a, row, px, py, qx, qy):
+    """Return the Shares of a line within one pixel row of mask A.
+
+    words: pixels of all rasters; a: RASTER row of A; row: number of the pixel row, which contains the line from p to q
+    [px], py <= qy.
+    """
+    area, moment_x, moment_y = 0.0, 0.0, 0.0
+    loss_x, loss_y = 0.0, 0.0
+    way = 1.0 if px <= qx else -1.0
+    x, y, right, end_y = (px, py, qx, qy) if px <= qx else (qx, qy, px, py)
+    rise = (end_y - y) / (right - x) if right > x else 0.0
+    if x < a.set_left - 1.0:
+        y += rise * (a.set_left - 1.0 - x)
+        x = a.set_left - 1.0
+    column = math.floor(min(x, a.set_right + 1.0))
+    before, centers = 0.0, 0.0
+    if a.set_top <= row < a.set_bottom:
+        before, centers = solid_before(words, a.offset + row * a.stride, a.stride, column)
+    last = length_at(words, a, column - 1, row)
+    here = length_at(words, a, column, row)
+    while True:
+        following = length_at(words, a, column + 1, row)
+        ends = column > a.set_right or right <= column + 1.0
+        to = right if ends else column + 1.0
+        to_y = end_y if ends else y + rise * (to - x)
+        dx, dy = way * (to - x), way * (to_y - y)
+        at, on = x - column, to - column  # both ends, from the left side of the pixel
+        near, far = before + here * at, before + here * on
+        area += 0.5 * dy * (near + far)
+        moment_x += dy * (centers + here * (0.5 * column * (at + on) + (at * at + at * on + on * on) / 6.0))
+        moment_y += dy * (near * (2.0 * y + to_y) + far * (y + 2.0 * to_y)) / 6.0
+        if column <= a.set_right:
+            middle = 0.5 * (at + on)
+            loss_x -= dy * (last + here + middle * (following - last))
+            above, below = length_at(words, a, column, row - 1), length_at(words, a, column, row + 1)
+            loss_y += dx * (above + here + (0.5 * (y + to_y) - row) * (below - above))
+        if ends:
+            return Shares(area, moment_x, moment_y, loss_x, loss_y)
+        before += here
+        centers += here * (column + 0.5)
+        last, here = here, following
+        x, y = to, to_y
+        column += 1
+
+
+@subkernel
+def edge_share(words, a, px, py, qx, qy):
+    """Return the Shares of a line of B's outline.
+
+    words: pixels of all rasters; a: RASTER row of A; px, py, qx, qy [px]: ends of the line in A's raster.
+    """
+    area, moment_x, moment_y = 0.0, 0.0, 0.0
+    loss_x, loss_y = 0.0, 0.0
+    sign = 1.0
+    if qy < py:
+        px, py, qx, qy = qx, qy, px, py
+        sign = -1.0
+    y, bottom = max(py, a.set_top - 1.0), min(qy, a.set_bottom + 1.0)
+    if y <= bottom and max(px, qx) > a.set_left - 1.0:
+        slope = (qx - px) / (qy - py) if qy > py else 0.0
+        x = px if y == py else px + slope * (y - py)
+        row = math.floor(y)
+        while True:
+            ends = bottom <= row + 1.0
+            end = bottom if ends else row + 1.0
+            end_x = qx if end == qy else px + slope * (end - py)
+            if max(x, end_x) > a.set_left - 1.0:
+                part = share_in_row(words, a, row, x, y, end_x, end)
+                area += part.area
+                moment_x += part.moment_x
+                moment_y += part.moment_y
+                loss_x += part.loss_x
+                loss_y += part.loss_y
+            if ends:
+                break
+            x, y = end_x, end
+            row += 1
+    return Shares(sign * area, sign * moment_x, sign * moment_y, sign * loss_x, sign * loss_y)
+
+
+@subkernel
+def with_share(shares, part):
+    """Return the sum of two Shares."""
+    return Shares(
+        shares.area + part.area,
+        shares.moment_x + part.moment_x,
+        shares.moment_y + part.moment_y,
+        shares.loss_x + part.loss_x,
+        shares.loss_y + part.loss_y,
+    )
+
+
+@subkernel
+def outline_shares(pair):
+    """Return the Shares of a SquaresPair."""
+    cosine, sine, words = pair.cosine, pair.sine, pair.words
+    a, b = pair.rasters[pair.frame], pair.rasters[pair.other]
+    shares = Shares(0.0, 0.0, 0.0, 0.0, 0.0)
+    left, top, right, bottom = box_in_raster(a, b, pair.u, pair.v, cosine, sine, 1.0)
+    if left >= right or top >= bottom:
+        return shares
+    for row in range(top, bottom + 1):
+        x, y = pair.u - row * sine, pair.v + row * cosine  # the corner (0, row) of B's pixels
+        next_x, next_y = pair.u - (row + 1) * sine, pair.v + (row + 1) * cosine
+        solid = 0
+        for start in range(left, right + 1, 64):
+            shown = columns_up_to(right - start)
+            above, below = word(0), word(0)
+            if row > top:
+                above = both(bits_from(words, b.offset + (row - 1) * b.stride, b.stride, start), shown)
+            if row < bottom:
+                below = both(bits_from(words, b.offset + row * b.stride, b.stride, start), shown)
+            for side in range(2):  # upper edges lead to the right, lower edges to the left
+                edges = minus(below, above) if side == 0 else minus(above, below)
+                while edges != word(0):
+                    first, last = first_run(edges)
+                    edges = minus(edges, run_bits(first, last))
+                    i, j = (start + first, start + last) if side == 0 else (start + last, start + first)
+                    part = edge_share(words, a, x + i * cosine, y + i * sine, x + j * cosine, y + j * sine)
+                    shares = with_share(shares, part)
+            changes = word(below ^ word(word(below << word(1)) | word(solid)))
+            while changes != word(0):
+                column = lowest_bit(changes)
+                changes = without_lowest(changes)
+                across, down = (start + column) * cosine, (start + column) * sine
+                if has_bit(below, column):  # left edges lead up, right edges lead down
+                    part = edge_share(words, a, next_x + across, next_y + down, x + across, y + down)
+                else:
+                    part = edge_share(words, a, x + across, y + down, next_x + across, next_y + down)
+                shares = with_share(shares, part)
+            solid = int(has_bit(below, 63))
+    return shares
+
+
+LEAST_OUTLINED = 1.0  # [px2] a smaller area is summed square by square: its rounding errors are relative to the area
+
+
+@subkernel
+def shared_squares(pair):
+    """Return the Shares of the masks of a SquaresPair."""
+    shares = outline_shares(pair)
+    if shares.area >= LEAST_OUTLINED:
+        return shares
+    area, moment_x, moment_y = sum_squares(pair)
+    return Shares(area, moment_x, moment_y, shares.loss_x, shares.loss_y)
