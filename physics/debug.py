@@ -452,16 +452,15 @@ def contact_points(world: World) -> np.ndarray:
     found, sensed = world.contact_rows, world.sensed
     if sensed is None:
         sensed = found[found["sensor"]]
-    parts = [
-        _points(world, found[~found["sensor"]], None),
-        _points(world, sensed, SENSOR),
-        _points(world, world.sleeping_set.contacts(), ASLEEP),
-    ]
+    solid, asleep = found[~found["sensor"]], world.sleeping_set.contacts()
+    parts = [_points(world, rows, state) for rows, state in ((solid, None), (sensed, SENSOR), (asleep, ASLEEP))]
     return np.concatenate(parts)
 
 
 def _points(world, contacts, state):
     """Return the POINT rows of CONTACT rows. state: state of all points; None: determine the state of each point."""
+    if not len(contacts):
+        return np.zeros(0, POINT)
     reported = contacts_of(contacts)
     points = np.zeros(len(reported), POINT)
     for name in set(reported.dtype.fields or ()) & set(POINT.fields or ()):
@@ -471,7 +470,7 @@ def _points(world, contacts, state):
         points["state"] = state
         return points
     of = np.repeat(np.arange(len(contacts)), contacts["count"])  # index of each point's contact
-    second = np.concatenate([[False], of[1:] == of[:-1]]) if len(of) else np.zeros(0, bool)
+    second = np.concatenate([[False], of[1:] == of[:-1]])
     if world.stacks:
         points["color"] = contacts["color"][of]
     acting = (points["separation"] <= 0.0) | (points["normal_impulse"] > 0.0) | contacts["swept"][of]

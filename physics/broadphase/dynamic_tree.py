@@ -655,18 +655,13 @@ class DynamicTree:
         return max(int(self.nodes[root]["height"]) if root >= 0 else -1 for root in self.state[ROOT_MOVING:])
 
     def boxes(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return all nodes for drawing: (boxes (m, 4) [px], depths (m,) below the root of their tree)."""
-        found, depths = [], []
-        for root in self.state[ROOT_MOVING:].tolist():
-            todo = [(root, 0)] if root >= 0 else []
-            while todo:
-                at, depth = todo.pop()
-                node = self.nodes[at]
-                found.append(at)
-                depths.append(depth)
-                if node["height"] > 0:
-                    todo += [(int(node["child_a"]), depth + 1), (int(node["child_b"]), depth + 1)]
-        nodes = self.nodes[found]
-        return np.stack([nodes[name] for name in ("lower_x", "lower_y", "upper_x", "upper_y")], axis=1), np.array(
-            depths, int
-        )
+        """Return all nodes for drawing: (boxes (m, 4) [px], depths (m,) below the root of their tree), by depth."""
+        roots = self.state[ROOT_MOVING:]
+        levels = [roots[roots >= 0]]  # the nodes of each depth
+        while len(levels[-1]):
+            inner = self.nodes[levels[-1]]
+            inner = inner[inner["height"] > 0]
+            levels.append(np.stack([inner["child_a"], inner["child_b"]], axis=1).ravel())
+        nodes = self.nodes[np.concatenate(levels)]
+        boxes = np.stack([nodes[name] for name in ("lower_x", "lower_y", "upper_x", "upper_y")], axis=1)
+        return boxes, np.repeat(np.arange(len(levels)), [len(each) for each in levels])

@@ -55,3 +55,27 @@ def test_all_at_once_is_built_balanced():
     world.clear()
     world.step()
     assert world.broadphase.height == -1
+
+
+@pytest.mark.parametrize("count", [0, 1, 2, 3, 40, 700])
+def test_the_drawn_boxes_are_those_of_all_nodes_with_their_depths(count):
+    rng = np.random.default_rng(count)
+    world = World(Effects(), broadphase=DynamicTree())
+    for k in range(count):
+        world.add_body(Circle(3), position=rng.uniform(0, 900, 2), kind="static" if k % 3 == 0 else "dynamic")
+    world.step()
+    tree = world.broadphase
+    assert isinstance(tree, DynamicTree)
+    boxes, depths = tree.boxes()
+    assert len(boxes) == len(depths) == sum(2 * n - 1 for n in (-(-count // 3), count - -(-count // 3)) if n)
+    expected = []
+    for root in tree.state[2:].tolist():
+        todo = [(root, 0)] if root >= 0 else []
+        while todo:
+            at, depth = todo.pop()
+            node = tree.nodes[at]
+            expected.append((depth, *(float(node[name]) for name in ("lower_x", "lower_y", "upper_x", "upper_y"))))
+            if node["height"] > 0:
+                todo += [(node["child_a"], depth + 1), (node["child_b"], depth + 1)]
+    assert sorted(zip(depths.tolist(), *boxes.T.tolist(), strict=True)) == sorted(expected)
+    assert (np.diff(depths) >= 0).all()
