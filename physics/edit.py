@@ -361,8 +361,9 @@ def _rejoin(world, at, touched):
     if world.bodies["quarantined"][at]:
         world.pairs.free_proxies(world.shapes["proxy"][touched])
         world.shapes["proxy"][touched] = -1
-    elif world.sleeps and not world.bodies["active"][at]:
-        # Bodies that are not awake get no swept AABB in the next step, so they get one here.
+    elif world.sleeps and not (world.bodies["active"][at] and world.bodies["kind"][at] == DYNAMIC):
+        # Bodies that are not awake get no swept AABB in the next step, so they get one here; so do bodies that the last
+        # step visited only because they were edited or moved before it.
         count = write_rectangles(world, touched)
         world.pairs.can_recycle.append(world.pairs.changed[:count].copy())
     world.queries.seen = ()

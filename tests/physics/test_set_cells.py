@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from physics import Character, Circle, Effects, Filter, Material, Polygon, TileGrid, World
+from physics import BROADPHASES, Character, Circle, Effects, Filter, Material, Polygon, TileGrid, World
 
 BOX = Polygon.box(14, 14)
 
@@ -57,6 +57,34 @@ def test_a_wall_that_grows_into_a_sleeper_wakes_it():
     assert [box.awake for box in boxes] == [True, False]
     world.step()
     assert boxes[0].contacts["separation"].min() < -1.0
+
+
+@pytest.mark.parametrize("broadphase", sorted(BROADPHASES))
+@pytest.mark.parametrize("edit", [
+    None,
+    lambda ground: ground.move_to((0, 90), 0.0),
+    lambda ground: setattr(ground, "filter", Filter(3)),
+    lambda ground: setattr(ground, "material", Material(friction=0.1)),
+    lambda ground: ground.set_cells([(k, 0) for k in range(8)], False),
+    lambda ground: ground.set_kind("kinematic"),
+], ids=["added", "moved", "filter", "material", "cells", "kind"])  # fmt: skip
+def test_the_next_bodies_meet_a_grid_that_was_edited_a_step_before(edit, broadphase):
+    """The last step visited the grid because it was edited. The next one does not, but its pairs are searched."""
+    world = World(broadphase=broadphase)
+    ground = world.add_body(TileGrid(np.ones((1, 8), bool), 16), position=(0, 100), kind="static")
+    old = world.add_body(Circle(5), position=(20, -300))
+    for _ in range(3 if edit else 0):
+        world.step()
+    if edit:
+        edit(ground)
+    world.step()
+    ground.set_cells([(k, 0) for k in range(7)], False)
+    ground.set_cells([(k, 0) for k in range(8)], True)
+    top = ground.position.y
+    old.position, new = (20, top - 5), world.add_body(Circle(5), position=(60, top - 5))
+    for _ in range(20):
+        world.step()
+    assert old.position.y == pytest.approx(top - 5, abs=0.2) and new.position.y == pytest.approx(top - 5, abs=0.2)
 
 
 @pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse", "projection", "blocking"])
