@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from physics import JIT, Circle, Effects, PixelMask, Polygon, World
+from physics import JIT, Circle, Effects, Material, PixelMask, Polygon, World
 from tests.stability.piles import needs_speed
 
 FLOOR = Polygon.box(4000, 40)
@@ -105,6 +105,31 @@ def test_other_shapes_in_a_press_get_no_more_energy_than_it_does_work(name, scen
             peak = peak_of(world, bodies, steps, move)
             allowed = OUTLIERS.get((name, scene.__name__, speed, count), 3) * (speed + PUSH_SPEED) + fall
             assert peak <= allowed, f"{count} at {speed} px/s: {peak:.0f}"
+
+
+@needs_speed
+@pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse"])
+@pytest.mark.parametrize("settings", SETTINGS, ids=["auto", "4"])
+@pytest.mark.parametrize("name", SHAPES)
+def test_a_row_without_room_gains_nothing_from_a_block_that_stands_still(name, settings, solver):
+    """Forces between two sides that cannot give way are not released as speed when the block has stopped."""
+    for speed in (20, 90, 200, 450):
+        for count in (2, 3, 5):
+            world = World(solver=solver, **settings)
+            world.add_body(FLOOR, position=(0, 120), kind="static")
+            world.add_body(Polygon.box(32, 96, (0, -48)), position=(200, 100), kind="static")
+            light = Material(density=0.3)
+            row = [world.add_body(SHAPES[name], position=(60 + 22 * k, 89.9), material=light) for k in range(count)]
+            block, last = world.add_body(Polygon.box(32, 32), position=(0, 84), kind="kinematic"), 168 - 12 * count
+            weight = sum(body.mass for body in row)
+            before = math.inf
+            for frame in range(round(60 * last / speed) + 150):
+                block.set_target((min(speed * frame / 60, last), 84))
+                stands = block.velocity == (0, 0)
+                world.step()
+                energy = sum(body.kinetic_energy - body.mass * 313.6 * body.center.y for body in row) / weight
+                assert not stands or energy - before <= PUSH_SPEED**2 / 2, f"{count} at {speed} px/s, step {frame}"
+                before = energy
 
 
 @needs_speed
