@@ -361,7 +361,7 @@ class NarrowPhase:
         if any(counts[:NOTHING]):
             found, parts = self._detect(batch, workspace, previous, counts, recycled, work)
             orders += parts
-        if counts[WITH_CHILD] and (counts[POLYGONS] or recycled):
+        if counts[WITH_CHILD]:
             found = drop_opposed(batch.bodies, found, batch.margin, self._deep_for(found), self.raw)
         if batch.graze > 0.0 and has_seams(batch, self.raw, found, workspace):
             found = self._drop_seams(batch, self.raw[:0] if previous is None else previous, found)
