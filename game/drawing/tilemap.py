@@ -299,6 +299,10 @@ class _Reader:
         if "source" in tilesets[0]:
             self.fail("tilesets[0].source", "the tileset is in a file of its own; embed it in Tiled (Embed Tileset)")
         self.refuse(tilesets[0], "tilesets[0]", TILESET_DEFAULTS)
+        for name in ("tilewidth", "tileheight"):
+            if tilesets[0].get(name, data[name]) != data[name]:
+                value = tilesets[0][name]
+                self.fail(f"tilesets[0].{name}", f"must be the {name} of the map, {data[name]} (got {value!r:.60})")
         first = self.whole(tilesets[0], "tilesets[0]", "firstgid", LARGEST)
         return first, self.whole(tilesets[0], "tilesets[0]", "tilecount", LARGEST), tilesets[0]
 

@@ -124,3 +124,12 @@ def test_groups_without_end_are_refused(tmp_path):
         loaded(tmp_path, layers=layers)
     with pytest.raises(FileError, match=r"layers\[0\].layers"):
         loaded(tmp_path, layers=[{"type": "group", "layers": 5}])
+
+
+@pytest.mark.parametrize("name", ["tilewidth", "tileheight"])
+@pytest.mark.parametrize("value", [8, 17, 32, "16", None])
+def test_a_tileset_of_another_tile_size_is_refused(tmp_path, name, value):
+    tileset = LEVEL["tilesets"][0]
+    loaded(tmp_path, tilesets=[{**tileset, name: LEVEL[name]}])
+    with pytest.raises(FileError, match=rf"tilesets\[0\]\.{name}.*{LEVEL[name]}"):
+        loaded(tmp_path, tilesets=[{**tileset, name: value}])

@@ -114,7 +114,11 @@ MISTAKES = [
     (lambda level: level["layers"].pop(0), "layers", "no tile layer 'solid'"),
     (lambda level: level["layers"][0].update(name="walls"), "layers", "no tile layer 'solid'; there are walls"),
     (lambda level: level["layers"][0]["data"].__setitem__(7, 9999), "layers[0].data[7]", "is not in the tileset"),
-    (lambda level: level.update(tilewidth=32, tileheight=32), "tilewidth", "must be 16"),
+    (
+        lambda level: [each.update(tilewidth=32, tileheight=32) for each in (level, *level["tilesets"])],
+        "tilewidth",
+        "must be 16",
+    ),
     (
         lambda level: level["tilesets"][0].update(image="none.png"),
         "tilesets[0].image",
