@@ -15,6 +15,7 @@ from typing import Any
 from game.drawing.camera import Camera
 from game.drawing.canvas import Canvas
 from game.drawing.flash import Flash
+from game.drawing.headline import Headline
 from game.drawing.number_text import plain_name
 from game.drawing.particles import Particles
 from game.drawing.presenter import Frame
@@ -419,6 +420,10 @@ class Scene:
         scene without a finding.
         """
         return ""
+
+    def headline(self) -> Headline | None:
+        """Return the sentence and the live number in the title line of a lab; None for a scene without one."""
+        return None
 
     def draw_on_frame(self, frame: Frame) -> None:
         """Draw at window resolution, below the overlays (curves, thin lines). Most scenes draw nothing here."""

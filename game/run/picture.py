@@ -10,6 +10,7 @@ import pygame
 from game.drawing.canvas import Canvas
 from game.drawing.colors import INK, SHADE
 from game.drawing.drag_line import draw_drag
+from game.drawing.headline import draw_headline
 from game.drawing.presenter import SCREENSHOT_SCALE, Frame, Presenter
 from game.files.data_folder import write_atomically
 from game.overlays.stack import Overlays, draw_legend, legend_columns, legend_size
@@ -63,6 +64,8 @@ class Picture:
         self.canvas.begin(INK)
         self.canvas.palette = self.presenter.frame.palette = scene.accessibility.palette
         scene.draw(self.canvas, alpha)
+        if (headline := scene.headline()) is not None:
+            draw_headline(self.canvas, scene.title, headline, scene.head)
         if scene.accessibility.flashing:
             scene.flash.draw(self.canvas.surface)
         if scene.accessibility.palette == "contrast" and overlays.shows_geometry():

@@ -22,6 +22,7 @@ import pygame
 
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, PAPER, RED, SKY, SLATE
+from game.drawing.headline import ENOUGH, Headline
 from game.drawing.number_text import count_text
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
@@ -30,7 +31,7 @@ from game.scene import STANDS, Goal, Scene, Slider
 from physics import Circle, Effects, Material
 from scenes.lab.billiard_table import BALL, CLOTH, HEAD_SPOT, HOLES, MOUTH, best_point, cushions, first_in_the_way, rack
 from scenes.lab.piles import kinetic_energy
-from scenes.lab.yard import HEAD, draw_head, plate
+from scenes.lab.yard import HEAD, plate
 
 TABLE = (4, 24)  # [canvas px] place of the table's picture
 FASTEST = 1300.0  # [px/s] of a cue ball hit with full power
@@ -238,7 +239,6 @@ class Billiards(Scene):
     def draw(self, canvas, alpha):
         """Draw table, balls, cue, score."""
         canvas.surface.fill((30, 24, 46))
-        draw_head(canvas, "BILLIARDS", "does a break keep the momentum it was given?")
         canvas.surface.blit(self.table, TABLE)
         for identity in self.ball_names:
             x, y = self.world.body(identity).position
@@ -336,6 +336,12 @@ class Billiards(Scene):
             Goal("no ball leaves the table", 300, there),
             Goal("a pocket counts a ball", 3600, len(self.potted) > 0, f"{len(self.potted)} in {self.shots} shots"),
         ]
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        sentence = "Until a ball meets a cushion, a break keeps the momentum it was given."
+        number, unit, good = f"{100 * (1 - self.kept):.3f} %", "of the momentum kept", self.kept < 1e-9
+        return Headline(sentence, "Space: shoot", number, unit, self.compared, ENOUGH, "steps after a shot", good)
 
     def finding(self):
         """Return a sentence with the greatest error of momentum before a cushion, and the greatest gain of energy.

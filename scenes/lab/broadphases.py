@@ -18,7 +18,8 @@ import pygame
 
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
-from game.drawing.colors import BROADPHASE_COLORS, FOG, GOLD, NIGHT, PAPER, RED, SLATE
+from game.drawing.colors import BROADPHASE_COLORS, FOG, NIGHT, PAPER, RED, SLATE
+from game.drawing.headline import Headline
 from game.input.inputs import InputFrame
 from game.measure.power_law import fit_power_law
 from game.measurement_requests import MeasuredRun, Recipe, RunRequest
@@ -164,9 +165,6 @@ class Broadphases(Scene):
         window resolution.
         """
         canvas.surface.fill(NIGHT)
-        canvas.text("BROAD PHASES", 4, 4, GOLD)
-        canvas.text(f"{len(self.world.bodies):,} bodies", 474, 4, PAPER, align="right")
-        canvas.text(ABOUT[self.layout], 96, 6, FOG, SMALL)
         for name, world, camera in zip(STRATEGIES, self.worlds, self.cameras, strict=True):
             view, color = camera.viewport, BROADPHASE_COLORS[name]
             canvas.surface.fill((16, 13, 27), view)
@@ -183,6 +181,14 @@ class Broadphases(Scene):
             curves.draw(frame, (PLOT_X, y, PLOT_WIDTH, PLOT_HEIGHT))
         series = {name: self.growth(name) for name in STRATEGIES}
         draw_growth(frame, GROWTH, "time of a step over bodies [log]", series, int(self.values["bodies"]))
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        tests = {name: tests_of(world) for name, world in zip(STRATEGIES, self.worlds, strict=True)}
+        least = min(STRATEGIES[1:], key=tests.__getitem__)
+        number = f"{tests['brute'] / max(tests[least], 1):,.1f} x"
+        sentence = f"{len(self.world.bodies):,} bodies, {ABOUT[self.layout]}: brute force tests them all."
+        return Headline(sentence, "down: fewer", number, f"the tests of the {least}", self.compared, 1, "steps")
 
     def finding(self):
         """Return a sentence with the exponent of each strategy's cost in this layout (cost of a step ~ n^exponent)."""

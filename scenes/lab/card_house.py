@@ -21,6 +21,7 @@ import pygame
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, ORANGE, PAPER, RED, SKY
+from game.drawing.headline import Headline
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
@@ -46,7 +47,7 @@ WOOD, EDGE = (126, 78, 52), (190, 130, 88)
 RAIL = (280.0, 5.0, 20.0)  # [canvas px] x, width and height of the rail between a fallen house and the pairs
 COIN, COIN_SPEED, COIN_DENSITY = 5.0, 340.0, 10.0  # [px] radius, [px/s], times a card's
 JUDGED_AT = 600  # step: ten seconds
-SLIPPERY_AT, SLIPPERY = 604, 20  # the bot's step, and its choice of friction [1/100]
+SLIPPERY_AT, SLIPPERY, ROUGH = 604, 20, 70  # the bot's step; frictions with which the house falls, and stands [1/100]
 
 
 class CardHouse(Scene):
@@ -60,7 +61,11 @@ class CardHouse(Scene):
     pieces = ("boxes", "capsules", "circles")
     features = ("thin capsules that lean on each other", "the friction that theory asks for, from both sides")
     keeps = {"solver": "how far cards creep under soft step, and with how many substeps, is what its slider shows"}
-    sliders = (Slider("friction", 5, 100, 70, "/ 100", step=5), Slider("storeys", 1, 4, 4), Slider("substeps", 1, 8, 4))
+    sliders = (
+        Slider("friction", 5, 100, SLIPPERY, "/ 100", step=5),
+        Slider("storeys", 1, 4, 4),
+        Slider("substeps", 1, 8, 4),
+    )
     actions = (("Space", "throw a coin"), ("up down", "friction"), ("left right", "storeys"))
     draggable = True
     head = HEAD
@@ -178,7 +183,7 @@ class CardHouse(Scene):
 
     def draw(self, canvas, alpha):
         """Draw the table with its cloths, the cards, and the text."""
-        self.yard.draw(canvas, "HOUSE OF CARDS", "how much friction does it need to stand?")
+        self.yard.draw(canvas)
         for x, _, color in PAIRS:
             left = round(x - CLOTH / 2)
             canvas.surface.fill(color, (left + 1, FLOOR, round(CLOTH) - 2, 2))
@@ -239,6 +244,14 @@ class CardHouse(Scene):
             Goal("the house falls at a friction of 0.2", 800, self.slipped, f"at {self.values['friction'] / 100:.2f}"),
         ]
 
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        fell = sum(self.moved(card) >= REACH / 2 for card in self.cards)
+        friction = self.values["friction"] / 100
+        sentence = f"Friction alone holds the cards: here it is {friction:.2f}, a pair needs {NEEDED:.3f}."
+        number, unit = f"{fell} of {len(self.cards)}", "cards fell or slid"
+        return Headline(sentence, "up: more", number, unit, self.since, 60, "steps", not fell)
+
     def finding(self):
         """Return a sentence with the time that the house has stood at its friction.
 
@@ -258,10 +271,10 @@ class CardHouse(Scene):
     def bot(self):
         """Return the bot's input for the next step.
 
-        The bot waits for ten seconds, then lowers the friction of the cards.
+        The bot gives the cards enough friction. After ten seconds it lowers it again.
         """
-        changes = (("slider:friction", SLIPPERY),) if self.frame == SLIPPERY_AT else ()
-        return InputFrame(changes=changes)
+        friction = {0: ROUGH, SLIPPERY_AT: SLIPPERY}.get(self.frame)
+        return InputFrame(changes=() if friction is None else (("slider:friction", friction),))
 
     def state(self):
         """Return the scene's own state for the digest: the measurements. The worlds are hashed separately."""

@@ -20,6 +20,7 @@ import pygame
 
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, INK, PAPER, SLATE
+from game.drawing.headline import Headline
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas, load_backdrop
 from game.measurement_requests import STEPS, Act, MeasuredRun, RunRequest
@@ -30,7 +31,7 @@ from scenes.lab.costs import cost_text
 from scenes.lab.digging_plan import plan
 from scenes.lab.prints import Prints
 from scenes.lab.tools import TOOLS, Tool
-from scenes.lab.yard import HEAD, draw_head, plate
+from scenes.lab.yard import HEAD, plate
 
 TOP, BOTTOM = 24, 264  # [px] of the ground
 CRUMB = 12  # pixels: smaller pieces are removed when they come loose
@@ -256,7 +257,6 @@ class Carving(Scene):
         self.prints.draw(canvas, camera, self.world, alpha)
         self.cast.draw(canvas, camera, self.world, alpha)
         self.particles.draw(canvas, camera, alpha)
-        draw_head(canvas, "CARVING", "what is undermined falls, by its own pixels")
         plate(canvas, PLATE)
         x, y = PLATE[:2]
         canvas.text(f"{self.tool.name}", x + 5, y + 4, GOLD)
@@ -303,6 +303,13 @@ class Carving(Scene):
             Goal("everything is finite, and inside", 600, finite and inside, f"{len(bodies)} bodies"),
             Goal("all sleep in the end", 600, self.awake == 0, f"{self.awake} awake"),
         ]
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        lost = self.whole - self.left - self.removed - self.crumbs
+        sentence = "What is undermined falls as a body of its own pixels; none is lost."
+        unit = f"pieces came loose, {lost} pixels lost"
+        return Headline(sentence, "click: blast", f"{self.made}", unit, self.carves, 1, "blasts", not lost)
 
     def finding(self):
         """Return a sentence with the share of the ground that the last carve rebuilt, and whether a pixel was lost."""

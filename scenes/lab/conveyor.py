@@ -19,7 +19,8 @@ import pygame
 
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
-from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED, SLATE, faded
+from game.drawing.colors import GOLD, GREEN, INK, NIGHT, PAPER, RED, SLATE, faded
+from game.drawing.headline import Headline
 from game.drawing.number_text import count_text
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas, load_backdrop
@@ -225,9 +226,6 @@ class Conveyor(Scene):
     def draw(self, canvas, alpha):
         """Draw the two halls with belts and crates, and the measurements."""
         canvas.surface.fill(NIGHT)
-        canvas.text("CONVEYOR", 4, 4, GOLD)
-        words = f"belts run at {self.values['speed']} px/s, {self.delivered} delivered"
-        canvas.text(words, 474, 6, FOG, SMALL, align="right")
         for index, camera in enumerate(self.cameras):
             self._draw_hall(canvas, index, camera, alpha)
         self.particles.draw(canvas, self.cameras[0], alpha)
@@ -288,6 +286,13 @@ class Conveyor(Scene):
                 f"{len(self.fallen)} crates moved {self.strayed:.3f} px",
             ),
         ]
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        still = sum(start is not None for _, start in self.fallen.values())
+        sentence = f"Without the effect conveyor, belts that run at {self.values['speed']} px/s carry nothing."
+        number, unit = f"{self.strayed:.1f} px", f"moved there; {self.delivered} delivered above"
+        return Headline(sentence, "left right: speed", number, unit, still, 1, "crates at rest")
 
     def finding(self):
         """Return a sentence with the greatest error of the last crates' speeds on the belts.

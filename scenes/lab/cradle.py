@@ -20,6 +20,7 @@ import pygame
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GREEN, ORANGE, PAPER, RED, SKY, faded
+from game.drawing.headline import Headline
 from game.drawing.number_text import plain_name
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
@@ -40,6 +41,7 @@ MIDDLE, LINE = 500.0, 72.0  # [px] middle of the row, height of the channel's ax
 LEFT, RIGHT = 14.0, 946.0  # [px] faces of the end walls
 FIRST = 60.0  # [px] of the first striker
 SPEED = 300.0  # [px/s] 5 px a step, less than the gap: one collision at a time
+GAP = 8  # [px] of the bot: one collision at a time
 PERIOD = round(60 * 2 * (RIGHT - LEFT) / SPEED)  # steps of a single ball to and fro
 SEEN = 1e-6  # of the strikers' speed: a greater error is shown as wrong
 SCATTERED = 0.01  # of that speed: the row has lost its order
@@ -59,7 +61,7 @@ class Cradle(Scene):
     features = ("restitution of 1, a chain of collisions", "momentum and energy to nine digits")
     solvers = SOLVERS
     keeps = {"solver": "a channel for each solver, with the same balls: the first is projection's"}
-    sliders = (Slider("strikers", 1, 3, 1), Slider("gap", 0, 16, 8, "px"))
+    sliders = (Slider("strikers", 1, 3, 1), Slider("gap", 0, 16, 0, "px"))
     actions = (("Space", "again"), ("up down", "strikers"), ("left right", "gap"))
     draggable = True
     head = HEAD
@@ -178,7 +180,7 @@ class Cradle(Scene):
 
     def draw(self, canvas, alpha):
         """Draw the channels, the balls, and the measurements below each channel."""
-        self.yard.draw(canvas, "CRADLE", "do as many leave as came, with the same speed?")
+        self.yard.draw(canvas)
         for index, (name, camera, cast) in enumerate(zip(SOLVERS, self.cameras, self.casts, strict=True)):
             self._draw_channel(canvas, camera.viewport)
             cast.draw(canvas, camera, self.worlds[index], alpha)
@@ -251,7 +253,7 @@ class Cradle(Scene):
         goals = []
         for name in SOLVERS:
             for strikers, due in ((1, 200), (2, SWITCH_AT + 200)):
-                wrong, momentum, energy = self.results.get((name, strikers, 8), (1.0, 1.0, 1.0))
+                wrong, momentum, energy = self.results.get((name, strikers, GAP), (1.0, 1.0, 1.0))
                 goals.append(Goal(f"{name}: {strikers} in, {strikers} out", due, wrong < CLEAN, f"off by {wrong:.2e}"))
                 goals.append(
                     Goal(
@@ -261,7 +263,7 @@ class Cradle(Scene):
                         f"{momentum:.2e}, {energy:.2e}",
                     )
                 )
-            drift = self.drift.get((name, 1, 8), 1.0)
+            drift = self.drift.get((name, 1, GAP), 1.0)
             goals.append(
                 Goal(
                     f"{name}: with one striker energy stays for good, walls and all",
@@ -271,6 +273,17 @@ class Cradle(Scene):
                 )
             )
         return goals
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        strikers, gap = int(self.values["strikers"]), int(self.values["gap"])
+        found = self.results.get(("projection", strikers, gap))
+        fast = sum(abs(body.velocity[0]) > SPEED / 2 for body in self.balls[0])
+        sentence = f"As many balls should leave as came; balls {gap} px apart confuse projection."
+        if found is not None and found[0] < SEEN:
+            sentence = f"As many balls leave as came while gaps of {gap} px keep collisions apart."
+        number, good = f"{fast} of {strikers}", fast == strikers
+        return Headline(sentence, "right: a gap", number, "balls leave (top)", int(self.struck(0)), 1, "strikes", good)
 
     def finding(self):
         """Return a sentence with the error of each row up to its first contact with a wall, and the time of a step."""
@@ -283,8 +296,9 @@ class Cradle(Scene):
         return f"{strikers} in, {strikers} out; speeds are off by {', '.join(parts)}"
 
     def bot(self):
-        """Return the bot's input for the next step. The bot first uses one striker, then two."""
-        return InputFrame(frozenset(("up",)) if self.frame == SWITCH_AT else frozenset())
+        """Return the bot's input for the next step. The bot makes gaps, uses one striker, then two."""
+        changes = (("slider:gap", GAP),) if self.frame == 0 else ()
+        return InputFrame(frozenset(("up",)) if self.frame == SWITCH_AT else frozenset(), changes=changes)
 
     def state(self):
         """Return the scene's own state for the digest: the measurements. The worlds are hashed separately."""

@@ -19,7 +19,8 @@ from dataclasses import replace
 import pygame
 
 from game.drawing.canvas import SMALL
-from game.drawing.colors import BLUE, DUSK, FOG, GOLD, INK, NIGHT, PAPER, RED, SLATE, faded
+from game.drawing.colors import BLUE, DUSK, FOG, INK, NIGHT, PAPER, RED, SLATE, faded
+from game.drawing.headline import Headline
 from game.drawing.sprites import load_atlas
 from game.measure.reference_tier import ReferenceTier
 from game.overlays.outlines import draw_outline
@@ -30,7 +31,6 @@ from scenes.lab.yard import HEAD
 from scenes.shooter.director import Director
 from scenes.shooter.scene import Shooter
 
-HEADING = pygame.Rect(0, 0, 480, HEAD)
 SIDE = pygame.Rect(328, HEAD, 152, 270 - HEAD)  # place of the figures
 ROW, TOP = 16, 36
 OPENS = 34.5  # [s] of the stage: a gunship, and its companions
@@ -101,12 +101,10 @@ class Disagreement(Shooter):
     def draw(self, canvas, alpha):
         """Draw the game, and beside it the rates of wrong and missed hits of all collision tiers."""
         super().draw(canvas, alpha)
-        for rect, color in ((HEADING, INK), (SIDE, NIGHT)):
-            canvas.boxes[:] = [each for each in canvas.boxes if not rect.colliderect(each[0])]  # now hidden
-            canvas.surface.fill(color, rect)
-            canvas.fix(rect)
+        canvas.boxes[:] = [each for each in canvas.boxes if not SIDE.colliderect(each[0])]  # now hidden
+        canvas.surface.fill(NIGHT, SIDE)
+        canvas.fix(SIDE)
         canvas.surface.fill(SLATE, (SIDE.x, SIDE.y, 1, SIDE.height))
-        canvas.text("DISAGREEMENT", 4, 4, GOLD)
         canvas.text("wrong hits", BARS, TOP - 12, FOG, SMALL)
         canvas.text("missed", SIDE.right - 4, TOP - 12, FOG, SMALL, align="right")
         for row, tier in enumerate(self.reference.tiers):
@@ -178,6 +176,14 @@ class Disagreement(Shooter):
             Goal("circle, box and turned box reported hits that are none", 1200, all_caught, ", ".join(caught)),
             Goal("what holds all pixels misses no hit", 1, not holding, ", ".join(holding)),
         ]
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        lit = self.reference.lit
+        wrong, name = self.reference.wrong[lit], NAMES.get(lit, lit)
+        sentence = f"The {name} reports hits where no pixel is shared."
+        number, unit = f"{wrong.count} of {wrong.total}", "reported hits are false"
+        return Headline(sentence, "wheel: shape", number, unit, wrong.total, 1, "hits", not wrong.count)
 
     def finding(self):
         """Return a sentence with the share of wrong hits of the chosen collision tier, with its confidence interval."""

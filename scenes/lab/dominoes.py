@@ -21,6 +21,7 @@ import pygame
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GREEN, ORANGE, PAPER, RED, SKY, faded
+from game.drawing.headline import Headline
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
@@ -39,7 +40,7 @@ VIEWS = ((0, 16, 480, 104), (0, 136, 480, 102))
 FIRST_X = 16.0  # [canvas px] of the first domino
 ROOM = 424.0  # [canvas px] for the row
 PUSH = 1.0  # [sqrt(g h)] speed given to the first one's top
-PUSHED_AT = 30  # the bot's step
+PUSHED_AT = 30  # step of the first push
 FELL = radians(60.0)
 PASSES = radians(12.0)  # lean of a domino that the wave has reached
 SMOOTH, FLOOR = 0.05, 12.8  # friction of polished bone; of the table, which holds the feet: sqrt(a * b) = 0.8
@@ -118,7 +119,7 @@ class Dominoes(Scene):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
                 self.change_slider(name, self.values[name] + way * notch)
-        if inputs.pressed("fire"):
+        if inputs.pressed("fire") or (self.pushed is None and self.since == PUSHED_AT):
             self._push()
         self.since += 1
         for index, world in enumerate(self.worlds):
@@ -183,7 +184,7 @@ class Dominoes(Scene):
 
     def draw(self, canvas, alpha):
         """Draw two tables with their rows, and the size and wave speed above each."""
-        self.yard.draw(canvas, "DOMINOES", "four times as large: does the wave run twice as fast?")
+        self.yard.draw(canvas)
         for index, (camera, cast) in enumerate(zip(self.cameras, self.casts, strict=True)):
             cast.draw(canvas, camera, self.worlds[index], alpha)
             self._draw_words(canvas, index)
@@ -247,6 +248,15 @@ class Dominoes(Scene):
             ),
         ]
 
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        ratio, count = self.ratio(), sum(len(row) for row in self.passed)
+        sentence = "Four times as large, the same row falls only twice as fast."
+        fallen = sum(at is not None for row in self.passed for at in row)
+        seen = count if ratio is not None else min(fallen, count - 1)
+        number = "" if ratio is None else f"{ratio:.2f} x"
+        return Headline(sentence, "Space: again", number, "the speed of the small row", seen, count, "dominoes", True)
+
     def finding(self):
         """Return a sentence with the measured ratio of the waves' speeds, and the ratio by Froude's rule."""
         small, large = self.speed(0), self.speed(1)
@@ -259,8 +269,8 @@ class Dominoes(Scene):
         return f"{sentence}, not {small / meter:.2f}; Froude's rule says {sqrt(SCALES[1] / SCALES[0]):.0f}"
 
     def bot(self):
-        """Return the bot's input for the next step. The bot pushes once."""
-        return InputFrame(frozenset(("fire",)) if self.frame == PUSHED_AT else frozenset())
+        """Return the bot's input for the next step, which is empty: the bot only watches."""
+        return InputFrame()
 
     def state(self):
         """Return the scene's own state for the digest: the times of the waves. The worlds are hashed separately."""

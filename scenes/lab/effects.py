@@ -23,6 +23,7 @@ import pygame
 
 from game.drawing.canvas import SMALL, wrap
 from game.drawing.colors import DUSK, FOG, GOLD, GREEN, INK, NIGHT, PAPER, SKY, SLATE
+from game.drawing.headline import Headline
 from game.drawing.number_text import plain_name
 from game.input.inputs import InputFrame
 from game.measure.errors import VISIBLE
@@ -33,7 +34,7 @@ from scenes.lab.busy_picture import BusyPicture, draw_ghost
 from scenes.lab.busy_yard import DRAG, WIND, BusyYard, apart, rms
 from scenes.lab.costs import UNKNOWN, difference_of
 from scenes.lab.piles import with_effects
-from scenes.lab.yard import HEAD, draw_head, plate
+from scenes.lab.yard import HEAD, plate
 
 NAMES = tuple(field.name for field in fields(Effects))
 ALL = Effects.named(NAMES)
@@ -213,6 +214,14 @@ class EffectsLab(Scene):
         """
         return difference_of(self, *(self._run_name(name, on) for on in (True, False)))
 
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        name, outcome = plain_name(self.marked), self.found.get(self.marked)
+        sentence = f"Without {name} (blue) the yard is another one than with it (gold)."
+        number, _, unit = ("", "", "") if outcome is None else short(outcome, self.marked).partition(" ")
+        seen = WINDOW if outcome is not None else min(self.since, WINDOW)
+        return Headline(sentence, "Space: off and on", number, f"{unit} after two seconds", seen, WINDOW, "steps")
+
     def finding(self):
         """Return a sentence that names the effects that move, cost and save most, once all effects were compared."""
         if len(self.found) < len(self.effects.names()):
@@ -238,7 +247,6 @@ class EffectsLab(Scene):
         shown = self.real if self.is_on else self.other
         runs = shown.world.effects.conveyor
         self.picture.draw(canvas, shown, alpha, self.clock if runs else 0.0)
-        draw_head(canvas, "EFFECTS", "gold: with it, blue: without; what would be missed?")
         canvas.surface.fill(NIGHT, (0, HEAD, SIDE, canvas.surface.get_height() - HEAD))
         canvas.surface.fill(SLATE, (SIDE, HEAD, 1, canvas.surface.get_height() - HEAD))
         canvas.reserve((SIDE, HEAD, 480 - SIDE, 270 - HEAD))  # the time graph goes under the list

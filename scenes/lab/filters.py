@@ -19,7 +19,8 @@ import numpy as np
 import pygame
 
 from game.drawing.canvas import SMALL, TEXT
-from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED, SERIES, SLATE, WHITE, YELLOW, faded
+from game.drawing.colors import FOG, GREEN, INK, NIGHT, PAPER, RED, SERIES, SLATE, WHITE, YELLOW, faded
+from game.drawing.headline import Headline
 from game.input.inputs import InputFrame
 from game.scene import FAIR, Goal, Scene, Slider
 from physics import Circle, Effects, Filter
@@ -144,8 +145,6 @@ class Filters(Scene):
     def draw(self, canvas, alpha):
         """Draw the grid with its headings, and the text beside it."""
         canvas.surface.fill(NIGHT)
-        canvas.text("FILTERS", 4, 4, GOLD)
-        canvas.text("row says yes to column?", LEFT + 240, 6, FOG, SMALL, align="right")
         for index, kind in enumerate(KINDS):
             x, y = cell_center(index, index)
             canvas.text(kind, LEFT - 6, y - 4, SERIES[index], TEXT, align="right")
@@ -217,6 +216,18 @@ class Filters(Scene):
             Goal("allowed pairs touch", 120, self.met > 0, f"{self.met}"),
             Goal("a click changes a mask", 240, self.clicks >= 3, f"{self.clicks} clicks"),
         ]
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        row, column = self.marked
+        counters = self.world.profile.counters
+        close = counters["filtered"] + counters["candidates"]
+        unit = "close pairs may not touch"
+        sentence = f"Does {KINDS[row]} meet {KINDS[column]}? Only if both rows say yes to each other."
+        good = self.says_yes(row, column) and self.says_yes(column, row)
+        return Headline(
+            sentence, "Space: switch", f"{counters['filtered']} of {close}", unit, self.steps, 1, "steps", good
+        )
 
     def finding(self):
         """Return a sentence with the number of pairs that the filter dropped in the last step.

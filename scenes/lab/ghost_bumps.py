@@ -20,7 +20,8 @@ import pygame
 
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
-from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED, SKY, SLATE
+from game.drawing.colors import FOG, GREEN, INK, NIGHT, PAPER, RED, SKY, SLATE
+from game.drawing.headline import Headline
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas, load_backdrop
 from game.measurement_requests import MeasuredRun, RunRequest
@@ -45,6 +46,7 @@ GROUND = Filter(membership=1)
 VIEWS = tuple((4, 32 + 80 * lane, 308, 70) for lane in range(len(FLOORS)))
 LOST = 40.0  # [px] a slider this far from its place is put back
 WANTED = 200  # tiles before the floors are judged
+MANY = 60  # tiles before the loss is shown: it adds up
 KEEPS = {"boxes": 1e-3, "tiles": 1e-9, "chain": 1e-9}  # greatest loss of a floor, as a share of the speed
 HISTORY = 200  # steps in the curves
 LEAST = 1e-16  # smaller errors are drawn at the bottom
@@ -187,8 +189,6 @@ class GhostBumps(Scene):
     def draw(self, canvas, alpha):
         """Draw the floors in three strips, with the greatest loss of speed of each slider above its floor."""
         canvas.surface.fill(NIGHT)
-        canvas.text("GHOST BUMPS", 4, 4, GOLD)
-        canvas.text(f"{self.run} tiles at {self.values['speed']} px/s, no friction", 474, 6, FOG, SMALL, align="right")
         for index, floor in enumerate(FLOORS):
             camera = self.cameras[index]
             view = camera.viewport
@@ -283,6 +283,13 @@ class GhostBumps(Scene):
                 ),
             ]
         return goals
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        worst = max(self.slowed["boxes", kind] for kind in KINDS)
+        sentence = f"At {self.values['speed']} px/s over {self.run} separate boxes each seam takes speed."
+        number, unit = f"{100 * worst:.3f} %", "of the speed lost at seams"
+        return Headline(sentence, "left right: speed", number, unit, self.run, MANY, "boxes", worst <= KEEPS["chain"])
 
     def finding(self):
         """Return a sentence with the greatest loss of speed on each floor, and the time of a step."""

@@ -20,6 +20,7 @@ import pygame
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, INK, ORANGE, PAPER, RED, SKY, SLATE
+from game.drawing.headline import Headline
 from game.input.drag import Drag
 from game.input.inputs import InputFrame
 from game.measurement_requests import MeasuredRun, Recipe, RunRequest
@@ -163,8 +164,7 @@ class Joints(Scene):
 
     def draw(self, canvas, alpha):
         """Draw the background, the machine, and the strip with its name and numbers."""
-        title = f"{int(self.values['machine']) + 1} of {len(NAMES)}: {self.machine.name}"
-        self.yard.draw(canvas, "JOINTS", title)
+        self.yard.draw(canvas)
         looks = self.looks[self.shown]
         for identity, paint in self.machine.paints.items():
             if identity not in looks.known and (looks.world.bodies["id"] == identity).any():
@@ -238,6 +238,14 @@ class Joints(Scene):
         frame.surface.set_clip(lens.clip)
         self.machine.draw_on_frame(frame, lens)
         frame.surface.set_clip(None)
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        loose, tight = (machine.worst for machine in self.machines)
+        name, exact = self.machine.name.capitalize(), self.tiers_shown[1]
+        sentence = f"{name}: solved iteratively, loaded joints gape; {exact}, they close."
+        number, unit = f"{gap_text(loose)} px", f"widest gap; {exact} {gap_text(tight)} px"
+        return Headline(sentence, "up down: solver", number, unit, self.since, KEPT, "steps", loose < FINE)
 
     def finding(self):
         """Return a sentence with both tiers' widest gap in this run of the machine, and their costs."""

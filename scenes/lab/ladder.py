@@ -21,7 +21,8 @@ import pygame
 
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
-from game.drawing.colors import BLUE, FOG, GOLD, NIGHT, PAPER, RED, SLATE
+from game.drawing.colors import BLUE, FOG, NIGHT, PAPER, RED, SLATE
+from game.drawing.headline import Headline
 from game.drawing.sprites import load_atlas
 from game.errors import FileError
 from game.files.pictures import png_size
@@ -166,9 +167,6 @@ class Ladder(Scene):
 
     def draw(self, canvas, alpha):
         """Draw the names and figures of all cells; the pictures are drawn at window resolution."""
-        canvas.text("LADDER", 4, 4, GOLD)
-        text = f"{self.sprite_name}, {self.mask.area} pixels: red is covered and empty, blue is solid and left out"
-        canvas.text(text, 476, 6, FOG, SMALL, align="right")
         for number, tier in enumerate(TIERS):
             x, y = number % COLUMNS * CELL[0], HEAD + number // COLUMNS * CELL[1]
             canvas.surface.fill(NIGHT, (x + 1, y + 1, CELL[0] - 2, CELL[1] - 2))
@@ -234,6 +232,13 @@ class Ladder(Scene):
             Goal("pixels stand for themselves", 1, not exact, ", ".join(exact)),
             Goal("the outline is closer than the hull, the hull than the box", 1, closer),
         ]
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        over, area = self.counts["aabb"][0], self.mask.area + self._balance("aabb")
+        sentence = f"The box of the {self.sprite_name} hits where nothing is drawn: red."
+        number, unit = f"{100 * over / area:.0f} %", "of the box is empty"
+        return Headline(sentence, "left right: sprite", number, unit, 1, 1, "sprites")
 
     def finding(self):
         """Return a sentence with the empty share of box, hull and outline around the sprite, and their hit times."""

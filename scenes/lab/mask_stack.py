@@ -23,6 +23,7 @@ import pygame
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, ORANGE, PAPER, RED, SKY, YELLOW, faded
+from game.drawing.headline import Headline
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
@@ -238,7 +239,7 @@ class MaskStack(Scene):
 
     def draw(self, canvas, alpha):
         """Draw the piles, and under each its figures."""
-        self.yard.draw(canvas, "MASK STACK", "who hovers, who fits, and what does fitting cost?")
+        self.yard.draw(canvas)
         for number, (way, cast) in enumerate(zip(WAYS, self.casts, strict=True)):
             cast.draw(canvas, self.cameras[number], self.worlds[number], alpha)
             self._draw_figures(canvas, number, way)
@@ -308,6 +309,14 @@ class MaskStack(Scene):
             ),
             Goal("everything is finite", 600, finite),
         ]
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        laid = self.laid["box"]
+        seen = sum((name, "box") in self.fits for name, _, _ in laid)
+        air = 0.0 if seen < len(laid) else self.share("box")[1]
+        sentence = "In their boxes sprites rest on air; by their outlines they fit."
+        return Headline(sentence, "left right: sprites", f"{air:.0f} px", "of air in boxes", seen, len(laid), "sprites")
 
     def finding(self):
         """Return a sentence with the air, the corners and the sag of the piles of boxes, outlines and exact pixels."""

@@ -22,6 +22,7 @@ import pygame
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL, TEXT
 from game.drawing.colors import FOG, GOLD, GREEN, NIGHT, PAPER, RED, SLATE, WHITE, faded
+from game.drawing.headline import ENOUGH, Headline
 from game.drawing.rotated import RotatedPicture
 from game.drawing.sprites import load_atlas, load_backdrop
 from game.measure.rates import Rate
@@ -30,7 +31,7 @@ from game.overlays.outlines import draw_lines, moved
 from game.scene import FAIR, Goal, Scene, Slider
 from physics import Effects, PixelMask, debug
 from scenes.lab.thin_walls import SHAPES, is_beyond, wall_of
-from scenes.lab.yard import HEAD, draw_head, plate
+from scenes.lab.yard import HEAD, plate
 
 WAYS = ("off", "toi")
 TITLES = {"off": "continuous off", "toi": "time of impact"}
@@ -194,8 +195,6 @@ class MaskSweep(Scene):
     def draw(self, canvas, alpha):
         """Draw six lanes with their shots, and the counts."""
         canvas.surface.fill(NIGHT)
-        step = float(self.values["speed"]) / 60.0
-        draw_head(canvas, "MASK SWEEP", f"{step:.0f} px a step at walls of one pixel: who comes through?")
         for column, way in enumerate(WAYS):
             camera = self.cameras[column]
             canvas.surface.set_clip(camera.viewport)
@@ -293,6 +292,13 @@ class MaskSweep(Scene):
             ),
             Goal("every shot has passed, hit, or flies", 300, all_accounted, f"{sum(flying.values())} fly"),
         ]
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        passed, met = ({way: sum(each[way, shape] for shape in SHAPES) for way in WAYS} for each in self._ended())
+        sentence = f"At {float(self.values['speed']) / 60:.0f} px a step, unswept sprites pass walls of one pixel."
+        number, unit = f"{passed['off']} of {met['off']}", f"passed; swept, {passed['toi']} of {met['toi']}"
+        return Headline(sentence, "left: slower", number, unit, met["off"], ENOUGH, "shots", not passed["off"])
 
     def finding(self):
         """Return a sentence with the number of shots that passed the walls, without sweep and with it.

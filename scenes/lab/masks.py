@@ -20,6 +20,7 @@ import pygame
 
 from game.drawing.canvas import SMALL
 from game.drawing.colors import BLUE, FOG, GOLD, GREEN, INK, ORANGE, PAPER, PINK, SKY, SLATE, WHITE, YELLOW, faded
+from game.drawing.headline import Headline
 from game.drawing.sprites import RotatedSprites, load_atlas, load_backdrop
 from game.input.inputs import InputFrame
 from game.measure.tiers import POSES
@@ -143,9 +144,6 @@ class Masks(Scene):
         for plane, (x, y, angle) in zip(self.planes, self.hands.poses, strict=True):
             plane.draw(canvas, self.camera, x, y, angle)
         canvas.surface.fill(INK, (ARENA.right, 0, 480 - ARENA.right, 270))
-        canvas.surface.fill(INK, (0, 0, 480, ARENA.top))
-        canvas.text("MASKS", 4, 4, GOLD)
-        canvas.text("nine verdicts on the same two planes", ARENA.right - 4, 6, FOG, SMALL, align="right")
         canvas.text("of hits", COLUMNS[0], TABLE_Y - 20, FOG, SMALL, align="right")
         canvas.text("of true", COLUMNS[1], TABLE_Y - 20, FOG, SMALL, align="right")
         canvas.text("one test [ns]", COLUMNS[3], TABLE_Y - 20, FOG, SMALL, align="right")
@@ -226,6 +224,15 @@ class Masks(Scene):
                 for tier in LIARS
             ),
         ]
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        wrong = sum(hit and not self.verdicts["pixels"] for hit in self.verdicts.values())
+        sentence = "No pixel is shared, yet simple shapes report a hit."
+        if self.verdicts["pixels"]:
+            sentence = "The planes share pixels: now every shape that reports a hit is right."
+        unit = "shapes report a false hit"
+        return Headline(sentence, "arrows: move", f"{wrong} of {len(TIERS)}", unit, self.steps, 1, "steps", not wrong)
 
     def finding(self):
         """Return a sentence with the box's share of false hits, and the time of a hit by box and by exact pixels."""

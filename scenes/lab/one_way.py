@@ -19,7 +19,8 @@ import pygame
 
 from game.drawing.backdrop import Backdrop
 from game.drawing.canvas import SMALL, whole
-from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED
+from game.drawing.colors import FOG, GREEN, INK, NIGHT, PAPER, RED
+from game.drawing.headline import ENOUGH, Headline
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
@@ -304,7 +305,6 @@ class OneWay(Scene):
     def _draw_board(self, canvas):
         canvas.surface.fill(NIGHT, (0, 0, 480, 17))
         canvas.surface.fill(INK, (0, 17, 480, 1))
-        canvas.text("ONE-WAY PLATFORMS", 4, 4, GOLD)
         x = 474
         aside = max(self.aside.values())
         for text, color in (
@@ -331,6 +331,13 @@ class OneWay(Scene):
                 f"{self.slip['crate']:.2f} px and {self.slip['walker']:.2f} px in {self.carried:.0f} px",
             ),
         ]
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        passed, landed = (each["body"] + each["hero"] for each in (self.passed, self.landed))
+        sentence = "A plank lets everything up from below, and has to hold it from above."
+        number, unit = f"{landed} of {passed}", "that came up have landed"
+        return Headline(sentence, "Space: jump", number, unit, passed, ENOUGH, "passes", landed > 0)
 
     def finding(self):
         """Return a sentence with the passes and landings of bodies and hero, and the slip of the lift's riders."""

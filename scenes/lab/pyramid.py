@@ -17,6 +17,7 @@ import pygame
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, ORANGE, PAPER, RED, SKY
+from game.drawing.headline import Headline
 from game.drawing.number_text import plain_name
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
@@ -42,6 +43,7 @@ BALL_FROM = (160, 26)  # [canvas px] in the view
 BALL_DENSITY, BALL_SPEED = 6.0, 9.0  # times a crate's; [crates/s] of the throw
 DROP_AT = 330  # the bot's step
 JUDGED_AT = 300  # step at which the pyramid is judged
+SUNK = 0.05  # crates: the top has left its place
 ENERGY_SLACK = 0.001  # of the height energy
 OVERLAP = "overlap, 1/1000 crate [log]"
 OVERLAP_AT, SCATTER_AT = (4, 176, 130, 32), (4, 106, 130, 68)  # [canvas px]
@@ -63,9 +65,9 @@ class Pyramid(Scene):
         "a heavy ball to knock it down",
     )
     solvers = SOLVERS
-    sliders = (Slider("rows", 5, 20, 12), Slider("substeps", 1, 8, 4), Slider("solver", 0, 2, 2, choices=SOLVERS))
+    sliders = (Slider("rows", 5, 20, 12), Slider("substeps", 1, 8, 4), Slider("solver", 0, 2, 0, choices=SOLVERS))
     lighter = {"rows": 7, "substeps": 2}
-    actions = (("Space", "drop the ball"), ("left right", "rows"), ("up down", "substeps"))
+    actions = (("X", "solver"), ("Space", "drop the ball"), ("left right", "rows"), ("up down", "substeps"))
     draggable = True
     head = HEAD
     legend_at = (4, 212)
@@ -115,6 +117,8 @@ class Pyramid(Scene):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
                 self.change_slider(name, self.values[name] + way)
+        if inputs.pressed("bomb"):
+            self.change_slider("solver", (int(self.values["solver"]) + 1) % len(SOLVERS))
         if inputs.pressed("fire"):
             self._drop()
         self.tried.add(self.run_name)
@@ -169,6 +173,14 @@ class Pyramid(Scene):
                 cost, overlap = 1e6 * figures.cost.median, 1e3 * figures.overlap / SIZE
                 found[name] = Dot(cost, overlap, COLORS[solver], word, name in self.tried)
         return found
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        fallen = max(self.top.position[1] - self._built_at()[1], 0.0) / SIZE
+        name = plain_name(SOLVERS[int(self.values["solver"])])
+        sentence = f"{name[:1].upper()}{name[1:]} has to hold {self.crates} crates: how far does the top sink?"
+        unit, good = "crates lower than built", fallen < SUNK
+        return Headline(sentence, "X: solver", f"{fallen:.2f}", unit, self.since, 60, "steps", good)
 
     def finding(self):
         """Return a sentence with the cost and error of the current setting.
@@ -230,7 +242,7 @@ class Pyramid(Scene):
 
     def draw(self, canvas, alpha):
         """Draw the background, the pile, and a plate with the figures."""
-        self.yard.draw(canvas, "PYRAMID", "does it stand still, and what does standing cost?")
+        self.yard.draw(canvas)
         self.cast.draw(canvas, self.camera, self.world, alpha)
         plate(canvas, (4, 22, 130, 80))
         solver = SOLVERS[int(self.values["solver"])]
@@ -281,7 +293,7 @@ class Pyramid(Scene):
             Goal(
                 "the top is where it was built",
                 JUDGED_AT,
-                sunk < 0.05 and aside < 0.05,
+                sunk < SUNK and aside < SUNK,
                 f"{sunk:.4f} crates lower, {aside:.4f} aside",
             ),
             Goal(
@@ -300,8 +312,12 @@ class Pyramid(Scene):
         ]
 
     def bot(self):
-        """Return the bot's input for the next step. The bot waits while the pyramid stands, then throws the ball."""
-        return InputFrame(frozenset(("fire",)) if self.frame == DROP_AT else frozenset())
+        """Return the bot's input for the next step.
+
+        The bot selects the solver that holds the pyramid, waits while it stands, then throws the ball.
+        """
+        changes = (("slider:solver", SOLVERS.index("soft_step")),) if self.frame == 0 else ()
+        return InputFrame(frozenset(("fire",)) if self.frame == DROP_AT else frozenset(), changes=changes)
 
     def state(self):
         """Return the scene's own state for the digest: the measurements. The worlds are hashed separately."""

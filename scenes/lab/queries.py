@@ -23,6 +23,7 @@ import pygame
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import BROADPHASE_COLORS, FOG, GOLD, NIGHT, PAPER, SLATE, WHITE, YELLOW, faded
+from game.drawing.headline import Headline
 from game.drawing.sprites import load_backdrop
 from game.drawing.typical import Typical
 from game.input.inputs import InputFrame
@@ -35,7 +36,7 @@ from scenes.lab.costs import cost_text
 from scenes.lab.curves import Curves
 from scenes.lab.looks import Looks
 from scenes.lab.query_calls import angle_of, ask, rows_of
-from scenes.lab.yard import HEAD, darken, draw_head
+from scenes.lab.yard import HEAD, darken
 
 STRATEGIES = ("tree", "hash", "sweep", "brute")
 QUERIES = ("ray", "all", "cast", "overlap", "closest", "area", "point")
@@ -106,7 +107,7 @@ class Queries(Scene):
         self.sky = load_backdrop("sky_dusk")
         self.camera = Camera(VIEW, ZOOM)
         self.curves = Curves("boxes and nodes [log]", {name: BROADPHASE_COLORS[name] for name in STRATEGIES})
-        self.shown = 0  # index in STRATEGIES
+        self.shown = STRATEGIES.index("brute")  # in STRATEGIES: the one that looks at most
         self.origin, self.target = ORIGIN, (0.7 * WIDTH, 0.6 * HEIGHT)
         self.asked = self.disagreements = self.found = 0
         self.kinds = set()  # queries with a result
@@ -222,7 +223,6 @@ class Queries(Scene):
     def draw(self, canvas, alpha):
         """Draw the shapes, and on the right the counts of each strategy."""
         canvas.surface.fill(NIGHT)
-        draw_head(canvas, "QUERIES", ABOUT[self.query])
         view = self.camera.viewport
         canvas.surface.blit(self.sky, view, (20, 10, *view.size))
         darken(canvas, view, (*NIGHT, 190))
@@ -358,6 +358,14 @@ class Queries(Scene):
             ),
             Goal("every question finds something", 600, len(self.kinds) == len(QUERIES), ", ".join(sorted(self.kinds))),
         ]
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        shown = STRATEGIES[self.shown]
+        how = "brute force looks at every box" if shown == "brute" else f"the {shown} skips most boxes"
+        sentence = f"One query, {self.query}, among {int(self.values['bodies']):,} shapes: {how}."
+        number, unit = f"{sum(self.work[shown]):,}", "boxes and nodes visited"
+        return Headline(sentence, "up down: broad phase", number, unit, self.asked, 1, "queries", shown != "brute")
 
     def finding(self):
         """Return a sentence with the boxes and nodes that each strategy visits for this query.

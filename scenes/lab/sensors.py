@@ -20,7 +20,8 @@ import numpy as np
 import pygame
 
 from game.drawing.canvas import SMALL, whole
-from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, PINK, RED, SKY, SLATE, YELLOW, faded
+from game.drawing.colors import FOG, GREEN, INK, NIGHT, ORANGE, PAPER, PINK, RED, SKY, SLATE, YELLOW, faded
+from game.drawing.headline import ENOUGH, Headline
 from game.drawing.rotated import RotatedPicture
 from game.drawing.sprites import load_atlas, load_backdrop
 from game.input.inputs import InputFrame
@@ -94,6 +95,8 @@ class Sensors(Scene):
         self.entered, self.left = dict.fromkeys(ZONES, 0), dict.fromkeys(ZONES, 0)
         self.due = dict.fromkeys(ZONES, 0)  # entries by geometry
         self.missed, self.false = dict.fromkeys(ZONES, 0), dict.fromkeys(ZONES, 0)
+        self.unseen = dict.fromkeys(ZONES, 0)  # entries without a step at whose end the shapes overlap
+        self.stood = set()  # (zone, body id) that overlapped at the end of a step of the current crossing
         self.unpaired = 0  # a second begin without an end, or an end without a begin
         self.fastest = 0.0  # [px] greatest motion per step of a detected body
         self.met = {}  # (zone, body id) -> (certain, possible) in the current crossing
@@ -191,6 +194,8 @@ class Sensors(Scene):
                 if gap < NEAR:
                     self.met[key] = (surely or gap < -CLEAR, perhaps or gap < CLEAR, seen)
                 end = least_gap(after[identity], after[identity], after[zone.id], after[zone.id], half) - radius
+                if end < 0.0:
+                    self.stood.add(key)
                 if key in self.met and end > NEAR:
                     self._close(key)
 
@@ -199,6 +204,8 @@ class Sensors(Scene):
         name = key[0]
         self.due[name] += surely
         self.missed[name] += surely and not seen
+        self.unseen[name] += surely and key not in self.stood
+        self.stood.discard(key)
         self.false[name] += seen and not perhaps
 
     def _land(self):
@@ -219,9 +226,6 @@ class Sensors(Scene):
     def draw(self, canvas, alpha):
         """Draw both halls with their zones and bodies, and the counts at the side."""
         canvas.surface.fill(NIGHT)
-        canvas.text("SENSORS", 4, 4, GOLD)
-        words = f"saucers up to {self.values['speed'] / 60:.0f} px a step, scanner {self.values['scanner'] / 60:.0f} px"
-        canvas.text(words, 474, 6, FOG, SMALL, align="right")
         for rect, title in (
             (HIGH, "saucers through standing and drifting zones, and a beam of 1 px"),
             (LOW, "a fast thin scanner over resting mines"),
@@ -345,6 +349,14 @@ class Sensors(Scene):
                 f"{self.fastest:.0f} px in a step",
             ),
         ]
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        due, unseen = sum(self.due.values()), sum(self.unseen.values())
+        step = max(self.values["speed"], self.values["scanner"]) / 60
+        sentence = f"At {step:.0f} px a step, entries fall between two steps; sweeping finds them."
+        unit = "entries unseen where bodies stand"
+        return Headline(sentence, "left: slower", f"{unseen} of {due}", unit, due, ENOUGH, "entries", not unseen)
 
     def finding(self):
         """Return a sentence with the numbers of missed and false entries, and the greatest motion in a step."""

@@ -21,6 +21,7 @@ import pygame
 
 from game.drawing.canvas import SMALL
 from game.drawing.colors import DUSK, FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, PINK, RED, SKY, SLATE, YELLOW, faded
+from game.drawing.headline import ENOUGH, Headline
 from game.drawing.number_text import count_text
 from game.input.inputs import InputFrame
 from game.measure.shape_traces import gjk_steps, sat_axes
@@ -185,12 +186,10 @@ class Shapes(Scene):
     def draw(self, canvas, alpha):
         """Draw backgrounds, icons and numbers. draw_on_frame() draws the geometry."""
         canvas.surface.fill(NIGHT)
-        canvas.text("SHAPES", 4, 4, GOLD)
-        canvas.text("distance, depth and how they are found", 302, 6, FOG, SMALL, align="right")
-        canvas.text("all differences A - B", PICTURE.x + 2, 6, FOG, SMALL)
         for rect in (ARENA, PICTURE):
             canvas.surface.fill(INK, rect)
             pygame.draw.rect(canvas.surface, SLATE, rect.inflate(2, 2), 1)
+        canvas.text("all differences A - B", PICTURE.x + 3, PICTURE.y + 3, FOG, SMALL)
         for x in range(ARENA.left + 10, ARENA.right, 16):
             canvas.surface.fill(faded(DUSK, 0.4), (x, ARENA.top, 1, ARENA.height))
         for y in range(ARENA.top + 10, ARENA.bottom, 16):
@@ -323,6 +322,13 @@ class Shapes(Scene):
             ),
             Goal("many pairs of shapes", 590, len(self.pairs) >= 20, f"{len(self.pairs)}"),
         ]
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        wrong = self.disagreed + self.mirrored
+        sentence = "SAT, GJK and the contact answer for the same two shapes: do they agree?"
+        unit = f"of {self.compared:,} answers differ"
+        return Headline(sentence, "Enter: step", f"{wrong}", unit, self.compared, ENOUGH, "answers", not wrong)
 
     def finding(self):
         """Return a sentence with the number of compared poses, and the greatest difference between the methods."""

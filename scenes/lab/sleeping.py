@@ -23,6 +23,7 @@ import pygame
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, PAPER, SKY, SLATE, faded
+from game.drawing.headline import Headline
 from game.drawing.number_text import count_text
 from game.drawing.rotated import RotatedPicture, poses_between
 from game.input.inputs import InputFrame
@@ -243,7 +244,7 @@ class Sleeping(Scene):
 
     def draw(self, canvas, alpha):
         """Draw the heaps in the colours of their islands, dark while they sleep, and a plate with the figures."""
-        self.yard.draw(canvas, "SLEEPING", "what lies still costs nothing: who wakes whom?")
+        self.yard.draw(canvas)
         surface, camera = canvas.surface, self.camera
         for x in BOWL:
             left, top = camera.to_canvas(x - 6.0, -DEEP)
@@ -327,6 +328,12 @@ class Sleeping(Scene):
             ),
             Goal("all fall asleep again", 1500, self.slept_again >= 0, f"{self.awake} awake"),
         ]
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        sentence = "Heaps cost time until they sleep; a ball wakes what it meets."
+        number, unit = f"{self.awake} of {self.awake + self.asleep}", "bodies awake and stepped"
+        return Headline(sentence, "Space: a ball", number, unit, self.since, 1, "steps", not self.awake)
 
     def finding(self):
         """Return a sentence with the time of a step asleep and without sleep, and the number of woken islands."""

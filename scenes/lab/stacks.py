@@ -20,6 +20,7 @@ import pygame
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GREEN, ORANGE, PAPER, RED, SKY, faded
+from game.drawing.headline import Headline
 from game.drawing.number_text import plain_name
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
@@ -161,7 +162,7 @@ class Stacks(Scene):
 
     def draw(self, canvas, alpha):
         """Draw the columns, and the figures below each."""
-        self.yard.draw(canvas, "STACKS", "which solver lets a column of crates stand straight?")
+        self.yard.draw(canvas)
         for index, (name, camera, cast) in enumerate(zip(SOLVERS, self.cameras, self.casts, strict=True)):
             cast.draw(canvas, camera, self.worlds[index], alpha)
             self._draw_words(canvas, index, name, camera.viewport)
@@ -247,6 +248,13 @@ class Stacks(Scene):
                 f"stands {self.stands(pushed)}, sinks {self.sag[pushed]:z.2f} px",
             ),
         ]
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        lost = max(self.sag["projection"] / (self.values["crates"] * SIZE), 0.0)
+        sentence = "Projection only pushes overlaps apart: its column of crates falls."
+        unit, good = "of its height lost", self.stands_now(0)
+        return Headline(sentence, "left: fewer", f"{100 * lost:.0f} %", unit, self.since, SETTLED, "steps", good)
 
     def finding(self):
         """Return a sentence with the sag and sway of each column, and the time of a step."""

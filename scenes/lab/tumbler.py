@@ -22,6 +22,7 @@ import pygame
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, INK, PAPER, RED
+from game.drawing.headline import Headline
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
@@ -161,7 +162,7 @@ class Tumbler(Scene):
 
     def draw(self, canvas, alpha):
         """Draw the drum, its load, and the figures."""
-        self.yard.draw(canvas, "TUMBLER", "does any of them ever get out of the turning drum?")
+        self.yard.draw(canvas)
         angle = self.drum.angle - self.drum.angular_velocity / 60 * (1.0 - alpha)
         draw_drum(canvas.surface, self.camera, angle)
         self.cast.draw(canvas, self.camera, self.world, alpha)
@@ -215,6 +216,13 @@ class Tumbler(Scene):
                 f"{self.pressed:.2f} px, once {self.overlap:.2f} px",
             ),
         ]
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        sentence = "The turning drum presses shapes into each other; none of them may get out."
+        number, unit = f"{self.pressed:.2f} px", f"deepest overlap, {self.escaped} got out"
+        good, seen = self.pressed < THINNEST / 5 and not self.escaped, max(self.since - SETTLED, 0)
+        return Headline(sentence, "left: slower", number, unit, seen, 60, "settled steps", good)
 
     def finding(self):
         """Return a sentence with the number of shapes that got out, the drum's turns, and the overlap in the load."""

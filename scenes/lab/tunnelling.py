@@ -20,7 +20,8 @@ from random import Random
 import pygame
 
 from game.drawing.canvas import SMALL, TEXT
-from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, RED, SKY, SLATE, WHITE, faded
+from game.drawing.colors import FOG, GREEN, INK, NIGHT, ORANGE, PAPER, RED, SKY, SLATE, WHITE, faded
+from game.drawing.headline import ENOUGH, Headline
 from game.drawing.sprites import load_atlas, load_backdrop
 from game.input.inputs import InputFrame
 from game.measurement_requests import STEPS, MeasuredRun, RunRequest
@@ -35,7 +36,6 @@ from scenes.lab.shots import (
     PLATE_X,
     RADIUS,
     ROD_HALF,
-    ROD_RADIUS,
     SHOTS,
     aim,
     flights,
@@ -226,15 +226,6 @@ class Tunnelling(Scene):
     def draw(self, canvas, alpha):
         """Draw the lanes, the plates, the shots with their earlier positions, and the counts."""
         canvas.surface.fill(NIGHT)
-        canvas.text("TUNNELLING", 4, 4, GOLD)
-        step = self.values["speed"] / 60
-        size = {
-            "balls": f"ball {2 * RADIUS:.0f} px",
-            "rods": f"rod {2 * (ROD_HALF + ROD_RADIUS):.0f} px long",
-            "bullets": f"bullet {2 * BULLET_RADIUS:.0f} px",
-        }[self.kind]
-        plate = "" if self.kind == "bullets" else f"plate {self.values['plate']} px, "
-        canvas.text(f"{self.kind}: {step:.0f} px a step, {plate}{size}", 474, 6, FOG, SMALL, align="right")
         for lane in LANES:
             self._draw_lane(canvas, lane)
         for trail in self.trails:
@@ -344,6 +335,15 @@ class Tunnelling(Scene):
             ),
             Goal("no hit is made up where nothing turns, nor by toi", 600, made_up == 0, f"{made_up}"),
         ]
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        kind, step = self.kind, self.values["speed"] / 60
+        missed, ended = self.missed[kind, "off"], self.hit[kind, "off"] + self.missed[kind, "off"]
+        what = "each other" if kind == "bullets" else f"a plate of {self.values['plate']} px"
+        sentence = f"Unswept, at {step:.0f} px a step, {kind} pass {what}."
+        number, unit = f"{missed} of {ended}", "went through (lane off)"
+        return Headline(sentence, "left: slower", number, unit, ended, ENOUGH, kind, not missed)
 
     def finding(self):
         """Return a sentence with the misses of each lane, out of the shots that had to hit, and the time of a step."""

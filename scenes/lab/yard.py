@@ -1,10 +1,9 @@
-"""The background of the labs with piles (dusk sky, grass or a wooden table), and the title line of all labs."""
+"""The background of the labs with piles (dusk sky, grass or a wooden table), and the height of all labs' title line."""
 
 import pygame
 
 from game.drawing.backdrop import Backdrop
-from game.drawing.canvas import CANVAS_SIZE, SMALL, Canvas
-from game.drawing.colors import FOG, GOLD, INK
+from game.drawing.canvas import CANVAS_SIZE, Canvas
 from game.drawing.sprites import load_atlas
 
 TILE = 16
@@ -25,17 +24,9 @@ class Yard:
             (_lay_boards if table else _lay_grass)(canvas.surface, y)
         self.picture = canvas.surface
 
-    def draw(self, canvas, title, question):
-        """Draw the background, and the title line with the scene's title and question."""
+    def draw(self, canvas):
+        """Draw the background."""
         canvas.surface.blit(self.picture, (0, 0))
-        draw_head(canvas, title, question)
-
-
-def draw_head(canvas, title, question):
-    """Draw the dark title line at the top of the canvas, with the scene's title and question."""
-    canvas.surface.fill(INK, (0, 0, CANVAS_SIZE[0], HEAD))
-    canvas.text(title, 4, 4, GOLD)
-    canvas.text(question, CANVAS_SIZE[0] - 6, 6, FOG, SMALL, align="right")
 
 
 def plate(canvas, rect, ground=(20, 16, 32, 205)):

@@ -78,6 +78,9 @@ def test_keys_choose_the_question_the_strategy_the_size_and_the_origin():
     player.step()
     player.step("left")
     assert scene.query == QUERIES[-1]
+    assert scene.views()[0][0].broadphase.name == "brute", "it starts with the one that looks at most"
+    player.step("down")
+    player.step()
     player.step("down")
     assert scene.shown == 1 and scene.views()[0][0].broadphase.name == "hash"
     player.step()

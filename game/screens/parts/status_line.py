@@ -19,8 +19,12 @@ SHADE = (20, 16, 32, 225)
 def draw_status(frame: Frame, play: Played) -> None:
     """Draw the status line of a played scene."""
     text, color = status_of(play)
-    if text:
-        draw_line(frame, text, color, play.scene.head if play.measuring.split is None else 0)
+    if not text:
+        return
+    head = play.scene.head if play.measuring.split is None else 0
+    if head and play.scene.headline() is not None and draw_line(frame, text, color):
+        return  # the sentence of the headline stays visible
+    draw_line(frame, text, color, head)
 
 
 def status_of(play: Played) -> tuple[str, Color]:
@@ -38,12 +42,12 @@ def status_of(play: Played) -> tuple[str, Color]:
         from_now = play.since_result > RESULT_WAIT
         return ("Space or A goes on" if from_now else ""), GOLD
     steps = play.session.report.steps - play.helped_since
-    if play.open_panel is None and (steps < HELP_SECONDS * 60 or play.hint is not None or scene.offer):
+    offer = [f"R {scene.offer}"] if scene.offer else []
+    if play.open_panel is None and (steps < HELP_SECONDS * 60 or play.hint is not None):
         pairs = scene.actions if play.settings is None else help_pairs(scene.actions, play.settings.keys)
         parts = [f"{key} {what}" for key, what in pairs] + ["mouse drag"] * scene.draggable
-        offer = [f"R {scene.offer}"] if scene.offer else []
         return GAP.join([*offer, *parts, "1-9 see", "Tab panel", "M costs", "Esc menu"]), GOLD if offer else PAPER
-    return "", PAPER
+    return (offer[0] if offer and play.open_panel is None else ""), GOLD
 
 
 def draw_in_a_corner(frame: Frame, text: str) -> None:
@@ -63,13 +67,13 @@ def draw_in_a_corner(frame: Frame, text: str) -> None:
         frame.text(text, place[0] + 2 * scale, place[1] + 2 * scale, FOG, SMALL, scale)
 
 
-def draw_line(frame: Frame, text: str, color: Color, head: int = 0) -> None:
-    """Draw a line of text beside the scene's title, in the top `head` canvas pixels.
+def draw_line(frame: Frame, text: str, color: Color, head: int = 0) -> bool:
+    """Draw a line of text beside the scene's title, in the top `head` canvas pixels. Return whether it was drawn.
 
     For head 0, or if it does not fit there, draw it near the bottom or at another free place.
     """
     if head and _draw_in_head(frame, text, color, head):
-        return
+        return True
     scale = frame.text_scale
     width, height = frame.measure(text, SMALL, scale)
     area = frame.area.clip(frame.rect)
@@ -82,17 +86,22 @@ def draw_line(frame: Frame, text: str, color: Color, head: int = 0) -> None:
         shade.fill(SHADE)
         frame.surface.blit(shade, place)
         frame.text(text, place[0] + 4 * scale, place[1] + 3 * scale, color, SMALL, scale)
+    return place is not None
 
 
 def _draw_in_head(frame, text, color, head):
     """Draw a line of text in the top `head` canvas pixels, in one row or more, as large as fits.
 
-    Other text there, except the title, is hidden. Return False, and draw nothing, if it does not fit.
+    Other text there, except the title and the number of a headline, is hidden. Return False, and draw nothing, if
+    it does not fit.
     """
     band = frame.from_canvas((0, 0, CANVAS_SIZE[0], head)).clip(frame.rect)
     titles = [box for box, _ in frame.boxes if band.contains(box) and box.left < band.left + HEAD_TITLE * frame.zoom]
     left = max((box.right for box in titles), default=band.left) + 6 * frame.scale
-    room = pygame.Rect(left, band.top, band.right - left, band.height)
+    right = min(
+        (rect.left for rect in frame.fixed if band.contains(rect) and rect.left > left), default=band.right
+    )  # a lab's number
+    room = pygame.Rect(left, band.top, right - left, band.height)
     for scale in range(frame.text_scale, 0, -1):
         rows = _rows(frame, text, room.width - 8 * scale, scale)
         if rows and len(rows) * LINE * scale <= room.height:

@@ -22,6 +22,7 @@ import pygame
 from game.drawing.camera import Camera
 from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, RED, SLATE, faded
+from game.drawing.headline import ENOUGH, Headline
 from game.drawing.sprites import load_backdrop
 from game.drawing.typical import Typical
 from game.input.inputs import InputFrame
@@ -32,7 +33,7 @@ from scenes.lab.gallery.page import MARKED, Side
 from scenes.lab.gallery.pages import PAGES
 from scenes.lab.looks import Looks
 from scenes.lab.piles import SOLVERS, step_seconds
-from scenes.lab.yard import HEAD, draw_head
+from scenes.lab.yard import HEAD
 
 NAMES = tuple(page.name for page in PAGES)
 VIEWS = ((4, 18, 234, 160), (242, 18, 234, 160))
@@ -168,9 +169,6 @@ class Gallery(Scene):
     def draw(self, canvas, alpha):
         """Draw both worlds, a plate with figures under each, and the page's lines of text."""
         canvas.surface.fill(NIGHT)
-        number = int(self.values["page"]) + 1
-        draw_head(canvas, "GALLERY", f"{number} of {len(PAGES)}")
-        canvas.text(self.page.title, 60, 4, PAPER)
         for index, camera in enumerate(self.cameras):
             view = camera.viewport
             canvas.surface.blit(self.sky, view, (60 * index, 60, *view.size))
@@ -264,6 +262,13 @@ class Gallery(Scene):
             return "not judged yet"
         naive, ours = self.verdicts[page.name]
         return f"{amount(naive)} and {amount(ours)} {page.unit}, limit {amount(page.limit)}"
+
+    def headline(self):
+        """Return the sentence and the number of the title line, a Headline."""
+        page, naive = self.page, self.sides[0]
+        sentence = f"{page.title}: {naive.way.name} at the left."
+        mend = f"left right: page {int(self.values['page']) + 1} of {len(PAGES)}"
+        return Headline(sentence, mend, amount(naive.error), page.unit, naive.steps, ENOUGH, "steps", naive.holds)
 
     def finding(self):
         """Return a sentence with both errors on this page so far, and the number of pages with the expected result."""
