@@ -133,6 +133,7 @@ class Scene:
     legend_at: tuple[int, int] | None = None  # canvas (x, y) where the overlays' legend goes if it is free
     head = 0  # canvas px of the title line at the top: the line of keys goes beside it. 0: no title line
     hides_pointer = True
+    weighs_effects = False  # True: the costs of its choice of effects are measured, and stored in `totals`
     draggable = False  # True: dynamic bodies follow the mouse; the pointer is then shown
     switches_broadphase = True  # False: the scene's worlds have their own broad phases
     music = "lab"  # the tune; a scene may set another on itself during a game
@@ -161,6 +162,7 @@ class Scene:
         self.tier: TierName | None = tier or (self.tiers[0] if self.tiers else None)
         self.narrowphase = self.effects.narrowphase
         self.figures: dict[Any, Any] = {}  # results of the requests in measured(), as far as available
+        self.totals: dict[str, Any] = {}  # costs of the choices of effects, if `weighs_effects`, as far as available
         self.substeps: int | str | None = None  # None: the world's own setting
         self.values: dict[str, float] = {slider.name: slider.start for slider in self.sliders}
         self.assist: dict[str, bool] = {name: ASSISTS[name] for name in self.assists}

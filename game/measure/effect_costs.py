@@ -18,11 +18,11 @@ from physics import Effects, World
 class Side(NamedTuple):
     """The effects of one of the two worlds that are compared.
 
-    idle: the effect whose settings are made neutral, so that it has nothing to do; "" for none.
+    idle: the effects whose settings are made neutral, so that they have nothing to do.
     """
 
     effects: Effects
-    idle: str = ""
+    idle: tuple[str, ...] = ()
 
 
 class EffectCost(NamedTuple):
@@ -60,7 +60,7 @@ def sides_of(effects: Effects) -> dict[str, tuple[Side, Side]]:
         if getattr(effects, name):
             found[name] = Side(effects), Side(effects.without(name))
         else:
-            needed, idle = effects.and_needed(name), name if name in NEUTRAL else ""
+            needed, idle = effects.and_needed(name), (name,) if name in NEUTRAL else ()
             found[name] = Side(needed.with_(**{name: True}), idle), Side(needed, idle)
     return found
 
@@ -69,8 +69,8 @@ def world_under(moment: Moment, side: Side) -> World:
     """Return a world in the state of the snapshot `moment`, with the effects of `side` and all bodies awake."""
     world = moment.world(moment.here)
     world.set_effects(side.effects)
-    if side.idle:
-        NEUTRAL[side.idle](world)
+    for name in side.idle:
+        NEUTRAL[name](world)
     return world
 
 

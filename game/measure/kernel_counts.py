@@ -1,15 +1,16 @@
-"""`python -m game.measure.kernel_counts`: the number of kernels compiled for each effect, as lines of JSON.
+"""`python -m game.measure.kernel_counts`: the number of kernels compiled for each effect and choice, as lines of JSON.
 
 Kernels run as plain Python and record the types of their arguments; nothing is compiled.
 
 Standard input takes one line: {"effects": names, "broadphase": name, "pieces": shape pairs and queries as in
-physics.warmup}. Standard output gets one line per effect: [name, number of kernels that are called only with this
+physics.warmup, "choices": {name: names of effects}}. Standard output gets one line per choice: [name, number of kernels
+that a world with these effects calls], then one per effect: [name, number of kernels that are called only with this
 effect]. Without a compiler (numba) there is no output.
 """
 
 import json
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from functools import cache
 
 import physics
@@ -29,13 +30,18 @@ def called(effects: Effects, broadphase: str, pieces: tuple[str, ...] | None) ->
     return frozenset(found)
 
 
-def counts(effects: Effects, broadphase: str, pieces: Iterable[str] | None) -> Iterable[tuple[str, int]]:
-    """Yield (effect, number of kernels that are compiled only because of this effect) for every effect.
+def counts(
+    effects: Effects, broadphase: str, pieces: Iterable[str] | None, choices: Mapping[str, Iterable[str]]
+) -> Iterable[tuple[str, int]]:
+    """Yield (name, number of kernels) for every choice of effects, then for every effect.
 
-    effects, broadphase: of the world; pieces: shape pairs and queries that it uses, as in physics.warmup.
+    The number of an effect counts the kernels that are compiled only because of it. effects, broadphase: of the world;
+    pieces: shape pairs and queries that it uses, as in physics.warmup; choices: {name: names of effects}.
     """
     wanted = None if pieces is None else tuple(pieces)
     known = cache(lambda each: called(each, broadphase, wanted))
+    for name, chosen in choices.items():
+        yield name, len(known(Effects.named(chosen)))
     for name, (one, other) in sides_of(effects).items():
         yield name, len(known(one.effects) - known(other.effects))
 
@@ -44,7 +50,7 @@ def main() -> None:
     """Count the kernels for one world, then exit."""
     order = json.loads(sys.stdin.readline())
     if physics.JIT:
-        for found in counts(Effects.named(order["effects"]), order["broadphase"], order["pieces"]):
+        for found in counts(Effects.named(order["effects"]), order["broadphase"], order["pieces"], order["choices"]):
             print(json.dumps(found), flush=True)
 
 

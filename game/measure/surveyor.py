@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from game.measure.effect_costs import EffectCost
+from game.measure.effect_totals import EffectTotal
 from game.measure.errors import Error, Verdicts
 from game.measure.ledger import EFFECTS
 from game.measure.measured_runs import RunFigures
@@ -49,6 +50,7 @@ class Surveyor:
         self.asked: list[tuple[list[Hashable], list[MeasuredRun]]] = []  # measured runs, order by order
         self.runs: dict[Hashable, list[float]] = {}  # by name of a measured run: seconds per step of each turn
         self.latest: int | str | None = None  # identifier of the last order
+        self.totals: dict[str, EffectTotal] = {}  # costs of the choices of effects, as far as measured
         self.effects: dict[str, EffectCost] = {}  # costs of effects once requested, as far as measured
         self.found: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
         self.folder: tempfile.TemporaryDirectory[str] | None = None  # folder of the files that orders name
@@ -124,11 +126,14 @@ class Surveyor:
         order = {"moment": self.latest, "runs": stored}
         self._hand_on_beside(order, lambda: [each.save(paths[id(each)]) for each in snapshots])
 
-    def measure_effects(self, snapshot: Snapshot, broadphase: str, pieces: tuple[str, ...] | None) -> None:
-        """Order measurements of each effect: its cost, and the number of kernels compiled for it.
+    def measure_effects(
+        self, snapshot: Snapshot, broadphase: str, pieces: tuple[str, ...] | None, each: bool = True
+    ) -> None:
+        """Order measurements of all choices of effects, and of each effect: its cost, and the kernels compiled for it.
 
-        The results go to `effects`. snapshot: state from which the steps are timed. broadphase: name of the broad phase
-        of its world. pieces: shape pairs and queries that the scene uses, as in physics.warmup.
+        The results go to `totals` and `effects`. each: False for the choices alone. snapshot: state from which the
+        steps are timed. broadphase: name of the broad phase of its world. pieces: shape pairs and queries that the
+        scene uses, as in physics.warmup.
         """
         if not self._started():
             return
@@ -140,6 +145,7 @@ class Surveyor:
             "snapshot": self._path("effects.npz"),
             "broadphase": broadphase,
             "pieces": pieces,
+            "each": each,
         }
         self._hand_on_beside(order, partial(snapshot.save, order["snapshot"]))
 
@@ -211,6 +217,8 @@ class Surveyor:
             if "costs" in found:
                 known = known._replace(cost=Cost(*found["costs"][0]), without=Cost(*found["costs"][1]))
             self.effects[known.effect] = known._replace(kernels=found.get("kernels", known.kernels))
+        elif "total" in found:
+            self._take_total(found["total"], found["values"])
         elif "encounters" in found:
             survey.encounters = {tier: verdicts_of(each) for tier, each in found["encounters"].items()}
         elif "applied" in found:
@@ -224,6 +232,11 @@ class Surveyor:
             else:
                 dot.steps = found["steps"]
                 dot.took(found["moment"], found["spent"])
+
+    def _take_total(self, name, values):
+        if "time" in values:
+            values["time"] = Cost(*values["time"])
+        self.totals[name] = self.totals.get(name, EffectTotal(0))._replace(**values)
 
     def _take_run(self, moment, run, spent, overlap, farthest):
         names, measured_runs = self.asked[int(moment.split()[1])]

@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from game.measure.effect_costs import measure_effects
+from game.measure.effect_totals import choices_of, measure_starts, measure_totals
 from game.measure.errors import Error, References, Verdicts
 from game.measure.measured_runs import measure_runs
 from game.measure.moment import Moment
@@ -143,19 +144,29 @@ def measure_stored_runs(order: dict[str, Any], report: Callable[[str], object], 
 
 
 def measure_costs(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure the cost of each effect from the snapshot of an order, and count the kernels compiled for each effect.
+    """Measure the cost of each choice of effects and of each effect from the snapshot of an order, with their kernels.
 
-    report(line of JSON) is called for each result. The timing ends when goes_on() is False.
+    report(line of JSON) is called for each result. The timing ends when goes_on() is False. order["each"]: whether the
+    single effects are timed.
     """
     moment = Moment(Snapshot.load(order["snapshot"]), order["broadphase"])
+    choices = choices_of(moment)
 
     def send(**found):
         report(json.dumps({"moment": order["moment"], **found}))
 
+    def send_total(name, values):
+        send(total=name, values=values)
+
     counting = start_module(f"{__package__}.kernel_counts")
     try:
         assert counting.stdin is not None and counting.stdout is not None
-        asked = {"effects": moment.effects.names(), "broadphase": order["broadphase"], "pieces": order["pieces"]}
+        asked = {
+            "effects": moment.effects.names(),
+            "broadphase": order["broadphase"],
+            "pieces": order["pieces"],
+            "choices": {name: side.effects.names() for name, side in choices.items()},
+        }
         counting.stdin.write(json.dumps(asked) + "\n")
         counting.stdin.flush()
         counted: queue.SimpleQueue[str | None] = queue.SimpleQueue()
@@ -170,16 +181,23 @@ def measure_costs(order: dict[str, Any], report: Callable[[str], object], goes_o
                     return
                 if line.startswith("["):  # libraries may print greetings
                     name, count = json.loads(line)
-                    send(effect=name, kernels=count)
+                    if name in choices:
+                        send_total(name, {"kernels": count})
+                    else:
+                        send(effect=name, kernels=count)
 
         def send_costs(name, *costs):
             send(effect=name, costs=costs)
             send_counts(wait=False)
 
-        measure_effects(moment, send_costs, goes_on)
+        measure_totals(moment, send_total, goes_on)
+        send_counts(wait=False)
+        if order["each"]:
+            measure_effects(moment, send_costs, goes_on)
         send_counts(wait=True)
     finally:
         end_all([counting])
+    measure_starts(order, send_total, goes_on)
     send(done=True)
 
 

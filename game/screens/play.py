@@ -292,6 +292,7 @@ class Play(SceneScreen):
         else:
             self.clock.paused, self.panel_open = True, False
             self.close_costs()
+            self.measuring.weigh_effects()
             self.switches.report(self.step_inspector.enter())
 
     def feed(self, event: pygame.event.Event) -> bool:
@@ -402,7 +403,9 @@ class Play(SceneScreen):
     def draw(self, picture: Picture) -> Frame:
         """Draw the scene and the elements over it; return the frame."""
         started = perf_counter()
-        if not self.step_inspector.open:  # a part of a step is no moment to measure from
+        if self.step_inspector.open:  # a part of a step is no moment to measure from
+            self.measuring.take_weights()
+        else:
             self._measure()
         below = self._below()
         reserve = None if below is None else below.reserve

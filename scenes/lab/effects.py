@@ -21,11 +21,13 @@ from typing import NamedTuple
 import numpy as np
 import pygame
 
+from game.drawing.bar_table import bar_table_height, draw_bar_table
 from game.drawing.canvas import SMALL, wrap
 from game.drawing.colors import DUSK, FOG, GOLD, GREEN, INK, NIGHT, PAPER, SKY, SLATE
 from game.drawing.headline import Headline
 from game.drawing.number_text import plain_name
 from game.input.inputs import InputFrame
+from game.measure.effect_totals import FIELDS, bars_of, sentence_of
 from game.measure.errors import VISIBLE
 from game.measurement_requests import MeasuredRun, RunRequest
 from game.scene import COSTS, Goal, Scene, Slider
@@ -89,6 +91,7 @@ class EffectsLab(Scene):
     lighter = {"substeps": 4}
     actions = (("up down", "effect"), ("Space or click", "switch it"))
     overlays = ("times",)
+    weighs_effects = True
     head = HEAD
     hides_pointer = False
     legend_at = (198, 60)
@@ -255,6 +258,7 @@ class EffectsLab(Scene):
         for row, name in enumerate(NAMES):
             self._draw_row(canvas, name, TOP + ROW * row)
         self._draw_words(canvas)
+        self._draw_totals(canvas)
 
     def _draw_row(self, canvas, name, y):
         marked = name == self.marked
@@ -287,6 +291,15 @@ class EffectsLab(Scene):
         self.below = rect.bottom
         for number, (line, color) in enumerate(lines):
             canvas.text(line, rect.x + 4, rect.y + 3 + 7 * number, color, SMALL)
+
+    def _draw_totals(self, canvas):
+        """Draw bars under the list: time, kernels, start and bytes of the yard's effects, of all, and of the fewest."""
+        bars = bars_of(self.totals)
+        table = pygame.Rect(4, 268 - bar_table_height(len(bars)), SIDE - 8, bar_table_height(len(bars)))
+        draw_bar_table(canvas, table, list(FIELDS.values()), bars)
+        lines = wrap(sentence_of(self.totals) or "measuring: declared, everything, nothing", table.width, SMALL)
+        for number, line in enumerate(reversed(lines), 1):
+            canvas.text(line, table.x, table.y - 2 - 7 * number, PAPER, SMALL)
 
     def draw_on_frame(self, frame):
         """Draw the outlines of the bodies whose positions differ between the two yards."""

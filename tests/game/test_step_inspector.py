@@ -299,14 +299,19 @@ def test_where_no_step_is_made_that_is_reported():
 
 
 def test_nothing_is_measured_from_half_a_step(play, monkeypatch):
-    taken = []
-    monkeypatch.setattr(type(play.scene.world), "snapshot", lambda world: taken.append(world))
+    taken, snapshot = [], type(play.scene.world).snapshot
+
+    def note(world):
+        taken.append(play.step_inspector.open)
+        return snapshot(world)
+
+    monkeypatch.setattr(type(play.scene.world), "snapshot", note)
     play.toggle_costs()
     key(play, K.K_e)
     play.measuring.tuner.on = True
     for _ in range(3):
         play.draw(Picture(K.Surface((960, 540))))
-    assert taken == []
+    assert not any(taken), "the effects are weighed from the moment before"
 
 
 def test_a_change_from_elsewhere_ends_it(play):

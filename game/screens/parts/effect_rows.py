@@ -3,6 +3,7 @@
 from game.drawing.colors import GREEN
 from game.drawing.number_text import plain_name
 from game.measure.effect_costs import EffectCost
+from game.measure.effect_totals import bars_of
 from game.measure.ledger import EFFECTS
 from game.screens.parts.measuring import Measuring
 from game.screens.parts.panel import HEAD, LINE, NOTE, Row
@@ -14,7 +15,7 @@ UNKNOWN = "-"
 def effect_rows(measuring: Measuring) -> list[Row]:
     """Return the panel's rows about the costs of effects: a heading, a line per effect, a note if measuring failed."""
     ledger = measuring.ledger
-    rows = [Row(HEAD, "Effects", cells=("us a step", "kernels"))]
+    rows = [Row(HEAD, "Effects", cells=("us a step", "kernels")), *_choices(measuring)]
     for name in EFFECTS:
         declared = getattr(measuring.world.effects, name)
         known = ledger.effects.get(name, EffectCost(name, declared))
@@ -22,6 +23,16 @@ def effect_rows(measuring: Measuring) -> list[Row]:
         rows.append(Row(LINE, plain_name(name), on=declared, color=GREEN, cells=cells, hint=hint_of(known)))
     if ledger.trouble:
         rows.append(Row(NOTE, ledger.trouble))
+    return rows
+
+
+def _choices(measuring):
+    """Return a row for each choice of effects: as declared, all, and the fewest. Their hints give start and bytes."""
+    rows = []
+    for bar in bars_of(measuring.ledger.totals):
+        (_, time), (_, kernels), (_, start), (_, size) = bar.cells
+        hint = f"{start} ms to the first step, {size} kB"
+        rows.append(Row(LINE, bar.name, on=True, color=bar.color, cells=(time, kernels), hint=hint))
     return rows
 
 

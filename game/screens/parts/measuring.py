@@ -57,6 +57,7 @@ class Measuring:
         )
         self.ledger = Surveyor()  # for the effects
         self.opened_at: float | None = None  # [s] opening time of the panel; None: it is closed
+        self.whole = False  # whether the scene's choice of effects was measured, or is being measured
         self.weighed = False  # whether the effects were measured since the panel was opened
         self.taken_at: tuple[float, int] | None = None  # [s] and step of the last moment
         self.race: Race | None = None  # the running race; None: there is none
@@ -78,7 +79,27 @@ class Measuring:
         Call it once per picture, at `now` [s].
         """
         self._measure_request()
+        if self.scene.weighs_effects:
+            self.weigh_effects()
         self._measure_effects(now if panel_open else None)
+        self.take_weights()
+
+    def weigh_effects(self) -> None:
+        """Measure the scene's choice of effects from the world's present state, unless that was done or has begun."""
+        if not self.whole:
+            self.whole = True
+            self.ledger.measure_effects(*self._weighed(), each=False)
+
+    def _weighed(self):
+        return self.world.snapshot(), self.world.broadphase.name, pieces_of(type(self.scene))
+
+    def take_weights(self) -> None:
+        """Store the results about effects that have arrived. Call it once per picture, also during an inspection."""
+        if self.ledger.process is not None:
+            self.ledger.turn()
+            if not self.ledger.busy:
+                self.ledger.stop()
+        self.scene.totals = self.ledger.totals
 
     def _measure_effects(self, now):
         """Measure the cost of each effect, from the world's state shortly after the panel was opened.
@@ -87,18 +108,15 @@ class Measuring:
         """
         if now is None:
             if self.opened_at is not None:
+                self.whole = self.whole and not self.ledger.busy
                 self.ledger.stop()
             self.opened_at = None
             return
         if self.opened_at is None:
             self.opened_at, self.weighed = now, False
         elif not self.weighed and now - self.opened_at >= LINGER:
-            self.weighed = True
-            self.ledger.measure_effects(self.world.snapshot(), self.world.broadphase.name, pieces_of(type(self.scene)))
-        if self.ledger.process is not None:
-            self.ledger.turn()
-            if not self.ledger.busy:
-                self.ledger.stop()
+            self.weighed = self.whole = True
+            self.ledger.measure_effects(*self._weighed())
 
     def _measure_request(self) -> None:
         """Order the measurements that the scene requests if the request is new, and pass the results to the scene."""

@@ -5,11 +5,13 @@ from contextlib import contextmanager
 
 import pygame
 
+from game.drawing.bar_table import bar_table_height, draw_bar_table
 from game.drawing.canvas import SMALL, TEXT, wrap
 from game.drawing.colors import FOG, GOLD, INK, NIGHT, ORANGE, PAPER, SKY, Color, faded
 from game.drawing.number_text import count_text, plain_name
 from game.drawing.presenter import Frame
 from game.invariants.watch import WatchedWorld
+from game.measure.effect_totals import FIELDS, bars_of, sentence_of
 from game.overlays.stack import Overlays
 from game.run.rewind import Rewind
 from game.run.session import Session
@@ -212,7 +214,9 @@ class StepInspectorView:
             lines += [("", ink, font, BETWEEN)] * bool(lines) + [(each, ink, font, height) for each in wrapped]
         area = frame.area.clip(frame.rect)
         area.height = bottom - area.y
-        size = room, (sum(height for *_, height in lines) + 2 * EDGE) * scale
+        bars = bars_of(self.session.scene.totals)
+        below = bar_table_height(len(bars)) + BETWEEN
+        size = room, (sum(height for *_, height in lines) + below + 2 * EDGE) * scale
         rect = self._place(frame, area, size)
         frame.surface.fill(faded(NIGHT, 0.1), rect)
         pygame.draw.rect(frame.surface, GOLD, rect, max(1, scale // 2))
@@ -221,6 +225,8 @@ class StepInspectorView:
         for text, ink, font, height in lines:
             frame.text(text, rect.x + EDGE * scale, y, ink, font, scale)
             y += height * scale
+        table = pygame.Rect(rect.x + EDGE * scale, y + BETWEEN * scale, room - 2 * EDGE * scale, 0)
+        draw_bar_table(frame, table, list(FIELDS.values()), bars, scale)
         frame.fix(rect)
 
     def _place(self, frame, area, size):
@@ -261,6 +267,8 @@ class StepInspectorView:
         if len(step.starts) > 1:
             yield f"{len(step.starts)} steps in this frame, one after the other", FOG, SMALL, ROW
         yield self.whose, FOG, SMALL, ROW
+        choice = sentence_of(self.session.scene.totals) or "Measuring the effects of this scene, all, and none:"
+        yield choice, GOLD, SMALL, ROW
 
 
 def described(done: Done) -> list[tuple[str, str]]:

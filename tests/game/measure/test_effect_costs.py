@@ -41,7 +41,7 @@ def test_each_effect_has_two_sides():
     assert list(sides) == list(EFFECTS)
     assert sides["gravity"] == (Side(PILE), Side(PILE.without("gravity")))
     assert sides["stacking"][1].effects == PILE.with_(stacking=False, sleeping=False)
-    assert sides["wind"] == (Side(PILE.with_(wind=True), "wind"), Side(PILE, "wind"))
+    assert sides["wind"] == (Side(PILE.with_(wind=True), ("wind",)), Side(PILE, ("wind",)))
     assert sides["sensors"] == (Side(PILE.with_(sensors=True)), Side(PILE))
     bare = sides_of(Effects())["sleeping"]
     assert bare[1].effects.names() == ["narrowphase", "response", "stacking"]
@@ -102,6 +102,7 @@ def test_what_the_runs_scatter_by_is_no_cost():
 @pytest.mark.skipif(not physics.JIT, reason="nothing is compiled")
 def test_kernels_are_counted_by_a_process_that_compiles_none():
     order = {"effects": ["narrowphase", "response", "gravity"], "broadphase": "hash", "pieces": ["circles"]}
+    order["choices"] = {"few": ["narrowphase"], "all": list(EFFECTS)}
     run = subprocess.run(
         [sys.executable, "-m", "game.measure.kernel_counts"],
         input=json.dumps(order) + "\n",
@@ -110,7 +111,8 @@ def test_kernels_are_counted_by_a_process_that_compiles_none():
         check=True,
     )
     found = dict(json.loads(line) for line in run.stdout.splitlines() if line.startswith("["))
-    assert list(found) == list(EFFECTS)
+    assert list(found) == ["few", "all", *EFFECTS]
+    assert 5 < found["few"] < found["all"] / 2
     assert found["gravity"] == 1, "one pass over velocities, with gravity in it"
     assert found["persist"] == 0 and found["stacking"] > 10 and found["response"] > 3
 

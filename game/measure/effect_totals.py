@@ -1,0 +1,187 @@
+"""The cost of a scene's choice of effects as a whole: as declared, with every effect, and with the fewest possible.
+
+Each of the three has its time of a step, its number of kernels, the time of its first step in a new process, and the
+bytes of its tables. A declared effect that the world cannot be without stays.
+"""
+
+import json
+from collections.abc import Callable, Mapping
+from random import Random
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from game.drawing.bar_table import BarRow
+from game.drawing.colors import GOLD, GREEN, RED
+from game.measure.effect_costs import Side, can_be, world_under
+from game.measure.ledger import EFFECTS, NEUTRAL
+from game.measure.moment import STEPS, Moment
+from game.measure.timing import RUNS, Cost, seconds_a_step
+from physics import Effects, World
+from physics.jit.workers import end_all, start_module
+
+DECLARED, EVERYTHING, NOTHING = NAMES = "declared", "everything", "nothing"
+STARTS = 3  # new processes per choice: the first may compile, and the least time counts
+FIELDS = {"time": "us/step", "kernels": "kernels", "start": "start ms", "bytes": "kB"}  # field -> unit as shown
+COLORS = {DECLARED: GOLD, EVERYTHING: RED, NOTHING: GREEN}
+SCALES = {"time": 1e6, "kernels": 1.0, "start": 1e3, "bytes": 1e-3}  # from the stored unit to the one shown
+
+
+class EffectTotal(NamedTuple):
+    """Costs of one choice of effects; None: not measured yet.
+
+    effects: number of effects; time: of a step [s], a Cost; kernels: number of kernels that such a world can call;
+    start: least time of building the world and of its first step in a new process [s]; bytes: of the world's arrays.
+    """
+
+    effects: int
+    time: Cost | None = None
+    kernels: int | None = None
+    start: float | None = None
+    bytes: int | None = None
+
+    def value(self, field: str) -> float | None:
+        """Return the value of a field in FIELDS in its stored unit; the least time for "time", None if unknown."""
+        if field == "time":
+            return self.time.least if self.time is not None and self.time.runs >= RUNS else None
+        return getattr(self, field)
+
+
+def choices_of(moment: Moment) -> dict[str, Side]:
+    """Return {name in NAMES: Side} of the choices that a world in the state of the snapshot `moment` can have.
+
+    Effects that are added have neutral settings.
+    """
+    declared = moment.effects
+    added = tuple(name for name in EFFECTS if not getattr(declared, name) and name in NEUTRAL)
+    fewest = declared
+    for name in reversed(declared.names()):
+        less = fewest.without(name) if getattr(fewest, name) else fewest
+        if can_be(moment, Side(less)):
+            fewest = less
+    every = Side(Effects(**dict.fromkeys(EFFECTS, True)), added)
+    found = {DECLARED: Side(declared), EVERYTHING: every, NOTHING: Side(fewest)}
+    return {name: side for name, side in found.items() if can_be(moment, side)}
+
+
+def measure_totals(
+    moment: Moment, report: Callable[[str, dict[str, Any]], object], goes_on: Callable[[], bool], seed: int = 0
+) -> None:
+    """Time a step of each choice in several rounds of random order, and count the bytes of its world.
+
+    report(name, {field of EffectTotal: value}) is called after each round, and with the bytes first. The function
+    returns early when goes_on() is False. seed: for the order.
+    """
+    sides, chance = choices_of(moment), Random(seed)
+    spent: dict[str, list[float]] = {name: [] for name in sides}
+    for name, side in sides.items():
+        world = world_under(moment, side)
+        for _ in range(2):  # compiles missing kernels, and lets the tables grow
+            world.step()
+        report(name, {"effects": len(side.effects.names()), "bytes": bytes_of(world)})
+    order = list(sides)
+    for _ in range(RUNS):
+        chance.shuffle(order)
+        for name in order:
+            if not goes_on():
+                return
+            spent[name].append(seconds_a_step(world_under(moment, sides[name]).step, STEPS))
+        for name in sides:
+            report(name, {"time": Cost.of(spent[name], STEPS)})
+
+
+def measure_starts(
+    order: Mapping[str, Any], report: Callable[[str, dict[str, Any]], object], goes_on: Callable[[], bool]
+) -> None:
+    """Measure how long a new process takes to build the world of an order and to make its first step.
+
+    order: {"snapshot": file, "broadphase": name}. report(name, {"start": seconds}) is called for each choice. The first
+    process of a choice may have to compile kernels; it is not counted.
+    """
+    for name in NAMES:
+        found = []
+        for turn in range(STARTS):
+            if not goes_on():
+                return
+            process = start_module(f"{__package__}.first_step")
+            try:
+                line, _ = process.communicate(json.dumps([order["snapshot"], order["broadphase"], name]) + "\n")
+            finally:
+                end_all([process])
+            last = line.split()[-1:]  # libraries may print greetings; nothing: the world cannot have these effects
+            if not last:
+                break
+            if turn:
+                found.append(float(last[0]))
+        if found:
+            report(name, {"start": min(found)})
+
+
+def bytes_of(root: object) -> int:
+    """Return the total size [bytes] of the arrays that a world (or another root) holds, each memory block once."""
+    blocks: dict[int, int] = {}
+    seen: set[int] = set()
+    todo: list[Any] = [root]
+    while todo:
+        one = todo.pop()
+        if id(one) in seen or isinstance(one, (str, bytes, type, int, float)):
+            continue
+        seen.add(id(one))
+        if isinstance(one, np.ndarray):
+            while isinstance(one.base, np.ndarray):
+                one = one.base
+            blocks[id(one)] = one.nbytes
+        elif isinstance(one, dict):
+            todo.extend(one.values())
+        elif isinstance(one, (list, tuple, set, frozenset)):
+            todo.extend(one)
+        elif type(one).__module__.split(".")[0] == World.__module__.split(".")[0]:
+            todo.extend(vars(one).values() if hasattr(one, "__dict__") else ())
+            todo.extend(getattr(one, name) for name in _slots(type(one)) if hasattr(one, name))
+    return sum(blocks.values())
+
+
+def _slots(kind):
+    """Return the names of all slots of a class and its bases."""
+    return [name for each in kind.__mro__ for name in getattr(each, "__slots__", ()) if name != "__dict__"]
+
+
+def bars_of(totals: Mapping[str, EffectTotal]) -> list[BarRow]:
+    """Return the rows of a table of bars: a row for each choice of effects, a column for each of FIELDS.
+
+    A time that differs from the declared one by less than the noise of both has the text "same". A missing value has
+    the text "...".
+    """
+    declared = totals.get(DECLARED, EffectTotal(0))
+    rows = []
+    for name in NAMES:
+        total = totals.get(name, EffectTotal(0))
+        cells = [(total.value(field), _text(total, declared, field)) for field in FIELDS]
+        rows.append(BarRow(name, COLORS[name], cells))
+    return rows
+
+
+def _text(total, declared, field):
+    value, time, other = total.value(field), total.time, declared.time
+    if value is None:
+        return "..."
+    if field == "time" and total is not declared and other is not None:
+        noise = sum(each.median - each.least for each in (time, other))
+        if abs(time.least - other.least) <= noise:
+            return "same"
+    return f"{SCALES[field] * value:,.0f}"
+
+
+def sentence_of(totals: Mapping[str, EffectTotal]) -> str:
+    """Return what declaring everything costs, as a sentence; "" while the times are not measured.
+
+    All effects are compared with the declared ones, or with the fewest if the scene declares all. The ratio is that of
+    the least times; a difference inside the noise has no ratio.
+    """
+    declared, every, none = (totals.get(name, EffectTotal(0)) for name in NAMES)
+    other = declared if declared.effects < every.effects else none
+    times = other.value("time"), every.value("time")
+    if times[0] is None or times[1] is None:
+        return ""
+    much = "no more time than" if _text(every, other, "time") == "same" else f"{times[1] / times[0]:.1f} x the time of"
+    return f"Declaring all {every.effects} effects takes {much} {'none' if not other.effects else other.effects}."
