@@ -86,6 +86,7 @@ def make_parser() -> Parser:
     add("--tier", metavar="NAME", help="the shape that sprites are tested with")
     add("--level", metavar="FILE", help="a level of your own, for a scene that takes one")
     add("--screenshot", metavar="FILE", help="save the presented picture after the last frame (PNG)")
+    add("--csv", metavar="FILE", help="save the numbers that the scene or --advise finds, each with its command")
     add("--profile", action="store_true", help="print a table of times at the end")
     add("--warmup", action="store_true", help="compile every kernel now")
     add(
@@ -121,8 +122,10 @@ def read_options(arguments: Sequence[str], registry: Registry) -> Options:
         raise UsageError(f"--frames must be at least 1 (got {options.frames})")
     if options.seed is not None and not 0 <= options.seed <= LARGEST_SEED:
         raise UsageError(f"--seed must be 0 to {LARGEST_SEED} (got {options.seed})")
-    for flag in ("record", "screenshot"):
+    for flag in ("record", "screenshot", "csv"):
         _check_output(flag, getattr(options, flag))
+    if options.csv is not None and not (options.headless or options.advise):
+        raise UsageError("--csv needs --headless or --advise; during a game, F9 saves the same")
     if options.replay and (options.bot or options.record):
         raise UsageError("--replay brings its own input: leave out --bot and --record")
     options.recording = load_replay_for(options.replay, registry)[0] if options.replay else None
@@ -178,7 +181,19 @@ def _check_report(options):
             if getattr(options, flag) is not None and getattr(options, flag) is not False:
                 raise UsageError(f"--{flag} needs --report")
         return
-    others = ("scene", "advise", "record", "replay", "screenshot", "profile", "json", "headless", "bot", "frames")
+    others = (
+        "scene",
+        "advise",
+        "record",
+        "replay",
+        "screenshot",
+        "csv",
+        "profile",
+        "json",
+        "headless",
+        "bot",
+        "frames",
+    )
     for flag in others:
         if getattr(options, flag):
             raise UsageError(f"--report brings its own scenes and runs: leave out --{flag}")

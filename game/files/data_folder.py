@@ -41,6 +41,17 @@ def _home():
         raise UsageError(f"this user has no home folder; name one for the game's files in {OVERRIDE}") from error
 
 
+def measurements_folder() -> Path:
+    """Return the folder of the CSV files that the player saves."""
+    return data_folder() / "measurements"
+
+
+def short_path(path: Path) -> str:
+    """Return a path as text, with ~ for the user's home folder."""
+    home = Path(os.path.expanduser("~"))  # "~" for a user without one
+    return f"~/{path.relative_to(home).as_posix()}" if path.is_relative_to(home) else str(path)
+
+
 def is_there(path: Path) -> bool:
     """Return whether the file exists.
 

@@ -1,6 +1,8 @@
 """Measurement of a scene's requests in this process, which waits for the results; for runs without a player."""
 
+from game.measure.effect_totals import EffectTotal, measure_totals
 from game.measure.measured_runs import RunFigures, measure_runs
+from game.measure.moment import Moment
 from game.measure.tiers import measure_tiers
 from game.measure.timing import Cost
 from game.measurement_requests import RunRequest, SpriteRequest
@@ -10,7 +12,7 @@ from game.scene import Scene
 def measure_requests(scene: Scene) -> None:
     """Make the measurements that the scene requests and that have no results yet.
 
-    Store the results in scene.figures.
+    Store the results in scene.figures; of a scene that weighs its effects also time and bytes, in scene.totals.
     """
     request = scene.measured()
     if isinstance(request, SpriteRequest) and not scene.figures:
@@ -25,3 +27,10 @@ def measure_requests(scene: Scene) -> None:
             scene.figures[names[number]] = RunFigures(Cost.of(runs[number], steps), *seen)
 
         measure_runs(measured_runs, take, lambda: True)
+    if scene.weighs_effects and not scene.totals:
+        world = scene.views()[0][0]
+
+        def take_total(name, values):
+            scene.totals[name] = scene.totals.get(name, EffectTotal(0))._replace(**values)
+
+        measure_totals(Moment(world.snapshot(), world.broadphase.name), take_total, lambda: True)

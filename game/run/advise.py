@@ -7,13 +7,15 @@ import sys
 from time import perf_counter
 
 from game.errors import UsageError
+from game.files.data_folder import write_atomically
 from game.measure.errors import VISIBLE
 from game.measure.moment import STEPS
 from game.measure.setting import Setting
 from game.measure.survey import shown
+from game.measure.survey_csv import csv_of
 from game.measure.timing import RUNS
 from game.registry import Registry
-from game.run.headless import start_dummy_display
+from game.run.headless import save_or_fail, start_dummy_display
 from game.run.options import DEFAULT_FRAMES, Options, make_scene, scene_class_of
 from game.run.proven_advice import APPLIED_RUNS, Applied, Proven, advise_on_run
 from game.run.recorded_run import SECOND, RecordedRun
@@ -38,6 +40,9 @@ def run_advice(options: Options, registry: Registry) -> int:
     error = VISIBLE if options.error is None else options.error
     run = recorded_run(options, registry, frames)
     proven = advise_on_run(run, error, Progress(), options.seed or 0)
+    if options.csv:
+        text = csv_of(proven.survey, options.scene or "", options.seed or 0, frames)
+        save_or_fail(lambda path: write_atomically(path, text, makes_folder=False), options.csv)
     if options.json:
         print(json.dumps(as_json(options, error, proven)))
     else:

@@ -9,9 +9,11 @@ from time import perf_counter
 import pygame
 
 from game.errors import StrictFailure, UsageError, brief
+from game.files.data_folder import write_atomically
 from game.measure.synchronous import measure_requests
 from game.overlays.stack import Overlays
 from game.registry import Registry
+from game.run.figures_csv import command_of, figures_csv
 from game.run.options import DEFAULT_FRAMES, Options, make_scene, scene_class_of
 from game.run.outcome import Check, RunReport, judge, not_judged
 from game.run.picture import Picture, save_png
@@ -68,6 +70,10 @@ def run_headless(options: Options, registry: Registry) -> int:
         print(recording.parted or same, file=sys.stderr)
     if options.screenshot:
         save_or_fail(lambda path: save_png(picture.presenter.frame.surface, path), options.screenshot)
+    if options.csv:
+        measure_requests(scene)
+        text = figures_csv(scene, command_of(scene, options.replay, options.bot))
+        save_or_fail(lambda path: write_atomically(path, text, makes_folder=False), options.csv)
     return finish(scene, session.report, options, broken)
 
 

@@ -30,6 +30,7 @@ class Options:
     tier: TierName | None = None
     level: Path | None = None
     screenshot: str | None = None
+    csv: str | None = None  # a file
     profile: bool = False
     warmup: bool = False
     strict: bool = False
@@ -46,7 +47,9 @@ class Options:
     @property
     def is_a_run(self) -> bool:
         """True if the run of one scene is measured, saved or limited in length. The program then ends with the run."""
-        return bool(self.frames or self.record or self.json or self.profile or self.screenshot or self.strict)
+        return bool(
+            self.frames or self.record or self.json or self.profile or self.screenshot or self.csv or self.strict
+        )
 
     @property
     def played_by_bot(self) -> bool:

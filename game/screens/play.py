@@ -361,9 +361,16 @@ class Play(SceneScreen):
         self.switches.report(self.measuring.apply(setting))
 
     def save_costs(self) -> None:
-        """Save the measurements of the plot of accuracy and cost as a CSV file, and report its name."""
+        """Save the measurements of the plot of accuracy and cost as a CSV file, and report its path."""
+        self._save(self.measuring.save_csv)
+
+    def save_figures(self) -> None:
+        """Save the numbers that the scene has found as a CSV file, and report its path."""
+        self._save(self.measuring.save_figures)
+
+    def _save(self, save):
         try:
-            self.switches.report(self.measuring.save_csv())
+            self.switches.report(save())
         except OSError as error:
             self.switches.report(f"it could not be saved: {error.strerror or error}")
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Hashable, Sequence
 from operator import is_
 from typing import NamedTuple
 
-from game.files.data_folder import data_folder, free_name, write_atomically
+from game.files.data_folder import free_name, measurements_folder, short_path, write_atomically
 from game.input.devices import DeviceSource
 from game.measure.advice import advised, share
 from game.measure.moment import here_of
@@ -14,6 +14,7 @@ from game.measure.surveyor import Surveyor
 from game.measure.tuner import Tuner
 from game.measurement_requests import RunRequest, SpriteRequest
 from game.run import run_worker
+from game.run.figures_csv import command_of, figures_csv
 from game.run.proven_advice import Applied
 from game.run.recorded_run import SECOND, RecordedRun, changes_to
 from game.run.replay import Recorder
@@ -255,15 +256,28 @@ class Measuring:
         rival = now._replace(tier="aabb" if now.tier in ("pixels", "mask") else "pixels")
         return None if isinstance(changes_to(rival, self.scene), str) else rival
 
+    def save_figures(self) -> str:
+        """Save the numbers of the scene as a CSV file in the user's folder, and beside it the recorded run.
+
+        Return a line with the path. Raises OSError.
+        """
+        path, recorder = free_name(measurements_folder(), self.scene.name, ".csv"), self.recorder()
+        replay = None
+        if recorder is not None and recorder.frames:
+            replay = path.with_suffix(".json")
+            recorder.save(replay)
+        write_atomically(path, figures_csv(self.scene, command_of(self.scene, replay and str(replay))))
+        return f"saved as {short_path(path)}"
+
     def save_csv(self) -> str:
-        """Save the survey as a CSV file in the user's folder. Return a line with its name. Raises OSError."""
+        """Save the survey as a CSV file in the user's folder. Return a line with its path. Raises OSError."""
         survey, scene, recorder = self.surveyor.survey, self.scene, self.recorder()
         if not survey.dots:
             return "nothing is measured yet"
-        path = free_name(data_folder() / "measurements", scene.name, ".csv")
+        path = free_name(measurements_folder(), scene.name, ".csv")
         steps = scene.frame if recorder is None else recorder.frames
         write_atomically(path, csv_of(survey, scene.name, scene.seed, steps))
-        return f"saved as measurements/{path.name}"
+        return f"saved as {short_path(path)}"
 
     def rivals(self) -> list[Setting]:
         """Return the settings against which the scene can be raced: each differs from the current one by one change."""

@@ -51,6 +51,8 @@ def press(play: Played, key: int) -> bool:
         play.clock.slower()
     elif key in (pygame.K_EQUALS, pygame.K_PLUS):
         play.clock.faster()
+    elif key == pygame.K_F9:
+        play.save_figures()
     elif key == pygame.K_F12:
         play.wants_screenshot = True
     else:

@@ -56,6 +56,10 @@ class Played(Protocol):
         """Pause the scene, and make one step."""
         ...
 
+    def save_figures(self) -> None:
+        """Save the numbers that the scene has found as a CSV file."""
+        ...
+
     def toggle_step_inspector(self) -> None:
         """Start or end the inspection of the next step."""
         ...

@@ -6,6 +6,7 @@ import pygame
 import pytest
 
 from game.drawing.canvas import TEXT, wrap
+from game.files.data_folder import short_path
 from game.run.picture import Picture
 from game.run.replay import Recorder
 from game.run.replay_check import is_possible
@@ -156,4 +157,4 @@ def test_f9_saves_what_is_measured_as_csv(driver, tmp_path):
     driver.turns(2)
     (saved,) = (tmp_path / "measurements").glob("lab-filters-*.csv")
     assert len(saved.read_text().splitlines()) > 2
-    assert f"saved as measurements/{saved.name}" in driver.screen.news
+    assert driver.screen.news == f"saved as {short_path(saved)}"

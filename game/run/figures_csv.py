@@ -1,0 +1,122 @@
+"""The numbers that a scene has found in a run, as CSV, each with the command that finds it again."""
+
+import csv
+import io
+import shlex
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from game.measure.effect_totals import FIELDS, SCALES, EffectTotal
+from game.measure.machine import machine
+from game.measure.measured_runs import RunFigures
+from game.measure.tiers import TierFigures
+from game.measure.timing import Cost
+from game.scene import Scene
+from game.startup import START
+
+
+class Figure(NamedTuple):
+    """One row of the file. of: where the scene shows it: "headline", "goal", "finding", "run", "tier" or "effects".
+
+    value: a number or a text; low, high: its interval, for times the least and the upper quartile; "" for none.
+    """
+
+    of: str
+    name: str
+    value: str | float
+    unit: str = ""
+    low: str | float = ""
+    high: str | float = ""
+    runs: str | int = ""
+
+
+COLUMNS = ("scene", "seed", "step", *Figure._fields, "command", "machine")
+
+
+def command_of(scene: Scene, replay: str | None = None, bot: bool = False) -> str:
+    """Return the command that makes the same run again and writes its numbers to figures.csv.
+
+    replay: file of the recorded run; None: the run had no input, or that of the scene's bot (`bot`).
+    """
+    if replay is not None:
+        run = ("--replay", replay)
+    else:
+        run = (
+            "--scene",
+            scene.name,
+            *(("--bot",) if bot else ()),
+            "--seed",
+            f"{scene.seed}",
+            "--frames",
+            f"{scene.frame}",
+        )
+    return shlex.join((*START, *run, "--headless", "--csv", "figures.csv"))
+
+
+def figures_csv(scene: Scene, command: str) -> str:
+    """Return the text of the CSV file: the headline, the goals, the finding, and all measured runs, tiers and effects.
+
+    command: see command_of(). A number that is not known yet has no row.
+    """
+    file = io.StringIO()
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    system = ", ".join(f"{name} {value}" for name, value in machine().items())
+    for figure in figures_of(scene):
+        writer.writerow((scene.name, scene.seed, scene.frame, *figure, command, system))
+    return file.getvalue()
+
+
+def figures_of(scene: Scene) -> Iterator[Figure]:
+    """Yield all numbers that the scene has found in this run so far."""
+    headline = scene.headline()
+    if headline is not None and headline.known:
+        yield Figure("headline", headline.sentence, headline.number, headline.unit)
+    for goal in scene.check():
+        verdict = "met" if goal.met else "pending" if scene.frame < goal.due else "not met"
+        yield Figure("goal", goal.name, verdict, goal.detail)
+    if finding := scene.finding():
+        yield Figure("finding", scene.name, finding)
+    for name, figures in scene.figures.items():
+        if isinstance(figures, RunFigures):
+            yield from _run_figures(_name_of(name), figures)
+        elif isinstance(figures, TierFigures):
+            yield from _tier_figures(figures)
+    for name, total in scene.totals.items():
+        yield from _totals(name, total)
+
+
+def _name_of(name):
+    """Return the name of a measured run as text: its parts, separated by blanks."""
+    return " ".join(map(str, name)) if isinstance(name, tuple) else f"{name}"
+
+
+def _timed(of, name, cost: Cost, unit="us", scale=1e6):
+    return Figure(of, name, scale * cost.median, unit, scale * cost.least, scale * cost.upper, cost.runs)
+
+
+def _run_figures(name, figures):
+    yield _timed("run", f"{name}, a step", figures.cost)
+    for what, value in (("deepest overlap", figures.overlap), ("greatest motion in a step", figures.farthest)):
+        if value is not None:
+            yield Figure("run", f"{name}, {what}", value, "px")
+
+
+def _tier_figures(figures):
+    for what, cost in (("a hit", figures.hit), ("a miss", figures.miss)):
+        yield _timed("tier", f"{figures.tier}, {what}", cost, "ns", 1e9)
+    yield _timed("tier", f"{figures.tier}, shapes made", figures.build)
+    for what, rate in (("false hits of reported hits", figures.wrong), ("missed hits of true hits", figures.missed)):
+        low, high = rate.interval
+        name = f"{figures.tier}, {what} ({rate.count} of {rate.total})"
+        yield Figure("tier", name, 100 * rate.share, "per 100", 100 * low, 100 * high)
+    for what, value in figures.fit._asdict().items():
+        yield Figure("tier", f"{figures.tier}, fit, {what}", value)
+
+
+def _totals(name, total: EffectTotal):
+    for field, unit in FIELDS.items():
+        if field == "time" and total.value("time") is not None and total.time is not None:
+            yield _timed("effects", f"{name}, {field}", total.time)
+        elif field != "time" and (value := total.value(field)) is not None:
+            yield Figure("effects", f"{name}, {field}", SCALES[field] * value, unit)
