@@ -371,6 +371,14 @@ class Scene:
                     body.tier = name
 
     @property
+    def own_hits(self) -> dict[str, int]:
+        """Hits of the player's body in this run, by the shape that reports them: "box", "hull", "core"; {} for none.
+
+        The scene's picture, the plot of costs and the CSV file show these counts.
+        """
+        return {}
+
+    @property
     def own_body(self) -> int | None:
         """Id of the body in the first world that the player must protect; None if there is none."""
         return None

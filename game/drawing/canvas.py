@@ -160,6 +160,11 @@ class Canvas:
         return None
 
 
+def small_font(scale: int) -> tuple[str, int]:
+    """Return (font, distance of two lines [text px]) of small text that is at least 9 px high at this scale."""
+    return (SMALL, 7) if scale > 1 else (TEXT, 10)
+
+
 def wrap(text: str, width: int, font: str = TEXT, scale: int = 1) -> list[str]:
     """Return a text broken into lines of at most `width` pixels. A word that is wider has its own line."""
     measure = load_font(font).measure

@@ -5,7 +5,7 @@ from math import ceil, floor, log10
 
 import pygame
 
-from game.drawing.canvas import SMALL
+from game.drawing.canvas import small_font
 from game.drawing.colors import FOG, INK, SLATE, Color, faded
 from game.drawing.presenter import Frame
 
@@ -50,8 +50,9 @@ class LogPlot:
 
     def __init__(self, rect: pygame.Rect, x: Axis, y: Axis, zero: bool, scale: int) -> None:
         self.x, self.y, self.scale = x, y, scale
-        foot = 9 * scale
-        inner = pygame.Rect(rect.x + 24 * scale, rect.y + 2 * scale, rect.width - 28 * scale, rect.height - foot)
+        self.font, self.line = small_font(scale)
+        foot, side = (self.line + 2) * scale, (24 if self.line == 7 else 34) * scale  # room for the numbers
+        inner = pygame.Rect(rect.x + side, rect.y + 2 * scale, rect.width - side - 4 * scale, rect.height - foot)
         self.strip = pygame.Rect(inner.x, inner.bottom - 11 * scale, inner.width, 11 * scale) if zero else None
         self.area = inner if not zero else pygame.Rect(inner.x, inner.y, inner.width, inner.height - 13 * scale)
 
@@ -74,15 +75,25 @@ class LogPlot:
         surface.fill(INK, area)
         if self.strip is not None:
             surface.fill(faded(SLATE, 0.75), self.strip)
-            frame.text("0", self.strip.x - 2 * scale, self.strip.centery - 2 * scale, FOG, SMALL, scale, "right")
-        for value in self.x.ticks(max(2, area.width // (22 * scale))):
+            frame.text(
+                "0",
+                self.strip.x - 2 * scale,
+                self.strip.centery - self.line // 3 * scale,
+                FOG,
+                self.font,
+                scale,
+                "right",
+            )
+        for value in self.x.ticks(max(2, area.width // ((self.line + 15) * scale))):
             left = round(self.place(value, 1.0)[0])
             pygame.draw.line(surface, GRID, (left, area.top), (left, bottom - 1))
-            frame.text_if_free(number(value), left, bottom + 2 * scale, FOG, SMALL, scale, "center")
-        for value in self.y.ticks(max(2, area.height // (9 * scale))):
+            frame.text_if_free(number(value), left, bottom + 2 * scale, FOG, self.font, scale, "center")
+        for value in self.y.ticks(max(2, area.height // ((self.line + 2) * scale))):
             top = round(self.place(1.0, value)[1])
             pygame.draw.line(surface, GRID, (area.left, top), (area.right - 1, top))
-            frame.text_if_free(number(value), area.x - 2 * scale, top - 2 * scale, FOG, SMALL, scale, "right")
+            frame.text_if_free(
+                number(value), area.x - 2 * scale, top - self.line // 3 * scale, FOG, self.font, scale, "right"
+            )
         pygame.draw.rect(surface, SLATE, area, 1)
 
     def draw_level(self, frame: Frame, value: float, color: Color, name: str) -> None:
@@ -93,7 +104,7 @@ class LogPlot:
         for left in range(self.area.left, self.area.right - 2, 6 * self.scale):
             pygame.draw.line(frame.surface, color, (left, top), (min(left + 3 * self.scale, self.area.right - 1), top))
         frame.text_if_free(
-            name, self.area.right - 2 * self.scale, top - 7 * self.scale, color, SMALL, self.scale, "right"
+            name, self.area.right - 2 * self.scale, top - self.line * self.scale, color, self.font, self.scale, "right"
         )
 
 

@@ -4,6 +4,7 @@ Each setting is a dot of a plot.
 """
 
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -188,6 +189,18 @@ class Survey:
     def _is_tier_alone(self, setting):
         """Return whether a setting differs from the one that was measured first by no more than its collision tier."""
         return set(setting.differs(self.first)) <= {"tier"}
+
+
+def own_sentence(hits: Mapping[str, int], tier: str | None) -> str:
+    """Return a sentence on the false hits of the player's box, from the counts that the scene shows; "" without them.
+
+    hits: Scene.own_hits; tier: the collision tier of the hull. Boxes contain the shapes of every tier, so that a hit of
+    the box without one of the hull is false.
+    """
+    boxes, hull = hits.get("box", 0), hits.get("hull", 0)
+    if not boxes or tier not in ("pixels", "mask"):
+        return ""
+    return f"You, as counted in the picture: {boxes - hull} of {boxes} hits by your box are false."
 
 
 def reported_error(error: Error) -> float:

@@ -16,7 +16,7 @@ from game.startup import START
 
 
 class Figure(NamedTuple):
-    """One row of the file. of: where the scene shows it: "headline", "goal", "finding", "run", "tier" or "effects".
+    """One row of the file. of: what shows it: "headline", "goal", "finding", "own hits", "run", "tier" or "effects".
 
     value: a number or a text; low, high: its interval, for times the least and the upper quartile; "" for none.
     """
@@ -77,6 +77,8 @@ def figures_of(scene: Scene) -> Iterator[Figure]:
         yield Figure("goal", goal.name, verdict, goal.detail)
     if finding := scene.finding():
         yield Figure("finding", scene.name, finding)
+    for part, count in scene.own_hits.items():
+        yield Figure("own hits", part, count, "hits")
     for name, figures in scene.figures.items():
         if isinstance(figures, RunFigures):
             yield from _run_figures(_name_of(name), figures)

@@ -79,7 +79,7 @@ def _draw_stock(canvas, scene):
 def _draw_hits(canvas, scene):
     """Draw the numbers of hits on the player's core, hull and bounding box. The vulnerable part is written in gold."""
     ui, y, x = load_atlas("ui"), canvas.rect.bottom - 14, MARGIN
-    counts = scene.hits.count
+    counts = scene.own_hits
     for part in ("core", "hull"):
         canvas.surface.blit(ui[f"icon_{part}"], (x, y))
         color = GOLD if part == scene.hurts else PAPER

@@ -105,6 +105,11 @@ class Shooter(Scene):
         return ("core", "hull")[int(self.values["hurts"])]
 
     @property
+    def own_hits(self):
+        """Hits of the player's plane so far, by its core, its hull and its bounding box."""
+        return self.hits.count
+
+    @property
     def own_body(self):
         """Body id of the hull of the player's plane, or None while the plane cannot be hit."""
         return None if self.plane.ghost or self.plane.body is None else self.plane.body.id

@@ -7,14 +7,13 @@ from collections.abc import Callable
 
 import pygame
 
-from game.drawing.canvas import SMALL, shorten
+from game.drawing.canvas import shorten, small_font
 from game.drawing.colors import DUSK, FOG, GREEN, PAPER, SKY
 from game.drawing.presenter import Frame
 from game.measure.setting import Setting
 from game.screens.parts.measuring import Measuring
 
 TAKE, TUNE = pygame.K_PAGEUP, pygame.K_PAGEDOWN
-ROW = 9  # [text px]
 
 
 class AdviceRows:
@@ -58,14 +57,16 @@ class AdviceRows:
     def draw(self, frame: Frame, left: int, y: int, width: int, scale: int) -> int:
         """Draw both lines from (left, y) down, `width` wide [frame px]. Return the y below them."""
         texts = ((self._advice(), GREEN), (self._tuning(), SKY if self.tuner.on else FOG))
+        font, line = small_font(scale)
+        high = (line + 2) * scale
         for row, (text, color) in enumerate(texts):
-            self.rects[row] = rect = pygame.Rect(left, y + row * ROW * scale, width, (ROW - 1) * scale)
+            self.rects[row] = rect = pygame.Rect(left, y + row * high, width, high - scale)
             frame.surface.fill(DUSK, rect)
             ink = color if row or "PgUp" in text else PAPER
             frame.text(
-                shorten(text, width - 4 * scale, SMALL, scale), left + 2 * scale, rect.y + scale, ink, SMALL, scale
+                shorten(text, width - 4 * scale, font, scale), left + 2 * scale, rect.y + scale, ink, font, scale
             )
-        return y + 2 * ROW * scale + scale
+        return y + 2 * high + scale
 
     def _advice(self):
         survey, here, advice = self.tuner.survey, self.measuring.now(), self.measuring.advice

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import pygame
 
-from game.drawing.canvas import SMALL, TEXT, shorten, wrap
+from game.drawing.canvas import TEXT, shorten, small_font, wrap
 from game.drawing.colors import DUSK, FOG, GOLD, GREEN, NIGHT, ORANGE, PAPER, RED, SKY, SLATE, YELLOW, Color, faded
 from game.drawing.number_text import count_text
 from game.drawing.plot import Axis, LogPlot, number
@@ -12,7 +12,7 @@ from game.drawing.presenter import Frame
 from game.measure.errors import VISIBLE, Error
 from game.measure.moment import STEPS
 from game.measure.setting import Setting
-from game.measure.survey import reported_error, shown
+from game.measure.survey import own_sentence, reported_error, shown
 from game.measure.timing import RUNS, Cost
 from game.screens.parts.advice_rows import AdviceRows
 from game.screens.parts.measuring import Measuring
@@ -42,7 +42,6 @@ FEET = (
 )
 LASTS = 15  # pictures for which a painted panel is shown, even if new results arrive
 TRAIL = 12  # number of last applied settings that a line joins
-ROW = 8  # [text px]
 
 
 class CostPanel:
@@ -148,7 +147,7 @@ class CostPanel:
         if not self.trail or self.trail[-1] != now:
             self.trail = [*self.trail, now][-TRAIL:]
         asked = (tuple(rect), now, self.hovered, self.shown_kind(), self.focused, frame.palette, self.surveyor.trouble)
-        asked = *asked, *self.advice.stamp()
+        asked = *asked, *self.advice.stamp(), *self.measuring.scene.own_hits.values()
         self.age += 1
         if self.sheet is None or asked != self.asked or (self.age >= LASTS and self.seen != self.surveyor.revision):
             self.asked, self.age, self.seen, before = asked, 0, self.surveyor.revision, len(frame.boxes)
@@ -162,6 +161,7 @@ class CostPanel:
     def _paint(self, frame, rect, now):
         """Paint the heading, the plot, its legend, the finding, the advice and the list. now: the current setting."""
         self.rect, scale = rect, frame.text_scale
+        font, line = small_font(scale)
         frame.surface.fill(faded(NIGHT, 0.2), rect)
         pygame.draw.line(frame.surface, SLATE, rect.topleft, rect.bottomleft, scale)
         left, width = rect.x + 5 * scale, rect.width - 10 * scale
@@ -174,23 +174,26 @@ class CostPanel:
             y = self._draw_forms(frame, left, plot.bottom + 3 * scale, width, known, now, scale)
             y = self._draw_finding(frame, left, y, width, now, scale)
             y = self.advice.draw(frame, left, y, width, scale)
-            self._draw_list(frame, pygame.Rect(left, y, width, rect.bottom - 10 * scale - y), known, now, scale)
-        foot = next((line for line in FEET if frame.measure(line, SMALL, scale)[0] <= width), FEET[-1])
-        frame.text(foot, left, rect.bottom - 8 * scale, FOG, SMALL, scale)
+            self._draw_list(frame, pygame.Rect(left, y, width, rect.bottom - (line + 3) * scale - y), known, now, scale)
+        foot = next((each for each in FEET if frame.measure(each, font, scale)[0] <= width), FEET[-1])
+        frame.text(foot, left, rect.bottom - (line + 1) * scale, FOG, font, scale)
 
     def _draw_head(self, frame, left, y, width, scale):
+        font, line = small_font(scale)
         frame.text("What accuracy costs", left, y, GOLD, TEXT, scale)
         y += 10 * scale
         kind = self.shown_kind()
         if kind == "verdict" and (sentence := self.survey.boxes_and_pixels()):
             y = self._draw_sentence(frame, left, y, width, sentence, scale)
-        lines = wrap(self._state(), width, SMALL, scale)
+            if own := own_sentence(self.measuring.scene.own_hits, self.measuring.scene.tier):
+                y = self._draw_sentence(frame, left, y, width, own, scale)
+        lines = wrap(self._state(), width, font, scale)
         if kind:
             more = f"  ({len(self.survey.kinds)} kinds, \u2190 \u2192)" if len(self.survey.kinds) > 1 else ""
-            lines = [*wrap(f"up: {TITLES[kind]}{more}; right: time of a step [us]", width, SMALL, scale), *lines]
-        self.head = pygame.Rect(left, y, width, len(lines) * 7 * scale)
-        for row, line in enumerate(lines):
-            frame.text(line, left, y + row * 7 * scale, FOG, SMALL, scale)
+            lines = [*wrap(f"up: {TITLES[kind]}{more}; right: time of a step [us]", width, font, scale), *lines]
+        self.head = pygame.Rect(left, y, width, len(lines) * line * scale)
+        for row, text in enumerate(lines):
+            frame.text(text, left, y + row * line * scale, FOG, font, scale)
         return self.head.bottom + 2 * scale
 
     def _draw_sentence(self, frame, left, y, width, sentence, scale):
@@ -254,34 +257,37 @@ class CostPanel:
         setting = self.hovered if self.hovered in places else now if now in places else None
         if setting is None:
             return
+        font, line = small_font(scale)
         cost, error = known[setting]
         base = self.surveyor.here or now
         text = f"{setting.label(base)}: {1e6 * cost.median:.0f} us, {shown(error)}"
-        width = frame.measure(text, SMALL, scale)[0]
+        width = frame.measure(text, font, scale)[0]
         x, y = places[setting]
-        left = min(max(rect.x + 26 * scale, x - width / 2), rect.right - width - 5 * scale)
-        top = y - 13 * scale if y - 13 * scale > rect.y else y + 8 * scale
-        box = pygame.Rect(round(left) - 2 * scale, round(top) - scale, width + 4 * scale, 7 * scale)
+        left = min(max(rect.x + (line + 26) * scale, x - width / 2), rect.right - width - 5 * scale)
+        above = (line + 6) * scale
+        top = y - above if y - above > rect.y else y + 8 * scale
+        box = pygame.Rect(round(left) - 2 * scale, round(top) - scale, width + 4 * scale, line * scale)
         frame.surface.fill(NIGHT, box)
-        frame.text(text, round(left), round(top), GOLD if setting == now else PAPER, SMALL, scale)
+        frame.text(text, round(left), round(top), GOLD if setting == now else PAPER, font, scale)
 
     def _draw_forms(self, frame, left, y, width, known, now, scale):
         """Draw the legend from (left, y) on: name and form of each kind of dot in the plot. Return the y below it.
 
         known: {setting: (cost, error)}; now: the current setting; scale: of the text.
         """
+        font, line = small_font(scale)
         base = self.surveyor.here or now
         names = dict.fromkeys(kind_of(setting, base) for setting in known if setting != base)
         x = left
         for name in names:
             word, color, form = LOOKS[name]
-            wide = frame.measure(word, SMALL, scale)[0] + 14 * scale
+            wide = frame.measure(word, font, scale)[0] + 14 * scale
             if x + wide > left + width and x > left:
-                x, y = left, y + ROW * scale
+                x, y = left, y + (line + 1) * scale
             draw_form(frame.surface, form, (x + 3 * scale, y + 3 * scale), 2 * scale, frame.tone(color), True)
-            frame.text(word, x + 7 * scale, y, FOG, SMALL, scale)
+            frame.text(word, x + 7 * scale, y, FOG, font, scale)
             x += wide
-        return y + (ROW + 2) * scale
+        return y + (line + 3) * scale
 
     def _draw_finding(self, frame, left, y, width, now, scale):
         advice = self.measuring.advice
@@ -295,10 +301,12 @@ class CostPanel:
         known: {setting: (cost, error)}; now: the current setting; scale: of the text.
         """
         base, pareto_front = self.surveyor.here or now, set(self.survey.pareto_front(self.shown_kind()))
+        font, line = small_font(scale)
+        high = (line + 1) * scale
         ranking = self.ranking()
-        frame.text("time of a step, noise, error", rect.right - 2 * scale, rect.y + scale, FOG, SMALL, scale, "right")
-        rect = pygame.Rect(rect.x, rect.y + ROW * scale, rect.width, rect.height - ROW * scale)
-        room = max(0, rect.height // (ROW * scale) - 1)
+        frame.text("time of a step, noise, error", rect.right - 2 * scale, rect.y + scale, FOG, font, scale, "right")
+        rect = pygame.Rect(rect.x, rect.y + high, rect.width, rect.height - high)
+        room = max(0, rect.height // high - 1)
         # The selected setting stays visible.
         places = {setting: place for place, setting in enumerate(ranking)}
         here = self.hovered if self.focused and self.hovered is not None else now
@@ -306,23 +314,23 @@ class CostPanel:
         first = max(0, sought - room + 1)
         for place, setting in enumerate(ranking[first : first + room]):
             cost, error = known[setting]
-            row = pygame.Rect(rect.x, rect.y + place * ROW * scale, rect.width, ROW * scale)
+            row = pygame.Rect(rect.x, rect.y + place * high, rect.width, high)
             if setting in (now, self.hovered):
                 frame.surface.fill(DUSK, row)
             color, form = look_of(setting, base)
             draw_form(frame.surface, form, (row.x + 3 * scale, row.y + 3 * scale), 2 * scale, frame.tone(color), True)
             ink = GOLD if setting == now else PAPER if setting in pareto_front else FOG
             values = f"{_short(cost)}  {shown(error)}{_failed(error)}"
-            right = frame.text(values, row.right - 2 * scale, row.y + scale, ink, SMALL, scale, "right").left
-            name = shorten(setting.label(base), right - row.x - 12 * scale, SMALL, scale)
-            frame.text(name, row.x + 8 * scale, row.y + scale, ink, SMALL, scale)
+            right = frame.text(values, row.right - 2 * scale, row.y + scale, ink, font, scale, "right").left
+            name = shorten(setting.label(base), right - row.x - 12 * scale, font, scale)
+            frame.text(name, row.x + 8 * scale, row.y + scale, ink, font, scale)
             self.rows.append((row, setting))
         more = len(ranking) - first - room
         if more > 0 or first:
-            y = rect.y + room * ROW * scale
+            y = rect.y + room * high
             less = f"{first} cheaper above" if first else ""
-            line = ", ".join(filter(None, (less, f"{more} dearer below" if more > 0 else "")))
-            frame.text(line, rect.x, y + scale, FOG, SMALL, scale)
+            rest = ", ".join(filter(None, (less, f"{more} dearer below" if more > 0 else "")))
+            frame.text(rest, rect.x, y + scale, FOG, font, scale)
 
 
 def kind_of(setting: Setting, base: Setting) -> str:

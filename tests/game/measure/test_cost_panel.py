@@ -7,6 +7,12 @@ import pytest
 
 from game.drawing.canvas import TEXT, wrap
 from game.files.data_folder import short_path
+from game.input.devices import DeviceSource
+from game.measure.errors import Error, Verdicts
+from game.measure.moment import STEPS
+from game.measure.setting import settings_around
+from game.measure.timing import RUNS
+from game.run.figures_csv import figures_of
 from game.run.picture import Picture
 from game.run.replay import Recorder
 from game.run.replay_check import is_possible
@@ -16,6 +22,7 @@ from scenes.lab.pyramid import Pyramid
 from scenes.lab.stacks import Stacks
 from scenes.shooter.scene import Shooter
 from tests.game.reading import Reader, assert_text_is_apart
+from tests.game.test_lab_card import Silent
 
 
 def words(frame):
@@ -158,3 +165,49 @@ def test_f9_saves_what_is_measured_as_csv(driver, tmp_path):
     (saved,) = (tmp_path / "measurements").glob("lab-filters-*.csv")
     assert len(saved.read_text().splitlines()) > 2
     assert driver.screen.news == f"saved as {short_path(saved)}"
+
+
+def play_with_a_survey():
+    """The shooter with the plot open, and a result of every setting."""
+    play = Play(Shooter(seed=1), DeviceSource(), Silent())
+    for _ in range(3):
+        play.step()
+    play.toggle_costs()
+    survey = play.measuring.surveyor.survey
+    settings = settings_around(play.measuring.now(), play.scene.world.effects)
+    survey.kinds, survey.planned, survey.moments = ("verdict",), len(settings), 1
+    true = frozenset((1, k) for k in range(2, 40))
+    for number, setting in enumerate(settings):
+        dot = survey.dot(setting)
+        dot.steps = STEPS
+        for run in range(RUNS):
+            dot.took(1, 1e-6 * (40 + 7 * number + run))
+        reported = true | {(0, k) for k in range(3 * number)}
+        dot.erred(1, {"verdict": Error.of(Verdicts(frozenset(reported), true, not number), STEPS, {})})
+    return play
+
+
+@pytest.mark.usefixtures("nothing_is_measured")
+def test_the_plot_says_what_the_picture_counts():
+    play = play_with_a_survey()
+    play.scene.hits.count.update(core=2, hull=11, box=18)
+    frame = play.draw(Picture(pygame.Surface((1440, 810))))
+    assert "7 of 18 hits by your box are false" in words(frame)
+    assert {"core 2", "hull 11", "box 18"} <= {text for _, text in frame.boxes}
+    rows = {figure.name: figure.value for figure in figures_of(play.scene) if figure.of == "own hits"}
+    assert rows == {"core": 2, "hull": 11, "box": 18}
+    play.scene.tier = "aabb"
+    assert "by your box" not in words(play.draw(Picture(pygame.Surface((1440, 810))))), "its hull is a box, too"
+    play.close()
+
+
+@pytest.mark.usefixtures("nothing_is_measured")
+@pytest.mark.parametrize("size", [(480, 270), (640, 360), (800, 450), (960, 540), (1440, 810), (1920, 1080)])
+def test_nothing_in_the_plot_is_under_nine_pixels(size):
+    play = play_with_a_survey()
+    frame = play.draw(Picture(pygame.Surface(size)))
+    inside = [(rect, text) for rect, text in frame.boxes if play.costs.rect.contains(rect)]
+    assert len(inside) > 10
+    assert all(rect.height >= 9 for rect, _ in inside), [text for rect, text in inside if rect.height < 9]
+    assert_text_is_apart(inside, frame.rect)
+    play.close()
