@@ -12,12 +12,22 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from game import VERSION
+from game.report.answer import answer_of
 from game.report.chart import Chart
 from game.report.claim import Claim
 from game.report.job import Row
 from game.report.plots import draw, shown
 from game.startup import START
 
+HEADLINE = "tiers"  # key of the chart whose first panel follows the answer
+# The questions of the report, and the keys of the charts that answer them; other charts follow the last question.
+QUESTIONS = (
+    ("Which hits are fair?", ("tiers", "contacts", "fit", "continuous", "continuous-time")),
+    ("What stands?", ("solvers", "integration", "far", "chaos")),
+    ("What is fast?", ("broadphases", "latency")),
+    ("What does a scene need?", ("effects", "scenes")),
+    ("How do others do?", ("peers", "papers")),
+)
 PAGE = Path(__file__).with_name("page.html")
 
 
@@ -37,16 +47,21 @@ def write_page(measured: Sequence[Measured], manifest: Mapping[str, Any], folder
     that measure a dot again; spent: duration of all jobs [s].
     """
     reported: dict[str, Any] = {}
-    charts = "\n".join(_chart(each, reported, folder, bool(manifest["quick"])) for each in measured)
+    quick = bool(manifest["quick"])
+    groups = _groups(measured)
+    charts = "\n".join(
+        f'<h2 class=question id="q{number}">{escape(question)}</h2>\n'
+        + "\n".join(_chart(each, reported, folder, quick) for each in members)
+        for number, (question, members) in enumerate(groups)
+    )
     rows = {each.chart.key: each.rows for each in measured}
     parts = {
         "version": VERSION,
         "kind": "quick" if manifest["quick"] else "full",
         "machine": _machine(manifest["machine"], spent),
-        "contents": "".join(
-            f'<li><a href="#{each.chart.key}">{each.chart.number}. {escape(each.chart.title)}</a></li>'
-            for each in measured
-        ),
+        "answer": escape(answer_of(rows.get(HEADLINE, []))),
+        "headline": _headline(measured, reported, folder, quick),
+        "contents": "".join(_contents(number, *group) for number, group in enumerate(groups)),
         "failures": _failures(measured),
         "claims": _claims([claim for each in measured for claim in each.chart.claims(each.rows)]),
         "charts": charts,
@@ -59,6 +74,40 @@ def write_page(measured: Sequence[Measured], manifest: Mapping[str, Any], folder
     return page
 
 
+def _groups(measured):
+    """Return a list of (question, charts that answer it) of the charts in `measured`."""
+    known = {key: number for number, (_, keys) in enumerate(QUESTIONS) for key in keys}
+    found = [(question, []) for question, _ in QUESTIONS]
+    for each in measured:
+        found[known.get(each.chart.key, len(QUESTIONS) - 1)][1].append(each)
+    return [(question, members) for question, members in found if members]
+
+
+def _contents(number, question, members):
+    charts = "".join(
+        f'<li><a href="#{each.chart.key}">{each.chart.number}. {escape(each.chart.title)}</a></li>' for each in members
+    )
+    return f'<li><a href="#q{number}">{escape(question)}</a><ul>{charts}</ul></li>'
+
+
+def _headline(measured, reported, folder, quick):
+    """Return the figure that follows the answer: the first panel of the chart HEADLINE; "" while it has no dots."""
+    for each in measured:
+        if each.chart.key == HEADLINE and isinstance(each.chart.panels, tuple):
+            return _figure(each.chart.panels[0], each.rows, "headline", reported, folder, quick)
+    return ""
+
+
+def _figure(panel, rows, name, reported, folder, quick):
+    """Return a panel as a figure, and add what is said of its dots to `reported`; "" if it has no dots."""
+    svg, dots = draw(panel, rows, name)
+    if not svg:
+        return ""
+    for k, dot in enumerate(dots):
+        reported[f"{name}-{k}"] = {**shown(dot, panel), "again": command(dot.row, folder, quick)}
+    return f"<figure><figcaption>{escape(panel.title)}</figcaption>{svg}</figure>"
+
+
 def _script(value):
     """Return a value as JSON text in which nothing can end the HTML element around it."""
     return json.dumps(value).replace("</", "<\\/")
@@ -66,18 +115,13 @@ def _script(value):
 
 def _chart(measured, reported, folder, quick):
     chart, rows = measured.chart, measured.rows
-    panels = []
-    for number, panel in enumerate(chart.panels if isinstance(chart.panels, tuple) else chart.panels(rows)):
-        name = f"{chart.key}-{number}"
-        svg, dots = draw(panel, rows, name)
-        if not svg:
-            continue
-        for k, dot in enumerate(dots):
-            reported[f"{name}-{k}"] = {**shown(dot, panel), "again": command(dot.row, folder, quick)}
-        panels.append(f"<figure><figcaption>{escape(panel.title)}</figcaption>{svg}</figure>")
-    text = "".join(panels) or "<p>Nothing of this is measured.</p>"
+    panels = chart.panels if isinstance(chart.panels, tuple) else chart.panels(rows)
+    text = "".join(
+        _figure(panel, rows, f"{chart.key}-{number}", reported, folder, quick) for number, panel in enumerate(panels)
+    )
+    text = text or "<p>Nothing of this is measured.</p>"
     return (
-        f'<section id="{chart.key}"><h2>{chart.number}. {escape(chart.title)}</h2>'
+        f'<section id="{chart.key}"><h3>{chart.number}. {escape(chart.title)}</h3>'
         f"<p>{escape(chart.question)}</p><p class=truth>Truth: {escape(chart.truth)}</p>"
         f"<div class=panels>{text}</div>{_claims(chart.claims(rows))}"
         f"<details><summary>{len(rows)} rows, and the commands that measure them again</summary>"
@@ -107,7 +151,7 @@ def _claims(claims: Iterable[Claim]):
     if not lines:
         return ""
     head = "<tr><th>claim</th><th>measured</th><th>verdict</th><th>whose</th></tr>"
-    return f"<table class=claims>{head}{''.join(lines)}</table>"
+    return f"<div class=wide><table class=claims>{head}{''.join(lines)}</table></div>"
 
 
 def _failures(measured):

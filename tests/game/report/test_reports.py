@@ -12,10 +12,12 @@ from game.command_line import run
 from game.errors import UsageError
 from game.measure.timing import Cost
 from game.registry import Registry
+from game.report.answer import WAITS, answer_of
 from game.report.chart import Axis, Chart, Panel, time, value
+from game.report.charts.tiers import AROUND
 from game.report.claim import FAILS, HOLDS, TIE, at_least, at_most, ordering
 from game.report.job import Job, ReportScope, spread
-from game.report.page import as_csv
+from game.report.page import PAGE, QUESTIONS, _claims, as_csv
 from game.report.store import Store
 from scenes import SCENES
 
@@ -77,6 +79,51 @@ def test_the_page_is_whole_and_needs_nothing_else(charts, tmp_path, capsys):
     lines = list(csv.DictReader((folder / "data" / "fall.csv").open()))
     assert [row["n"] for row in rows] == [1, 2, 4] == [int(line["n"]) for line in lines]
     assert [float(line["cost_median"]) for line in lines] == [row["cost"]["seconds"][1] for row in rows]
+
+
+def test_it_opens_with_the_answer_and_ends_with_the_claims(charts, tmp_path):
+    assert report(tmp_path / "r", "--quick") == 0
+    page = (tmp_path / "r" / "index.html").read_text()
+    parts = ("<h1>", 'class="answer"', "<nav>", "class=question", 'id="claims"', 'class="machine"')
+    order = [page.index(part) for part in parts]
+    assert order == sorted(order)
+    assert WAITS in page, "without its chart there is no answer"
+
+
+def test_the_five_questions_hold_every_chart():
+    from game.report.charts import CHARTS
+
+    assert len(QUESTIONS) == 5
+    assert sorted(key for _, keys in QUESTIONS for key in keys) == sorted(chart.key for chart in CHARTS)
+
+
+def row_of(tier, sprite, seconds, wrong=(0, 100)):
+    cost = {"seconds": [seconds, 1.1 * seconds, 1.2 * seconds]}
+    return {"panel": AROUND, "series": tier, "sprite": sprite, "wrong": list(wrong), "hit_cost": cost}
+
+
+def test_the_answer_is_what_the_rows_say():
+    rows = [row_of("aabb", "a", 1.0, (30, 100)), row_of("mask", "a", 2.0), row_of("hull", "a", 9.0, (90, 100))]
+    rows += [row_of("aabb", "b", 1.0, (10, 100)), row_of("mask", "b", 3.0)]
+    said = answer_of(rows)
+    assert "Of 100 hits by the boxes of sprites, 20 are false (15 to 26)." in said and "2.0 to 3.0 x the time" in said
+    same = answer_of([row_of("aabb", "a", 1.0, (30, 100)), row_of("mask", "a", 1.0)])
+    assert "no more time that can be told apart" in same
+    assert answer_of([]) == WAITS == answer_of(rows[:1])
+
+
+def test_nothing_is_wider_than_a_phone():
+    """400 px less the margins leave 356: no fixed width beyond it, words break, wide tables scroll by themselves."""
+    style = PAGE.read_text().split("</style>")[0]
+    for rule in re.findall(r"\{([^{}]*)\}", style):
+        for name, text in re.findall(r"([a-z-]+):\s*([^;]+)", rule):
+            if name in ("width", "min-width", "grid-template-columns", "columns"):
+                free = re.sub(r"min\([^()]*\)", "", text)
+                assert all(int(size) <= 356 for size in re.findall(r"(\d+)px", free)), (name, text)
+    assert "overflow-wrap: anywhere" in style and "max-width: min(420px, 90vw)" in style
+    assert re.search(r"figure svg \{[^}]*width: 100%", style) and re.search(r"\.wide \{[^}]*overflow: auto", style)
+    assert 'name="viewport"' in style
+    assert "<div class=wide><table" in _claims([at_least("x", (1.0, 2.0, 3.0), 1.0)])
 
 
 def test_what_was_done_is_not_done_again(charts, tmp_path, capsys):

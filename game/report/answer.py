@@ -1,0 +1,36 @@
+"""The answer with which the report opens: how often boxes are wrong, and what exact pixels cost, in one sentence."""
+
+from collections.abc import Sequence
+
+from game.measure.rates import Rate
+from game.report.charts.tiers import AROUND
+from game.report.claim import ratio_of
+from game.report.job import Row
+
+BOX, EXACT = "aabb", "mask"
+WAITS = "The answer comes with the first chart: its jobs are not done yet."
+
+
+def answer_of(rows: Sequence[Row]) -> str:
+    """Return the answer as a sentence. rows: of the chart "tiers".
+
+    The rate of false hits is pooled over the sprites, with its 95 % interval (Wilson). The time of a hit by exact
+    pixels is given as the range of its ratio over the sprites; if the intervals of all ratios hold 1, as no difference.
+    """
+    mine = [row for row in rows if row.get("panel") == AROUND]
+    costs = {(row["sprite"], row["series"]): row["hit_cost"] for row in mine}
+    sprites = [sprite for sprite, tier in costs if tier == BOX and (sprite, EXACT) in costs]
+    if not sprites:
+        return WAITS
+    rates = [Rate(*row["wrong"]) for row in mine if row["series"] == BOX]
+    wrong = Rate(sum(rate.count for rate in rates), sum(rate.total for rate in rates))
+    low, high = (round(100 * share) for share in wrong.interval)
+    ratios = [ratio_of(costs[sprite, EXACT], costs[sprite, BOX]) for sprite in sprites]
+    middles = sorted(middle for _, middle, _ in ratios)
+    times = f"{middles[0]:.1f} to {middles[-1]:.1f} x the time"
+    if all(least <= 1.0 <= most for least, _, most in ratios):
+        times = "no more time that can be told apart"
+    return (
+        f"Of 100 hits by the boxes of sprites, {100 * wrong.share:.0f} are false ({low} to {high}). "
+        f"By exact pixels none is, and a hit takes {times}."
+    )
