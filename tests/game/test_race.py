@@ -14,7 +14,9 @@ from game.run.picture import Picture
 from game.run.replay import load_replay
 from game.run.session import Session
 from game.run.sources import BotSource, ScriptSource
+from game.screens.parts import race as race_module
 from game.screens.parts.panel_rows import play_rows
+from game.screens.parts.race import STEPS_TIMED
 from game.screens.play import Play
 from scenes import SCENES
 from tests.lockstep import make_scene
@@ -293,6 +295,31 @@ def test_it_can_be_run_in_every_scene(played, name):
     frame = play.draw(Picture(pygame.Surface((960, 540))))
     assert any("px apart" in text for _, text in frame.boxes)
     assert [w.digest() for w in race.rival.worlds] == [w.digest() for w in play.scene.worlds]
+
+
+def test_k_says_what_can_be_raced_where_there_are_no_sprites(played):
+    play = played("lab/tumbler")
+    play.feed(pygame.event.Event(pygame.KEYDOWN, key=pygame.K_k, mod=0, unicode="k"))
+    assert play.measuring.race is None and play.news.startswith("no race: the panel starts one, against ")
+    assert len(play.news.split(", ")) > 2
+
+
+def test_no_time_is_told_while_a_kernel_is_not_compiled(played, monkeypatch):
+    play = played("lab/tumbler", BotSource())
+    play.start_race(here_of(play.scene.world, None)._replace(broadphase="tree"))
+    race = play.measuring.race
+    monkeypatch.setattr(race_module.tiers, "background", True)
+    monkeypatch.setattr(race_module.tiers, "wanted", [object()])
+    steps(play, 3)
+    assert race.seconds is None and all("not timed while kernels compile" in line for line in race.report_lines()[:2])
+    monkeypatch.setattr(race_module.tiers, "background", False)
+    steps(play, STEPS_TIMED - 1)
+    assert race.seconds is None and f"measuring, {STEPS_TIMED - 1} of {STEPS_TIMED} steps" in race.report_lines()[0]
+    steps(play, 1)
+    assert race.seconds is not None and "us a step" in race.report_lines()[1]
+    monkeypatch.setattr(race_module.tiers, "background", True)
+    steps(play, 1)
+    assert race.seconds is None, "a kernel that is called for the first time ends the times before"
 
 
 @needs_speed

@@ -24,6 +24,7 @@ from game.screens.parts.race import Race
 from game.screens.parts.race_split import SplitScreen
 from physics import World
 
+NO_RACE = "no race: nothing can be switched here"
 RIVALS_NAMED = 4  # settings named in a message
 LINGER = 0.5  # [s] for which the panel must be open before the effects are measured, so that a glance starts no process
 EVERY = 8.0  # [s] between two moments (measured states of the world), if the last one is done and the game runs
@@ -242,7 +243,7 @@ class Measuring:
         """
         if self.race is None:
             names = [setting.label(self.now()) for setting in self.rivals()]
-            return f"no race: the panel starts one, against {', '.join(names[:RIVALS_NAMED])}" if names else "no race"
+            return f"no race: the panel starts one, against {', '.join(names[:RIVALS_NAMED])}" if names else NO_RACE
         self.split = None if self.split is not None else SplitScreen(self.race)
         return ""
 

@@ -21,11 +21,13 @@ from game.run.replay import chosen_before
 from game.run.session import Session
 from game.scene import Scene
 from physics import debug
+from physics.jit import tiers
 from physics.tables.shape import MASK
 
 # Changes that each of the two scenes has for itself; all other input goes to both.
 OWN = ("broadphase", "solver", "substeps", "tier", "narrowphase", "slider:solver", "slider:substeps")
 MOST = 400  # outlines drawn at most; the figures count all bodies
+STEPS_TIMED = 30  # steps with compiled kernels before a time is shown, the median of them
 KEPT = 600  # steps for which the distance of the two scenes is kept
 
 
@@ -45,6 +47,7 @@ class Race:
         self.rival.restart()
         self.inputs = InputState()
         self.times = Typical(), Typical()  # [s] of a step: of the scene, of the rival
+        self.compiling = False  # whether a kernel ran as plain Python in the last step
         self.steps = 0
         self.same = np.zeros(0, np.int64)  # ids of bodies created in the same step at the same place in both
         self.seen = np.zeros(0, np.int64)  # ids of all bodies that either had
@@ -59,13 +62,38 @@ class Race:
         self.inputs.set(replace(frame, changes=tuple(each for each in frame.changes if each[0] not in OWN)))
         started = perf_counter()
         self.rival.step(self.inputs)
-        self.times[1].note(perf_counter() - started)
-        self.times[0].note(session.report.last or 0.0)
+        self._note_times(session.report.last or 0.0, perf_counter() - started)
         self.rival.observe()
         self.steps += 1
         self._pair(session.inputs.now)
         gaps = self.distances()
         self.apart.append(float(np.sqrt((gaps * gaps).mean())) if len(gaps) else 0.0)
+
+    def _note_times(self, ours, theirs):
+        """Record the times of a step of the scene and of the rival [s].
+
+        While a kernel runs as plain Python, because it is not compiled yet, nothing is recorded, and earlier times are
+        dropped: the two sides wait for different kernels.
+        """
+        self.compiling = tiers.background and bool(tiers.wanted)
+        if self.compiling:
+            self.times = Typical(), Typical()
+            return
+        for times, seconds in zip(self.times, (ours, theirs), strict=True):
+            times.note(seconds)
+
+    @property
+    def seconds(self) -> tuple[float, float] | None:
+        """Times of a step of the scene and of the rival [s]; None before STEPS_TIMED steps with compiled kernels."""
+        ours, theirs = self.times
+        return (ours.value, theirs.value) if len(ours.last) >= STEPS_TIMED else None
+
+    def _time_texts(self):
+        """Return the times of both sides as two texts, or why there are none yet."""
+        if self.seconds is not None:
+            return [f"{1e6 * seconds:,.0f} us a step" for seconds in self.seconds]
+        waits = f"measuring, {len(self.times[0].last)} of {STEPS_TIMED} steps"
+        return ["not timed while kernels compile" if self.compiling else waits] * 2
 
     def _pair(self, frame):
         """Update `same`, the ids of the bodies that both scenes have. frame: input of this step.
@@ -97,13 +125,14 @@ class Race:
     def report_lines(self) -> list[str]:
         """Return three lines: setting and time of the scene, setting and time of the rival, and their distance."""
         now, other = (here_of(each.world, each.tier) for each in (self.scene, self.rival))
+        mine, theirs = self._time_texts()
         apart = self.distances()
         rms = self.apart[-1] if self.apart else 0.0
         seen = int((apart > VISIBLE).sum())
         alone = len(self.scene.world.bodies) + len(self.rival.world.bodies) - 2 * len(apart)
         return [
-            f"{now.label(other)}: {1e6 * self.times[0].value:,.0f} us a step",
-            f"{other.label(now)}: {1e6 * self.times[1].value:,.0f} us a step",
+            f"{now.label(other)}: {mine}",
+            f"{other.label(now)}: {theirs}",
             f"after {self.steps / 60:.1f} s {distance_text(rms)} apart, {seen} of {len(apart)} bodies by over a pixel"
             + (f", {alone} without a twin" if alone else ""),
         ]

@@ -62,7 +62,7 @@ class SplitScreen:
 
     def _draw_below(self, frame, rect):
         scale = frame.text_scale
-        seconds = [each.value for each in self.race.times]
+        seconds = self.race.seconds or (0.0, 0.0)
         y = rect.y + 3 * scale
         lines = self.race.report_lines()
         for number, color in enumerate((GOLD, SKY)):
