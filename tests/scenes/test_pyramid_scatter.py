@@ -43,7 +43,7 @@ def test_every_solver_and_number_is_asked_for_once():
 
 
 def test_what_was_tried_stays():
-    scene = stepped(Pyramid(1))
+    scene = stepped(Pyramid(1, solver="soft_step"))
     first = scene.run_name
     stepped(scene, changes=(("substeps", 16),))
     odd = scene.run_name
@@ -63,7 +63,7 @@ def test_what_was_tried_stays():
 
 
 def test_the_finding_names_what_is_as_good_for_less():
-    scene = stepped(Pyramid(1))
+    scene = stepped(Pyramid(1, solver="soft_step"))
     for name in scene.measured().names:
         scene.figures |= known(name, 3e-4, 0.2)
     scene.figures |= known(scene.run_name, 2e-4, 0.1)
