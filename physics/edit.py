@@ -284,7 +284,11 @@ def rows_at_cells(world: WorldState, at: int, size: float, cells: np.ndarray, ma
 
 
 def _wake_at_cells(world, at, rows):
-    """Wake islands at changed cells of a grid, and disturb bodies there. rows: rows of the shapes at these cells."""
+    """Wake sleeping bodies at changed cells of a grid, and let the next step visit static and kinematic bodies there.
+
+    Static bodies are visited only if they touch the grid. at: row of the grid's body; rows: SHAPE row numbers of the
+    shapes at the changed cells.
+    """
     if not world.sleeps:
         return
     bodies = world.bodies[np.unique(world.shapes["body_row"][rows])]
@@ -403,16 +407,17 @@ def _weigh(world, at, used):
 
 
 def refresh_mass(world: WorldState, identity: int) -> None:
-    """Recompute mass and inertia of a body after its shapes, kind or material changed. Disturb the body (see sleep)."""
+    """Recompute mass and inertia of a body after its shapes, kind or material changed, and wake it."""
     at = world._row_number(identity)
     _weigh(world, at, world._shapes_of[identity])
     refresh_pose(world, identity, at)
 
 
 def refresh_pose(world: WorldState, identity: int, at: int) -> int:
-    """Refresh the centre of mass of a moved body, mark its proxies as changed, and disturb it.
+    """Refresh the centre of mass of a moved body, mark its proxies as changed, and wake it and bodies that touch it.
 
-    Return the present row of the body, see sleep.disturb_one. identity, at: id and row of the body.
+    Return the row of the body afterwards, because waking may change it (see sleep.disturb_one). identity, at: id and
+    row of the body before.
     """
     at = sleep.disturb_one(world, identity, at)
     write_center(world._bodies, at)

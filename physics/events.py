@@ -59,7 +59,7 @@ def look_at_pair(contacts, first, last, slop):
     """Return how a pair of shapes touches, from its CONTACT rows first … last - 1.
 
     The result is (whether the pair touches, whether it has impulses, row and `second` of the deepest point, row and
-    `second` of the fastest approaching point, approach speed of the latter [px/s], sum of the normal impulses).
+    `second` of the fastest approaching point, its approach speed [px/s], sum of the normal impulses).
     `second`: whether the point is the second one of its row. slop [px]: greatest separation that counts as touching.
     """
     active = False

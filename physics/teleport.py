@@ -198,9 +198,10 @@ def _move(world, ids, rows, dynamic, motions):
 
 
 def _contacts_at(world, keys):
-    """Return the CONTACT rows of the last step, of the islands `keys`, and of islands that touch their bodies.
+    """Return the CONTACT rows of awake bodies, and those that some sleeping islands keep.
 
-    keys: keys of sleeping islands.
+    These are the islands `keys`, and the sleeping islands that touch their bodies. Contacts of awake bodies are those
+    of the last step.
     """
     sleeping_set = world.sleeping_set
     keys = set(keys)

@@ -26,8 +26,9 @@ def shifted(solid, dx, dy):
 
 
 class Sprite:
-    """A picture while it is drawn: rgb (h, w, 3) uint8 and solid (h, w) bool. x, y: pixel centres, for fields.
+    """A picture while it is drawn: rgb (h, w, 3) uint8, and solid (h, w) bool, which is False where it is clear.
 
+    x, y (h, w): centres of the pixels [px]. Distance fields (assets/craft/fields.py) are computed at these positions.
     The drawing methods return the sprite, so that calls can be chained.
     """
 

@@ -90,9 +90,10 @@ def _inside(x, y, points):
 
 
 def _near(solid, x, y, points, reach, change):
-    """Call change(solid, x, y) with the part of each array that contains the points and `reach` px around them.
+    """Change only the part of a mask near some points: call change(solid, x, y) with this part of the three arrays.
 
-    change: function that changes `solid` in place; x, y: positions of the pixels.
+    The part is the box of the points (list of (x, y) [px]), enlarged by `reach` [px]. change: function that changes the
+    mask in place; solid (h, w) bool: the mask; x, y (h, w): positions of its pixels.
     """
     reach += MARGIN
     left, right = (max(0, int(f(p[0] for p in points) + s * reach)) for f, s in ((min, -1), (max, 1)))

@@ -18,7 +18,7 @@ BOX_COLOUR, HIT_COLOUR = oklch(0.86, 0.14, 195), oklch(0.72, 0.20, 20)
 
 
 def letter_field(letter, x, y):
-    """Return the distance field of one letter at its place in the logo (see craft/fields.py). x, y: pixel centres."""
+    """Return the distance field of one letter at its place in the logo, (h, w). x, y (h, w): pixel centres [px]."""
     left = LETTER_X[letter]
     right, middle = left + LETTER_WIDTH[letter], (TOP + BOTTOM) / 2
     if letter == "H":

@@ -27,6 +27,7 @@ from physics.tables.table import columns_of, distinct
 # The boxes that every broad phase works on, and the overlap test of two of them.
 #
 # A proxy is a slot of the PROXY table: box, filter, body. All strategies make the same test, and find the same pairs.
+# A changed proxy is new or freed, or its box or filter has changed since the last update of the pairs.
 
 Box = tuple[float, float, float, float]  # lower x, y, upper x, y [px]
 Query = Callable[[np.ndarray, np.ndarray], int]  # (pairs, work) -> number of pairs
@@ -171,9 +172,10 @@ def tell_rows(shapes, proxies_inout):
 
 
 def write_states(proxies: np.ndarray, states_out: np.ndarray) -> None:
-    """Write the state of each proxy to states_out: 2 if it is changed, plus 1 if it is awake. O(proxies).
+    """Write 2 · changed + awake (both flags 0 or 1) of each proxy to states_out. O(proxies).
 
-    A separate small array is used because keep_pairs reads it for every pair.
+    states_out (proxies,) int8: a copy of the two flags alone, because keep_pairs reads them for every pair. proxies:
+    PROXY table.
     """
     np.left_shift(proxies["changed"].view(np.int8), 1, out=states_out)
     states_out |= proxies["awake"].view(np.int8)

@@ -194,8 +194,8 @@ def balance_bodies(group, degrees, floor, lift, keep, motions, balance_inout):
     """Write the energy that each body of a group gained. Return whether a body in contact gained more than allowed.
 
     The allowed gain per mass is the greater of `floor` [px2/s2] and the gain that the body may take from its energy
-    reserve. The latter is at most SHARE_BACK of the body's energy or, if greater, the energy of a lift by `lift` [px]
-    against its acceleration. A body with a joint always counts as having gained more than allowed.
+    reserve. It may take at most SHARE_BACK of its energy or, if greater, the energy of a lift by `lift` [px] against
+    its acceleration. A body with a joint always counts as having gained more than allowed.
 
     group: see contact_lanes.Group; degrees: number of contacts of each body; keep: fraction of the reserve that remains
     after this step; motions, balance_inout: MOTION and BALANCE rows.

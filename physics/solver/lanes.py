@@ -440,7 +440,7 @@ def resist_rolling(lane, wa, wb, normal_impulse, c_inout):
 def relative_speed(c, lane, second, a, b):
     """Return the speed [px/s] of B relative to A along the normal, at a point of a contact; negative: they approach.
 
-    c, lane: the contact's lane in a block; second: True for the second point; a, b: MOTION rows.
+    c: fields of a block of contacts; lane: lane of the contact; second: True for the second point; a, b: MOTION rows.
     """
     speed = (b.vx - a.vx) * c[NX + lane] + (b.vy - a.vy) * c[NY + lane]
     speed += b.angular_velocity * c[(B_2 if second else B_1) + lane]
@@ -469,7 +469,7 @@ def tangential_speed(c, lane, second, a, b):
 
 @subkernel
 def push_along(c, lane, second, impulse, a_inout, b_inout):
-    """Apply a tangential impulse to B at a contact point, the opposite to A. c, lane, second: see relative_speed."""
+    """Apply a tangential impulse to B at a contact point, and the opposite to A. Arguments: see push_pair."""
     x, y = -impulse * c[NY + lane], impulse * c[NX + lane]
     a_inout.vx -= a_inout.inverse_mass * x
     a_inout.vy -= a_inout.inverse_mass * y
@@ -588,7 +588,7 @@ def how_it_turns(contact, a, b, dt, lane, c):
     """Return how the solver updates the normal and arms of a contact within a step: FIXED, ARMS or NORMAL_OF_….
 
     It is FIXED if no shape is round, or the bodies (MOTION rows a, b) hardly rotate in dt [s]. An elastic impact is
-    also FIXED, because restitution uses the arms at the start of the step. c, lane: the contact's lane in a block.
+    also FIXED, because restitution uses the arms at the start of the step. c, lane: see relative_speed.
     """
     m = contact
     elastic = m.restitution > 0.0 and (c[LOADED + lane] == 0.0 or c[BOUNCING + lane] > 0.0)

@@ -197,10 +197,10 @@ def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
 
 @subkernel
 def change_velocity(vx, vy, w, motion_inout):
-    """Add (vx, vy) [px/s] and w [rad/s] to the velocity of a body and to its velocity without contact impulses.
+    """Add (vx, vy) [px/s] and w [rad/s] to the velocity of a body, and to MOTION.free_vx, free_vy, free_w.
 
-    The latter is MOTION.free_…. Their difference, which the next warm start of contacts repeats, is thus unchanged.
-    motion_inout: MOTION row.
+    The free velocity is the velocity without contact impulses. The next warm start of contacts repeats the difference
+    of the two velocities, so this difference must not change. motion_inout: MOTION row.
     """
     m = motion_inout
     m.vx += vx

@@ -394,11 +394,11 @@ def solve_alone(blocks, last, motions, impacts_inout):
 
 @subkernel
 def simulate_impacts(blocks, last, dt, contacts, motions, impacts_inout):
-    """Simulate the impacts of a body over dt [s] in the order of their times, and write their impulses.
+    """Simulate the impacts of a body in a step of dt [s], in the order of their times, and write their impulses.
 
-    Return (time [s] of the step that is left after the last hit, whether MOST_IMPACTS and MOST_ROUNDS were enough).
-    last: see link_impacts; the IMPACT row last - 1 receives the displacement of the body up to the last hit.
-    impacts_inout: IMPACT rows; blocks: see lanes.Blocks. motions: MOTION rows.
+    Return (time [s] from the last hit to the end of the step, whether MOST_IMPACTS and MOST_ROUNDS were enough).
+    last: MOTION.last_impact of the body, see link_impacts. The IMPACT row last - 1 receives the body's displacement up
+    to the last hit. blocks: see lanes.Blocks; contacts: CONTACT rows; motions: MOTION rows; impacts_inout: IMPACT rows.
     """
     k = last
     while k != NO_IMPACT:
@@ -555,8 +555,8 @@ def bounces(speed, threshold, total):
 def bounce_once(wanted, c, lane, second, total, a_inout, b_inout):
     """Apply an impulse at one point of a contact, so that the point separates at `wanted` [px/s].
 
-    Return the change of the impulse. c, lane: the contact's lane in a block; second: True for the second point; total:
-    impulse of the point before. a_inout, b_inout: MOTION rows.
+    Return the change of the impulse. c: fields of a block of contacts; lane: lane of the contact; second: True for the
+    second point; total: impulse of the point before. a_inout, b_inout: MOTION rows.
     """
     mass = c[(at.MASS_2 if second else at.MASS_1) + lane]
     missing = wanted - relative_speed(c, lane, second, a_inout, b_inout)
@@ -569,7 +569,7 @@ def bounce_once(wanted, c, lane, second, total, a_inout, b_inout):
 def bounce_together(wanted_1, wanted_2, old_1, old_2, c, lane, a_inout, b_inout):
     """Apply impulses at both points of a contact, so that they separate at wanted_1, wanted_2 [px/s] (block solver).
 
-    Return the changes of both impulses. old_1, old_2: impulses before; c, lane: the contact's lane in a block.
+    Return the changes of both impulses. old_1, old_2: impulses of the points before; other arguments: see bounce_once.
     """
     missing_1 = wanted_1 - relative_speed(c, lane, False, a_inout, b_inout)
     missing_2 = wanted_2 - relative_speed(c, lane, True, a_inout, b_inout)

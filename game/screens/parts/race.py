@@ -35,8 +35,8 @@ class Race:
     """A race between the played `scene` and its `rival`, another instance of the same scene with different settings.
 
     changes: (name, value) pairs for Scene.change(), which are applied to the rival alone. Raises ValueError for an
-    invalid change. The rival begins at its first frame, so the caller must restart `scene` with its next input. Call
-    step(session) after each step of the scene.
+    invalid change. The rival starts at frame 0, so the caller must restart `scene` in the next step. The caller then
+    calls step(session) after each step of the scene.
     """
 
     def __init__(self, scene: Scene, changes: Sequence[tuple[str, object]]) -> None:
