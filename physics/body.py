@@ -170,7 +170,7 @@ class Body(Handle):
     def angular_velocity(self) -> float:
         """Angular velocity [rad/s].
 
-        Setting it to a value other than 0 raises ValueError without the effect rotation, for a static body, and for a
+        Setting it to a value other than 0 raises ValueError without the effect `rotation`, for a static body, and for a
         body with a TileGrid.
         """
         return self._value("angular_velocity")
@@ -234,7 +234,7 @@ class Body(Handle):
         point: where it acts, in the world (x, y) [px]; None: at the centre of mass.
 
         Raises TypeError for arguments of other types; ValueError for numbers that are not finite, for a body that is
-        not dynamic, and in a world with none of the effects response, gravity, drag and wind.
+        not dynamic, and in a world with none of the effects `response`, `gravity`, `drag` and `wind`.
         """
         self.world._unstepped()
         force = checks.vector("force", force)
@@ -254,7 +254,7 @@ class Body(Handle):
         """Add an impulse: the velocity changes at once, by impulse / mass.
 
         impulse: (x, y) [mass px/s].
-        point: where it acts, in the world (x, y) [px]; with the effect rotation it also changes the angular velocity.
+        point: where it acts, in the world (x, y) [px]; with the effect `rotation` it also changes the angular velocity.
             None: at the centre of mass.
 
         Raises TypeError for arguments of other types, ValueError for numbers that are not finite and for a body that is
@@ -281,8 +281,8 @@ class Body(Handle):
 
         torque: [mass px²/s²], positive clockwise on the screen.
 
-        Raises TypeError for a value that is not a number; ValueError if it is not finite, without the effect rotation,
-        and for a body that is not dynamic.
+        Raises TypeError for a value that is not a number; ValueError if it is not finite, without the effect
+        `rotation`, and for a body that is not dynamic.
         """
         self.world._unstepped()
         torque = checks.number("torque", torque)
@@ -327,8 +327,8 @@ class Body(Handle):
         kind, pieces that were separate before the cut stay, and a piece that splits keeps its largest part. On ties,
         the piece with the first pixel stays. The other pieces become dynamic bodies, whose pixels keep their
         velocities. The body is removed if no shape is left, or if it is dynamic and no mask is left. Bodies that touch
-        carved pixels wake. Raises TypeError for an argument of another type, ValueError without the effect carving, for
-        a body without a PixelMask and for a pose or crumb out of range, RuntimeError during a step.
+        carved pixels wake. Raises TypeError for an argument of another type, ValueError without the effect `carving`,
+        for a body without a PixelMask and for a pose or crumb out of range, RuntimeError during a step.
         """
         self._must_exist()
         found = carving.carve(self.world, self.id, shape, pose, crumb)
@@ -400,7 +400,7 @@ class Body(Handle):
     def sensor(self) -> bool:
         """Whether the shapes without a sensor value of their own are sensors: they report overlaps and do not push.
 
-        The mass of sensors counts. Setting True raises ValueError without the effect sensors.
+        The mass of sensors counts. Setting True raises ValueError without the effect `sensors`.
         """
         return self._definitions["sensor"].item()
 
@@ -440,7 +440,7 @@ class Body(Handle):
         """Whether the body is also swept against other dynamic bodies, so that it cannot pass through them.
 
         A solver that does not stack sweeps all pairs of dynamic bodies. Setting True raises ValueError without the
-        effect continuous.
+        effect `continuous`.
         """
         return self._value("bullet")
 
@@ -456,7 +456,7 @@ class Body(Handle):
 
         "off": none. "ray": the line of its centre, cheapest. "swept": its shapes without their rotation. "toi": its
         shapes with their rotation (time of impact). "auto": as "toi", only in steps in which it moves by more than half
-        its size. Setting "ray", "swept" or "toi" raises ValueError without the effect continuous.
+        its size. Setting "ray", "swept" or "toi" raises ValueError without the effect `continuous`.
         """
         return CONTINUOUS[self._value("continuous")]
 

@@ -113,7 +113,7 @@ def position(name: str, value: Any) -> Vec2:
     """Return a pair of numbers as a Vec2 whose coordinates [px] are within POSITION_LIMIT.
 
     Up to this limit a double resolves a pixel. Raises TypeError for a value that is not a pair of numbers, and
-    ValueError for a coordinate at or beyond the limit. name: of the argument, for messages.
+    ValueError for a coordinate at or beyond the limit. name: name of the argument, for messages.
     """
     found = vector(name, value)
     if max(abs(found[0]), abs(found[1])) >= POSITION_LIMIT:
@@ -125,7 +125,7 @@ def ids(name: str, value: Any, repeats: bool = False) -> np.ndarray:
     """Return ids as a flat int64 array.
 
     Raises TypeError for values that are not whole numbers, and ValueError for a repeated id unless `repeats` is True.
-    name: of the argument, for messages.
+    name: name of the argument, for messages.
     """
     array = np.asarray(value)
     if array.size and array.dtype.kind not in "iu":
@@ -140,7 +140,7 @@ def whole(name: str, value: Any, low: int, high: int) -> int:
     """Return a value as an int from low to high, inclusive.
 
     Raises TypeError for a value that is not a whole number or is a bool, and ValueError for a number outside the
-    limits. name: of the argument, for messages.
+    limits. name: name of the argument, for messages.
     """
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
         hint = f": write {int(value)}" if isinstance(value, float) and value.is_integer() else ""
@@ -152,7 +152,10 @@ def whole(name: str, value: Any, low: int, high: int) -> int:
 
 
 def flag(name: str, value: Any) -> bool:
-    """Return True or False as a bool. Raises TypeError for any other value. name: of the argument, for messages."""
+    """Return True or False as a bool.
+
+    Raises TypeError for any other value. name: name of the argument, for messages.
+    """
     if not isinstance(value, (bool, np.bool_)):
         hint = f": write {bool(value)}" if type(value) is int and value in (0, 1) else ""
         raise TypeError(f"{name} must be True or False (got {shown(value)}){hint}")
@@ -162,8 +165,8 @@ def flag(name: str, value: Any) -> bool:
 def choice(name: str, value: Any, allowed: Sequence[Word]) -> Word:
     """Return the value if it is one of the allowed strings.
 
-    Raises TypeError for a value that is not a string, and ValueError for another string. name: of the argument, for
-    messages.
+    Raises TypeError for a value that is not a string, and ValueError for another string. name: name of the argument,
+    for messages.
     """
     for word in allowed:
         if isinstance(value, str) and value == word:
@@ -205,7 +208,7 @@ def positions(name: str, value: Any) -> np.ndarray:
     """Return positions as a C-ordered float64 copy (n, 2) [px], within POSITION_LIMIT.
 
     Raises TypeError for a value that is not an array of numbers, and ValueError for another shape, a number that is not
-    finite, or a coordinate at or beyond the limit. name: of the argument, for messages.
+    finite, or a coordinate at or beyond the limit. name: name of the argument, for messages.
     """
     array = columns(name, value)
     far = np.abs(array) >= POSITION_LIMIT
@@ -219,7 +222,7 @@ def pose(name: str, value: Any) -> tuple[float, float, float]:
     """Return (x, y, angle) as floats. An omitted angle is 0.
 
     Raises TypeError for a value that is not a pose, and ValueError for a number that is not finite or a position beyond
-    POSITION_LIMIT. name: of the argument, for messages.
+    POSITION_LIMIT. name: name of the argument, for messages.
     """
     try:
         x, y, angle = value if len(value) == 3 else (*value, 0.0)

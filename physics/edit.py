@@ -142,7 +142,7 @@ class Piece(NamedTuple):
 
 
 def rows_of_shapes(shapes: Sequence[Shape], pushed: bool) -> list[Piece]:
-    """Return a Piece for each shape, and with `pushed` (effect response) one for each part of a mask's outline."""
+    """Return a Piece for each shape, and with `pushed` (effect `response`) one for each part of a mask's outline."""
     found: list[Piece] = []
     for shape in shapes:
         tiles, owner = shape._response_parts() if pushed else (), len(found)
@@ -483,14 +483,17 @@ def remove_shape(world: WorldState, identity: int, shape_id: int) -> None:
 
 
 def check_own_values(world: WorldState, shapes: Sequence[Shape]) -> None:
-    """Raise ValueError for sensor shapes without the effect sensors, or one-way shapes without the effect one_way."""
+    """Raise ValueError for shapes that need an effect of the world that is off: `sensors` or `one_way`."""
     world._needs("sensors", "a shape with_(sensor=True)", any(shape.sensor for shape in shapes))
     for shape in shapes:
         world._needs("one_way", f"{type(shape).__name__} with one_way", bool(np.any(getattr(shape, "one_way", False))))
 
 
 def check_weight(world: WorldState, shapes: Sequence[Shape], kind: int, mass: float) -> None:
-    """Raise ValueError for a dynamic body without a mass whose shapes are all masks without a solid pixel."""
+    """Raise ValueError if a dynamic body would have no mass: no given mass, and no solid pixel in any of its masks.
+
+    mass: given mass, 0 for none. Bodies with another kind of shape pass, and worlds without the effect `response`.
+    """
     empty = [each for each in shapes if each._kind == MASK and each.bounds is None]
     if world.effects.response and kind == DYNAMIC and empty and len(empty) == len(shapes) and mass == 0.0:
         raise ValueError(
@@ -529,7 +532,7 @@ def _add(world, identity, shapes, new) -> np.ndarray:
 
 
 def rebuild_masks(world: WorldState) -> None:
-    """Rebuild the SHAPE rows of bodies with masks, because masks have parts only with the effect response.
+    """Rebuild the SHAPE rows of bodies with masks, because masks have parts only with the effect `response`.
 
     Bodies keep their tiers; their shapes get new ids.
     """
@@ -661,14 +664,17 @@ def add_rows(
 
 
 def checked_sensor(world: WorldState, value: Any) -> bool:
-    """Return `value`, a bool. Raises TypeError for anything else, ValueError for True without the effect sensors."""
+    """Return `value`, a bool. Raises TypeError for anything else, ValueError for True without the effect `sensors`."""
     value = checks.flag("sensor", value)
     world._needs("sensors", "sensor=True", value)
     return value
 
 
 def checked_bullet(world: WorldState, value: Any) -> bool:
-    """Return `value`, a bool. Raises TypeError for anything else, ValueError for True without the effect continuous."""
+    """Return `value`, a bool.
+
+    Raises TypeError for anything else, ValueError for True without the effect `continuous`.
+    """
     value = checks.flag("bullet", value)
     world._needs("continuous", "bullet=True", value)
     return value

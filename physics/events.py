@@ -361,8 +361,8 @@ class Events:
     """The events of the last step, one structured array for each kind. They are valid until the next step.
 
     begin: EVENT rows of the pairs of shapes that began to touch; end: of those that ceased to touch.
-    persist: EVENT rows of the pairs that continue to touch, with the effect persist.
-    sensor_begin, sensor_end: EVENT rows of the overlaps with sensors that began and ended, with the effect sensors.
+    persist: EVENT rows of the pairs that continue to touch, with the effect `persist`.
+    sensor_begin, sensor_end: EVENT rows of the overlaps with sensors that began and ended, with the effect `sensors`.
     hits: HIT rows of the contacts that began, or have an impulse, with an approach speed above 1 m/s.
     quarantined: QUARANTINE rows of the bodies that were disabled because a number was not finite or out of range.
     broken: BROKEN rows of the joints that broke or were lost with a body or joint.

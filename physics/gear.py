@@ -22,7 +22,7 @@ def gear_rows(
 
     kind: a Gear with the settings of all gears; sides_a, sides_b (n): (True, id of a joint) or (False, id of a body).
     Raises ValueError for a joint that neither turns nor slides, for twice the same side, without a dynamic body, for
-    the body of a character, or without the effect rotation; the world is unchanged.
+    the body of a character, or without the effect `rotation`; the world is unchanged.
     """
     rows = np.zeros(len(sides_a), JOINT)
     for name, value in kind.columns().items():

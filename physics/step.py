@@ -181,7 +181,7 @@ def own_solver(effects: Effects) -> SolverName:
 def ignored_effects(effects: Effects, solver: str) -> tuple[str, ...]:
     """Return the names of the declared effects that a solver ignores, in the order of Effects.names().
 
-    The result is empty without the effect response, because no solver runs.
+    The result is empty without the effect `response`, because no solver runs.
     """
     ignored = IGNORED.get(solver, ()) if effects.response else ()
     return tuple(name for name in effects.names() if name in ignored)

@@ -76,10 +76,10 @@ class World(WorldState):
 
     effects: the declared Effects; None: Effects.rigid_bodies().
     broadphase: "brute", "sweep", "hash" or "tree", or an instance of a strategy; None: SpatialHashGrid().
-    solver: one of SOLVERS; None: "soft_step" with the effect stacking, "projection" without it.
-    gravity: (x, y) [px/s²]; None: 9.8 m/s² downwards. Other than 0 it needs the effect gravity.
-    drag: rate at which velocities decay [1/s], >= 0. Other than 0 it needs the effect drag or wind.
-    wind: velocity of the air (x, y) [px/s], which acts through the drag. Other than 0 it needs the effect wind.
+    solver: one of SOLVERS; None: "soft_step" with the effect `stacking`, "projection" without it.
+    gravity: (x, y) [px/s²]; None: 9.8 m/s² downwards. Other than 0 it needs the effect `gravity`.
+    drag: rate at which velocities decay [1/s], >= 0. Other than 0 it needs the effect `drag` or `wind`.
+    wind: velocity of the air (x, y) [px/s], which acts through the drag. Other than 0 it needs the effect `wind`.
     pixels_per_meter: scale of all tolerances and of the default gravity, > 0.
     dt: length of a step [s], > 0.
     substeps: substeps of the stacking solvers, 1 to 1000, or "auto": 4 to 32 for each island, as many as keep the sag
@@ -233,13 +233,13 @@ class World(WorldState):
         angle: angle [rad], clockwise on the screen. It must be 0 with a TileGrid.
         kind: "dynamic": moved by forces and contacts; "kinematic": moved only by its velocity; "static": never moved.
         velocity: velocity (x, y) of the centre of mass [px/s]; of a static body (0, 0).
-        angular_velocity: [rad/s]. Other than 0 it needs the effect rotation, and a body that is not static.
+        angular_velocity: [rad/s]. Other than 0 it needs the effect `rotation`, and a body that is not static.
         mass: mass [density px²], > 0, in place of the mass from the densities of the shapes; None: that mass.
         material: the Material of the shapes without a material of their own.
         filter: the Filter of the shapes without a filter of their own.
         sensor: whether the shapes without a sensor value of their own are sensors, which report overlaps and do not
-            push. True needs the effect sensors.
-        bullet: whether the body is also swept against other dynamic bodies. True needs the effect continuous.
+            push. True needs the effect `sensors`.
+        bullet: whether the body is also swept against other dynamic bodies. True needs the effect `continuous`.
         continuous: "off" | "ray" | "swept" | "toi" | "auto", see Body.continuous. "ray", "swept" and "toi" need the
             effect.
         fixed_rotation: whether contacts and impulses leave the rotation unchanged.
@@ -336,7 +336,7 @@ class World(WorldState):
     def touch(self, ids: BodyRefs) -> None:
         """Report that table columns of bodies were written. Dynamic bodies wake, and the next step updates boxes.
 
-        ids: a Body, an id, or many. Awake bodies, and worlds without the effect sleeping, need no touch.
+        ids: a Body, an id, or many. Awake bodies, and worlds without the effect `sleeping`, need no touch.
 
         Raises KeyError for an unknown body; TypeError or ValueError for anything but different Bodies or ids;
         RuntimeError during a step. Nothing is touched then.
@@ -359,7 +359,7 @@ class World(WorldState):
         joint_of: a Revolute, Prismatic, Wheel, Distance, Weld, Angle, Motor, Target, NoContact, Gear, Pulley or
             Ratchet.
 
-        Raises TypeError for anything else; ValueError without the effect joints, for equal bodies, without a dynamic
+        Raises TypeError for anything else; ValueError without the effect `joints`, for equal bodies, without a dynamic
         body, or for the body of a character; KeyError for an unknown body or joint; RuntimeError during a step. The
         world is then unchanged.
         """
@@ -422,7 +422,7 @@ class World(WorldState):
         users: True returns a list of pairs of the `user` values instead, in the same order.
 
         The pairs are those that events.begin has reported and events.end has not; sleeping pairs are included. Without
-        the effect response, masks touch if they share pixels, other shapes if separation <= 0. With response, a pair
+        the effect `response`, masks touch if they share pixels, other shapes if separation <= 0. With it, a pair
         begins to touch by separation <= 0, an impulse or a hit of the sweep; it ends beyond the slop without an
         impulse. Overlaps of sensors are not included. Raises TypeError if users is not a bool.
         """
@@ -483,7 +483,7 @@ class World(WorldState):
 
         A run with and without such an effect is the same, with two exceptions. With the solver blocking, a body rotates
         by its own angular velocity, although contacts do not rotate it. Characters stand on dynamic bodies if the
-        effect stacking is declared, with any solver.
+        effect `stacking` is declared, with any solver.
         """
         return ignored_effects(self._effects, self._solver)
 

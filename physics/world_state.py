@@ -315,7 +315,7 @@ class WorldState:
 
     @property
     def sleeps(self) -> bool:
-        """Whether bodies at rest are left out of the steps. This needs the effect sleeping and a stacking solver."""
+        """Whether bodies at rest are left out of the steps. This needs the effect `sleeping` and a stacking solver."""
         return self.stacks and self._effects.sleeping
 
     @property
@@ -606,7 +606,7 @@ class WorldState:
     def _needs_fields(self, gravity: Vec2 | None = None, drag: float = 0.0, wind: Vec2 | None = None) -> None:
         """Raise ValueError for a gravity, drag or wind other than 0 whose effect is not declared.
 
-        For drag the effect wind is also enough.
+        For drag the effect `wind` is also enough.
         """
         self._needs("gravity", f"gravity={gravity}", bool(gravity and any(gravity)))
         self._needs("drag", f"drag={drag}", drag != 0.0 and not self._effects.wind)

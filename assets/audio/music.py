@@ -56,7 +56,7 @@ def render(tune):
 
 
 def _sing(tune, notes, voice):
-    """Add the notes of a pulse or triangle voice to `voice`, its ring of samples (2, length)."""
+    """Add the notes of a pulse or triangle voice to the ring buffer of its samples, `voice` (2, length)."""
     made, before = {}, None
     for note in notes:
         instrument = note.instrument
@@ -74,7 +74,7 @@ def _sing(tune, notes, voice):
 
 
 def _drums(tune, notes, voice):
-    """Add the strokes of a tune's drums to `voice`, their ring of samples (2, length).
+    """Add the strokes of a tune's drums to the ring buffer of their samples, `voice` (2, length).
 
     Each drum has TAKES variants, which are used in turn.
     """
@@ -113,7 +113,7 @@ def _add(ring, start, samples, gain, place):
 
 
 def _echo(tune, voice, instrument):
-    """Add the echoes of a voice to its ring of samples, `voice` (2, length).
+    """Add the echoes of a voice to the ring buffer of its samples, `voice` (2, length).
 
     Each echo is duller than the voice and softer than the echo before. The echoes alternate between the sides, and the
     first is opposite to the voice.

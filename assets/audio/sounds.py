@@ -253,5 +253,5 @@ PRODUCTS = {f"sounds/{name}": (__name__, "sound_files", (name,)) for name in SOU
 
 
 def sound_files(name):
-    """Return {relative path: bytes} of one sound. name: of its function."""
+    """Return {relative path: bytes} of one sound. name: name of its function."""
     return {f"sounds/{name}.wav": to_wav(finish(SOUNDS[name]()))}

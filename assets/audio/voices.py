@@ -127,7 +127,7 @@ def _time(seconds):
 def _noise(seed, time, rate):
     """Return random levels at the times `time` [s].
 
-    Each level is held for 1 / rate [s], which sets the noise's pitch. seed: of the random numbers.
+    Each level is held for 1 / rate [s], which sets the noise's pitch. seed: seed of the random numbers.
     """
     place = (time * rate).astype(np.int64)
     return np.random.default_rng(seed).random(int(place[-1]) + 1)[place] * 2 - 1

@@ -73,7 +73,7 @@ def polygon(x, y, points):
 def noise(width, height, cells_x, cells_y, seed):
     """Return smooth value noise 0..1, (height, width), seamless in x and y.
 
-    cells_x, cells_y: number of random values along x and y, between which the noise is interpolated; seed: of the
+    cells_x, cells_y: number of random values along x and y, between which the noise is interpolated; seed: seed of the
     random numbers.
     """
     lattice = np.random.default_rng(seed).random((cells_y, cells_x))
@@ -93,7 +93,7 @@ def layered_noise(width, height, cells_x, cells_y, octaves, seed, gain=0.5):
     """Return a sum of several layers (octaves) of seamless noise, scaled to 0..1.
 
     The first has cells_x x cells_y cells. Each further octave is twice as fine and `gain` times as strong as the one
-    before. seed: of the random numbers.
+    before. seed: seed of the random numbers.
     """
     total, weight, strength = np.zeros((height, width)), 0.0, 1.0
     for octave in range(octaves):

@@ -140,7 +140,7 @@ def flashed(pixels):
 def glow(size, ramp, brightest=0.70):
     """Return a disc of light, to be drawn by addition: opaque, black outside, with a dithered falloff.
 
-    size [px]: of the square picture; ramp: name of its colours; brightest: brightness of its middle, 0..1.
+    size [px]: size of the square picture; ramp: name of its colours; brightest: brightness of its middle, 0..1.
     """
     x, y = grid(size, size)
     fall = np.clip(1 - length(x - size / 2, y - size / 2) / (size / 2), 0, 1)

@@ -54,7 +54,7 @@ def voice(kind, start, end, shape, duty=(0.5, 0.5), vibrato=(0.0, 0.0), steps=()
 
     kind: pulse, saw, triangle, sine or noise; start, end: pitch in Hz; shape: an envelope; duty: duty cycle of a pulse
     at the start and at the end; vibrato: (depth as a share of the pitch, Hz); steps: ((seconds, factor), ...), times at
-    which the pitch jumps by a factor; seed: of the noise.
+    which the pitch jumps by a factor; seed: seed of the noise.
     """
     count = len(shape) * OVERSAMPLING
     time = np.arange(count) / (RATE * OVERSAMPLING)

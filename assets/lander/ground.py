@@ -44,7 +44,7 @@ def boulders(seed, count):
     """Return (edge, facing), (CELL, CELL) each, of a seamless pattern of `count` boulders.
 
     edge: distance from the nearest crack between boulders [px]; facing: how far the side of the boulder faces the
-    light; seed: of the random numbers.
+    light; seed: seed of the random numbers.
     """
     random = np.random.default_rng(seed)
     middles = random.random((count, 2)) * CELL

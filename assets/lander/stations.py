@@ -102,7 +102,7 @@ def drum():
 
 
 def rock(seed, size):
-    """Return a loose boulder with a little snow on it, about size x size px. seed: of the random numbers."""
+    """Return a loose boulder with a little snow on it, about size x size px. seed: seed of the random numbers."""
     sprite = Sprite(size, size)
     x, y = sprite.x, sprite.y
     random = np.random.default_rng(700 + seed)

@@ -66,7 +66,7 @@ def boulders(variant):
 def clods(ramp, seed):
     """Return packed earth, (16, 16, 3) uint8: clods shaped like boulders, but softer and with little contrast.
 
-    ramp: array of its colours; seed: of the random numbers.
+    ramp: array of its colours; seed: seed of the random numbers.
     """
     nearest, second, facing = _cells(CLODS)
     grain = noise(TILE, TILE, 8, 8, seed) - 0.5

@@ -78,7 +78,7 @@ def mountains(height, low, high, cells, seed, tones, snow=None, haze=None):
 
     low, high [px]: height of rock at the lowest and the highest point; cells: see ridge_line; tones: colours (shade,
     body, light, edge); snow: two colours of the snow caps, or None; haze: colour into which the foot fades, or None;
-    seed: of the random numbers.
+    seed: seed of the random numbers.
     """
     line = ridge_line(cells, 6, seed, 0.75)
     top = height - (low + (high - low) * line)
@@ -157,7 +157,7 @@ def bank(width, height, seed, base, puffs, tones):
     """Return a row of cumulus clouds with flat, fading bottoms, (height, width, 4) uint8, seamless in x.
 
     base [px]: y of the bottoms; puffs: round parts, ((x, height over the base, radius), ...) [px]; tones: four colours,
-    dark to light; seed: of the random numbers.
+    dark to light; seed: seed of the random numbers.
     """
     y, x = np.mgrid[0:height, 0:width] + 0.5
     rough = layered_noise(width, height, max(2, width // 24), max(2, height // 24), 3, seed) - 0.5

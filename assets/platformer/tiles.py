@@ -258,7 +258,7 @@ def plank(part):
 
 
 def _bracket(picture, column, inward):
-    """Draw a short strut under an end of a plank. column: of the strut.
+    """Draw a short strut under an end of a plank. column: column of the strut.
 
     inward: 1 or -1, direction of the plank's middle.
     """

@@ -14,7 +14,7 @@ def cover(width, height, cells_x, cells_y, seed, threshold):
     """Return (thickness, solid), (height, width) each, of a seamless field of clouds.
 
     There are clouds (solid) where the thickness is above 0. cells_x, cells_y: cells of the noise; threshold 0..1: the
-    lower it is, the denser the field; seed: of the random numbers.
+    lower it is, the denser the field; seed: seed of the random numbers.
     """
     field = layered_noise(width, height, cells_x, cells_y, 5, seed, 0.55)
     low, high = field.min(), field.max()
@@ -26,7 +26,7 @@ def from_above(seed, threshold, alpha, cells_x, cells_y, tones=HIGH):
     """Return clouds seen from above, (540, 480, 4) uint8, seamless in both directions.
 
     threshold, cells_x, cells_y: see cover; alpha: opacity 0..255 of thick parts; tones: colours from dark to light;
-    seed: of the random numbers.
+    seed: seed of the random numbers.
     """
     thickness, solid = cover(480, 540, cells_x, cells_y, seed, threshold)
     lit = np.roll(thickness, (3, 2), (0, 1)) - thickness  # thicker towards the bottom right: faces the light

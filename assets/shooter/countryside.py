@@ -41,7 +41,8 @@ VILLAGES = ((96, 150), (352, 64), (238, 402), (420, 300))  # [px] middles; those
 def patchwork(count, seed):
     """Return (number, edge), (HEIGHT, WIDTH) each, of a seamless patchwork of `count` fields.
 
-    number: number of the field at each pixel; edge: distance from the next field [px]; seed: of the random numbers.
+    number: number of the field at each pixel; edge: distance from the next field [px]; seed: seed of the random
+    numbers.
     """
     random = np.random.default_rng(seed)
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH] + 0.5

@@ -37,7 +37,7 @@ RING_DARK = mix(OUTLINE, RAMPS["purple"][0], 0.3)
 def tones_of(name, safe):
     """Return the colours (edge, body, light) of a bullet's saturated ring, dark to light.
 
-    name: of the bullet; safe: whether to use the colours for colour blindness.
+    name: name of the bullet; safe: whether to use the colours for colour blindness.
     """
     if safe:
         colour = np.array(SAFE[name][0], np.uint8)

@@ -107,7 +107,7 @@ def nozzle(sprite, left, right, top, bottom, hot):
 
 
 def scorch(sprite, x, y, radius, seed):
-    """Draw soot around a hit at (x, y), with a ragged edge. seed: of the random numbers."""
+    """Draw soot around a hit at (x, y), with a ragged edge. seed: seed of the random numbers."""
     height, width = sprite.solid.shape
     rough = (noise(width, height, max(2, width // 5), max(2, height // 5), seed) - 0.5) * radius
     field = length(sprite.x - x, sprite.y - y) - radius + rough
@@ -118,7 +118,7 @@ def scorch(sprite, x, y, radius, seed):
 def wound(sprite, x, y, radius, seed, hot):
     """Draw a torn hole in the plating: soot, a bright torn edge, and a glow inside.
 
-    hot: brightness of the glow, 0..1. seed: of the random numbers.
+    hot: brightness of the glow, 0..1. seed: seed of the random numbers.
     """
     scorch(sprite, x, y, radius * 1.9, seed)
     height, width = sprite.solid.shape

@@ -10,7 +10,7 @@ FOAM = (WHITE, RAMPS["steel"][5], RAMPS["blue"][4], RAMPS["blue"][3])
 
 
 def splash(size, seed):
-    """Return the frames of a splash, (size, size, 4) uint8 each. seed: of the random numbers."""
+    """Return the frames of a splash, (size, size, 4) uint8 each. seed: seed of the random numbers."""
     grain = layered_noise(size, size, 6, 6, 2, seed) - 0.5
     return [_frame(number, size, grain) for number in range(FRAMES)]
 

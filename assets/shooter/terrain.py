@@ -89,7 +89,7 @@ def ground():
 def glints(picture, water, seed=31, cut=GLINT_CUT):
     """Draw short horizontal wave crests in patches of the water (h, w) bool.
 
-    cut: level of noise 0..1 above which a crest is drawn. seed: of the random numbers.
+    cut: level of noise 0..1 above which a crest is drawn. seed: seed of the random numbers.
     """
     crest = noise(WIDTH, HEIGHT, 40, 270, seed)
     group = layered_noise(WIDTH, HEIGHT, 8, 9, 2, seed + 10)
@@ -102,7 +102,8 @@ def glints(picture, water, seed=31, cut=GLINT_CUT):
 def plant(picture, where, seed, spacing=(5, 4)):
     """Draw tree crowns with their shadows, at jittered places of a grid, wherever `where` (h, w) bool allows.
 
-    They are drawn back to front. spacing: distance between trees along x and along y [px]; seed: of the random numbers.
+    They are drawn back to front. spacing: distance between trees along x and along y [px]; seed: seed of the random
+    numbers.
     """
     random = np.random.default_rng(seed)
     across, down = spacing

@@ -22,8 +22,9 @@ SHEET_WIDTH = 128  # [px]
 def read_drawing(text, height):
     """Return {character: (height, w) bool, True for ink} of a font's drawing.
 
-    text: the drawing, in bands of glyphs side by side, each below a line with "=" and their characters; height [px]: of
-    every glyph. Raises ValueError, which names the line, for a badly drawn band.
+    text: the drawing, in bands. A band is a line of "=" and characters, followed by the glyphs of these characters,
+    drawn side by side. height: height of every glyph [px]. Raises ValueError, which names the line, for a badly drawn
+    band.
     """
     glyphs, names, rows, start = {}, [], [], 0
     for number, line in enumerate(text.splitlines() + ["="], 1):

@@ -64,7 +64,7 @@ class Music:
         self.paused = False
 
     def step(self, seconds: float, volume: float) -> None:
-        """Update fades, the lowered volume and the tune after `seconds`. volume: of all music, 0..1."""
+        """Update fades, the lowered volume and the tune after `seconds`. volume: volume of all music, 0..1."""
         if not self.paused:
             self._advance(seconds)
         pygame.mixer.music.set_volume(0.0 if self.paused else volume * self.level * self.duck)

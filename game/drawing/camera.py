@@ -61,7 +61,7 @@ class Camera:
     def follow(
         self, x: float, y: float, dt: float, rate: float = 8.0, dead_zone: tuple[float, float] = (0.0, 0.0)
     ) -> None:
-        """Move the view towards a world point, so that the point comes to its middle. rate: of the approach [1/s].
+        """Move the view towards a world point, so that the point comes to its middle. rate: rate of the approach [1/s].
 
         The view does not move while the point is within `dead_zone` (x, y) [world px] of the middle.
         """

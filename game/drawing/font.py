@@ -20,7 +20,7 @@ UNKNOWN = "?"  # drawn for a character that the sheet lacks
 
 
 class Font:
-    """A bitmap font: one sheet of glyphs, and a method to draw a line of text. height: of a line [font px]."""
+    """A bitmap font: one sheet of glyphs, and a method to draw a line of text. height: height of a line [font px]."""
 
     def __init__(self, sheet: pygame.Surface, height: int, glyphs: dict[str, dict[str, int]]) -> None:
         self.height = height

@@ -34,6 +34,6 @@ def _box(name, width, height):
 def _place(index, length):
     """Return (start, length) [px] of a slice along a side of the box. index: 0 first, 1 middle, 2 last slice.
 
-    length: of the side [px].
+    length: length of the side [px].
     """
     return ((0, EDGE), (EDGE, max(length - 2 * EDGE, 0)), (length - EDGE, EDGE))[index]

@@ -36,7 +36,7 @@ REPORTED = ("begin", "persist", "end", "sensor_begin", "sensor_end")
 
 
 def ids_of(row: np.void) -> tuple[int, ...]:
-    """Return the ids of the bodies to which a row belongs. row: of any table."""
+    """Return the ids of the bodies to which a row belongs. row: row of any table."""
     names = row.dtype.names or ()
     return tuple(
         int(row[name])

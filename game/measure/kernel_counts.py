@@ -23,7 +23,8 @@ from physics.warmup import run_warmup
 def called(effects: Effects, broadphase: str, pieces: tuple[str, ...] | None) -> frozenset:
     """Return the set of (kernel, argument types) of all kernel calls that a world can make.
 
-    effects, broadphase: of the world; pieces: shape pairs and queries that it uses, as in physics.warmup.
+    effects: effects of the world; broadphase: name of its broad phase; pieces: shape pairs and queries that it uses, as
+    in physics.warmup.
     """
     with tiers.collecting(all_calls=True) as found:
         run_warmup(effects, broadphase, pieces=pieces)

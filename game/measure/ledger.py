@@ -65,8 +65,8 @@ class Entry(NamedTuple):
 def entry(scene_class: type[Scene], effect: str, frames: int, after: int = AFTER, seed: int = 1) -> Entry:
     """Run a scene with and without an effect, for at most `frames` frames, and return the differences.
 
-    after: number of further frames once the two copies differ; seed: of the scene. Raises ValueError for a scene that
-    cannot be built with all its declared effects.
+    after: number of further frames once the two copies differ; seed: seed of the scene. Raises ValueError for a scene
+    that cannot be built with all its declared effects.
     """
     declared = getattr(scene_class.effects, effect)
     if declared:

@@ -78,7 +78,7 @@ class Moment:
 
 
 class Way(NamedTuple):
-    """Motion of the bodies of a world: their positions after each step, with overlaps and failures."""
+    """Motion of the bodies in a run: positions and the deepest overlap after each step, and counts of failures."""
 
     places: np.ndarray  # (steps, bodies, 2) centres of mass [px], in the order of ids
     moves: np.ndarray  # (bodies,) bool: dynamic

@@ -47,7 +47,7 @@ def settings_around(here: Setting, effects: Effects) -> list[Setting]:
     """Return the settings to measure: `here`, then all that differ from it by one change.
 
     A change is another broad phase, narrow phase or collision tier, or another solver with each number of substeps. The
-    kinds of change take turns in the list. effects: of the world, which decide what can be changed.
+    kinds of change take turns in the list. effects: effects of the world, which decide what can be changed.
     """
     rows = [list(_solvers(here, effects)), list(_tiers(here)), list(_broadphases(here)), list(_narrow(here))]
     found = [here]

@@ -17,8 +17,9 @@ COLUMNS = (
 def csv_of(survey: Survey, scene: str, seed: int, steps: int) -> str:
     """Return the text of the CSV file.
 
-    scene, seed, steps: of the measured run, for the command. Times are in microseconds per step. Errors are in pixels,
-    for tiers in wrong answers per 100 encounters. A number that does not apply is an empty field.
+    scene, seed, steps: name of the measured scene, its seed and its number of steps, for the column `command`. Times
+    are in microseconds per step. Errors are in pixels, for tiers in wrong answers per 100 encounters. A number that
+    does not apply is an empty field.
     """
     file = io.StringIO()
     writer = csv.writer(file, lineterminator="\n")

@@ -58,7 +58,7 @@ class Centers(Layer):
 def mark(surface: pygame.Surface, x: float, y: float, angle: float, radius: float) -> None:
     """Draw a crash-test mark: a disc of two dark and two light quarters, rotated by the body's angle [rad].
 
-    x, y, radius: of the disc [surface px].
+    x, y, radius: centre and radius of the disc [surface px].
     """
     pygame.draw.circle(surface, PAPER, (x, y), radius)
     cosine, sine = np.cos(angle) * radius, np.sin(angle) * radius

@@ -109,7 +109,7 @@ def draw_hull(
 ) -> None:
     """Draw the polygon `hull`, filled with opacity `fill` (0..255), and its edge.
 
-    hull: corners (k, 2) on the surface; width: of the edge [px]. The part outside `clip` costs no time.
+    hull: corners (k, 2) on the surface; width: width of the edge [px]. The part outside `clip` costs no time.
     """
     x, y = zip(*hull, strict=True)
     left, top = floor(min(x)) - width, floor(min(y)) - width

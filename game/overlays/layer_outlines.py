@@ -64,7 +64,7 @@ class Outlines(Layer):
                 draw_outline(frame.surface, lens, outline, color, width, frame.scale)
 
     def _draw_parts(self, frame, lens, world, rows, color, width):
-        """Draw the convex parts of mask outlines. rows: rows of world.shapes; width: of the lines [frame px]."""
+        """Draw the convex parts of mask outlines. rows: rows of world.shapes; width: width of the lines [frame px]."""
         if len(rows):
             edges = mask_edges(world, rows, lens.scale)
             draw_lines(frame.surface, lens, edges.inner, faded(color, 0.6))
@@ -73,7 +73,7 @@ class Outlines(Layer):
     def _draw_tiles(self, frame, lens, world, shape_id, color, width):
         """Draw the edges of a tile grid's solid cells in `color`, and the tops of its one-way cells in orange.
 
-        shape_id: id of the grid's shape; width: of the lines [frame px].
+        shape_id: id of the grid's shape; width: width of the lines [frame px].
         """
         row = world.shapes[np.searchsorted(world.shapes["id"], shape_id)]
         body = world.body(int(row["body"]))

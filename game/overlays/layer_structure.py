@@ -98,7 +98,7 @@ def covered(
 
 
 def thinned(rows: np.ndarray, room: int) -> np.ndarray:
-    """Return `rows`, or at most `room` of them at even distances."""
+    """Return at most `room` elements of the array `rows`, evenly spaced in it; all if there are no more than `room`."""
     if len(rows) <= room:
         return rows
     return rows[np.linspace(0, len(rows) - 1, room).astype(int)]

@@ -165,8 +165,8 @@ class Times(Layer):
     def _scroll(self, size, top, palette):
         """Update the image of the bars: scroll it, and paint the new steps at its right side.
 
-        size: of the image [frame px]; top: time at its upper edge [ms]; palette: name of the colours. If one of these
-        has changed, everything is painted.
+        size: size of the image [frame px]; top: time at its upper edge [ms]; palette: name of the colours. If one of
+        these has changed, everything is painted.
         """
         column = max(1, size[0] // HISTORY)
         new = self.noted - self.painted

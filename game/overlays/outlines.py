@@ -108,7 +108,7 @@ def draw_outline(
 ) -> None:
     """Draw an outline of physics.debug; a chain gets hatching on its solid side.
 
-    lens: maps world to frame; width: of the lines [frame px]; scale: frame px per canvas px.
+    lens: maps world to frame; width: width of the lines [frame px]; scale: frame px per canvas px.
     """
     kind = outline[0]
     if kind == "lines":

@@ -36,7 +36,7 @@ class Pile(NamedTuple):
 def boxes(places: list[tuple[float, float]], density: Sequence[float] = (), size: float = BOX) -> Pile:
     """Return a pile of upright boxes of one size [px] at these places [px].
 
-    density: of each box; empty: 1 for all.
+    density: density of each box; empty: 1 for all.
     """
     count = len(places)
     return Pile(places, list(density) or [1.0] * count, [Polygon.box(size, size)] * count, [0.0] * count)
@@ -112,9 +112,9 @@ PILES: dict[str, Callable[[], Pile]] = {
 def world_of(
     pile: Pile, solver: SolverName, substeps: Substeps, effects: Effects = EFFECTS, away: float = 0.0
 ) -> World:
-    """Return a world with the pile on wide ground. solver, substeps, effects: of the world.
+    """Return a world with the pile on wide ground.
 
-    away: x and y of the pile's origin [px].
+    solver, substeps, effects: settings of the world; away: x and y of the pile's origin [px].
     """
     world = World(effects, solver=solver, gravity=(0.0, GRAVITY), substeps=substeps)
     places = np.array(pile.places) + away

@@ -63,7 +63,7 @@ def dots_of(panel: Panel, rows: Sequence[Row]) -> list[Dot]:
 def draw(panel: Panel, rows: Sequence[Row], name: str) -> tuple[str, list[Dot]]:
     """Return (SVG text of a panel, its dots). The text is "" if there is nothing to show.
 
-    name: of the panel in the SVG; dot number k has the id "{name}-{k}".
+    name: name of the panel in the SVG; dot number k has the id "{name}-{k}".
     """
     figure = library()(figsize=SIZE, layout="constrained")
     dots = dots_of(panel, rows)

@@ -77,7 +77,7 @@ class Recorder:
         del self.digests[self.frames // self.every :]
 
     def save(self, path: str | Path, result: Result | None = None) -> None:
-        """Write the recording to a file. result: of the game, or None. Raises OSError."""
+        """Write the recording to a file. result: result of the game, or None. Raises OSError."""
         ended = result and {"won": bool(result.won), "points": int(result.points), "seconds": float(result.seconds)}
         head = {**self.head, "result": ended, "frames": self.frames}
         lines = [json.dumps(head)[:-1] + ",", '"inputs": [']

@@ -58,7 +58,7 @@ def files_of(folder: Path) -> list[tuple[float, Path]]:
 def put_recent(recorder: Recorder, result: Result | None = None) -> Path | None:
     """Save a run in recent/, and delete the oldest runs there. Return its path; None if it is too short to keep.
 
-    result: of its game, or None. Raises OSError.
+    result: result of its game, or None. Raises OSError.
     """
     if recorder.frames < SHORTEST:
         return None

@@ -180,9 +180,9 @@ class NearMisses(CanvasScreen):
             flight.step(self.time, self.length, dt)
 
     def price(self) -> str:
-        """Return words that compare the step time with pixels with that with boxes; "" before HITS deaths.
+        """Return words for the step time with pixels as a multiple of that with boxes; "" before HITS deaths.
 
-        The times are compared second by second. If neither was shorter in all seconds, they count as the same.
+        The times are compared second by second. If neither half was faster in every second, they count as the same.
         """
         boxes, pixels = self.flights
         if boxes.deaths < HITS or len(boxes.seconds) < HITS:

@@ -167,7 +167,7 @@ class ReplaysScreen(CanvasScreen):
     def _about(self, chosen, width):
         """Return the lines about the chosen replay, a list of (text, color, font, height [px]).
 
-        chosen: value of the property `chosen`; width: of a line [px].
+        chosen: value of the property `chosen`; width: width of a line [px].
         """
         path, kept = chosen
         replay, reason = self.read.get(path, (MISSING, ""))

@@ -332,7 +332,7 @@ class Tour(SceneScreen):
     def _draw_foot(self, frame, rect, scale):
         """Draw a dot for each stop, the progress of this stop, and the names of the keys, which can be clicked.
 
-        rect: of the card; scale: frame px per text px.
+        rect: rectangle of the card; scale: frame px per text px.
         """
         self.places = []
         y = rect.bottom - 11 * scale

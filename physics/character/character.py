@@ -63,7 +63,7 @@ class Character:
     filter: the Filter of the shape.
     pushable: whether the character is solid for other characters, and they push it.
     user: any value of the game, kept as body.user.
-    mass: weight, and momentum on landing [density px²], > 0, with the effect stacking; None: the mass of the shape at
+    mass: weight, and momentum on landing [density px²], > 0, with the effect `stacking`; None: the mass of the shape at
         density 1.
     push: greatest force per mass with which the character pushes bodies in its way [px/s²], >= 0, with the effect
         stacking; None: 2000.
@@ -72,7 +72,7 @@ class Character:
 
     body: the kinematic Body of the character, which contacts and sensors see.
 
-    With the effect stacking, dynamic bodies stop and carry the character, and the character acts on them. Raises
+    With the effect `stacking`, dynamic bodies stop and carry the character, and the character acts on them. Raises
     TypeError for values of other types, ValueError for values out of range and for a world without the needed effects.
     """
 
@@ -155,7 +155,7 @@ class Character:
     def surface_speed(self) -> float:
         """Surface speed [px/s], to the right, of the ground under the character's feet at its last move; 0 in the air.
 
-        A step of a world with the effect conveyor moves the character at this speed.
+        A step of a world with the effect `conveyor` moves the character at this speed.
         """
         return float(self.world.characters.rows["belt"][self._row])
 

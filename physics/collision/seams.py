@@ -109,10 +109,11 @@ def piece_at(batch, row, feature, corners_out):
 
 @subkernel
 def may_be_seam(batch, side, manifold, corners_out):
-    """Return whether a contact with ground may be at a seam: near an end of its piece of ground, or not yet touching.
+    """Return whether a contact with ground may be at a seam: an end of its piece of ground (see piece_at) is near.
 
-    side: 0 if A is the ground, 1 if B is; manifold: CONTACT row; corners_out (16, 2): scratch. The result is False for
-    a contact over a wide face, and for a contact of a disc with a face. batch: see manifold.Batch.
+    The result is also True if a point of the contact does not touch yet. It is False for a contact over a wide face,
+    and for a contact of a disc with a face. side: 0 if A is the ground, 1 if B is; manifold: CONTACT row; corners_out
+    (16, 2): scratch; batch: see manifold.Batch.
     """
     m = manifold
     row = m.row_a if side == 0 else m.row_b

@@ -111,7 +111,7 @@ FIRST_POSE = int(BODIES["x"].__array_interface__["data"][0] - BODIES.__array_int
 
 
 def hull_pair(a: HullRow, pose_a: At, b: HullRow, pose_b: At) -> PairRows:
-    """Return the PairRows of two convex shapes at two poses (x, y, angle). Their AABBs are not written."""
+    """Return the PairRows of two convex shapes at two poses (x, y [px], angle [rad]). The rows contain no AABBs."""
     spans = np.frombuffer(bytearray(SPANS.pack(0, a.count, a.count, b.count)), SPAN)
     corners = np.frombuffer(bytearray(a.corners + b.corners), CORNER) if a.count + b.count else NOTHING.corners
     shapes = np.frombuffer(bytearray(a.first + b.second), SHAPE)

@@ -93,7 +93,7 @@ def fit(mask: PixelMask, tier: TierName, tolerance: float = 1.0) -> tuple[Shape,
 
     mask: a PixelMask.
     tier: one of TIERS, below.
-    tolerance: of the tier "parts" [px], > 0.
+    tolerance: tolerance of the tier "parts" [px], > 0.
 
     The tiers, from coarse to exact:
         "circle": the smallest circle around all pixels

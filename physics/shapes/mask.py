@@ -47,8 +47,8 @@ class PixelMask(Shape):
 
     A one-way mask pushes only with the upper side of its outline, and only bodies that were above that side. Bodies
     that come from below or from a side, or overlap the mask, pass. As with one-way tiles, there is no response without
-    the effect one_way. Tests by pixels are unaffected. Raises TypeError or ValueError if solid is not a grid of bools,
-    if smooth is not a number >= 0, if origin is not a finite point, and if snap or one_way is not a bool.
+    the effect `one_way`. Tests by pixels are unaffected. Raises TypeError or ValueError if solid is not a grid of
+    bools, if smooth is not a number >= 0, if origin is not a finite point, and if snap or one_way is not a bool.
     """
 
     _kind, _has_mass = MASK, True

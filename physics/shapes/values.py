@@ -251,7 +251,7 @@ class TileGrid(Shape):
 
     solid: solid tiles, bool [row, col]. The origin of body space is the top left corner of tile [0, 0].
     tile_size: side of a tile [px], > 0.
-    one_way: platforms, through which bodies pass from below, bool [row, col], with the effect one_way; None: none.
+    one_way: platforms, through which bodies pass from below, bool [row, col], with the effect `one_way`; None: none.
     slopes: number [row, col, 2]: height of the surface above the tile's bottom at its left and right side, as a
         fraction 0 to 1 of the tile; (0, 1) rises to the right, (0, 0) is no slope; None: no slopes.
 

@@ -74,7 +74,7 @@ CASES = {
 def world_of(case: Case, solver: SolverName, rate: int) -> World:
     """Return a world of COPIES equal bodies at the case's height over the ground, too far apart to meet.
 
-    solver: of the world; rate: steps per second.
+    solver: solver of the world; rate: steps per second.
     """
     gravity = (G * sin(case.slope), G * cos(case.slope))
     world = World(case.effects, solver=solver, gravity=gravity, dt=1.0 / rate, substeps=4)

@@ -153,7 +153,7 @@ def _step(world, speeds):
 def measure_piles(rows: int) -> list[Row]:
     """Return a row for each engine and setting: overlap of a pyramid after two seconds, and time of a step.
 
-    rows: of the pyramid. Raises ModuleNotFoundError if pymunk is missing.
+    rows: number of rows of the pyramid. Raises ModuleNotFoundError if pymunk is missing.
     """
     made, found, steps = pyramid(rows), {}, {}
     for substeps in SUBSTEPS:

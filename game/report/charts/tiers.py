@@ -45,7 +45,7 @@ def poses_near(first: PixelMask, second: PixelMask, tried: int) -> Poses:
 def measure(atlas: str, name: str, tried: int) -> list[Row]:
     """Return two rows for each tier (kind of collision shape) of a sprite against itself, one for each set of poses.
 
-    atlas, name: of the sprite; tried: see poses_near().
+    atlas: name of the sprite's atlas; name: name of the sprite in it; tried: see poses_near().
     """
     mask, rows = mask_of(atlas, name), []
     for panel, poses in ((AROUND, poses_around(mask, mask)), (NEAR, poses_near(mask, mask, tried))):
@@ -113,7 +113,7 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
 def _fit_claims(rows: Sequence[Row]) -> list[Claim]:
     """Return claims about the tiers that fit every sprite within a pixel: least memory, and fastest to build.
 
-    A tier is a kind of collision shape. rows: of the chart.
+    A tier is a kind of collision shape. rows: rows of the chart.
     """
     rows = [row for row in rows if row["panel"] == AROUND]
     fits = {}

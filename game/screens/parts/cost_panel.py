@@ -252,7 +252,7 @@ class CostPanel:
     def _draw_name(self, frame, rect, places, known, now, scale):
         """Draw the name of the setting under the pointer, or else of the current setting `now`, beside its dot.
 
-        rect: the plot; places: {setting: (x, y) of its dot}; known: {setting: (cost, error)}; scale: of the text.
+        rect: the plot; places: {setting: (x, y) of its dot}; known: {setting: (cost, error)}; scale: scale of the text.
         """
         setting = self.hovered if self.hovered in places else now if now in places else None
         if setting is None:
@@ -273,7 +273,7 @@ class CostPanel:
     def _draw_forms(self, frame, left, y, width, known, now, scale):
         """Draw the legend from (left, y) on: name and form of each kind of dot in the plot. Return the y below it.
 
-        known: {setting: (cost, error)}; now: the current setting; scale: of the text.
+        known: {setting: (cost, error)}; now: the current setting; scale: scale of the text.
         """
         font, line = small_font(scale)
         base = self.surveyor.here or now
@@ -298,7 +298,7 @@ class CostPanel:
     def _draw_list(self, frame, rect, known, now, scale):
         """Draw the list of settings, the cheapest first, and the numbers of those that do not fit above and below.
 
-        known: {setting: (cost, error)}; now: the current setting; scale: of the text.
+        known: {setting: (cost, error)}; now: the current setting; scale: scale of the text.
         """
         base, pareto_front = self.surveyor.here or now, set(self.survey.pareto_front(self.shown_kind()))
         font, line = small_font(scale)

@@ -95,7 +95,10 @@ class LabCard:
         frame.fix(self.rect)
 
     def _lines(self, width, scale, room):
-        """Return the card's lines from top to bottom. width: of a line [frame px]; room: for all lines [text px]."""
+        """Return the card's lines from top to bottom.
+
+        width: width of a line [frame px]; room: height for all lines [text px].
+        """
         lines = [Line(text, GOLD, TEXT) for text in wrap(self.text.question, width, TEXT, scale)]
         sections: dict[str, str] = dict(zip(SECTIONS, self.text[1:], strict=True))
         for section in PAGES[self.page]:
@@ -111,7 +114,7 @@ class LabCard:
     def _goal_lines(self, width, scale, room):
         """Return the lines about the lab's goals, those with a result first.
 
-        Goals that do not fit into `room` [text px] are only counted. width: of a line [frame px].
+        Goals that do not fit into `room` [text px] are only counted. width: width of a line [frame px].
         """
         lines, left = [], sorted(self.goals, key=self._waits)
         while left:

@@ -217,7 +217,7 @@ class Panel:
 def _draw_line(frame, rect, row, scale):
     """Draw a line of a table: a square (filled if the row is on), the name, and the cells.
 
-    rect: of the row; scale: frame px per text px.
+    rect: rectangle of the row; scale: frame px per text px.
     """
     square = pygame.Rect(rect.x + 2 * scale, rect.y + 2 * scale, 5 * scale, 5 * scale)
     color = frame.tone(row.color) if row.on else FOG
@@ -247,7 +247,7 @@ def _draw_check(surface, x, rect, row, color, scale):
 
 
 def slider_bar(rect: pygame.Rect, scale: int) -> pygame.Rect:
-    """Return the rectangle of a slider's bar. rect: of its row; scale: frame px per text px."""
+    """Return the rectangle of a slider's bar. rect: rectangle of its row; scale: frame px per text px."""
     return pygame.Rect(rect.x + 2 * scale, rect.bottom - 5 * scale, rect.width - 4 * scale, 2 * scale)
 
 

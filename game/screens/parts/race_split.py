@@ -106,7 +106,7 @@ class SplitScreen:
 def _curve(apart: deque[float], rect: pygame.Rect) -> list[tuple[float, float]]:
     """Return the points of the curve of distances in a plot, from old (left) to new (right border).
 
-    apart: distances [px], the newest last; rect: of the plot.
+    apart: distances [px], the newest last; rect: rectangle of the plot.
     """
     width = rect.width / (apart.maxlen or len(apart))
     first = rect.right - width * len(apart)
