@@ -215,9 +215,9 @@ class Scene:
     ) -> WatchedWorld:
         """Make a world with the scene's effects, broad phase, solver and seed, and append it to self.worlds.
 
-        settings: further arguments of World: gravity, drag, substeps, pixels_per_meter ... The arguments gravity, drag
-        and wind are dropped if the world does not have the effect of that name, so that a scene can be measured without
-        one of its effects.
+        settings: further arguments of World: gravity, drag, substeps, pixels_per_meter ... An argument gravity, drag or
+        wind is ignored if the world does not have the effect of that name. So a scene can be measured without one of
+        its effects.
         """
         effects = (effects or self.effects).with_(narrowphase=self.narrowphase)
         for name, acts in (

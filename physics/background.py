@@ -192,9 +192,9 @@ class Background:
     def _order(self, name, spec, keys, index):
         """Have a worker compile a kernel: called kernels first, then announced kernels in the order of their jobs.
 
-        Among the called kernels, the kernel with the most run time per byte of code to compile comes first (Smith's
-        rule, which minimises the sum of the waiting times: Smith 1956). name: name of its file in the store; spec,
-        keys: reference to the kernel and types of its arguments; index: number of the job.
+        Among the called kernels, the kernel with the most run time per byte of code to compile comes first. This is
+        Smith's rule (1956), which minimises the sum of the waiting times. name: name of the kernel's file in the store;
+        spec, keys: reference to the kernel and types of its arguments; index: number of the job.
         """
         if name in self._ordered:
             return
@@ -373,11 +373,11 @@ def compile_jobs(
 
 
 def _spread(found):
-    """Return the kernels in an order that spreads their code: each adds as much code as possible that is new so far.
+    """Return the kernels in an order in which each adds as much code as possible that no earlier kernel contains.
 
     found: pairs (kernel, types of its arguments). Workers that take kernels in this order compile different parts of
-    the physics and seldom wait for each other: 1 % of their time, compared with 14 % if the kernel with the most code
-    came first (the platformer, two cores).
+    the physics and seldom wait for each other. They wait for 1 % of their time, compared with 14 % if the kernel with
+    the most code came first (the platformer, two cores).
     """
     left, order, covered = list(found), [], set()
     while left:

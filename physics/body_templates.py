@@ -104,7 +104,7 @@ def find(world: WorldState, key: tuple | None) -> Template | None:
 
 
 def keep(world: WorldState, key: tuple | None, shapes: Sequence[Shape]) -> None:
-    """Store the rows of the body that was added last as the template of a key. For the key None nothing is stored.
+    """Make a template from the rows of the last body of the world, and store it under `key` (None: do nothing).
 
     shapes: the shapes of this body.
     """

@@ -204,7 +204,7 @@ def is_pair(value: Any) -> bool:
 
 
 def in_place_of_shape(value: Any) -> str:
-    """Return the hint for a value that was given as a shape, or "" if there is none."""
+    """Return the hint for a wrong value given in place of a shape; "" if there is none."""
     if is_a(value, "pygame", "Surface"):
         return ": write PixelMask.from_surface(surface)"
     if is_a(value, "pygame", "Mask"):
@@ -246,7 +246,7 @@ def _in_place_of_shape(value):
 
 
 def in_place_of_vector(name: str, value: Any) -> str:
-    """Return the hint for a value that was given as the pair `name`, or "" if there is none."""
+    """Return the hint for a wrong value given in place of the pair `name`; "" if there is none."""
     if is_a(value, "pygame", "Rect", "FRect"):
         return ": write rect.center or rect.topleft"
     if is_own(value, "Body", "Character"):
@@ -259,7 +259,7 @@ def in_place_of_vector(name: str, value: Any) -> str:
 
 
 def in_place_of_points(name: str, value: Any) -> str:
-    """Return the hint for a value that was given as the points or positions `name`, or "" if there is none."""
+    """Return the hint for a wrong value given in place of the points or positions `name`; "" if there is none."""
     if name == "points":
         if is_a(value, "pygame", "Rect", "FRect"):
             return f": write Polygon.box({value.width}, {value.height}, center={tuple(value.center)})"
@@ -270,7 +270,7 @@ def in_place_of_points(name: str, value: Any) -> str:
 
 
 def in_place_of_number(name: str, value: Any) -> str:
-    """Return the hint for a value that was given as the number `name`, or "" if there is none."""
+    """Return the hint for a wrong value given in place of the number `name`; "" if there is none."""
     if name == "radius" and is_pair(value):
         return ": write the radius first, Circle(radius, center)"
     if name == "gravity_scale" and is_pair(value):
@@ -281,7 +281,7 @@ def in_place_of_number(name: str, value: Any) -> str:
 
 
 def in_place_of_material(value: Any) -> str:
-    """Return the hint for a value that was given as a Material, or "" if there is none."""
+    """Return the hint for a wrong value given in place of a Material; "" if there is none."""
     if is_number(value) and value >= 0:
         return f": write Material(friction={brief(value)})"
     if isinstance(value, dict) and value and value.keys() <= set(MATERIALS):
@@ -294,7 +294,7 @@ def in_place_of_material(value: Any) -> str:
 
 
 def in_place_of_filter(value: Any) -> str:
-    """Return the hint for a value that was given as a Filter, or "" if there is none."""
+    """Return the hint for a wrong value given in place of a Filter; "" if there is none."""
     if is_bits(value):
         return f": write Filter(membership={brief(value)})"
     if is_pair(value) and all(map(is_bits, value)):
@@ -315,7 +315,7 @@ def _is_short_name(value):
 
 
 def in_place_of_effects(value: Any) -> str:
-    """Return the hint for a value that was given as Effects, or "" if there is none."""
+    """Return the hint for a wrong value given in place of Effects; "" if there is none."""
     if is_class(value, "Effects"):
         return ": write Effects()"
     if callable(value) and getattr(value, "__name__", "") in ("detection", "rigid_bodies"):
@@ -330,7 +330,7 @@ def in_place_of_effects(value: Any) -> str:
 
 
 def in_place_of_word(name: str, value: Any, allowed: Sequence[str]) -> str:
-    """Return the hint for a value that was given as one of the words `allowed`, or "" if there is none."""
+    """Return the hint for a wrong value given in place of one of the words `allowed`; "" if there is none."""
     if isinstance(value, str):
         found = near(value, allowed)
         return f': did you mean "{found}"?' if found else ""

@@ -83,7 +83,7 @@ def loss(kept, samples):
 
 @dataclass(frozen=True)
 class Recording:
-    """Samples, (frames, channels) int16 at `rate` [Hz], that are to be stored as an Ogg file."""
+    """Samples to be stored as an Ogg file: (frames, channels) int16 at `rate` [Hz]."""
 
     samples: np.ndarray
     rate: int

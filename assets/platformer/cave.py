@@ -190,7 +190,7 @@ def window():
 
 
 def chain():
-    """Return a hanging iron chain, clear around it, that continues when it is repeated downwards."""
+    """Return the picture of a hanging iron chain, clear around it. It is seamless when it is repeated downwards."""
     sprite = Sprite(TILE, TILE)
     links = (
         "..ab..",

@@ -270,7 +270,7 @@ def _bracket(picture, column, inward):
 
 
 def ladder(top):
-    """Return a piece of a wooden ladder, 16 x 16 px, that is repeated downwards.
+    """Return a piece of a wooden ladder, (16, 16, 4) uint8, seamless when it is repeated downwards.
 
     top: whether it is the top piece, which has a landing of planks to stand on.
     """

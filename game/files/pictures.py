@@ -35,9 +35,9 @@ def picture_of(level: Path, place: str, name: str, own: Path) -> Path:
     """Return the path of the picture that a level names: a file in the level's folder, or one of the program's own.
 
     level: path of the level's file. name: path relative to the level's folder, with slashes or backslashes. If `name`
-    leads out of that folder, or names no file, the file of the same name in the folder `own` is used instead, because
-    editors write paths that are valid only where the level was made. Raises FileError with `place`, the place in the
-    level, if that file does not exist either.
+    leads out of that folder, or names no file, the file of the same name in the folder `own` is used. This happens
+    because editors write paths that are valid only where the level was made. Raises FileError with `place`, the place
+    in the level, if that file does not exist either.
     """
     parts = PurePosixPath(name.replace("\\", "/"))
     leads_out = parts.is_absolute() or ".." in parts.parts or PureWindowsPath(name).anchor != ""

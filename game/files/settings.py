@@ -1,7 +1,8 @@
 """Settings of the player: JSON with a version, written atomically, read leniently.
 
-A damaged file never stops the game: unusable values get their defaults, the file is kept under another name, and one
-line names the place and the reason of the damage. A file of a newer version is not interpreted, and is kept, too.
+A damaged file never stops the game. Unusable values get their defaults, and the file is kept under another name. One
+line of text names the place and the reason of the damage. A file of a newer version is not interpreted, and is kept,
+too.
 """
 
 import json

@@ -3,8 +3,8 @@
 The pointer is part of the step's input like every key, so that a recording contains the drag. Its force is capped in
 proportion to the mass. In worlds with joints the spring is a Target, a joint that is solved together with all others;
 its body may fall asleep while it is held still. In other worlds the spring is a force, integrated implicitly over one
-step (Catto, "Soft Constraints", GDC 2011), so that it is stable at any stiffness and for any mass: without a joint in
-it, the effect `joints` costs 18 to 31 us a step (five labs), for nothing.
+step (Catto, "Soft Constraints", GDC 2011). So it is stable at any stiffness and for any mass. These worlds do not need
+the effect `joints`, which costs 18 to 31 us a step even without a joint (five labs).
 """
 
 from collections.abc import Sequence

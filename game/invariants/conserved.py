@@ -97,9 +97,9 @@ class Spin(OfTheAlone):
 
     Three effects are errors of a step rather than a drift, and are not counted. Push-out moves bodies, and so the
     moment arms of their momenta: a falling column of ten boxes loses 0.9 % in a step under projection. After an impact
-    within the step, two bodies go on moving past each other (see `slip`): 0.7 % in one hit of two stones of
-    lab/carving, 0.1 % in 214 steps of 130 bodies in lab/tumbler. Joints act at moments within the step too (see `lag`):
-    0.2 % in a second of the doll of lab/joints, which flies with gaps of up to a pixel.
+    within the step, two bodies go on moving past each other (see `slip`). The error is 0.7 % in one hit of two stones
+    of lab/carving, and 0.1 % in 214 steps of 130 bodies in lab/tumbler. Joints act at moments within the step too (see
+    `lag`). The error is 0.2 % in a second of the doll of lab/joints, which flies with gaps of up to a pixel.
     """
 
     id, word = "U4", "spin"
@@ -228,7 +228,8 @@ class Energy(Invariant):
     """Invariant U5: without a drive, the energy of all bodies never exceeds that at the start by more than allowed.
 
     The allowed gain is that of Account.gain. The comparison starts after the last change by the game, as soon as no
-    overlap is deeper than two slops: bodies that were placed into each other are pushed apart, some of them upwards.
+    overlap is deeper than two slops. Before, bodies that were placed into each other are pushed apart, some of them
+    upwards.
     """
 
     id, word = "U5", "energy"

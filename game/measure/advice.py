@@ -1,8 +1,9 @@
 """Advice on the settings of a scene: the fastest setting whose error is within a limit.
 
 First, settings that differ from the current one by a single change are measured. Then the changes that save time are
-combined, and the combination is measured. A faster setting is advised only if it is certainly faster: over all moments,
-the intervals of the two times do not overlap, and the times differ by more than 10 % (pareto_front.TIE).
+combined, and the combination is measured. A faster setting is advised only if it is certainly faster. This means that
+over all moments the intervals of the two times do not overlap, and the times differ by more than 10 %
+(pareto_front.TIE).
 """
 
 from collections.abc import Callable, Iterable, Sequence

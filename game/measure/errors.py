@@ -9,8 +9,8 @@ The reference run of `way` has 64 times the 4 substeps of a plain run, and the c
 number of substeps. Erez, Tassa and Todorov (ICRA 2015) compare engines with themselves at smaller steps in this way.
 The reference is valid for the steps in which a second run, with 32 times the substeps, differs from it by at most a
 tenth of a pixel; this excludes chaotic motion. Errors below a floor are not significant. The floor is the larger of two
-numbers: ten times the difference of these two runs, and the difference between the reference and a third run, which has
-the stiffest contacts.
+numbers. The first is ten times the difference of these two runs. The second is the difference between the reference and
+a third run, which has the stiffest contacts.
 """
 
 from collections import Counter

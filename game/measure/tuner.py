@@ -1,7 +1,7 @@
 """Tuner: applies the advice on settings automatically while the player plays.
 
-A setting is applied only if it is certainly faster over the whole interval of its runs (advice.is_cheaper), so that
-noise does not undo decisions, and if it has proved itself on the recorded run.
+A setting is applied only if it has proved itself on the recorded run, and is faster over the whole interval of its runs
+(advice.is_cheaper). So noise does not undo decisions.
 """
 
 from collections.abc import Callable

@@ -1,7 +1,8 @@
 """Recorded runs: a scene played again from its inputs, with its rules, under any setting that it can play with.
 
-Advice on a scene is measured over the whole of such a run: its busiest second, the encounters of its bodies under every
-collision tier (kind of collision shape), and the time of its steps with a setting applied.
+Advice on a scene is measured over the whole of such a run. Three things are measured: the busiest second of the run,
+the encounters of its bodies under every collision tier (kind of collision shape), and the time of its steps under a
+setting.
 """
 
 from collections.abc import Iterator, Sequence

@@ -31,7 +31,8 @@ class ScriptSource:
 class BotSource:
     """Source in which the scene's bot plays.
 
-    person: source of a person's input, of which only the changes of settings are added; or None.
+    person: source of a person's input, or None. The person's changes of settings are added to the bot's input; the
+    person's other input is ignored.
     """
 
     def __init__(self, person: Source | None = None) -> None:

@@ -292,9 +292,9 @@ def rest_where_it_is(bodies, row, paths_inout, fast_inout):
 def goes_on(bodies, paths, mover, other, fraction, nx, ny):
     """Return how far [px] two bodies would still move into each other after an impact at a fraction of the step.
 
-    It is the greater of two distances: their relative motion against the normal (nx, ny), which points from other to
-    mover, and the motion of their outermost points by rotation in the whole step. mover, other: row numbers in BODY;
-    paths: see Sweep.
+    It is the greater of two distances: their relative motion after the impact against the normal (nx, ny), and the
+    motion of their outermost points by rotation in the whole step. The normal points from other to mover. mover, other:
+    row numbers in BODY; paths: see Sweep.
     """
     left_m = max(0.0, bodies[mover].fraction - fraction)
     left_o = max(0.0, bodies[other].fraction - fraction)

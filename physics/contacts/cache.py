@@ -210,10 +210,10 @@ def write_caches(geometry, bodies, shapes, contacts_inout):
 
 @inlined
 def cores_at(a, turn_a, b, turn_b, local_ax, local_ay, local_bx, local_by):
-    """Return (ax, ay, dx, dy) [px]: the world position of a contact's point on A's core, and the vector from it to B's.
+    """Return the world positions of a contact's points on both cores, as (ax, ay, dx, dy) [px].
 
-    a, b: BODY rows; turn_a, turn_b: (cosine, sine) of the angles; local_ax, local_ay, local_bx, local_by [px]: the
-    points on both cores in body space.
+    ax, ay: the point on A's core; dx, dy: vector from there to the point on B's core. a, b: BODY rows; turn_a, turn_b:
+    (cosine, sine) of the angles; local_ax, local_ay, local_bx, local_by [px]: the points in the space of their bodies.
     """
     ax, ay = rotate(local_ax, local_ay, turn_a[0], turn_a[1])
     bx, by = rotate(local_bx, local_by, turn_b[0], turn_b[1])

@@ -52,9 +52,9 @@ class Spring:
     hertz: frequency [1/s], > 0; damping: damping ratio, >= 0; 1 is critical.
     target: the coordinate at which it rests [px or rad]; None: that of the joint when it is made.
 
-    Both refer to the two bodies alone, held by the rest of the joint: a door swings about its hinge with this
-    frequency, and does not overshoot with a damping of 1. The stiffness is k = m (2 pi hertz)², where m is that
-    effective mass or moment of inertia.
+    Frequency and damping refer to the two bodies alone, held by the rest of the joint. A door swings about its hinge
+    with this frequency, and does not overshoot with a damping of 1. The stiffness is k = m (2 pi hertz)², where m is
+    the effective mass or moment of inertia of this motion.
 
     Raises TypeError if a value is not a number; ValueError for hertz <= 0, damping < 0, or a number that is not finite.
     """

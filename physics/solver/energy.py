@@ -1,9 +1,9 @@
 """Energy bound: contacts add no energy to an island, except the work of kinematic bodies and moving surfaces.
 
-Contacts may add energy if they separate overlaps, if their springs ring, if their normals are a step old on curved
-ground, or if their moment arms are fixed for a substep. Bodies that exchanged impulses in a step form a set of touching
-bodies. After the step, the kinetic energy of a set is compared with its energy before the step plus the work of
-gravity, forces and moving surfaces. A further gain may come from the reserve of the bodies, which is energy lost in
+Contacts may add energy for four reasons: they separate overlaps, their springs ring, their normals are a step old on
+curved ground, or their moment arms are fixed for a substep. Bodies that exchanged impulses in a step form a set of
+touching bodies. After the step, the kinetic energy of a set is compared with its energy before the step plus the work
+of gravity, forces and moving surfaces. A further gain may come from the reserve of the bodies, which is energy lost in
 earlier steps. The rest of the gain is removed by scaling the velocities.
 
 Bodies in flight that hit only each other keep their momentum and angular momentum. Only their velocities relative to

@@ -19,7 +19,7 @@ Chosen = slice | NDArray[np.bool_] | NDArray[np.integer[Any]] | list[int] | list
 
 
 class Row(np.void, Generic[Floats, Ints, Flags, Texts]):
-    """One row of a structured array: row["x"]."""
+    """One row of a structured array: row["x"] is its value in the column x."""
 
     @overload
     def __getitem__(self, key: Floats, /) -> np.float64: ...

@@ -105,7 +105,7 @@ def piled_up(world: World) -> np.ndarray:
 
 
 def contacts(world: World) -> np.ndarray:
-    """Return (n, 4) boxes around active contact points, that with the greatest impulse first."""
+    """Return (n, 4) boxes around active contact points, sorted by decreasing normal impulse."""
     points = debug.contact_points(world)
     points = points[np.isin(points["state"], (debug.NEW, debug.PERSISTED, debug.ASLEEP))]
     points = points[np.argsort(-points["normal_impulse"], kind="stable")]
