@@ -19,9 +19,9 @@ class Effects:
     narrowphase: shapes are tested exactly; without it collision stops at AABBs.
     response: overlaps are pushed apart. Without it contacts are only found and reported.
     gravity: World.gravity accelerates bodies; drag: World.drag slows bodies down; wind: World.wind carries bodies.
-    rotation: angular velocity turns bodies, impulses spin them. An angle counts also without it.
+    rotation: angular velocity turns bodies, impulses spin them. Without it, bodies keep the angle that they were given.
     friction: Material.friction and rolling_resistance act; restitution: bodies bounce by Material.restitution.
-    stacking: stacks are stable: contacts are warm started, and a stacking solver is the default.
+    stacking: stacks are stable, because contacts are warm started; a stacking solver is the default.
     continuous: fast bodies stop at their first impact, see Body.continuous.
     sleeping: islands at rest cost nothing until they are disturbed.
     sensors: shapes with sensor=True report overlaps; persist: events.persist lists pairs that continue to touch.

@@ -227,14 +227,14 @@ class World(WorldState):
     ) -> Body:
         """Add one body with these shapes, and return it.
 
-        *shapes: shapes in body space, also none. Of those of a dynamic body, one must have an area; Chain and TileGrid
-            are only for static and kinematic bodies.
+        *shapes: shapes in body space, or none. If a dynamic body has shapes, at least one must be of a kind with an
+            area (not a Segment). Chain and TileGrid are only for static and kinematic bodies.
         position: the body's origin (x, y) [px].
         angle: angle [rad], clockwise on the screen. It must be 0 with a TileGrid.
         kind: "dynamic": moved by forces and contacts; "kinematic": moved only by its velocity; "static": never moved.
-        velocity: velocity (x, y) of the centre of mass [px/s]; of a static body (0, 0).
+        velocity: velocity (x, y) of the centre of mass [px/s]; must be (0, 0) for a static body.
         angular_velocity: [rad/s]. Other than 0 it needs the effect `rotation`, and a body that is not static.
-        mass: mass [density px²], > 0, in place of the mass from the densities of the shapes; None: that mass.
+        mass: mass [density px²], > 0; None: the mass that follows from the areas and densities of the shapes.
         material: the Material of the shapes without a material of their own.
         filter: the Filter of the shapes without a filter of their own.
         sensor: whether the shapes without a sensor value of their own are sensors, which report overlaps and do not

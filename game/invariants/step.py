@@ -38,7 +38,7 @@ class Step:
 
     @cached_property
     def max_speed(self) -> np.ndarray:
-        """(n,) speed of each body [px/s]: that of its velocity, or its path in the step divided by dt if greater.
+        """(n,) speed of each body [px/s]: the greater of the size of its velocity, and its path in the step over dt.
 
         The two differ because push-out moves a body without changing its velocity.
         """

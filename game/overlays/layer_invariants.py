@@ -34,7 +34,7 @@ class Invariants(Layer):
     def note(self, monitor: InvariantMonitor | None) -> None:
         """Record the time that checking the invariants took in the last step. Call it after every step.
 
-        monitor: that of the scene; None while the invariants are not checked.
+        monitor: the scene's monitor; None while the invariants are not checked.
         """
         if monitor is not None:
             self.cost.note(monitor.seconds)

@@ -311,8 +311,9 @@ def goes_on(bodies, paths, mover, other, fraction, nx, ny):
 def is_swept(moving, a, b, sweep_inout):
     """Return whether a pair of shapes is to be swept: one body is fast relative to the other.
 
-    a, b: SHAPE rows. moving: 0 selects pairs in which a body that is not dynamic rests, 1 selects all other pairs. With
-    a stacking solver, two dynamic bodies are swept only if at least one is a bullet. sweep_inout: see Sweep.
+    a, b: SHAPE rows. moving: 0 selects pairs with a static or kinematic body that does not move in this step; 1 selects
+    all other pairs. With a stacking solver, two dynamic bodies are swept only if at least one is a bullet. sweep_inout:
+    see Sweep.
     """
     bodies, paths, fast = sweep_inout.bodies, sweep_inout.paths, sweep_inout.fast
     rest_where_it_is(bodies, a.body_row, paths, fast)

@@ -41,9 +41,9 @@ from physics.tables.step_state import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
 # A mover may overlap a shape by the depth that it has at the start, plus a slop. If it gets deeper, it is moved back to
 # the last fraction at which it was no deeper than at the start. So resting and sliding bodies are not held, and a body
 # that overlaps at the start cannot break through. Seams between flush pieces of ground are not hit, because the mover
-# is no deeper in one piece than in the whole ground. A very deep mover is swept by its core circle instead, whose
-# centre is the centre of mass and whose radius is a quarter of the smallest half extent: so the centre of mass never
-# crosses a surface (core circle of Box2D v3). One-sided ground is hit only while the mover is in front of it.
+# is no deeper in one piece than in the whole ground. A very deep mover is swept by its core circle (Box2D v3) instead,
+# so that its centre of mass never crosses a surface. The core circle is around the centre of mass, and its radius is a
+# quarter of the smallest half extent. One-sided ground is hit only while the mover is in front of it.
 
 BEFORE = 2.0**-20  # fraction of the path before an impact that counts as "just before" it
 BACKWARDS = 6  # most iterations of Newton's method in back_to; two or three are usual

@@ -25,7 +25,7 @@ from physics.math2d import norm, rotate, unit
 # ---- closed form -----------------------------------------------------------------------------------------------------
 # First time of impact in closed form, of two shapes that move along a line without rotation: discs, polygons, rays.
 #
-# Polygons: their Minkowski difference is convex, and its faces have the normals of both outlines, so the relative
+# Polygons: their Minkowski difference is convex, and its faces have the normals of both outlines. So the relative
 # motion enters the difference through the face that it crosses last (Cyrus and Beck 1978). Circles: a quadratic
 # equation per corner, a linear equation per hull edge (Ericson, Real-Time Collision Detection, 5.5).
 
@@ -181,7 +181,7 @@ def sweep_polygons(a, a_count, b, b_count, move, slack):
 # First time of impact of two rounded hulls that move and rotate, by conservative advancement of second order.
 #
 # At a fraction t of the motion the nearest points give a normal n. Along this fixed n every corner moves with its
-# velocity and an acceleration of at most (angular velocity)² · arm, so each pair of corners is apart until the root of
+# velocity and an acceleration of at most (angular velocity)² · arm. So each pair of corners is apart until the root of
 # a quadratic. The motion is free up to the smallest root, where a new normal is computed. Each such stop is before the
 # impact, and near the impact the gap shrinks quadratically, as in Newton's method: few rounds are needed, and no impact
 # is missed at any angular velocity. Source: Mirtich, Impulse-based Dynamic Simulation, 1996; Catto, Continuous

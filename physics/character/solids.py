@@ -703,7 +703,7 @@ def in_hull(walk, me, row, left, top, way_x, way_y, give):
 
 @subkernel
 def in_shape(walk, me, row, left, top, way_x, way_y, give):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) for a character at a position, with regard to one shape.
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) for a character at a position, as if there were only one shape.
 
     me, row: CHARACTER and SHAPE rows. left, top: pixel of the character's box. way_x, way_y: pixels that it moved to
     get there. give [px]: depth that is allowed in a loose shape. slope: rise of the surface per px to the right.

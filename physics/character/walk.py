@@ -617,8 +617,8 @@ def step_sideways(me, direction, follow, walk_inout):
 def walk_along(me, dx, follow, walk_inout, moved_out):
     """Move a character along x by dx [px], pixel by pixel, and push bodies in front of it by impulses.
 
-    me: CHARACTER row; follow: 1 to stay on ground that goes down; walk_inout: see solids.Walk; moved_out (4,): see
-    walk, its element 2 is set to 1 if the character was stopped.
+    me: CHARACTER row; follow: 1 to stay on ground that goes down; walk_inout: see solids.Walk. moved_out (4,): result
+    of walk; element 2 is set to 1 if the character was stopped.
     """
     c = walk_inout.characters[me]
     c.remainder_x += dx
@@ -656,7 +656,7 @@ def fall_or_rise(me, dy, walk_inout, moved_out):
     """Move a character along y by dy [px], pixel by pixel, with impacts on bodies that it hits.
 
     On ground too steep to walk on the character slides down, by the component of dy along the slope. me: CHARACTER row;
-    walk_inout: see solids.Walk; moved_out (4,): see walk, its element 3 is set to 1 if the character was stopped.
+    walk_inout: see solids.Walk. moved_out (4,): result of walk; element 3 is set to 1 if the character was stopped.
     """
     c = walk_inout.characters[me]
     rows = walk_inout.found

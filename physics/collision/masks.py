@@ -29,9 +29,9 @@ from physics.tables.step_state import MASK_TESTS
 #
 # The normal is the direction in which moving B shrinks the shared area fastest: the gradient of the area over the
 # offset, by central differences of one pixel (the recipe of pygame's Mask documentation). If the gradient is 0, the
-# direction between the centres of the solid bounds is used or, if the centres coincide, the axis of least overlap of
-# the bounds. The depth is searched pixel by pixel along the normal. If the bounds separate after a shorter move along
-# an axis, this axis is used, so the depth is never more than the least overlap of the bounds.
+# normal is the direction between the centres of the solid bounds. If the centres also coincide, it is the axis of least
+# overlap of the bounds. The depth is searched pixel by pixel along the normal. If the bounds separate after a shorter
+# move along an axis, this axis is used, so the depth is never more than the least overlap of the bounds.
 
 
 @subkernel

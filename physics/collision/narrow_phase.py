@@ -148,10 +148,10 @@ def kind_of_pair(low, high):
 
 @inlined
 def as_snapped(kind, a, b):
-    """Return the kind of a pair after regard to masks drawn on whole pixels (snap=True), and to one-way surfaces.
+    """Return the kind of a pair, refined for masks at exact poses (snap=False) and for one-way surfaces of masks.
 
-    kind: result of kind_of_pair. Two masks of which at least one has snap=False are MASKS_EXACT. A pair with a chain
-    that is the one-way surface of a mask is SURFACE_ANY. All other kinds are unchanged. a, b: SHAPE rows.
+    kind: result of kind_of_pair. MASKS becomes MASKS_EXACT if at least one mask has snap=False. CHAIN_ANY becomes
+    SURFACE_ANY if the chain is the one-way surface of a mask. All other kinds are unchanged. a, b: SHAPE rows.
     """
     if kind == CHAIN_ANY:
         chain = a if a.kind == CHAIN else b

@@ -17,9 +17,9 @@ from physics.jit.plain import compiler, globals_of, view_of
 # The form of a kernel that runs if its compiled form is not loaded: compile it, run plain, or run plain and record it.
 #
 # By default a kernel is loaded or compiled at its first call. `collecting()` records the kernels of a run that are not
-# on disk, so that several processes can compile them. `start()` opts in to tiers for the rest of the program: kernels
-# run plain, a thread loads the kernels on disk and has the others compiled by worker processes (workers.py), in the
-# order of their time per length of code. take_over() installs compiled forms between two steps.
+# on disk, so that several processes can compile them. `start()` opts in to tiers for the rest of the program. Kernels
+# then run plain, while a thread loads the kernels on disk. It has the others compiled by worker processes (workers.py),
+# in the order of their time per length of code. take_over() installs compiled forms between two steps.
 
 background = False  # whether this program has opted in to tiers
 wanted: dict[tuple[Kernel, Keys], None] = {}  # kernels that have run plain, in the order of their first calls

@@ -83,8 +83,8 @@ def start_module(module: str, **environment: str) -> "subprocess.Popen[str]":
     program, and not from the current folder, where a `physics.py` or `numpy.py` belongs to the user. environment:
     additional environment variables. Raises OSError or ValueError if no process can be started.
     """
-    # A process group, not a session: Linux divides processor time between sessions independent of the priority of their
-    # processes (autogroups, man 7 sched), so a session of its own would take as much time as the program.
+    # A process group, not a session: Linux divides processor time between sessions, whatever the priority of their
+    # processes (autogroups, man 7 sched). A session of its own would take as much time as the program.
     options: dict[str, Any] = {"process_group": 0}
     if sys.platform == "win32":
         options = {"creationflags": subprocess.BELOW_NORMAL_PRIORITY_CLASS | subprocess.CREATE_NEW_PROCESS_GROUP}

@@ -50,7 +50,7 @@ class Spring:
     """A joint spring, on the coordinate of its joint: an angle, a translation or a length.
 
     hertz: frequency [1/s], > 0; damping: damping ratio, >= 0; 1 is critical.
-    target: the coordinate at which it rests [px or rad]; None: that of the joint when it is made.
+    target: the coordinate at which the spring rests [px or rad]; None: the coordinate when the joint is made.
 
     Frequency and damping refer to the two bodies alone, held by the rest of the joint. A door swings about its hinge
     with this frequency, and does not overshoot with a damping of 1. The stiffness is k = m (2 pi hertz)², where m is

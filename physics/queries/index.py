@@ -19,8 +19,8 @@ from physics.tables.step_state import COUNTERS, PAIRS_TESTED, WorldTables
 # The shapes that may meet a box at present, found in the data structure of the broad phase between steps.
 #
 # The structure has the state of the last step. Shapes that were added since, or are no longer inside their boxes, are
-# listed as loose and compared one by one, so a query has the same result as a search of all shapes. Callers may write
-# poses into world.bodies, so the poses are compared with the poses last read: one pass over the bodies that may have
+# listed as loose and compared one by one. So a query has the same result as a search of all shapes. Callers may write
+# poses into world.bodies. So the poses are compared with the poses last read, in one pass over the bodies that may have
 # moved.
 
 ROUNDING = 2.0**-48  # margin of a searched box relative to its coordinates, because casts are also rounded

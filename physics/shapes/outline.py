@@ -266,12 +266,12 @@ def _bits(sides, turns):
 
 
 def corner_turns(parts: Sequence[Part]) -> list[np.ndarray]:
-    """Return for each part the angle [rad] by which the whole outline turns at each corner of the part.
+    """Return the turn [rad] of the outline of all parts at each corner, as one array (corners,) for each part.
 
-    A side that two parts share is inner; all other sides are on the outline. Between two sides on the outline the
-    result is pi, and between two inner sides COVERED. At a corner between an inner side and a side on the outline, the
-    interior angles of all parts with this corner (equal coordinates) are summed. The result is pi minus the sum, or
-    COVERED if this leaves no convex corner. Later parts with the same corner get COVERED.
+    A side that two parts share is inner; all other sides are on the outline. A corner between two sides on the outline
+    gets pi. A corner between two inner sides gets COVERED. At any other corner, the interior angles of all parts with
+    this corner (equal coordinates) are summed. The first of these parts gets pi minus the sum, or COVERED if the
+    outline is not convex there. The other parts get COVERED.
     """
     angles: defaultdict[tuple, float] = defaultdict(float)
     for part in parts:

@@ -68,7 +68,7 @@ class Measuring:
 
     @property
     def world(self) -> World:
-        """The world whose settings are measured: that of the scene's first view, which the overlays show."""
+        """The world whose settings are measured: the one in the scene's first view, which the overlays show."""
         return self.scene.views()[0][0]
 
     def now(self) -> Setting:

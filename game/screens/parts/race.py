@@ -56,7 +56,7 @@ class Race:
     def step(self, session: Session) -> None:
         """Step the rival with the input of the scene's last step, and record the distance between both scenes' bodies.
 
-        session: that of the played scene. Changes of settings named in OWN are not passed on to the rival.
+        session: session of the played scene. Changes of settings named in OWN are not passed on to the rival.
         """
         frame = session.inputs.now
         self.inputs.set(replace(frame, changes=tuple(each for each in frame.changes if each[0] not in OWN)))
