@@ -132,7 +132,7 @@ class Body(Handle):
         its path. Afterwards it stands still until a new target is set. If a velocity is set or the body is teleported
         before the next step, the target is cancelled. Raises TypeError for arguments of other types; ValueError for a
         body that is not kinematic, for a position too far for the speed limit, and for a new angle without the effect
-        rotation.
+        `rotation`.
         """
         step.set_target(self.world, self.id, position, angle)
 
@@ -355,7 +355,7 @@ class Body(Handle):
         edit.restore(self.world, self.id)
 
     def remove(self) -> None:
-        """Remove the body from its world, and its joints."""
+        """Remove the body and its joints from the world."""
         self._world._remove_one(self._id)
 
     # --- kind and user value -------------------------------------------------------------------------------------

@@ -88,8 +88,8 @@ class NoSuchId(KeyError, ValueError):
 def vector(name: str, value: Any) -> Vec2:
     """Return a pair of numbers as a Vec2 of finite floats.
 
-    Raises TypeError for a value that is not a pair of numbers, and ValueError for a number that is not finite. name: of
-    the argument, for messages.
+    Raises TypeError for a value that is not a pair of numbers, and ValueError for a number that is not finite. name:
+    name of the argument, for messages.
     """
     if type(value) in PLAIN_PAIRS and len(value) == 2:
         x, y = value
@@ -179,8 +179,8 @@ def columns(name: str, value: Any, count: int | None = None, width: int = 2, lik
     """Return numbers as a C-ordered float64 copy of shape (n, width), or (n,) for width 1. All must be finite.
 
     count: the n that is required, because the argument named `like` has as many rows; None: any n. Raises TypeError for
-    a value that is not an array of numbers, and ValueError for another shape or a number that is not finite. name: of
-    the argument, for messages.
+    a value that is not an array of numbers, and ValueError for another shape or a number that is not finite. name: name
+    of the argument, for messages.
     """
     try:
         array = np.array(value)

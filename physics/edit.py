@@ -556,7 +556,10 @@ def shapes_for_tier(shapes: Sequence[Shape], tier: TierName | None) -> tuple:
 
 
 def set_tier(world: WorldState, identity: int, tier: TierName | None) -> None:
-    """Set Body.tier of a body made from one PixelMask. Raises ValueError for an unknown tier or other bodies."""
+    """Set Body.tier of a body made from one PixelMask.
+
+    Raises ValueError for an unknown tier, and for a body that was not made from one PixelMask.
+    """
     world._row_number(identity)
     source = world._sources.get(identity, world._shapes_of[identity])
     set_shapes(world, identity, shapes_for_tier(source, tier))
@@ -697,7 +700,10 @@ def write_material(rows: np.ndarray, material: Material) -> None:
 
 
 def _own_rows(world, identity, own) -> np.ndarray:
-    """Return the rows of a body's shapes without an own value. own: "own_material", "own_filter" or "own_sensor"."""
+    """Return the row numbers of a body's shapes without a value of their own.
+
+    own: which value, "own_material", "own_filter" or "own_sensor".
+    """
     return np.flatnonzero((world.shapes["body"] == identity) & ~world.shapes[own])
 
 
@@ -714,7 +720,10 @@ def filter_of(world: WorldState, identity: int) -> Filter:
 
 
 def set_material(world: WorldState, identity: int, value: Material) -> None:
-    """Set the material of a body and of its shapes without an own one. Raises TypeError if not a Material."""
+    """Set the material of a body. Shapes without a material of their own get it.
+
+    Raises TypeError for anything but a Material.
+    """
     world._unlocked()
     value = checked_material(value)
     at = world._row_number(identity)
@@ -725,7 +734,10 @@ def set_material(world: WorldState, identity: int, value: Material) -> None:
 
 
 def set_filter(world: WorldState, identity: int, value: Filter) -> None:
-    """Set the filter of a body and of its shapes without an own one. Raises TypeError if not a Filter."""
+    """Set the filter of a body. Shapes without a filter of their own get it.
+
+    Raises TypeError for anything but a Filter.
+    """
     world._unlocked()
     value = checked_filter(value)
     given = world._definitions.rows[world._row_number(identity)]
@@ -737,7 +749,10 @@ def set_filter(world: WorldState, identity: int, value: Filter) -> None:
 
 
 def set_sensor(world: WorldState, identity: int, value: bool) -> None:
-    """Set whether the shapes of a body without an own value are sensors. Raises the errors of checked_sensor."""
+    """Set whether the shapes of a body without a sensor value of their own are sensors.
+
+    Raises the errors of checked_sensor.
+    """
     world._unlocked()
     value = checked_sensor(world, value)
     world._definitions.rows["sensor"][world._row_number(identity)] = value
@@ -757,7 +772,7 @@ def set_continuous(world: WorldState, identity: int, value: ContinuousName) -> N
 def set_fixed_rotation(world: WorldState, identity: int, value: bool) -> None:
     """Set whether impulses leave the rotation unchanged. True also stops the rotation.
 
-    Raises TypeError if not a bool. identity: id of the body.
+    Raises TypeError for anything but a bool. identity: id of the body.
     """
     world._unlocked()
     value, row = checks.flag("fixed_rotation", value), world._body_row(identity)

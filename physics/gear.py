@@ -21,8 +21,8 @@ def gear_rows(
     """Return JOINT rows (n,) of gears without ids, for joints.add to append. See report_gears for their phases.
 
     kind: a Gear with the settings of all gears; sides_a, sides_b (n): (True, id of a joint) or (False, id of a body).
-    Raises ValueError for a joint that neither turns nor slides, for twice the same side, without a dynamic body, for
-    the body of a character, or without the effect `rotation`; the world is unchanged.
+    Raises ValueError for a joint that neither turns nor slides, for two equal sides, for a gear without a dynamic body,
+    for the body of a character, and without the effect `rotation`. The world is unchanged.
     """
     rows = np.zeros(len(sides_a), JOINT)
     for name, value in kind.columns().items():
@@ -100,7 +100,7 @@ def side_of(world: WorldState, name: str, value: Any, joint: Any) -> tuple[bool,
 def report_gears(world: WorldState, kind: Any, count: int) -> None:
     """Write the state of the last `count` joints, which are new gears. A gear without a phase holds its present sum.
 
-    kind: the Gear with their settings.
+    kind: the Gear from which they were made.
     """
     total = len(world.joints)
     made = at_present(world, np.arange(total - count, total))
@@ -113,8 +113,8 @@ def report_gears(world: WorldState, kind: Any, count: int) -> None:
 def hang(kind: Any, columns: dict[str, Any], anchors: list[np.ndarray], rows: np.ndarray) -> None:
     """Write the pulleys, and the length of the rope, to JOINT rows (n,).
 
-    kind: a Pulley with their settings; columns: see joint.add; anchors: world positions (n, 2) [px] of the anchors of A
-    and of B. Raises ValueError for an anchor in its pulley.
+    kind: the Pulley from which the rows were made; columns: see joint.add; anchors: world positions [px] of the anchors
+    of A and of B, two arrays (n, 2). Raises ValueError for an anchor at its pulley.
     """
     lengths = []
     for side, name, points in zip("ab", kind.GROUND, anchors, strict=True):
@@ -129,16 +129,17 @@ def hang(kind: Any, columns: dict[str, Any], anchors: list[np.ndarray], rows: np
 
 
 def sum_with(world: WorldState, identity: int, ratio: float) -> float:
-    """Return the sum of coordinates of a gear or pulley (id) at the present poses, if it had this ratio."""
+    """Return the sum of coordinates that a gear or pulley (id) would have with `ratio` at the present poses."""
     rows = rows_in(world._joints, np.array([identity]))
     return at_present(world, rows, ratio)["translation"].item()
 
 
 def at_present(world: WorldState, rows: np.ndarray, ratio: float | None = None) -> np.ndarray:
-    """Return copies of joints (n,) with their state at the present poses. The world keeps that after the last step.
+    """Return copies of joints, JOINT rows (n,), with their state at the present poses.
 
-    rows: ascending row numbers in world.joints; ratio: instead of the ratio of these joints. O(n log joints): only
-    these joints and those that they couple are looked at.
+    The rows in the world are unchanged: they have the state after the last step. rows: ascending row numbers in
+    world.joints; ratio: ratio of the copies, None: that of the joints. O(n log joints): only these joints and those
+    that they couple are read.
     """
     joints = np.asarray(world.joints)
     sides = rows_in(world._joints, np.concatenate([joints["joint_a"][rows], joints["joint_b"][rows]]))

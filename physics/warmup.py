@@ -320,7 +320,7 @@ def _fit():
 def _zone(effects, solver):
     """Step a world in which masks overlap a sensor, one of them at high speed.
 
-    With response, masks collide by their outlines.
+    With the effect `response`, masks collide by their outlines.
     """
     world = World(effects, solver=solver)
     world.add_body(BOX, kind="static", sensor=True)

@@ -509,10 +509,10 @@ class World(WorldState):
         effects: the new Effects.
 
         Values for effects that are no longer declared are kept, but have no effect (angular velocity, bullet, sensor,
-        material). If stacking is added or removed, or if the solver cannot solve present joints, the solver becomes the
-        default solver. If response is added or removed, the shapes of bodies with masks get new ids. Raises TypeError
-        for anything but an Effects, ValueError for effects without response in a world with Characters, RuntimeError
-        during a step.
+        material). If `stacking` is added or removed, or if the solver cannot solve present joints, the solver becomes
+        the default solver. If `response` is added or removed, the shapes of bodies with masks get new ids. Raises
+        TypeError for anything but an Effects, ValueError for effects without `response` in a world with Characters,
+        RuntimeError during a step.
         """
         self._unlocked()
         effects = checked_effects(effects)
@@ -707,8 +707,8 @@ class World(WorldState):
         translation: vector from there to its end (x, y) [px].
         filter: which shapes can be hit; sensors: whether sensors can also be hit.
 
-        Shapes that touch at the start are hit at fraction 0 if the cast shape approaches. Raises as ray_cast TypeError
-        and ValueError.
+        Shapes that touch at the start are hit at fraction 0 if the cast shape approaches. Raises TypeError and
+        ValueError as ray_cast.
         """
         return casts.shape_cast(self, shape, pose, translation, filter, sensors)
 

@@ -117,7 +117,7 @@ class Handle:
         return hash((id(self.world), self.id))
 
     def __repr__(self):
-        """Return the id, and of a body in the world its kind, position and velocity. It never raises."""
+        """Return the id and, if the body exists, its kind, position and velocity. It never raises."""
         identity, bodies = self._id, self._world._bodies
         row = -1 if identity in self._world._removed else row_number(bodies, identity)
         if row < 0:

@@ -122,8 +122,8 @@ def rounding(pair: Pair) -> float:
 class Agree(OfPairs):
     """Invariant U10: all queries agree whether two shapes overlap (negative distance, positive depth, contact points).
 
-    In a world without response, the contacts of the world are compared, too. With response they cannot be compared:
-    they were found before the solver moved the bodies, and include shapes that are about to touch.
+    In a world without the effect `response`, the contacts of the world are compared, too. With the effect they cannot
+    be compared: they were found before the solver moved the bodies, and include shapes that are about to touch.
     """
 
     id, word, turn = "U10", "agree", 2
@@ -137,8 +137,8 @@ class Agree(OfPairs):
 def disagreement(world: World, pair: Pair) -> tuple[float, float, str] | None:
     """Return (value, allowed, sentence) if the queries about a pair disagree; None if they agree.
 
-    Distance, depth and contact points are compared; in a world without response, also the contacts that the world
-    reports.
+    Distance, depth and contact points are compared. In a world without the effect `response`, the contacts that the
+    world reports are compared, too.
     """
     gap = distance(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b).distance
     if math.isinf(gap) or abs(gap) <= BAND * (abs(gap) + pair.size):
@@ -160,9 +160,10 @@ def disagreement(world: World, pair: Pair) -> tuple[float, float, str] | None:
 
 
 def looks_only(world: World) -> bool:
-    """Return whether no body moves after the world has found its contacts.
+    """Return whether the world finds its contacts exactly, at the poses at the end of the step.
 
-    That is so without response and without continuous collision.
+    This needs the effect `narrowphase`. No body may move after the contacts are found, so the effects `response` and
+    `continuous` must be off.
     """
     effects = world.effects
     return effects.narrowphase and not effects.response and not effects.continuous

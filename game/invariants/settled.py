@@ -24,8 +24,8 @@ class Settled(Invariant):
     which they yield (`sag`) is allowed in addition. After the ball has hit the twelve rows of lab/pyramid, they settle
     at an overlap of 0.328 px with 4 substeps; two slops are 0.320 px, and the sag of one contact is a tenth of a pixel.
 
-    U6 is checked in worlds with stacking: the other solvers separate the overlaps of one step and guarantee nothing for
-    piles.
+    U6 is checked in worlds with the effect `stacking`: the other solvers separate the overlaps of one step and
+    guarantee nothing for piles.
     """
 
     id, word = "U6", "overlap"

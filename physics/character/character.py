@@ -55,7 +55,7 @@ class Moved(NamedTuple):
 class Character:
     """A convex shape that the game moves, in whole pixels, and that never overlaps a solid.
 
-    world: the World, whose effects contain response.
+    world: the World, which must have the effect `response`.
     shape: Polygon, Circle, Capsule, or Bounds of one of them or of a sprite, of at least one pixel. A box without angle
         is rounded to whole pixels.
     position: position (x, y) of the shape's origin [px], rounded so that the left side and the feet are on the pixel

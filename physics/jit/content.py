@@ -62,7 +62,7 @@ def _digest(*parts):
 
 
 def content_of_library(function: FunctionType) -> str:
-    """Return the hash of one of numba's own functions that is compiled into kernels: of its code and its closure.
+    """Return the hash of the code and the closure of one of numba's own functions that kernels call.
 
     The globals of the function's module are left out, because numba's version identifies them. Raises NotHashable for a
     function of another package.
