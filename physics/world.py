@@ -314,7 +314,7 @@ class World(WorldState):
 
         ids: Bodies or ids, in any order. A body may be listed more than once.
 
-        Raises KeyError, TypeError, ValueError and RuntimeError as remove_body. Nothing is removed then.
+        Raises KeyError, TypeError, ValueError and RuntimeError as remove_body does. Nothing is removed then.
         """
         self._remove(np.unique(self._identities("ids", ids, repeats=True)))
 
@@ -380,7 +380,7 @@ class World(WorldState):
         **settings: the other arguments of the kind, one value for all joints. Anchors (at, or at_a and at_b) and
             pulleys (ground_a, ground_b) are arrays (n, 2) [px]; an axis may be an array (n, 2).
 
-        Raises TypeError, ValueError, KeyError and RuntimeError as add_joint.
+        Raises TypeError, ValueError, KeyError and RuntimeError as add_joint does.
         """
         return joint.add_many(self, kind, bodies_a, bodies_b, settings)
 
@@ -682,7 +682,7 @@ class World(WorldState):
         origin: start of the ray (x, y) [px]; translation: vector from there to its end (x, y) [px].
         filter: which shapes can be hit; sensors: whether sensors can also be hit.
 
-        Raises TypeError and ValueError as ray_cast.
+        Raises TypeError and ValueError as ray_cast does.
         """
         return casts.ray_cast_all(self, origin, translation, filter, sensors)
 
@@ -694,7 +694,8 @@ class World(WorldState):
         origins: starts of the rays (n, 2) [px]; translations: vectors from there to their ends (n, 2) [px].
         filter: which shapes can be hit; sensors: whether sensors can also be hit.
 
-        A ray without a hit has body -1, fraction 1 and its end as point. Raises TypeError and ValueError as ray_cast.
+        A ray without a hit has body -1, fraction 1 and its end as point. Raises TypeError and ValueError as ray_cast
+        does.
         """
         return batches.ray_casts(self, origins, translations, filter, sensors)
 
@@ -708,7 +709,7 @@ class World(WorldState):
         filter: which shapes can be hit; sensors: whether sensors can also be hit.
 
         Shapes that touch at the start are hit at fraction 0 if the cast shape approaches. Raises TypeError and
-        ValueError as ray_cast.
+        ValueError as ray_cast does.
         """
         return casts.shape_cast(self, shape, pose, translation, filter, sensors)
 
@@ -719,7 +720,7 @@ class World(WorldState):
 
         point: (x, y) [px]; filter: which shapes are considered; sensors: whether sensors are, too.
 
-        Inside a shape the distance is 0. Raises TypeError and ValueError as ray_cast.
+        Inside a shape the distance is 0. Raises TypeError and ValueError as ray_cast does.
         """
         return casts.closest(self, point, filter, sensors)
 
@@ -729,7 +730,7 @@ class World(WorldState):
         shape: the tested shape; pose: (x, y) or (x, y, angle) [px, rad].
         filter: which shapes are considered; sensors: whether sensors are, too.
 
-        Raises TypeError and ValueError as ray_cast.
+        Raises TypeError and ValueError as ray_cast does.
         """
         return casts.overlap(self, shape, pose, filter, sensors)
 
@@ -739,7 +740,7 @@ class World(WorldState):
         lower, upper: corners of the box (x, y) [px] with the least and the greatest coordinates.
         filter: which shapes are considered; sensors: whether sensors are, too.
 
-        Raises TypeError and ValueError as ray_cast, ValueError also for lower > upper.
+        Raises TypeError and ValueError as ray_cast does, ValueError also for lower > upper.
         """
         return casts.query_aabb(self, lower, upper, filter, sensors)
 
@@ -749,7 +750,7 @@ class World(WorldState):
         rect: (x, y, width, height) or ((x, y), (width, height)) [px], such as a pygame.Rect.
         filter: which shapes are considered; sensors: whether sensors are, too.
 
-        Raises TypeError and ValueError as ray_cast, ValueError also for a negative width or height.
+        Raises TypeError and ValueError as ray_cast does, ValueError also for a negative width or height.
         """
         return casts.query_rect(self, rect, filter, sensors)
 
@@ -758,7 +759,7 @@ class World(WorldState):
 
         point: (x, y) [px]; filter: which shapes are considered; sensors: whether sensors are, too.
 
-        Raises TypeError and ValueError as ray_cast.
+        Raises TypeError and ValueError as ray_cast does.
         """
         return casts.query_point(self, point, filter, sensors)
 
@@ -767,6 +768,6 @@ class World(WorldState):
 
         points: (n, 2) [px]; filter: which shapes are considered; sensors: whether sensors are, too.
 
-        Raises TypeError and ValueError as ray_cast.
+        Raises TypeError and ValueError as ray_cast does.
         """
         return batches.query_points(self, points, filter, sensors)

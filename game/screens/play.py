@@ -329,7 +329,7 @@ class Play(SceneScreen):
         return event.type == pygame.KEYDOWN and press(self, event.key)
 
     def stop(self) -> None:
-        """Open the pause menu; the result if the game has ended; or the scene menu from a bot's game."""
+        """Show the scene menu if a bot plays; else the result if the game has ended; else the pause menu."""
         if not self.person:
             self.outcome = ("menu",)
         else:

@@ -56,7 +56,10 @@ def near_in_all(proxies, box, slots_out, work_inout):
 
 @subkernel
 def search_all(box, structure, slots_out, work_inout):
-    """Find the proxies whose boxes overlap `box`, as near_in_all. Return their number. structure: (PROXY table,)."""
+    """Find the proxies whose boxes overlap `box`, as near_in_all does.
+
+    Return their number. structure: (PROXY table,).
+    """
     return near_in_all(structure[0], box, slots_out, work_inout)
 
 

@@ -470,7 +470,7 @@ def query_trees(nodes, roots, box, stack_inout, slots_out, work_inout):
 
 @subkernel
 def search_trees(box, structure_inout, slots_out, work_inout):
-    """Find the leaves of both trees whose fat boxes overlap `box`, as query_trees. Return their number.
+    """Find the leaves of both trees whose fat boxes overlap `box`, as query_trees does. Return their number.
 
     structure_inout: (nodes, roots, stack) of query_trees.
     """

@@ -399,7 +399,7 @@ def near_in_cells(base, cells, proxies, box, slots_out, work_inout):
 
 @subkernel
 def search_cells(box, structure, slots_out, work_inout):
-    """Find the proxies whose boxes overlap `box`, as near_in_cells. Return their number.
+    """Find the proxies whose boxes overlap `box`, as near_in_cells does. Return their number.
 
     structure: (base, cells, PROXY table) of near_in_cells.
     """

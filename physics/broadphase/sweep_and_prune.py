@@ -214,7 +214,7 @@ def near_in_order(order, boxes, highest, axis, box, slots_out, work_inout):
 
 @subkernel
 def search_order(box, structure, slots_out, work_inout):
-    """Find the proxies whose boxes overlap `box`, as near_in_order. Return their number.
+    """Find the proxies whose boxes overlap `box`, as near_in_order does. Return their number.
 
     structure: (order, boxes, highest, axis) of near_in_order.
     """
