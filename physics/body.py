@@ -28,12 +28,13 @@ from physics.world_state import Handle
 
 
 def _set_known(body: Any, name: str, value: Any) -> None:
-    """Set an attribute. Raises AttributeError for an unknown name, and suggests the most similar known name."""
+    """Set an attribute. Raises AttributeError for an unknown or a read-only name, and suggests what to write."""
     try:
         object.__setattr__(body, name, value)
     except AttributeError:
         if not hasattr(type(body), name):
-            checks.known_attribute(body, name, strict=True)
+            checks.known_attribute(body, name, value, strict=True)
+        checks.settable_attribute(body, name, value)
         raise
 
 

@@ -49,16 +49,29 @@ def number(
     return value
 
 
-def known_attribute(thing: Any, name: str, strict: bool) -> None:
+def known_attribute(thing: Any, name: str, value: Any, strict: bool) -> None:
     """Raise AttributeError if the missing attribute `name` resembles an existing one, and suggest that one.
 
-    thing: the object; strict: raise the error also if no existing name is similar.
+    thing: the object; value: the value to set; strict: raise the error also if no existing name is similar, and suggest
+    what hints.ASSIGNED has for the name.
     """
     public = [each for each in {*dir(type(thing)), *getattr(thing, "__dict__", ())} if not each.startswith("_")]
     similar = near(name, sorted(public))
+    hint = hints.in_place_of_attribute(thing, name, value) if strict else ""
     if similar or strict:
-        hint = f": did you mean {similar}?" if similar else ""
+        hint = hint or (f": did you mean {similar}?" if similar else "")
         raise AttributeError(f"{type(thing).__name__} has no attribute {name}{hint}")
+
+
+def settable_attribute(thing: Any, name: str, value: Any) -> None:
+    """Raise AttributeError for a property without a setter, and suggest what hints.ASSIGNED has for it.
+
+    thing: the object; value: the value to set.
+    """
+    found = getattr(type(thing), name, None)
+    if isinstance(found, property) and found.fset is None:
+        hint = hints.in_place_of_attribute(thing, name, value)
+        raise AttributeError(f"{type(thing).__name__}.{name} cannot be set{hint}") from None
 
 
 Word = TypeVar("Word", bound=str)
@@ -194,7 +207,8 @@ def columns(name: str, value: Any, count: int | None = None, width: int = 2, lik
     if width > 1 and array.size == 0:
         array = array.reshape(0, width)
     if array.ndim != (2 if width > 1 else 1) or (width > 1 and array.shape[1] != width):
-        raise ValueError(f"{name} must have shape {shape} (got {array.shape}){hints.in_place_of_points(name, value)}")
+        hint = hints.in_place_of_points(name, value, count)
+        raise ValueError(f"{name} must have shape {shape} (got {array.shape}){hint}")
     if count is not None and len(array) != count:
         raise ValueError(f"{name} must have {count} rows, as {like} has (got {len(array)})")
     bad = ~np.isfinite(array)

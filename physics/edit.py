@@ -497,7 +497,8 @@ def check_weight(world: WorldState, shapes: Sequence[Shape], kind: int, mass: fl
     empty = [each for each in shapes if each._kind == MASK and each.bounds is None]
     if world.effects.response and kind == DYNAMIC and empty and len(empty) == len(shapes) and mass == 0.0:
         raise ValueError(
-            f"shapes of a dynamic body must have a solid pixel, or it a mass (got {checks.shown(empty[0])})"
+            f"shapes of a dynamic body must have a solid pixel (got {checks.shown(empty[0])}): write mass=…, or check "
+            "the transparency of the image"
         )
 
 

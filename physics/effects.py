@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
-from typing import Any
+from typing import Any, Never
 
 from physics import checks, hints
 
@@ -12,6 +12,7 @@ NEEDS |= {name: ("response", "stacking") for name in ("sleeping", "joints")}
 
 
 @hints.explained_class
+@hints.unchangeable("world.set_effects(world.effects.with_({name}={value}))")
 @dataclass(frozen=True, repr=False)
 class Effects:
     """The features of the physics that a scene declares. All are off by default except `narrowphase`.
@@ -69,13 +70,17 @@ class Effects:
         return f"Effects({', '.join(f'{each.name}={getattr(self, each.name)}' for each in given)})"
 
     @classmethod
-    def detection(cls) -> "Effects":
+    @hints.without_others
+    def detection(cls, **others: Never) -> "Effects":
         """Return the effects of pure detection: contacts are found and reported, and no body is pushed."""
+        _check_no_effects("detection", others)
         return cls()
 
     @classmethod
-    def rigid_bodies(cls) -> "Effects":
+    @hints.without_others
+    def rigid_bodies(cls, **others: Never) -> "Effects":
         """Return the effects of rigid bodies: they fall, bounce, have friction, stack, sleep and trigger sensors."""
+        _check_no_effects("rigid_bodies", others)
         return cls(
             response=True,
             gravity=True,
@@ -135,6 +140,16 @@ class Effects:
     def names(self) -> list[str]:
         """Return the names of the declared effects, in the order of the fields."""
         return [field.name for field in fields(self) if getattr(self, field.name)]
+
+
+def _check_no_effects(preset, given):
+    """Raise TypeError for effects that were given to a preset, which takes none."""
+    if given:
+        text = ", ".join(f"{name}={hints.brief(value)}" for name, value in given.items())
+        raise TypeError(
+            f"Effects.{preset}() got an unexpected keyword argument {next(iter(given))!r} (got {text}): "
+            f"write Effects.{preset}().with_({text})"
+        )
 
 
 def checked_effects(value: Any) -> Effects:

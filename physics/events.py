@@ -366,6 +366,9 @@ class Events:
     hits: HIT rows of the contacts that began, or have an impulse, with an approach speed above 1 m/s.
     quarantined: QUARANTINE rows of the bodies that were disabled because a number was not finite or out of range.
     broken: BROKEN rows of the joints that broke or were lost with a body or joint.
+
+    A row names two bodies, body_a and body_b, by their ids: world.body(row["body_a"]). A has the shape with the smaller
+    id, so a sensor that was added before its visitors is A.
     """
 
     begin: EventRows

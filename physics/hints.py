@@ -7,6 +7,7 @@ only when an argument was refused, so that right arguments cost nothing.
 import difflib
 import numbers
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import FrozenInstanceError
 from functools import wraps
 from inspect import Parameter, signature
 from typing import Any, TypeVar
@@ -32,15 +33,28 @@ MEANT: dict[str, tuple[tuple[str, str], ...]] = {
     "membership": (("filter", "filter=Filter(membership={})"),),
     "mask": (("filter", "filter=Filter(mask={})"),),
     **dict.fromkeys(
-        ("category", "categories", "category_bits", "layer", "layers", "group", "collision_type"),
+        ("category", "categories", "category_bits", "layer", "layers"),
         (("filter", "filter=Filter(membership={})"), ("membership", "membership={}")),
+    ),
+    **dict.fromkeys(
+        ("group", "groups", "group_index"),
+        (("filter", "filter=Filter(membership=…, mask=…)"), ("membership", "membership=…, mask=…, sets of bits")),
+    ),
+    **dict.fromkeys(
+        ("ignore", "exclude"), (("filter", "filter=Filter(mask=…), with the membership of the shapes that can be hit"),)
     ),
     **dict.fromkeys(
         ("mask_bits", "collision_mask", "collides_with"), (("filter", "filter=Filter(mask={})"), ("mask", "mask={}"))
     ),
     **dict.fromkeys(
         ("pos", "position", "center", "centre", "offset", "location", "xy"),
-        (("position", "position={}"), ("center", "center={}"), ("origin", "origin={}"), ("at", "at={}")),
+        (
+            ("positions", "positions=[{}], a place for each body"),
+            ("position", "position={}"),
+            ("center", "center={}"),
+            ("origin", "origin={}"),
+            ("at", "at={}"),
+        ),
     ),
     **dict.fromkeys(("x", "y"), (("position", "position=(x, y)"), ("center", "center=(x, y)"))),
     **dict.fromkeys(("rotation", "orientation", "theta", "degrees"), (("angle", "angle=…, in radians"),)),
@@ -49,7 +63,13 @@ MEANT: dict[str, tuple[tuple[str, str], ...]] = {
     **{word: (("kind", f'kind="{word}"'),) for word in KIND_WORDS},
     **dict.fromkeys(("body_type", "type"), (("kind", 'kind="static", "kinematic" or "dynamic"'),)),
     **dict.fromkeys(("is_sensor", "trigger", "is_trigger"), (("sensor", "sensor={}"),)),
-    **dict.fromkeys(("user_data", "data", "tag", "owner", "name"), (("user", "user={}"),)),
+    "include_sensors": (("sensors", "sensors={}"),),
+    **dict.fromkeys(
+        ("direction", "vector", "delta", "to"), (("translation", "translation=…, the end minus the origin"),)
+    ),
+    **dict.fromkeys(("user_data", "data", "tag", "owner", "name", "collision_type"), (("user", "user={}"),)),
+    "velocity": (("velocities", "velocities=[{}] * n"),),
+    "angle": (("angles", "angles=[{}] * n"),),
     **dict.fromkeys(("shape", "shapes"), (("*shapes", "the shapes first, without a name: add_body(Circle(8), …)"),)),
     **dict.fromkeys(("damping", "linear_damping"), (("drag", "drag={}"), ("gravity_scale", "World(drag={})"))),
     "gravity": (("gravity_scale", "gravity_scale=…, a factor on World(gravity=…)"),),
@@ -61,7 +81,9 @@ MEANT: dict[str, tuple[tuple[str, str], ...]] = {
     "h": (("height", "height={}"),),
     **dict.fromkeys(("vertices", "corners", "verts"), (("points", "points={}"),)),
     **dict.fromkeys(("p1", "start", "start_pos"), (("a", "a={}"),)),
-    **dict.fromkeys(("p2", "end", "end_pos"), (("b", "b={}"),)),
+    **dict.fromkeys(
+        ("p2", "end", "end_pos"), (("translation", "translation=…, the end minus the origin"), ("b", "b={}"))
+    ),
     "thickness": (("radius", "radius=…, half of the thickness"),),
     **dict.fromkeys(("body_a", "bodyA"), (("a", "a={}"),)),
     **dict.fromkeys(("body_b", "bodyB"), (("b", "b={}"), ("body", "body={}"))),
@@ -70,10 +92,44 @@ MEANT: dict[str, tuple[tuple[str, str], ...]] = {
     **dict.fromkeys(("anchor_b", "anchor_2"), (("at_b", "at_b={}"), ("at", "at={}"))),
     "motor_speed": (("motor", "motor=Drive(speed={}, max=…)"),),
     **dict.fromkeys(("lower", "upper", "min", "max"), (("limits", "limits=(low, high)"),)),
+    **dict.fromkeys(("max_length", "max_distance"), (("limits", "limits=(None, {})"),)),
+    **dict.fromkeys(("min_length", "min_distance"), (("limits", "limits=({}, None)"),)),
     **dict.fromkeys(("stiffness", "frequency"), (("spring", "spring=Spring(hertz=…)"), ("hertz", "hertz=…"))),
     **dict.fromkeys(("rate", "max_torque", "force"), (("speed", "speed=…, max=…"),)),
     "collide_bodies": (("contacts", "contacts={}"),),
     "smoothing": (("smooth", "smooth={}"),),
+}
+
+# Attributes that cannot be set, and those of other engines: {class: {attribute: expression}}, with {} as in MEANT.
+ASSIGNED: dict[str, dict[str, str]] = {
+    "Body": {
+        **{name: f"body.material = Material({name}={{}})" for name in MATERIALS},
+        **dict.fromkeys(("bounce", "bounciness", "elasticity"), "body.material = Material(restitution={})"),
+        **dict.fromkeys(("mass", "inertia"), "body.material = Material(density=…), or add_body(…, mass=…)"),
+        **dict.fromkeys(("kind", "type", "body_type"), "body.set_kind({})"),
+        **dict.fromkeys(("shapes", "shape"), "body.set_shapes(…)"),
+        "mask": "body.set_shapes(PixelMask.from_surface(…))",
+        **dict.fromkeys(("pos", "location"), "body.position = {}"),
+        **dict.fromkeys(("x", "y"), "body.position = (x, y)"),
+        **dict.fromkeys(("center", "centre", "rect", "bounds"), "body.position = …, the place of the origin"),
+        **dict.fromkeys(("rotation", "orientation"), "body.angle = …, in radians"),
+        **dict.fromkeys(("vel", "linear_velocity"), "body.velocity = {}"),
+        **dict.fromkeys(("vx", "vy"), "body.velocity = (vx, vy)"),
+        "force": "body.apply_force({})",
+        "torque": "body.apply_torque({})",
+        "awake": "body.wake()",
+        **dict.fromkeys(("user_data", "data", "tag", "name", "image", "sprite", "collision_type"), "body.user = {}"),
+        **dict.fromkeys(("layer", "category", "group"), "body.filter = Filter(membership=…, mask=…)"),
+    },
+    "World": {
+        "effects": "world.set_effects({})",
+        "bodies": "world.add_body(…)",
+        "shapes": "world.add_body(…)",
+        "joints": "world.add_joint(…)",
+        "fps": "world.dt = 1 / {}",
+        "iterations": "world.substeps = {}",
+        "damping": "world.drag = {}",
+    },
 }
 
 
@@ -203,8 +259,26 @@ def is_pair(value: Any) -> bool:
     return isinstance(value, (tuple, list)) and len(value) == 2 and all(map(is_number, value))
 
 
-def in_place_of_shape(value: Any) -> str:
-    """Return the hint for a wrong value given in place of a shape; "" if there is none."""
+def in_place_of_surface(value: Any) -> str:
+    """Return the hint for a value that was given as a pygame Surface or Mask, or "" if there is none."""
+    if is_a(value, "pygame", "Surface", "Mask", "Sprite"):
+        return in_place_of_shape(value)
+    return f": write pygame.image.load({brief(value)})" if isinstance(value, str) else ""
+
+
+def in_place_of_solid(value: Any) -> str:
+    """Return the hint for a value that was given as an array of solid pixels or tiles, or "" if there is none."""
+    rows = [*value] if isinstance(value, (list, tuple)) else []
+    if rows and isinstance(rows[0], (str, list, tuple)) and rows[0] and isinstance(rows[0][0], str):
+        return ': write [[each == "#" for each in row] for row in rows]'
+    return ""
+
+
+def in_place_of_shape(value: Any, many: bool = False) -> str:
+    """Return the hint for a value that was given as a shape, or "" if there is none.
+
+    many: whether the function takes several shapes.
+    """
     if is_a(value, "pygame", "Surface"):
         return ": write PixelMask.from_surface(surface)"
     if is_a(value, "pygame", "Mask"):
@@ -226,10 +300,10 @@ def in_place_of_shape(value: Any) -> str:
         )
     if is_number(value):
         return f": write Circle({brief(value)})"
-    return _in_place_of_shape(value)
+    return _in_place_of_shape(value, many)
 
 
-def _in_place_of_shape(value):
+def _in_place_of_shape(value, many):
     if isinstance(value, np.ndarray):
         if value.ndim == 2 and value.dtype == np.bool_:
             return ": write PixelMask.from_array(solid), or TileGrid(solid, tile_size)"
@@ -237,7 +311,7 @@ def _in_place_of_shape(value):
     if not isinstance(value, (tuple, list)) or not value:
         return ""
     if all(is_own(each, "Shape") for each in value):
-        return ": write the shapes one by one, or *shapes"
+        return ": write the shapes one by one, or *shapes" if many else ": write one shape"
     if is_pair(value):
         return f": write Polygon.box{brief(tuple(value))} for a size, position={brief(tuple(value))} for a place"
     if all(is_pair(each) or is_a(each, "pygame", "Vector2") for each in value):
@@ -258,15 +332,23 @@ def in_place_of_vector(name: str, value: Any) -> str:
     return f": write (0, {brief(value)})" if name == "gravity" else ": write (x, y)"
 
 
-def in_place_of_points(name: str, value: Any) -> str:
-    """Return the hint for a wrong value given in place of the points or positions `name`; "" if there is none."""
+def in_place_of_points(name: str, value: Any, count: int | None = None) -> str:
+    """Return the hint for a value that was given as the points or numbers `name`, or "" if there is none.
+
+    count: the number of points or numbers that is required; None: any.
+    """
     if name == "points":
         if is_a(value, "pygame", "Rect", "FRect"):
             return f": write Polygon.box({value.width}, {value.height}, center={tuple(value.center)})"
         if is_a(value, "pygame", "Surface", "Mask"):
             return ": write PixelMask.from_surface(surface), or PixelMask.from_mask(mask)"
+        if is_pair(value):
+            return f": write [{brief(tuple(value))}] for one point, Polygon.box{brief(tuple(value))} for a size"
         return ": write Polygon.box(width, height)" if is_number(value) else ""
-    return f": write [{brief(tuple(value))}]" if is_pair(value) and name.startswith(("positions", "velocities")) else ""
+    times = f" * {count}" if count is not None and count > 1 else ""
+    if is_pair(value) and name.startswith(("positions", "velocities", "origins", "translations")):
+        return f": write [{brief(tuple(value))}]{times}"
+    return f": write [{brief(value)}]{times}" if is_number(value) and name == "angles" else ""
 
 
 def in_place_of_number(name: str, value: Any) -> str:
@@ -278,6 +360,18 @@ def in_place_of_number(name: str, value: Any) -> str:
     if name in ("width", "height") and (is_pair(value) or is_a(value, "pygame", "Rect", "FRect")):
         return ": write Polygon.box(width, height), two numbers"
     return ""
+
+
+def in_place_of_limits(value: Any, low: float | None) -> str:
+    """Return the hint for a value that was given as the limits (low, high) of a joint, or "" if there is none.
+
+    low: least allowed limit; None: none.
+    """
+    if not is_number(value):
+        return ""
+    return f": write (None, {brief(value)})" + (
+        "" if low is not None else f" or ({brief(-abs(value))}, {brief(abs(value))})"
+    )
 
 
 def in_place_of_material(value: Any) -> str:
@@ -327,6 +421,31 @@ def in_place_of_effects(value: Any) -> str:
         on = [each for each in sorted(names) if not isinstance(value, dict) or value[each]]
         return f": write Effects({', '.join(f'{each}=True' for each in on)})"
     return ": write Effects.rigid_bodies(), or Effects(gravity=True, …)"
+
+
+def in_place_of_attribute(thing: Any, name: str, value: Any) -> str:
+    """Return the hint for an attribute of a Body or World that cannot be set to a value, or "" if there is none."""
+    for each in type(thing).__mro__:
+        if name in ASSIGNED.get(each.__name__, ()):
+            return f": write {ASSIGNED[each.__name__][name].replace('{}', brief(value))}"
+    return ""
+
+
+def unchangeable(expression: str) -> Callable[[Made], Made]:
+    """Return a class decorator: setting an attribute raises FrozenInstanceError, and the message has the expression.
+
+    expression: what to write, with {name} and {value} for the attribute.
+    """
+
+    def refuse(thing: Any, name: str, value: Any) -> None:
+        text = expression.format(name=name, value=brief(value))
+        raise FrozenInstanceError(f"a {type(thing).__name__} cannot be changed: write {text}")
+
+    def decorate(made: Made) -> Made:
+        type.__setattr__(made, "__setattr__", refuse)
+        return made
+
+    return decorate
 
 
 def in_place_of_word(name: str, value: Any, allowed: Sequence[str]) -> str:

@@ -191,6 +191,17 @@ class Vec2(NamedTuple):
         return 1.0
 
 
+def _refuse_change(vector, name, value):
+    """Raise AttributeError for a coordinate that was set, and name the assignment of the whole pair."""
+    if name not in ("x", "y"):
+        raise AttributeError(f"a Vec2 has no attribute {name}, and cannot be changed")
+    x, y = (value, vector[1]) if name == "x" else (vector[0], value)
+    raise AttributeError(f"a Vec2 cannot be changed: write the whole pair, such as body.position = ({x!r}, {y!r})")
+
+
+type.__setattr__(Vec2, "__setattr__", _refuse_change)  # in the class, it would tell type checkers that x can be set
+
+
 def _is_number(value) -> bool:
     return isinstance(value, numbers.Real) and not isinstance(value, bool)
 

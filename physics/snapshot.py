@@ -187,7 +187,7 @@ class Snapshot:
         """
         arrays, facts = pack_geometry(self.geometry)
         named: dict[str, Any] = {"facts": np.array(json.dumps(self.facts | facts)), **self.arrays, **arrays}
-        there = os.fspath(path)
+        there = _checked_path(path)
         whole = os.path.isfile(there) or not os.path.exists(there)  # a device or a pipe is written directly
         beside = f"{there}.{os.getpid()}.part" if whole else there
         if whole:
@@ -210,8 +210,10 @@ class Snapshot:
         Raises OSError if the file cannot be opened; ValueError with path and reason if the file is damaged or has
         another version; TypeError if path is not a path.
         """
-        with open(path, "rb") as file:
+        with open(_checked_path(path), "rb") as file:
             content = io.BytesIO(file.read())
+        if not zipfile.is_zipfile(content):
+            raise ValueError(f"{path} is no snapshot of this program: it is not an .npz file")
         try:
             with np.load(content, allow_pickle=False) as stored:
                 arrays = {name: stored[name] for name in stored.files}
@@ -226,6 +228,14 @@ class Snapshot:
         except DAMAGE as error:
             raise ValueError(f"{path} is no snapshot of this program: {error!r}") from None
         return cls(arrays, facts, geometry)
+
+
+def _checked_path(path: Any) -> str:
+    """Return a path as text. Raises TypeError for anything but a path, also for a number, which would name a file."""
+    try:
+        return os.fsdecode(path)
+    except TypeError:
+        raise TypeError(f"path must be a str or a pathlib.Path (got {checks.shown(path)})") from None
 
 
 def _remove_abandoned(path: str) -> None:
@@ -277,6 +287,13 @@ def take(world: WorldState) -> Snapshot:
     return Snapshot(arrays, facts, library.shapes_by_row())
 
 
+def _other_effects(stored, present):
+    """Return the message for a snapshot whose effects (names) differ from those that are present in the world."""
+    sides = ("only the snapshot has", stored - present), ("only this world has", present - stored)
+    text = ", ".join(f"{side} {', '.join(sorted(names))}" for side, names in sides if names)
+    return f"snapshot must be of a world with the same effects: {text}"
+
+
 def restore(world: WorldState, taken: Snapshot) -> None:
     """Set a world to the state in a snapshot `taken`.
 
@@ -292,7 +309,7 @@ def restore(world: WorldState, taken: Snapshot) -> None:
     except DAMAGE as error:
         raise ValueError(f"snapshot is damaged: {checks.shown(error)}") from None
     if facts["effects"] != world.effects.names():
-        raise ValueError(f"snapshot is of a world with {facts['effects']} (this one has {world.effects.names()})")
+        raise ValueError(_other_effects(set(facts["effects"]), set(world.effects.names())))
     scale = world.tolerances.pixels_per_meter
     if facts["pixels_per_meter"] != scale:
         raise ValueError(

@@ -46,6 +46,7 @@ from physics.queries import batches, casts
 from physics.queries.casts import RayHit
 from physics.queries.index import QueryIndex
 from physics.settings import ACCURACY, PIXELS_PER_METER, POSITION_LIMIT, STANDARD_GRAVITY, tolerances
+from physics.shapes.kinds import checked_shape
 from physics.shapes.library import Library
 from physics.shapes.shape import Filter, Material, Shape
 from physics.snapshot import Snapshot, digest
@@ -64,10 +65,14 @@ PLAIN = Material()  # the default material of bodies
 
 
 def _set_known(world: Any, name: str, value: Any) -> None:
-    """Set an attribute. Raises AttributeError for an unknown attribute; a subclass may add attributes."""
+    """Set an attribute. Raises AttributeError for one that is unknown or read-only; a subclass may add attributes."""
     if "profile" in world.__dict__ and name not in world.__dict__ and not hasattr(type(world), name):
-        checks.known_attribute(world, name, type(world) is World)
-    object.__setattr__(world, name, value)
+        checks.known_attribute(world, name, value, type(world) is World)
+    try:
+        object.__setattr__(world, name, value)
+    except AttributeError:
+        checks.settable_attribute(world, name, value)
+        raise
 
 
 @checks.setting_by(_set_known)
@@ -76,12 +81,13 @@ class World(WorldState):
 
     effects: the declared Effects; None: Effects.rigid_bodies().
     broadphase: "brute", "sweep", "hash" or "tree", or an instance of a strategy; None: SpatialHashGrid().
-    solver: one of SOLVERS; None: "soft_step" with the effect `stacking`, "projection" without it.
-    gravity: (x, y) [px/s²]; None: 9.8 m/s² downwards. Other than 0 it needs the effect `gravity`.
-    drag: rate at which velocities decay [1/s], >= 0. Other than 0 it needs the effect `drag` or `wind`.
-    wind: velocity of the air (x, y) [px/s], which acts through the drag. Other than 0 it needs the effect `wind`.
+    solver: one of SOLVERS; None: "soft_step" with the effect stacking, "projection" without it.
+    gravity: (x, y) [px/s²]; None: 9.8 m/s² downwards, (0, 313.6) at 32 pixels per metre. Other than 0 it needs the
+        effect gravity.
+    drag: rate at which velocities decay [1/s], >= 0. Other than 0 it needs the effect drag or wind.
+    wind: velocity of the air (x, y) [px/s], which acts through the drag. Other than 0 it needs the effect wind.
     pixels_per_meter: scale of all tolerances and of the default gravity, > 0.
-    dt: length of a step [s], > 0.
+    dt: length of a step [s], > 0: step() is called 1 / dt times per second.
     substeps: substeps of the stacking solvers, 1 to 1000, or "auto": 4 to 32 for each island, as many as keep the sag
         of its contacts within accuracy; up to 128 for a leaning one. The counter cap_hits counts islands that need
         more.
@@ -177,8 +183,8 @@ class World(WorldState):
     def step(self, dt: float | None = None) -> None:
         """Advance the simulation by one step.
 
-        dt: length of the step [s], >= 0; None: world.dt. A step below 1e-30 s counts as 0: it moves nothing, and keeps
-            forces and targets for the next step.
+        dt: length of the step [s], >= 0 (pygame's Clock.tick() / 1000); None: world.dt. A step below 1e-30 s counts
+            as 0: it moves nothing, and keeps forces and targets for the next step.
 
         Raises TypeError if dt is not a number, ValueError if it is negative or not finite, RuntimeError during a step.
         """
@@ -232,9 +238,9 @@ class World(WorldState):
         position: the body's origin (x, y) [px].
         angle: angle [rad], clockwise on the screen. It must be 0 with a TileGrid.
         kind: "dynamic": moved by forces and contacts; "kinematic": moved only by its velocity; "static": never moved.
-        velocity: velocity (x, y) of the centre of mass [px/s]; must be (0, 0) for a static body.
-        angular_velocity: [rad/s]. Other than 0 it needs the effect `rotation`, and a body that is not static.
-        mass: mass [density px²], > 0; None: the mass that follows from the areas and densities of the shapes.
+        velocity: velocity (x, y) of the centre of mass [px/s]; of a static body (0, 0).
+        angular_velocity: [rad/s]. Other than 0 it needs the effect rotation, and a body that is not static.
+        mass: mass, > 0, in place of density · area of the shapes [density px²]; None: that mass.
         material: the Material of the shapes without a material of their own.
         filter: the Filter of the shapes without a filter of their own.
         sensor: whether the shapes without a sensor value of their own are sensors, which report overlaps and do not
@@ -246,7 +252,7 @@ class World(WorldState):
         gravity_scale: factor on world.gravity.
         allow_sleep: False keeps the island of a dynamic body awake.
         tier: one of TIERS, which replaces a PixelMask by simpler shapes, see fit; None: the shapes as given.
-        user: any value of the game, kept as body.user.
+        user: any value of the game, such as its sprite, kept as body.user.
 
         Raises TypeError or ValueError naming the argument, RuntimeError during a step. The world is then unchanged.
         """
@@ -282,7 +288,8 @@ class World(WorldState):
         positions: origins of the bodies, (n, 2) [px].
         velocities: (n, 2) [px/s]; None: 0.
         angles: (n,) [rad]; None: 0.
-        **definition: the other arguments of add_body, one value for all bodies.
+        **definition: the other arguments of add_body, one value for all bodies, also user; world.body(id).user sets
+            that of one.
 
         Raises TypeError or ValueError naming the argument, RuntimeError during a step. The world is then unchanged.
         """
@@ -295,6 +302,7 @@ class World(WorldState):
                 f"positions must lie within {POSITION_LIMIT:g} px of the origin (got {positions.tolist()})"
             )
         n = len(positions)
+        checked_shape("shape", shape)
         velocities = np.zeros((n, 2)) if velocities is None else checks.columns("velocities", velocities, n)
         angles = np.zeros(n) if angles is None else checks.columns("angles", angles, n, width=1)
         return edit.add_rows(self, (shape,), positions, velocities, angles, edit.BodyDef(**definition))
@@ -659,6 +667,7 @@ class World(WorldState):
             return False
         return int(body) in self._shapes_of
 
+    @hints.explained
     def ray_cast(
         self, origin: Pair, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False
     ) -> RayHit[Body] | None:
@@ -666,7 +675,8 @@ class World(WorldState):
 
         origin: start of the ray (x, y) [px].
         translation: vector from there to its end (x, y) [px]; (0, 0) is a point query.
-        filter: which shapes can be hit; sensors: whether sensors can also be hit.
+        filter: the Filter of the ray, which hits the shapes that a shape with this Filter collides with.
+        sensors: whether sensors can also be hit.
 
         Inside a shape the fraction is 0, and the normal is opposite to the ray. Equally near hits are in the order of
         shape ids. Raises TypeError for values of other types, ValueError for numbers that are not finite or too large.
@@ -674,6 +684,7 @@ class World(WorldState):
         hits = casts.ray_cast_all(self, origin, translation, filter, sensors, first=True)
         return hits[0] if hits else None
 
+    @hints.explained
     def ray_cast_all(
         self, origin: Pair, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False
     ) -> list[RayHit[Body]]:
@@ -686,6 +697,7 @@ class World(WorldState):
         """
         return casts.ray_cast_all(self, origin, translation, filter, sensors)
 
+    @hints.explained
     def ray_casts(
         self, origins: Points, translations: Points, filter: Filter = Filter.ALL, sensors: bool = False
     ) -> RayHits:
@@ -699,6 +711,7 @@ class World(WorldState):
         """
         return batches.ray_casts(self, origins, translations, filter, sensors)
 
+    @hints.explained
     def shape_cast(
         self, shape: Shape, pose: Pose, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False
     ) -> RayHit[Body] | None:
@@ -713,6 +726,7 @@ class World(WorldState):
         """
         return casts.shape_cast(self, shape, pose, translation, filter, sensors)
 
+    @hints.explained
     def closest(
         self, point: Pair, filter: Filter = Filter.ALL, sensors: bool = False
     ) -> tuple[Body, Vec2, float] | None:
@@ -724,6 +738,7 @@ class World(WorldState):
         """
         return casts.closest(self, point, filter, sensors)
 
+    @hints.explained
     def overlap(self, shape: Shape, pose: Pose, filter: Filter = Filter.ALL, sensors: bool = False) -> list[Body]:
         """Return the bodies that a shape at a pose overlaps, in the order of ids.
 
@@ -734,26 +749,31 @@ class World(WorldState):
         """
         return casts.overlap(self, shape, pose, filter, sensors)
 
+    @hints.explained
     def query_aabb(self, lower: Pair, upper: Pair, filter: Filter = Filter.ALL, sensors: bool = False) -> list[Body]:
         """Return the bodies with a shape whose AABB meets a box, boundary included, in the order of ids.
 
         lower, upper: corners of the box (x, y) [px] with the least and the greatest coordinates.
         filter: which shapes are considered; sensors: whether sensors are, too.
 
-        Raises TypeError and ValueError as ray_cast does, ValueError also for lower > upper.
+        overlap tests the shapes themselves; query_rect takes a pygame.Rect. Raises TypeError and ValueError as
+        ray_cast, ValueError also for lower > upper.
         """
         return casts.query_aabb(self, lower, upper, filter, sensors)
 
+    @hints.explained
     def query_rect(self, rect: Rect, filter: Filter = Filter.ALL, sensors: bool = False) -> list[Body]:
         """Return the bodies with a shape whose AABB meets a rectangle, boundary included, in the order of ids.
 
         rect: (x, y, width, height) or ((x, y), (width, height)) [px], such as a pygame.Rect.
         filter: which shapes are considered; sensors: whether sensors are, too.
 
-        Raises TypeError and ValueError as ray_cast does, ValueError also for a negative width or height.
+        overlap tests the shapes themselves. Raises TypeError and ValueError as ray_cast, ValueError also for a negative
+        width or height.
         """
         return casts.query_rect(self, rect, filter, sensors)
 
+    @hints.explained
     def query_point(self, point: Pair, filter: Filter = Filter.ALL, sensors: bool = False) -> list[Body]:
         """Return the bodies with a shape that contains a point, in the order of ids.
 
@@ -763,6 +783,7 @@ class World(WorldState):
         """
         return casts.query_point(self, point, filter, sensors)
 
+    @hints.explained
     def query_points(self, points: Points, filter: Filter = Filter.ALL, sensors: bool = False) -> PointHits:
         """Return which bodies contain which of n points, as an array of POINT_HIT rows, sorted by point, then by body.
 

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from physics import checks
+from physics import checks, hints
 from physics.annotations import JointSolverName, Pair, SolverName, Substeps, TierName
 from physics.broadphase.proxies import PairList, Strategy, write_rectangles
 from physics.collision.areas import with_areas
@@ -79,9 +79,10 @@ def checked_substeps(value: Any) -> Substeps:
 
     Raises TypeError or ValueError for other values.
     """
-    if isinstance(value, str):
-        return checks.choice("substeps", value, ("auto",))
-    return checks.whole("substeps", value, 1, 1000)
+    if isinstance(value, str) and value != "auto":
+        hint = hints.in_place_of_word("substeps", value, ("auto",))
+        raise ValueError(f'substeps must be a whole number from 1 to 1000, or "auto" (got {checks.shown(value)}){hint}')
+    return "auto" if isinstance(value, str) else checks.whole("substeps", value, 1, 1000)
 
 
 def checked_accuracy(value: Any) -> float | None:
@@ -291,7 +292,7 @@ class WorldState:
             self._drop_removed()
         rows = rows_in(self._bodies, ids.ravel())
         if (rows < 0).any():
-            raise checks.NoSuchId(f"no body {ids.ravel()[rows < 0][0]} in this world")
+            raise checks.NoSuchId(f"body {ids.ravel()[rows < 0][0]} is not in this world (removed, or never added)")
         return rows.reshape(ids.shape)
 
     def refresh_character_rows(self) -> None:

@@ -82,7 +82,8 @@ def checked_limits(value: Any, low: float | None = None) -> tuple[float, float]:
     try:
         lower, upper = value
     except (TypeError, ValueError):
-        raise TypeError(f"limits must be a pair (low, high) (got {checks.shown(value)})") from None
+        hint = hints.in_place_of_limits(value, low)
+        raise TypeError(f"limits must be a pair (low, high) (got {checks.shown(value)}){hint}") from None
     lower = -math.inf if lower is None else lower
     upper = math.inf if upper is None else upper
     lower = lower if lower == -math.inf else checks.number("limits[0]", lower, low=low)

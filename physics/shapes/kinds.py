@@ -110,9 +110,17 @@ def checked_shapes(name: str, values: Iterable[Any]) -> tuple[Shape, ...]:
     values, types = tuple(values), tuple(SHAPES)
     for each in values:
         if not isinstance(each, types):
-            hint = hints.in_place_of_shape(each)
+            hint = hints.in_place_of_shape(each, many=True)
             raise TypeError(f"{name} must be shapes such as Circle(8) (got {checks.shown(each)}){hint}")
     return values
+
+
+def checked_shape(name: str, value: Any) -> Shape:
+    """Return a shape unchanged. Raises TypeError for anything else. name: of the argument, for messages."""
+    if not isinstance(value, tuple(SHAPES)):
+        hint = hints.in_place_of_shape(value)
+        raise TypeError(f"{name} must be a shape such as Circle(8) (got {checks.shown(value)}){hint}")
+    return value
 
 
 def checked_pose(shape_name: str, shape: Any, pose_name: str, pose: Pose) -> tuple[float, float, float]:
@@ -121,9 +129,7 @@ def checked_pose(shape_name: str, shape: Any, pose_name: str, pose: Pose) -> tup
     shape_name, pose_name: names of the arguments, for messages. Raises TypeError or ValueError if `pose` is not a pose,
     or not one that the shape can have; TypeError if `shape` is not a shape.
     """
-    if not isinstance(shape, tuple(SHAPES)):
-        hint = hints.in_place_of_shape(shape)
-        raise TypeError(f"{shape_name} must be a shape such as Circle(8) (got {checks.shown(shape)}){hint}")
+    checked_shape(shape_name, shape)
     found = checks.pose(pose_name, pose)
     if found[2] != 0.0 and not shape._may_turn:
         raise ValueError(f"{pose_name} must have angle 0 for a {type(shape).__name__} (got {found[2]})")
@@ -140,8 +146,8 @@ def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike) -> None:
         shape._check_body(kind, angles)
     if kind == DYNAMIC and shapes and not any(shape._has_mass for shape in shapes):
         raise ValueError(
-            f"shapes of a dynamic body must hold one with mass, a {type(shapes[0]).__name__} has none "
-            f"(got {checks.shown(shapes)})"
+            f"shapes of a dynamic body must include one with an area, a {type(shapes[0]).__name__} has none "
+            f'(got {checks.shown(shapes)}): write kind="static", or add such a shape'
         )
 
 

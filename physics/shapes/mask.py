@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from physics import checks
+from physics import checks, hints
 from physics.annotations import Pair
 from physics.hints import explained
 from physics.math2d import Vec2
@@ -175,7 +175,8 @@ class PixelMask(Shape):
     ) -> PixelMask:
         """Return a mask of an array, as PixelMask itself.
 
-        solid: solid pixels, bool [row, col]; origin: origin of body space in the image (x, y) [px], None: its centre.
+        solid: solid pixels, bool [row, col]; an array of pygame.surfarray is [x, y], and needs .T.
+        origin: origin of body space in the image (x, y) [px], None: its centre.
         snap: True: tested as drawn, False: at the exact pose; smooth: distance of the outline [px], >= 0.
         one_way: whether bodies pass through the mask from below.
 
@@ -196,7 +197,8 @@ class PixelMask(Shape):
     ) -> PixelMask:
         """Return a mask of a pygame surface.
 
-        surface: a pygame.Surface: solid where alpha > threshold, clear where it has its colour key.
+        surface: a pygame.Surface: solid where alpha > threshold, clear where it has its colour key. Without alpha and
+            colour key, as after convert(), it is solid everywhere.
         threshold: 0 to 255; origin: origin of body space in the image (x, y) [px], None: its centre.
         snap: True: tested as drawn, False: at the exact pose; smooth: distance of the outline [px], >= 0.
         one_way: whether bodies pass through the mask from below.
@@ -206,7 +208,8 @@ class PixelMask(Shape):
         import pygame  # pygame is needed only for this import of sprites
 
         if not isinstance(surface, pygame.Surface):
-            raise TypeError(f"surface must be a pygame.Surface (got {checks.shown(surface)})")
+            hint = hints.in_place_of_surface(surface)
+            raise TypeError(f"surface must be a pygame.Surface (got {checks.shown(surface)}){hint}")
         threshold = checks.whole("threshold", threshold, 0, 255)
         if 0 in surface.get_size():
             return cls(np.zeros(surface.get_size()[::-1], bool), origin, snap, smooth, one_way)
@@ -234,7 +237,8 @@ class PixelMask(Shape):
         import pygame
 
         if not isinstance(mask, pygame.Mask):
-            raise TypeError(f"mask must be a pygame.Mask (got {checks.shown(mask)})")
+            hint = hints.in_place_of_surface(mask)
+            raise TypeError(f"mask must be a pygame.Mask (got {checks.shown(mask)}){hint}")
         if 0 in mask.get_size():
             return cls(np.zeros(mask.get_size()[::-1], bool), origin, snap, smooth, one_way)
         drawn = mask.to_surface(setcolor=(255, 255, 255, 255), unsetcolor=(0, 0, 0, 0))

@@ -19,6 +19,7 @@ from physics.tables.geometry import Geometry
 # Collision filter, applied before any narrow phase.
 
 
+@hints.unchangeable("body.filter = replace(body.filter, {name}={value}), of the module dataclasses")
 @dataclass(frozen=True)
 class Filter:
     """Collision filter: categories that a shape belongs to, and categories that it collides with, 32 bits each.
@@ -61,6 +62,7 @@ Filter.ALL = Filter(0xFFFFFFFF, 0xFFFFFFFF)
 # Material: surface and density of a shape.
 
 
+@hints.unchangeable("body.material = replace(body.material, {name}={value}), of the module dataclasses")
 @dataclass(frozen=True)
 class Material:
     """Density and surface of a shape.

@@ -13,7 +13,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from physics import checks
+from physics import checks, hints
 from physics.annotations import Pair, Points
 from physics.hints import explained
 from physics.math2d import Vec2
@@ -376,9 +376,10 @@ def bools(name: str, value: ArrayLike) -> np.ndarray:
     except ValueError:
         raise TypeError(f"{name} must be an array [row, col] of bool (got rows of different lengths)") from None
     if array.ndim != 2:
-        raise ValueError(f"{name} must be an array [row, col] (got {array.ndim} dimensions)")
+        got = f"shape {array.shape}" if array.ndim > 2 else checks.shown(value)
+        raise ValueError(f"{name} must be an array [row, col] of bool (got {got}){hints.in_place_of_solid(value)}")
     if array.dtype != np.bool_ and not np.issubdtype(array.dtype, np.integer):
-        raise TypeError(f"{name} must be an array of bool (got {array.dtype})")
+        raise TypeError(f"{name} must be an array of bool (got {array.dtype}){hints.in_place_of_solid(value)}")
     return np.ascontiguousarray(array != 0)
 
 

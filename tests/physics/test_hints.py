@@ -96,6 +96,9 @@ POINTS = [
     ("0, 0", ""),
 ]
 POSITIONS = [((3, 4), "[(3, 4)]"), (5, ""), ("ab", ""), (RECT, "")]
+MANY = [((3, 4), "write [(3, 4)] * 2"), ([(3, 4)], "2 rows")]  # of two bodies
+ANGLES = [(0.5, "write [0.5] * 2"), ([0.5], "2 rows")]
+PLACES = [((3, 4), "write [(3, 4)] for one point"), (5, "")]
 MATERIAL = [
     (0.5, "Material(friction=0.5)"),
     ({"friction": 0.5, "density": 2}, "Material(friction=0.5, density=2)"),
@@ -123,7 +126,21 @@ TIER = [("hulls", '"hull"'), ("Pixels", '"pixels"'), (3, "")]
 SOLVER = [("soft-step", '"soft_step"'), ("SequentialImpulse", '"sequential_impulse"'), (0, "")]
 BOX_SIDES = [((3, 4), "Polygon.box(width, height)"), (RECT, "Polygon.box(width, height)")]
 BITS_OF_PYGAME = [(SURFACE, "PixelMask.from_surface(surface)"), (BITS, "PixelMask.from_mask(mask)")]
+SOLID = [
+    *BITS_OF_PYGAME,
+    ("level.txt", "'level.txt'"),
+    (["#..", "###"], '[[each == "#" for each in row] for row in rows]'),
+    ([["#", "."]], '[[each == "#" for each in row] for row in rows]'),
+    (np.zeros((2, 3, 4), np.uint8), "(2, 3, 4)"),
+]
+SURFACES = [
+    ("ship.png", "pygame.image.load('ship.png')"),
+    (BITS, "PixelMask.from_mask(mask)"),
+    (SPRITE, "sprite.image"),
+]
+PYGAME_MASKS = [(SURFACE, "PixelMask.from_surface(surface)"), (SPRITE, "sprite.image"), (5, "")]
 MASKS = [(SURFACE, "from_surface"), (BITS, "from_mask"), (SPRITE, "sprite.image"), (BALL, "")]
+ONE_SHAPE = [*SHAPE, ([BALL, BOX], "one shape")]
 SHAPES = [
     ([BALL, BOX], "*shapes"),
     ((3, 4), "Polygon.box(3, 4) for a size, position=(3, 4)"),
@@ -154,6 +171,9 @@ IDS = [("crate", ""), (1.5, ""), (BALL, "")]
 SPRING = [(2.0, "Spring(2.0)"), ("stiff", "")]
 DRIVE = [(2.0, "Drive(2.0, max=…)"), ("fast", "")]
 RANGE = [(3.0, ""), ("ab", "")]
+LIMITS = [(3.0, "write (None, 3.0) or (-3.0, 3.0)"), ("ab", "")]
+SUBSTEPS = [("many", 'a whole number from 1 to 1000, or "auto"'), ("Auto", '"auto"'), *WHOLE[:2]]
+PATH = [(5, "a str or a pathlib.Path"), (None, "a str or a pathlib.Path"), (BALL, "a str or a pathlib.Path")]
 
 
 def make_world():
@@ -191,8 +211,10 @@ CALLS = [
     ("width", BOX_SIDES, lambda w, v: Polygon.box(v, 1)),
     ("center", PAIR, lambda w, v: Polygon.box(2, 3, v)),
     ("shape", [each for each in SHAPE if each[0] is not None], lambda w, v: Bounds(v)),
-    ("solid", BITS_OF_PYGAME, lambda w, v: PixelMask(v)),
-    ("solid", BITS_OF_PYGAME, lambda w, v: TileGrid(v, 16)),
+    ("solid", SOLID, lambda w, v: PixelMask(v)),
+    ("solid", SOLID, lambda w, v: TileGrid(v, 16)),
+    ("surface", SURFACES, lambda w, v: PixelMask.from_surface(v)),
+    ("mask", PYGAME_MASKS, lambda w, v: PixelMask.from_mask(v)),
     ("origin", PAIR, lambda w, v: PixelMask(np.ones((2, 2), bool), v)),
     ("snap", FLAG, lambda w, v: PixelMask(np.ones((2, 2), bool), snap=v)),
     ("material", MATERIAL, lambda w, v: BALL.with_(material=v)),
@@ -215,7 +237,7 @@ CALLS = [
     ("broadphase", BROADPHASE, lambda w, v: World(broadphase=v)),
     ("solver", SOLVER, lambda w, v: World(solver=v)),
     ("gravity", PAIR, lambda w, v: World(gravity=v)),
-    ("substeps", WHOLE[:2], lambda w, v: World(substeps=v)),
+    ("substeps", SUBSTEPS, lambda w, v: World(substeps=v)),
     ("seed", WHOLE, lambda w, v: World(seed=v)),
     ("shapes", SHAPE, lambda w, v: w.add_body(v)),
     ("shapes", SHAPES, lambda w, v: w.add_body(v)),
@@ -230,14 +252,18 @@ CALLS = [
     ("continuous", CONTINUOUS, lambda w, v: w.add_body(BALL, continuous=v)),
     ("gravity_scale", [((0, 9), "World(gravity=(0, 9))"), *NUMBER], lambda w, v: w.add_body(BALL, gravity_scale=v)),
     ("tier", TIER, lambda w, v: w.add_body(MASK, tier=v)),
-    ("shapes", SHAPE, lambda w, v: w.add_bodies(v, [(0, 0)])),
+    ("shape must be a shape", ONE_SHAPE, lambda w, v: w.add_bodies(v, [(0, 0)])),
     ("positions", POSITIONS, lambda w, v: w.add_bodies(BALL, v)),
     ("velocities", [((3, 4), "[(3, 4)]")], lambda w, v: w.add_bodies(BALL, [(0, 0)], v)),
+    ("velocities", MANY, lambda w, v: w.add_bodies(BALL, [(0, 0), (9, 9)], v)),
+    ("angles", ANGLES, lambda w, v: w.add_bodies(BALL, [(0, 0), (9, 9)], angles=v)),
     ("kind", KIND, lambda w, v: w.add_bodies(BALL, [(0, 0)], kind=v)),
     ("filter", FILTER, lambda w, v: w.add_bodies(BALL, [(0, 0)], filter=v)),
     ("body", IDS, lambda w, v: w.remove_body(v)),
     ("ids", [("crate", ""), (1.5, "")], lambda w, v: w.remove_bodies(v)),
     ("positions", POSITIONS, lambda w, v: w.move([0], v)),
+    ("velocities", MANY, lambda w, v: w.move([0, 3], [(0, 0), (9, 9)], velocities=v)),
+    ("angles", ANGLES, lambda w, v: w.move([0, 3], [(0, 0), (9, 9)], v)),
     ("ids", [("crate", ""), (1.5, "")], lambda w, v: w.touch(v)),
     ("identity", IDS, lambda w, v: w.body(v)),
     ("effects", EFFECTS, lambda w, v: w.set_effects(v)),
@@ -247,7 +273,10 @@ CALLS = [
     ("gravity", PAIR, world_setter("gravity")),
     ("wind", PAIR, world_setter("wind")),
     ("dt", NUMBER, world_setter("dt")),
+    ("substeps", SUBSTEPS, world_setter("substeps")),
     ("snapshot", [("a.npz", "Snapshot.load(path)")], lambda w, v: w.restore(v)),
+    ("path", PATH, lambda w, v: Snapshot.load(v)),
+    ("path", PATH, lambda w, v: w.snapshot().save(v)),
     ("origin", PAIR, lambda w, v: w.ray_cast(v, (1, 0))),
     ("translation", PAIR, lambda w, v: w.ray_cast((1, 0), v)),
     ("filter", FILTER, lambda w, v: w.ray_cast((1, 0), (1, 1), filter=v)),
@@ -258,11 +287,13 @@ CALLS = [
     ("filter", FILTER, lambda w, v: w.shape_cast(BALL, (0, 0), (1, 1), filter=v)),
     ("point", PAIR, lambda w, v: w.closest(v)),
     ("filter", FILTER, lambda w, v: w.closest((0, 0), filter=v)),
-    ("shape", SHAPE, lambda w, v: w.overlap(v, (0, 0))),
+    ("shape", ONE_SHAPE, lambda w, v: w.overlap(v, (0, 0))),
     ("pose", POSE, lambda w, v: w.overlap(BALL, v)),
     ("filter", FILTER, lambda w, v: w.overlap(BALL, (0, 0), filter=v)),
     ("lower", PAIR, lambda w, v: w.query_aabb(v, (9, 9))),
     ("point", PAIR, lambda w, v: w.query_point(v)),
+    ("points", PLACES, lambda w, v: w.query_points(v)),
+    ("origins", POSITIONS, lambda w, v: w.ray_casts(v, [(1, 0)])),
     ("joint", JOINT, lambda w, v: w.add_joint(v)),
     ("kind", JOINT_KIND, lambda w, v: w.add_joints(v, [0], [3])),
     ("a", IDS, lambda w, v: w.add_joint(Revolute(v, 3, (0, 0)))),
@@ -270,13 +301,13 @@ CALLS = [
     ("axis", PAIR, lambda w, v: w.add_joint(Prismatic(0, 3, (0, 0), axis=v))),
     ("motor", DRIVE, lambda w, v: w.add_joint(Wheel(0, 3, (0, 0), motor=v))),
     ("spring", SPRING, lambda w, v: w.add_joint(Distance(0, 3, (0, 0), (9, 9), spring=v))),
-    ("limits", RANGE, lambda w, v: w.add_joint(Angle(0, 3, limits=v))),
+    ("limits", LIMITS, lambda w, v: w.add_joint(Angle(0, 3, limits=v))),
     ("breaks", RANGE, lambda w, v: w.add_joint(Weld(0, 3, (0, 0), breaks=v))),
     ("velocity", PAIR, lambda w, v: w.add_joint(Motor(0, 3, velocity=v, max_force=1, max_torque=1))),
     ("point", PAIR, lambda w, v: w.add_joint(Target(0, (0, 0), point=v))),
     ("spring", SPRING, lambda w, v: setattr(w.joint(0), "spring", v)),
     ("motor", DRIVE, lambda w, v: setattr(w.joint(0), "motor", v)),
-    ("limits", RANGE, lambda w, v: setattr(w.joint(0), "limits", v)),
+    ("limits", LIMITS, lambda w, v: setattr(w.joint(0), "limits", v)),
     ("position", PAIR, setter(0, "position")),
     ("velocity", PAIR, setter(0, "velocity")),
     ("angle", NUMBER, setter(0, "angle")),
@@ -397,6 +428,41 @@ def test_a_keyword_of_another_engine_gets_ours(given, hint):
     assert hint in str(caught.value), str(caught.value)
 
 
+FOREIGN_ELSEWHERE = [
+    (lambda w: Filter(1, group=2), "membership=…, mask=…"),
+    (lambda w: w.add_body(BALL, collision_type=7), "user=7"),
+    (lambda w: w.add_bodies(BALL, [(0, 0)], velocity=(1, 2)), "velocities=[(1, 2)] * n"),
+    (lambda w: w.add_bodies(BALL, [(0, 0)], angle=0.5), "angles=[0.5] * n"),
+    (lambda w: w.add_bodies(BALL, [(0, 0)], position=(1, 2)), "positions=[(1, 2)]"),
+    (lambda w: Distance(0, 3, (0, 0), (9, 9), max_length=90), "limits=(None, 90)"),
+    (lambda w: Distance(0, 3, (0, 0), (9, 9), min_length=5), "limits=(5, None)"),
+    (lambda w: Distance(0, 3, (0, 0), (9, 9), rest_length=5), "length=5"),
+    (lambda w: w.ray_cast((0, 0), end=(9, 9)), "translation=…, the end minus the origin"),
+    (lambda w: w.ray_cast_all((0, 0), direction=(9, 9)), "translation=…"),
+    (lambda w: w.ray_cast((0, 0), (9, 9), ignore=0), "filter=Filter(mask=…)"),
+    (lambda w: w.ray_casts([(0, 0)], [(9, 9)], exclude=0), "filter=Filter(mask=…)"),
+    (lambda w: w.shape_cast(BALL, (0, 0), (9, 9), include_sensors=True), "sensors=True"),
+    (lambda w: w.closest((0, 0), sensor=True), "sensors=True"),
+    (lambda w: w.overlap(BALL, (0, 0), mask=6), "filter=Filter(mask=6)"),
+    (lambda w: w.query_aabb((0, 0), (9, 9), sensor=True), "sensors=True"),
+    (lambda w: w.query_rect(RECT, layers=3), "filter=Filter(membership=3)"),
+    (lambda w: w.query_point((0, 0), max_distance=3), "its arguments are point, filter, sensors"),
+    (lambda w: w.query_points([(0, 0)], sensor=True), "sensors=True"),
+    (lambda w: Effects.rigid_bodies(joints=True), "write Effects.rigid_bodies().with_(joints=True)"),
+    (lambda w: Effects.detection(sensors=True), "write Effects.detection().with_(sensors=True)"),
+]
+
+
+@pytest.mark.parametrize(("call", "hint"), FOREIGN_ELSEWHERE, ids=[hint for _, hint in FOREIGN_ELSEWHERE])
+def test_a_foreign_keyword_of_other_callables_gets_ours(call, hint):
+    world = make_world()
+    before = state(world)
+    with pytest.raises(TypeError, match="unexpected keyword") as caught:
+        call(world)
+    assert hint in str(caught.value), str(caught.value)
+    assert state(world) == before
+
+
 def test_no_hint_names_an_argument_that_the_function_lacks():
     for called, given in NAMED:
         names = {*inspect.signature(called).parameters}
@@ -405,6 +471,109 @@ def test_no_hint_names_an_argument_that_the_function_lacks():
                 called(**{**given, word: 1})
             text = str(caught.value)
             assert "its arguments are" in text or any(f"{name}=" in text.split("write ")[1] for name in names), text
+
+
+# ---- attributes ------------------------------------------------------------------------------------------------------
+
+ATTRIBUTES = [
+    ("mass", 3.0, "material = Material(density=…)"),
+    ("kind", "static", "set_kind('static')"),
+    ("shapes", [BALL], "set_shapes("),
+    ("center", (1, 2), "position"),
+    ("awake", True, "wake()"),
+    ("friction", 0.5, "material = Material(friction=0.5)"),
+    ("elasticity", 0.5, "material = Material(restitution=0.5)"),
+    ("pos", (1, 2), "position = (1, 2)"),
+    ("x", 5, "position = (x, y)"),
+    ("rotation", 5, "angle = …, in radians"),
+    ("type", "static", "set_kind("),
+    ("force", (1, 2), "apply_force((1, 2))"),
+    ("velocty", (1, 2), "velocity"),
+]
+WORLD_ATTRIBUTES = [
+    ("effects", Effects(), "set_effects(Effects())"),
+    ("fps", 50, "dt = 1 / 50"),
+    ("iterations", 5, "substeps = 5"),
+    ("bodies", [], "add_body(…)"),
+]
+
+
+@pytest.mark.parametrize(("name", "value", "hint"), ATTRIBUTES, ids=[name for name, _, _ in ATTRIBUTES])
+def test_an_attribute_that_a_body_cannot_have_gets_the_right_one(name, value, hint):
+    world = make_world()
+    before = state(world)
+    with pytest.raises(AttributeError, match=f"Body.* {name}|Body.{name} cannot be set") as caught:
+        setattr(world.body(0), name, value)
+    assert hint in str(caught.value), str(caught.value)
+    assert state(world) == before
+
+
+@pytest.mark.parametrize(("name", "value", "hint"), WORLD_ATTRIBUTES, ids=[name for name, _, _ in WORLD_ATTRIBUTES])
+def test_an_attribute_that_a_world_cannot_have_gets_the_right_one(name, value, hint):
+    world = make_world()
+    before = state(world)
+    with pytest.raises(AttributeError, match=f"World.* {name}|World.{name} cannot be set") as caught:
+        setattr(world, name, value)
+    assert hint in str(caught.value), str(caught.value)
+    assert state(world) == before
+
+
+UNCHANGEABLE = [
+    (Vec2(3.0, 4.0), "x", 5, "position = (5, 4.0)"),
+    (Vec2(3.0, 4.0), "y", 5, "position = (3.0, 5)"),
+    (Material(restitution=0.5), "friction", 0.1, "material = replace(body.material, friction=0.1)"),
+    (Filter(), "mask", 6, "filter = replace(body.filter, mask=6)"),
+    (Effects(), "drag", True, "world.set_effects(world.effects.with_(drag=True))"),
+]
+
+
+@pytest.mark.parametrize(("thing", "name", "value", "hint"), UNCHANGEABLE)
+def test_a_value_that_cannot_be_changed_says_what_to_set(thing, name, value, hint):
+    with pytest.raises(AttributeError, match=f"{type(thing).__name__} cannot be changed") as caught:
+        setattr(thing, name, value)
+    assert hint in str(caught.value), str(caught.value)
+    with pytest.raises(AttributeError):
+        delattr(thing, name)
+
+
+# ---- files, removed bodies, bodies without mass --------------------------------------------------------------------
+
+
+def test_a_file_that_is_no_snapshot_says_so(tmp_path):
+    path = tmp_path / "level.txt"
+    path.write_text("no snapshot")
+    with pytest.raises(ValueError, match=r"level.txt is no snapshot of this program: it is not an .npz file$"):
+        Snapshot.load(path)
+
+
+def test_other_effects_of_a_snapshot_are_named():
+    world, other = World(Effects(drag=True)), World(Effects(drag=True, wind=True, sensors=True))
+    with pytest.raises(ValueError, match="only this world has sensors, wind$"):
+        other.restore(world.snapshot())
+    with pytest.raises(ValueError, match="only the snapshot has sensors, wind$"):
+        world.restore(other.snapshot())
+
+
+@pytest.mark.parametrize("call", [
+    lambda w, b: w.remove_body(b), lambda w, b: b.remove(), lambda w, b: w.move([b], [(0, 0)]), lambda w, b: w.body(b),
+    lambda w, b: b.position, lambda w, b: w.touch(b), lambda w, b: w.rows([b]),
+    lambda w, b: w.add_joint(Revolute(b, 3, (0, 0))),
+])  # fmt: skip
+def test_a_removed_body_is_named_by_every_call(call):
+    world = make_world()
+    body = world.body(0)
+    body.remove()
+    with pytest.raises(KeyError) as caught:
+        call(world, body)
+    assert str(caught.value) == "body 0 is not in this world (removed, or never added)"
+
+
+def test_a_dynamic_body_without_mass_is_explained():
+    clear = PixelMask(np.zeros((3, 3), bool))
+    for shape, hint in ((clear, "mass=…"), (Segment((0, 0), (9, 9)), 'kind="static"')):
+        with pytest.raises(ValueError, match="dynamic body") as caught:
+            make_world().add_body(shape)
+        assert hint in str(caught.value), str(caught.value)
 
 
 # ---- what simply works -----------------------------------------------------------------------------------------------
