@@ -362,16 +362,9 @@ def in_place_of_number(name: str, value: Any) -> str:
     return ""
 
 
-def in_place_of_limits(value: Any, low: float | None) -> str:
-    """Return the hint for a value that was given as the limits (low, high) of a joint, or "" if there is none.
-
-    low: least allowed limit; None: none.
-    """
-    if not is_number(value):
-        return ""
-    return f": write (None, {brief(value)})" + (
-        "" if low is not None else f" or ({brief(-abs(value))}, {brief(abs(value))})"
-    )
+def in_place_of_limits(value: Any) -> str:
+    """Return the hint for a value that was given as the limits (low, high) of a joint, or "" if there is none."""
+    return f": write (None, {brief(value)})" if is_number(value) else ""
 
 
 def in_place_of_material(value: Any) -> str:
@@ -439,7 +432,7 @@ def unchangeable(expression: str) -> Callable[[Made], Made]:
 
     def refuse(thing: Any, name: str, value: Any) -> None:
         text = expression.format(name=name, value=brief(value))
-        raise FrozenInstanceError(f"a {type(thing).__name__} cannot be changed: write {text}")
+        raise FrozenInstanceError(f"{type(thing).__name__} cannot be changed: write {text}")
 
     def decorate(made: Made) -> Made:
         type.__setattr__(made, "__setattr__", refuse)

@@ -94,7 +94,8 @@ class Vec2(NamedTuple):
 
     x, y: coordinates.
 
-    A Vec2 equals a plain pair, and every function that takes a Vec2 also takes a plain pair. + − * / work element by
+    A Vec2 equals a plain pair, and every function that takes a Vec2 also takes a plain pair. It cannot be changed:
+    write body.position += (5, 0) in place of body.position.x += 5. + − * / work element by
     element with a pair or a number on either side; with an array of a shape other than (2,) the result is an array.
     Another type raises TypeError, and a division by zero ZeroDivisionError.
     """
@@ -194,9 +195,9 @@ class Vec2(NamedTuple):
 def _refuse_change(vector, name, value):
     """Raise AttributeError for a coordinate that was set, and name the assignment of the whole pair."""
     if name not in ("x", "y"):
-        raise AttributeError(f"a Vec2 has no attribute {name}, and cannot be changed")
+        raise AttributeError(f"Vec2 has no attribute {name}, and cannot be changed")
     x, y = (value, vector[1]) if name == "x" else (vector[0], value)
-    raise AttributeError(f"a Vec2 cannot be changed: write the whole pair, such as body.position = ({x!r}, {y!r})")
+    raise AttributeError(f"Vec2 cannot be changed: write the whole pair, such as body.position = ({x!r}, {y!r})")
 
 
 type.__setattr__(Vec2, "__setattr__", _refuse_change)  # in the class, it would tell type checkers that x can be set

@@ -82,7 +82,7 @@ def checked_limits(value: Any, low: float | None = None) -> tuple[float, float]:
     try:
         lower, upper = value
     except (TypeError, ValueError):
-        hint = hints.in_place_of_limits(value, low)
+        hint = hints.in_place_of_limits(value)
         raise TypeError(f"limits must be a pair (low, high) (got {checks.shown(value)}){hint}") from None
     lower = -math.inf if lower is None else lower
     upper = math.inf if upper is None else upper

@@ -228,7 +228,7 @@ CHANGES = [
         ["ab", [1], [NAN, 1], [[1], [2]], ["1", "2"], 5],
     ),
     ("kind", lambda w, v: w.add_bodies(BALL, [(0, 0)], kind=v), ["moving", 5]),
-    ("shapes", lambda w, v: w.add_bodies(v, [(0, 0)]), [None, 5]),
+    ("shape", lambda w, v: w.add_bodies(v, [(0, 0)]), [None, 5]),
     ("ids", lambda w, v: w.remove_bodies(v), [[1.7], ["x"], "x", [NAN], [True], None, [None]]),
     ("body", lambda w, v: w.remove_body(v), ["x", None, 1.5, True, NAN]),
     ("dt", lambda w, v: w.step(v), [x for x in NUMBER if x is not None] + [-1e-9]),

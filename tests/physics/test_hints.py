@@ -171,7 +171,7 @@ IDS = [("crate", ""), (1.5, ""), (BALL, "")]
 SPRING = [(2.0, "Spring(2.0)"), ("stiff", "")]
 DRIVE = [(2.0, "Drive(2.0, max=…)"), ("fast", "")]
 RANGE = [(3.0, ""), ("ab", "")]
-LIMITS = [(3.0, "write (None, 3.0) or (-3.0, 3.0)"), ("ab", "")]
+LIMITS = [(3.0, "write (None, 3.0)"), ("ab", "")]
 SUBSTEPS = [("many", 'a whole number from 1 to 1000, or "auto"'), ("Auto", '"auto"'), *WHOLE[:2]]
 PATH = [(5, "a str or a pathlib.Path"), (None, "a str or a pathlib.Path"), (BALL, "a str or a pathlib.Path")]
 

@@ -287,7 +287,7 @@ def test_files_hold_no_pickles(tmp_path):
 def test_snapshot_of_other_effects_is_refused():
     world, _ = busy()
     other = World(Effects())
-    with pytest.raises(ValueError, match="this one has"):
+    with pytest.raises(ValueError, match="only the snapshot has continuous, drag"):
         other.restore(world.snapshot())
     with pytest.raises(TypeError, match="snapshot"):
         other.restore("kept.npz")
