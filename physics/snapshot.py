@@ -214,6 +214,7 @@ class Snapshot:
             content = io.BytesIO(file.read())
         if not zipfile.is_zipfile(content):
             raise ValueError(f"{path} is no snapshot of this program: it is not an .npz file")
+        content.seek(0)
         try:
             with np.load(content, allow_pickle=False) as stored:
                 arrays = {name: stored[name] for name in stored.files}

@@ -43,6 +43,13 @@ class Filter:
         object.__setattr__(self, "membership", checks.whole("membership", membership, 0, 0xFFFFFFFF))
         object.__setattr__(self, "mask", checks.whole("mask", mask, 0, 0xFFFFFFFF))
 
+    def __repr__(self):
+        """Return the constructor call with hexadecimal bits, or "Filter.ALL"."""
+        if self.membership == self.mask == 0xFFFFFFFF:
+            return "Filter.ALL"
+        mask = "" if self.mask == 0xFFFFFFFF else f", mask={self.mask:#x}"
+        return f"Filter(membership={self.membership:#x}{mask})"
+
     @classmethod
     def from_packed(cls, bits: int) -> "Filter":
         """Return the filter that is packed in 32 bits.

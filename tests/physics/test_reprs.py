@@ -50,6 +50,16 @@ def line(value):
     return text
 
 
+def test_a_filter_shows_its_bits_as_they_are_written():
+    shown = {
+        Filter.ALL: "Filter.ALL",
+        Filter(6): "Filter(membership=0x6)",
+        Filter(1, 6): "Filter(membership=0x1, mask=0x6)",
+    }
+    for value, text in shown.items():
+        assert line(value) == text and eval(text) == value
+
+
 def test_a_world_shows_its_counts_its_time_its_solver_and_its_effects():
     world = falling()
     text = line(world)
