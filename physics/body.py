@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from physics import carving, checks, edit, step, teleport
+from physics import body_values, carving, checks, edit, step, teleport
 from physics.annotations import ContinuousName, KindName, Pair, Pose, TierName
 from physics.carving import Carved
 from physics.collision.areas import with_areas
@@ -382,20 +382,20 @@ class Body(Handle):
     @property
     def material(self) -> Material:
         """The material of the shapes without a material of their own. Setting it recomputes the mass."""
-        return edit.material_of(self.world, self.id)
+        return body_values.material_of(self.world, self.id)
 
     @material.setter
     def material(self, value: Material) -> None:
-        edit.set_material(self.world, self.id, value)
+        body_values.set_material(self.world, self.id, value)
 
     @property
     def filter(self) -> Filter:
         """The collision filter of the shapes without a filter of their own."""
-        return edit.filter_of(self.world, self.id)
+        return body_values.filter_of(self.world, self.id)
 
     @filter.setter
     def filter(self, value: Filter) -> None:
-        edit.set_filter(self.world, self.id, value)
+        body_values.set_filter(self.world, self.id, value)
 
     @property
     def sensor(self) -> bool:
@@ -407,7 +407,7 @@ class Body(Handle):
 
     @sensor.setter
     def sensor(self, value: bool) -> None:
-        edit.set_sensor(self.world, self.id, value)
+        body_values.set_sensor(self.world, self.id, value)
 
     # --- settings of its motion -----------------------------------------------------------------------------------
 
@@ -463,7 +463,7 @@ class Body(Handle):
 
     @continuous.setter
     def continuous(self, value: ContinuousName) -> None:
-        edit.set_continuous(self.world, self.id, value)
+        body_values.set_continuous(self.world, self.id, value)
 
     @property
     def fixed_rotation(self) -> bool:
@@ -472,7 +472,7 @@ class Body(Handle):
 
     @fixed_rotation.setter
     def fixed_rotation(self, value: bool) -> None:
-        edit.set_fixed_rotation(self.world, self.id, value)
+        body_values.set_fixed_rotation(self.world, self.id, value)
 
     # --- shapes ----------------------------------------------------------------------------------------------------
 

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from physics import checks, edit, hints
+from physics import body_values, checks, edit, hints
 from physics.edit import replace_mask
 from physics.math2d import rotate
 from physics.raster.pixel_tiles import Cut, Loose, Tool, cut, find_in_hull, find_in_pixels
@@ -168,8 +168,8 @@ def _values_of(world, identity) -> edit.BodyDef:
     row, given = world._body_row(identity), world._definitions.rows[world._row_number(identity)]
     return edit.BodyDef(
         angular_velocity=row["angular_velocity"].item(),
-        material=edit.material_of(world, identity),
-        filter=edit.filter_of(world, identity),
+        material=body_values.material_of(world, identity),
+        filter=body_values.filter_of(world, identity),
         sensor=given["sensor"].item(),
         bullet=bool(row["bullet"]),
         continuous=CONTINUOUS[int(row["continuous"])],

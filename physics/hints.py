@@ -260,14 +260,14 @@ def is_pair(value: Any) -> bool:
 
 
 def in_place_of_surface(value: Any) -> str:
-    """Return the hint for a value that was given as a pygame Surface or Mask, or "" if there is none."""
+    """Return the hint for a wrong value given in place of a pygame Surface or Mask; "" if there is none."""
     if is_a(value, "pygame", "Surface", "Mask", "Sprite"):
         return in_place_of_shape(value)
     return f": write pygame.image.load({brief(value)})" if isinstance(value, str) else ""
 
 
 def in_place_of_solid(value: Any) -> str:
-    """Return the hint for a value that was given as an array of solid pixels or tiles, or "" if there is none."""
+    """Return the hint for a wrong value given in place of an array of solid pixels or tiles; "" if there is none."""
     rows = [*value] if isinstance(value, (list, tuple)) else []
     if rows and isinstance(rows[0], (str, list, tuple)) and rows[0] and isinstance(rows[0][0], str):
         return ': write [[each == "#" for each in row] for row in rows]'
@@ -275,7 +275,7 @@ def in_place_of_solid(value: Any) -> str:
 
 
 def in_place_of_shape(value: Any, many: bool = False) -> str:
-    """Return the hint for a value that was given as a shape, or "" if there is none.
+    """Return the hint for a wrong value given in place of a shape; "" if there is none.
 
     many: whether the function takes several shapes.
     """
@@ -333,7 +333,7 @@ def in_place_of_vector(name: str, value: Any) -> str:
 
 
 def in_place_of_points(name: str, value: Any, count: int | None = None) -> str:
-    """Return the hint for a value that was given as the points or numbers `name`, or "" if there is none.
+    """Return the hint for a wrong value given in place of the points or numbers `name`; "" if there is none.
 
     count: the number of points or numbers that is required; None: any.
     """
@@ -363,7 +363,7 @@ def in_place_of_number(name: str, value: Any) -> str:
 
 
 def in_place_of_limits(value: Any) -> str:
-    """Return the hint for a value that was given as the limits (low, high) of a joint, or "" if there is none."""
+    """Return the hint for a wrong value given in place of the limits (low, high) of a joint; "" if there is none."""
     return f": write (None, {brief(value)})" if is_number(value) else ""
 
 

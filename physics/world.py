@@ -81,11 +81,11 @@ class World(WorldState):
 
     effects: the declared Effects; None: Effects.rigid_bodies().
     broadphase: "brute", "sweep", "hash" or "tree", or an instance of a strategy; None: SpatialHashGrid().
-    solver: one of SOLVERS; None: "soft_step" with the effect stacking, "projection" without it.
+    solver: one of SOLVERS; None: "soft_step" with the effect `stacking`, "projection" without it.
     gravity: (x, y) [px/s²]; None: 9.8 m/s² downwards, (0, 313.6) at 32 pixels per metre. Other than 0 it needs the
-        effect gravity.
-    drag: rate at which velocities decay [1/s], >= 0. Other than 0 it needs the effect drag or wind.
-    wind: velocity of the air (x, y) [px/s], which acts through the drag. Other than 0 it needs the effect wind.
+        effect `gravity`.
+    drag: rate at which velocities decay [1/s], >= 0. Other than 0 it needs the effect `drag` or `wind`.
+    wind: velocity of the air (x, y) [px/s], which acts through the drag. Other than 0 it needs the effect `wind`.
     pixels_per_meter: scale of all tolerances and of the default gravity, > 0.
     dt: length of a step [s], > 0: step() is called 1 / dt times per second.
     substeps: substeps of the stacking solvers, 1 to 1000, or "auto": 4 to 32 for each island, as many as keep the sag
@@ -238,8 +238,8 @@ class World(WorldState):
         position: the body's origin (x, y) [px].
         angle: angle [rad], clockwise on the screen. It must be 0 with a TileGrid.
         kind: "dynamic": moved by forces and contacts; "kinematic": moved only by its velocity; "static": never moved.
-        velocity: velocity (x, y) of the centre of mass [px/s]; of a static body (0, 0).
-        angular_velocity: [rad/s]. Other than 0 it needs the effect rotation, and a body that is not static.
+        velocity: velocity (x, y) of the centre of mass [px/s]; must be (0, 0) for a static body.
+        angular_velocity: [rad/s]. Other than 0 it needs the effect `rotation`, and a body that is not static.
         mass: mass, > 0, in place of density · area of the shapes [density px²]; None: that mass.
         material: the Material of the shapes without a material of their own.
         filter: the Filter of the shapes without a filter of their own.
@@ -757,7 +757,7 @@ class World(WorldState):
         filter: which shapes are considered; sensors: whether sensors are, too.
 
         overlap tests the shapes themselves; query_rect takes a pygame.Rect. Raises TypeError and ValueError as
-        ray_cast, ValueError also for lower > upper.
+        ray_cast does, ValueError also for lower > upper.
         """
         return casts.query_aabb(self, lower, upper, filter, sensors)
 

@@ -20,7 +20,6 @@ from physics.character.solids import (
     meet_hull,
     place_body,
     place_outline,
-    round_half_up,
     settle,
     walk_for,
 )
@@ -38,7 +37,7 @@ from physics.collision.hulls import ALL_EDGES
 from physics.islands.sleep import disturb
 from physics.jit import kernel, subkernel
 from physics.math2d import rotate
-from physics.shapes.placement import PLACED, aabb_at, box_corners, refresh_aabbs
+from physics.shapes.placement import PLACED, aabb_at, box_corners, refresh_aabbs, round_half_up
 from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
 from physics.tables.shape import PIXELS
 from physics.tables.step_state import StepState, stage

@@ -29,7 +29,7 @@ from physics.collision.tiles import pushing_edges_on_tile, run_at, tile_at
 from physics.dynamics.integrate import is_finite_character
 from physics.jit import kernel, subkernel
 from physics.math2d import rotate
-from physics.shapes.placement import aabb_at, box_corners, corners_at, hull_at, rounding
+from physics.shapes.placement import aabb_at, box_corners, corners_at, hull_at, is_upright_box, round_half_up, rounding
 from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
 from physics.tables.geometry import BLOCK_LINKS, EMPTY, ONE_WAY, SLOPE, Geometry
 from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, PART, PIXELS, POLYGON, TILES
@@ -118,16 +118,20 @@ def judge(c, kind, beyond, nx, ny, way_x, way_y):
 
 @subkernel
 def place_outline(walk, me, left, top):
-    """Write the corners [px] of a character's outline, with its box at pixel (left, top), to scratch.mine.
+    """Write the corners [px] and normals of a character's outline, with its box at pixel (left, top), to scratch.mine.
 
     me: CHARACTER row. Return (number of corners, rounding radius [px]). walk: see Walk.
     """
     c = walk.characters[me]
+    radius = 0.0
     if c.is_box:
-        return box_corners(left, top, left + c.width, top + c.height, walk.scratch.mine), 0.0
-    x, y = left + c.offset_x, top + c.offset_y
-    count = hull_at(walk.geometry, walk.shapes, c.shape_row, x, y, 0.0, walk.scratch.mine)
-    return count, rounding(walk.shapes, c.shape_row)
+        count = box_corners(left, top, left + c.width, top + c.height, walk.scratch.mine)
+    else:
+        x, y = left + c.offset_x, top + c.offset_y
+        count = hull_at(walk.geometry, walk.shapes, c.shape_row, x, y, 0.0, walk.scratch.mine)
+        radius = rounding(walk.shapes, c.shape_row)
+    write_normals(count, walk.scratch.mine)
+    return count, radius
 
 
 @subkernel
@@ -180,7 +184,6 @@ def meet_hull(scratch, count, radius, corners, rounded, edges, deepest):
         scratch.points[0] = 1.0 if depth > 0.0 else 0.0
         return depth, -nx, -ny, x, y
     own = pushing_edges(Hull(mine, count, radius, ALL_EDGES), theirs, False)
-    write_normals(count, mine)
     write_normals(corners, scratch.theirs)
     points = collide_hulls(Hull(mine, count, radius, own), theirs, 0.0, 0.0, deepest, scratch.points)
     return manifold_depth(points, scratch.points)
@@ -198,7 +201,6 @@ def meet_link(links, link, scratch, count, radius):
             links[link], scratch.theirs, scratch.mine[0, 0], scratch.mine[0, 1], radius
         )
         return -separation if hit and separation < 0.0 else 0.0, -nx, -ny, x, y
-    write_normals(count, scratch.mine)
     write_normals(2, scratch.theirs)
     hull = Hull(scratch.mine, count, radius, ALL_EDGES)
     points = collide_link_hull(links[link], scratch.theirs, hull, 0.0, 0.0, False, scratch.points)
@@ -274,7 +276,6 @@ def is_across(walk, me, row, left, top):
         most = deepest_on(walk, b)
         # A link that moves down does not approach the characters on it, and does not lift characters that it passes.
         most -= max(0.0, b.vy * math.cos(b.angle) - b.vx * math.sin(b.angle)) * walk.settings.dt
-    write_normals(count, walk.scratch.mine)
     hull = Hull(walk.scratch.mine, count, radius, ALL_EDGES)
     return lies_across(walk.geometry, s.geometry, b.x, b.y, b.angle, hull, most, walk.scratch.theirs)
 
@@ -423,7 +424,6 @@ def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
         facing = pushing_edges(Hull(mine, count, radius, ALL_EDGES), tile, False)
     elif edges != ALL_EDGES:
         facing = pushing_edges_on_tile(mine, count, edges)
-    write_normals(count, mine)
     write_normals(corners, scratch.theirs)
     points = collide_hulls(tile, Hull(mine, count, radius, facing), 0.0, 0.0, deepest, scratch.points)
     depth, nx, ny, x, y = manifold_depth(points, scratch.points)
@@ -602,24 +602,6 @@ def settle(me, walk_inout):
 # shared pixel does. Tests against other shapes are exact: a static shape blocks an overlap deeper than the slop. A
 # dynamic shape, or a moving shape that is not a box, is loose: it may have moved into the character, so it blocks only
 # motion that leads deeper. So a moving shape never traps a character.
-
-
-@subkernel
-def is_upright_box(corners, count):
-    """Return whether the outline of `count` corners [px] is an axis-aligned box."""
-    if count != 4:
-        return False
-    along_x = corners[0, 1] == corners[1, 1] and corners[2, 1] == corners[3, 1]
-    along_y = corners[0, 0] == corners[1, 0] and corners[2, 0] == corners[3, 0]
-    across_x = corners[1, 0] == corners[2, 0] and corners[3, 0] == corners[0, 0]
-    across_y = corners[1, 1] == corners[2, 1] and corners[3, 1] == corners[0, 1]
-    return (along_x and across_x) or (along_y and across_y)
-
-
-@subkernel
-def round_half_up(value):
-    """Return the whole pixel nearest to a coordinate."""
-    return math.floor(value + 0.5)
 
 
 @subkernel

@@ -204,6 +204,24 @@ def box_corners(min_x, min_y, max_x, max_y, corners_out):
 
 
 @subkernel
+def is_upright_box(corners, count):
+    """Return whether the outline of `count` corners [px] is an axis-aligned box."""
+    if count != 4:
+        return False
+    along_x = corners[0, 1] == corners[1, 1] and corners[2, 1] == corners[3, 1]
+    along_y = corners[0, 0] == corners[1, 0] and corners[2, 0] == corners[3, 0]
+    across_x = corners[1, 0] == corners[2, 0] and corners[3, 0] == corners[0, 0]
+    across_y = corners[1, 1] == corners[2, 1] and corners[3, 1] == corners[0, 1]
+    return (along_x and across_x) or (along_y and across_y)
+
+
+@subkernel
+def round_half_up(value):
+    """Return the whole pixel nearest to a coordinate."""
+    return math.floor(value + 0.5)
+
+
+@subkernel
 def polygon_at(polygons, table, polygon, x, y, cosine, sine, corners_out):
     """Write the world corners [px] of a polygon at a pose to corners_out (16, 2). Return their number.
 

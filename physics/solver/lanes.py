@@ -608,10 +608,7 @@ def rocks(body):
 
 @inlined
 def rolling_limit(contact, p, q, limits):
-    """Return the rolling resistance of a contact: the greatest angular impulse per normal impulse [px].
-
-    p, q: BODY rows of A and B.
-    """
+    """Return the rolling resistance of a contact of BODY rows p, q: the greatest torque per normal force [px]."""
     is_round = contact.radius_a > 0.0 or contact.radius_b > 0.0
     still = is_round and contact.friction > 0.0 and rocks(p) and rocks(q)
     return max(contact.rolling_resistance, limits.rocking_resistance if still else 0.0)
