@@ -45,11 +45,12 @@ class Headline(NamedTuple):
 def draw_headline(canvas: Canvas, title: str, headline: Headline, height: int) -> None:
     """Draw the title line of a lab over the top `height` canvas pixels: title, sentence, key, number and unit.
 
-    Overlays do not cover it, and the line of keys leaves the number free: its rectangle is reserved with fix().
+    Overlays do not cover it, and the line of keys leaves the number free: both rectangles are reserved with fix().
     """
     band = pygame.Rect(0, 0, CANVAS_SIZE[0], height)
     canvas.boxes[:] = [each for each in canvas.boxes if not band.colliderect(each[0])]  # hidden by the line
     canvas.surface.fill(INK, band)
+    canvas.fix(band)
     left = canvas.text(title.upper(), 4, 4, GOLD).right + GAP
     right = _draw_number(canvas, headline, band)
     lines = wrap(headline.sentence, right - GAP - left, SMALL)

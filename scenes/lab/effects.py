@@ -297,6 +297,7 @@ class EffectsLab(Scene):
         bars = bars_of(self.totals)
         table = pygame.Rect(4, 268 - bar_table_height(len(bars)), SIDE - 8, bar_table_height(len(bars)))
         draw_bar_table(canvas, table, list(FIELDS.values()), bars)
+        canvas.fix(table)
         lines = wrap(sentence_of(self.totals) or "measuring: declared, everything, nothing", table.width, SMALL)
         for number, line in enumerate(reversed(lines), 1):
             canvas.text(line, table.x, table.y - 2 - 7 * number, PAPER, SMALL)

@@ -108,6 +108,18 @@ def test_a_lab_starts_in_its_failing_state(name, steps, goes_wrong):
     assert headline.known and not headline.good and goes_wrong in headline.unit, headline
 
 
+def test_overlays_do_not_cover_the_title_line():
+    frames = []
+    for layers in ((), ("bounds", "motion", "structure", "pairs", "contacts", "outlines")):
+        play = Play(make_scene("lab/one_way"), DeviceSource(), Silent(), overlays=layers)
+        for _ in range(90):
+            play.step()
+        play.helped_since = -10_000
+        frame = play.draw(Picture(pygame.Surface((960, 540))))
+        frames.append(pygame.surfarray.array3d(frame.surface)[:, : 2 * play.scene.head])
+    assert (frames[0] == frames[1]).all()
+
+
 def test_the_keys_leave_the_number_free():
     play = Play(make_scene("lab/tunnelling"), DeviceSource(), Silent())
     for _ in range(120):
