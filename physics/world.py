@@ -597,8 +597,10 @@ class World(WorldState):
     def joint_solver(self) -> JointSolverName:
         """The solver of joints. It can be set between steps; a change wakes all bodies.
 
-        "iterative": converges from substep to substep. "direct": solves each tree of joints exactly, at about three
-        times the cost. "auto": solves trees directly, and meshes, in which many joints close loops, iteratively.
+        "iterative": converges from substep to substep. "direct": solves each tree of joints exactly, with its loops,
+        limits and motors, at about three times the cost. "auto": likewise, except for meshes with too many loops to
+        solve them exactly, which are solved iteratively. Beyond 96 rows of loops, limits and motors or 16 motors of a
+        tree these are solved iteratively, which counts in `cap_hits`.
         """
         return self._joint_solver
 

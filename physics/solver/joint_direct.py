@@ -1,9 +1,9 @@
 """The direct tier of joints: the parts of joints that trees can solve, as rows for the solver in joint_trees.py.
 
 For a joint in a tree, the parts that hold its anchors and its angle are solved exactly, together with all other joints
-of the tree. So is its coordinate, if that is held or has a spring. The passes of joint_rows.py solve all else, before
-the trees: motors, limits and parts with a bounded force. They also solve joints that close a loop, and further joints
-between the same two bodies.
+of the tree. So is its coordinate, if that is held or has a spring. Joints that close a loop, further joints between the
+same two bodies, limits and motors are rows beside the tree, see joint_schur.py. The passes of joint_rows.py solve all
+else, before the trees: parts with a bounded force, and all parts of meshes.
 
 Rigid parts have no spring. A velocity removes an error of position within the next substep, and the solve at the end of
 that substep removes this velocity again. A spring that the user has set enters as compliance (Catto, Soft Constraints,
@@ -31,6 +31,20 @@ from physics.solver.joint_rows import (
     spring_inverse_mass,
     sum_joints,
     warm_joints,
+    write_line,
+    write_turn,
+)
+from physics.solver.joint_schur import (
+    MOST_SCHUR,
+    MOST_WORK,
+    SCHUR_ROW,
+    Schur,
+    aim_schur,
+    begin_schur,
+    count_schur,
+    list_schur,
+    new_schur,
+    solve_schur,
 )
 from physics.solver.joint_trees import (
     JOINT_ROW,
@@ -80,31 +94,33 @@ def list_tree_joints(rows, joints, order_out, counts_out, motion_a_out, motion_b
 
 
 @kernel
-def drop_meshes(order, motion_a, motion_b, taken, parents_inout, sums_out, order_inout):
+def drop_meshes(order, row_counts, motion_a, motion_b, taken, parents_inout, sums_out, order_inout):
     """Remove the joints of meshes from the list of joints for trees. Return the number of remaining joints.
 
-    A connected component is a mesh if the joints outside its tree are more than a quarter of those in it. In a mesh the
-    iterative passes converge better without trees, because a tree would undo their work on the loops. O(joints +
-    motions).
+    A connected component is a mesh if the joints outside its tree are more than a quarter of those in it, and have more
+    rows than are solved exactly, see joint_schur.py. In a mesh the iterative passes converge better without trees,
+    because a tree would undo their work on the loops. O(joints + motions).
 
-    order, motion_a, motion_b, taken: arguments of joint_trees.build_forest, after its call; parents_inout:
-    Forest.parents; sums_out (motions, 2) int32: for the root of each component, the numbers of joints in its tree and
-    outside; order_inout: the same array as `order`, which is shortened in place.
+    order, row_counts, motion_a, motion_b, taken: arguments of joint_trees.build_forest and factor_trees; parents_inout:
+    Forest.parents; sums_out (motions, 3) int32: for the root of each component, the numbers of joints in its tree and
+    outside, and of the rows of the latter; order_inout: the same array as `order`, which is shortened in place.
     """
     for i in range(len(sums_out)):
-        sums_out[i, 0] = 0
-        sums_out[i, 1] = 0
+        sums_out[i, 0], sums_out[i, 1], sums_out[i, 2] = 0, 0, 0
     for k in range(len(order)):
         joint = order[k]
         for side in range(2):
             root = root_of(motion_a[joint] if side == 0 else motion_b[joint], parents_inout)
             sums_out[root, 0 if taken[joint] else 1] += 1
+            sums_out[root, 2] += 0 if taken[joint] else row_counts[joint]
     left = 0
     for k in range(len(order)):
         joint = order[k]
         # Row 0 and each kinematic body are separate components. The component of the other body counts.
         root = max(root_of(motion_a[joint], parents_inout), root_of(motion_b[joint], parents_inout))
-        if 4 * sums_out[root, 1] <= sums_out[root, 0]:
+        loops, bodies = sums_out[root, 2] // 2, sums_out[root, 0] + 1  # at most so many bodies
+        is_exact = loops <= MOST_SCHUR and loops * bodies <= MOST_WORK
+        if is_exact or 4 * sums_out[root, 1] <= sums_out[root, 0]:
             order_inout[left] = joint
             left += 1
     return left
@@ -114,32 +130,16 @@ def drop_meshes(order, motion_a, motion_b, taken, parents_inout, sums_out, order
 def mark_direct(rows, taken, joints_inout):
     """Record in JOINT.direct whether each joint of a group is in a tree. O(rows).
 
-    rows: indices of JOINT rows; taken: the values, in the order of `rows`.
+    JOINT.exact_limits and exact_motor are cleared, see joint_schur.list_schur. rows: indices of JOINT rows; taken: the
+    values, in the order of `rows`.
     """
     for k in range(len(rows)):
-        joints_inout[rows[k]].direct = taken[k]
+        j = joints_inout[rows[k]]
+        j.direct = taken[k]
+        j.exact_limits, j.exact_motor = False, False
 
 
 # ---- rows ------------------------------------------------------------------------------------------------------------
-
-
-@subkernel
-def write_line(joint, nx, ny, row_out):
-    """Write the Jacobian of the speed at which B's anchor moves relative to A's anchor along a unit vector (nx, ny).
-
-    joint: JOINT row; row_out: JOINT_ROW.
-    """
-    j, r = joint, row_out
-    r.ax, r.ay, r.aw = -nx, -ny, j.ay * nx - j.ax * ny
-    r.bx, r.by, r.bw = nx, ny, j.bx * ny - j.by * nx
-
-
-@subkernel
-def write_turn(row_out):
-    """Write the Jacobian of the angular velocity of B relative to A. row_out: JOINT_ROW."""
-    r = row_out
-    r.ax, r.ay, r.aw = 0.0, 0.0, -1.0
-    r.bx, r.by, r.bw = 0.0, 0.0, 1.0
 
 
 @subkernel
@@ -355,6 +355,7 @@ class JointSet(NamedTuple):
     counts: np.ndarray  # int32 number of tree rows of each joint of `rows`
     tree_rows: np.ndarray  # JOINT_ROW, MOST_ROWS for each joint of `rows`
     forest: Forest
+    schur: Schur  # rows beside the trees
 
 
 @subkernel
@@ -369,6 +370,7 @@ def begin_trees(context, joints_inout, motions_inout):
         return 0
     add_inertia(s.rows, s.order, context.h, s.table, motions_inout)
     place_trees(s.rows, s.order, context.h, motions_inout, s.table, s.tree_rows)
+    begin_schur(s.rows, s.table, s.tree_rows, motions_inout, s.schur)
     return factor_trees(s.tree_rows, s.counts, motions_inout, s.forest)
 
 
@@ -383,6 +385,9 @@ def solve_all_trees(biased, context, joints_inout, motions_inout):
     if len(s.order) > 0:
         aim_trees(s.rows, s.order, context.inverse_h if biased else 0.0, context, s.table, motions_inout, s.tree_rows)
         solve_trees(s.forest, s.tree_rows, motions_inout)
+        if s.schur.counts[0] > 0:
+            aim_schur(s.rows, biased, context, s.table, s.tree_rows, s.schur)
+            solve_schur(s.rows, s.forest, s.schur, s.table, s.tree_rows, motions_inout)
         collect_trees(s.rows, s.order, s.tree_rows, s.table)
 
 
@@ -437,7 +442,8 @@ class Trees:
         self.motion_a, self.motion_b = np.zeros(joints, np.int32), np.zeros(joints, np.int32)
         self.taken = np.zeros(joints, np.bool_)
         self.couplings = zeros_in_lines(joints, COUPLING)
-        self.sums = np.zeros((0, 2), np.int32)
+        self.sums = np.zeros((0, 3), np.int32)
+        self.schur = new_schur(0, 2 * joints, 0, 0)
 
     def build(self, rows: np.ndarray, joints: np.ndarray, motions: np.ndarray, tier: str) -> JointSet:
         """Find the trees among the joints of a group, and return the JointSet.
@@ -450,22 +456,44 @@ class Trees:
             self._make_room(2 * n)
         taken = self.taken[:n]
         taken[:] = False
-        order = self.order[:0]
+        order, taken_count = self.order[:0], 0
         if tier != "iterative" and n:
             found = list_tree_joints(rows, joints, self.order, self.counts, self.motion_a, self.motion_b)
             order = self.order[:found]
             self.forest = with_room(self.forest, n, len(motions))
             taken_count = build_forest(order, self.motion_a, self.motion_b, motions, self.forest, taken)
             if tier == "auto" and taken_count < found:
-                if len(self.sums) < len(motions):
-                    self.sums = np.zeros((2 * len(motions), 2), np.int32)
-                sums = self.sums[: len(motions)]
-                left = drop_meshes(order, self.motion_a, self.motion_b, taken, self.forest.parents, sums, order)
-                if left < found:
-                    order = self.order[:left]
-                    taken[:] = False
-                    build_forest(order, self.motion_a, self.motion_b, motions, self.forest, taken)
+                order, taken_count = self._drop_meshes(order, motions, taken)
         if n:
             mark_direct(rows, taken, joints)
+        self.schur.counts[:] = 0
+        schur = self._list_schur(rows, joints, motions, taken) if taken_count else self.schur
         couplings = self.couplings[: list_couplings(rows, joints, self.couplings) if n else 0]
-        return JointSet(joints, rows, couplings, order, self.counts, self.rows, self.forest)
+        return JointSet(joints, rows, couplings, order, self.counts, self.rows, self.forest, schur)
+
+    def _drop_meshes(self, order, motions, taken):
+        """Return the joints for trees without those of meshes, and the number of joints in trees."""
+        a, b = self.motion_a, self.motion_b
+        if len(self.sums) < len(motions):
+            self.sums = np.zeros((2 * len(motions), 3), np.int32)
+        sums = self.sums[: len(motions)]
+        left = drop_meshes(order, self.counts, a, b, taken, self.forest.parents, sums, order)
+        if left < len(order):
+            taken[:] = False
+        return order[:left], build_forest(order[:left], a, b, motions, self.forest, taken)
+
+    def _list_schur(self, rows, joints, motions, taken):
+        """Return the rows beside the trees."""
+        schur = self.schur
+        if len(schur.slot_of) < len(motions):
+            schur = self.schur = schur._replace(slot_of=np.zeros(2 * len(motions), np.int32))
+        count = count_schur(rows, joints, motions, self.forest, self.counts, taken, schur)
+        entries = schur.counts.item(1)
+        if count > len(schur.rows):
+            schur = schur._replace(rows=zeros_in_lines(2 * count, SCHUR_ROW))
+        if entries > len(schur.matrix):
+            schur = schur._replace(matrix=np.zeros(2 * entries))
+        self.schur = schur
+        if count:
+            list_schur(rows, motions, self.forest, self.counts, taken, joints, schur)
+        return schur

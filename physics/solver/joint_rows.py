@@ -352,9 +352,44 @@ def holds_coordinate(joint):
 
 
 @inlined
+def has_limits(joint):
+    """Return whether a joint has limits between which its coordinate moves; that of a gear or pulley is a sum."""
+    bounded_side = joint.lower > -math.inf or joint.upper < math.inf
+    return joint.coordinate != NO_COORDINATE and joint.hold < GEARED and joint.lower != joint.upper and bounded_side
+
+
+@inlined
+def has_motor(joint):
+    """Return whether a joint has a motor, on its angle or on its coordinate."""
+    return joint.motor_max > 0.0 and (joint.turns_motor or joint.coordinate != NO_COORDINATE)
+
+
+@inlined
 def turns(joint):
     """Return whether a gear acts on the angle of a joint, otherwise on its translation."""
     return joint.coordinate == ANGLE or joint.turns_motor
+
+
+# ---- Jacobians -------------------------------------------------------------------------------------------------------
+
+
+@subkernel
+def write_line(joint, nx, ny, row_out):
+    """Write the Jacobian of the speed at which B's anchor moves relative to A's anchor along a unit vector (nx, ny).
+
+    joint: JOINT row; row_out: JOINT_ROW.
+    """
+    j, r = joint, row_out
+    r.ax, r.ay, r.aw = -nx, -ny, j.ay * nx - j.ax * ny
+    r.bx, r.by, r.bw = nx, ny, j.bx * ny - j.by * nx
+
+
+@subkernel
+def write_turn(row_out):
+    """Write the Jacobian of the angular velocity of B relative to A. row_out: JOINT_ROW."""
+    r = row_out
+    r.ax, r.ay, r.aw = 0.0, 0.0, -1.0
+    r.bx, r.by, r.bw = 0.0, 0.0, 1.0
 
 
 # ---- parts -----------------------------------------------------------------------------------------------------------
@@ -419,8 +454,10 @@ def solve_coordinate(biased, context, joint_inout, a_inout, b_inout):
         change /= inverse + compliance
         j.spring += change
         push_coordinate(j, change, a, b)
-    if j.motor_max > 0.0 and not j.turns_motor:
+    if j.motor_max > 0.0 and not j.turns_motor and not j.exact_motor:
         solve_motor(context, j, a, b)
+    if j.exact_limits:
+        return
     soft = rigid_softness(biased, context)
     most = context.push_turn if j.coordinate == ANGLE else context.push_speed
     if j.direct and biased:
@@ -575,7 +612,7 @@ def solve_joints(rows, biased, context, joints_inout, motions_inout):
         a, b = motions_inout[j.motion_a], motions_inout[j.motion_b]
         if not biased:
             place_joint(a, b, j)
-        if j.turns_motor and j.motor_max > 0.0:
+        if j.turns_motor and j.motor_max > 0.0 and not j.exact_motor:
             solve_motor(context, j, a, b)
         if j.coordinate != NO_COORDINATE:
             solve_coordinate(biased, context, j, a, b)

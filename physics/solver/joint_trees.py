@@ -50,6 +50,7 @@ JOINT_ROW = np.dtype(
         ("rhs", np.float64),  # wanted relative velocity, with bias
         ("compliance", np.float64),  # 0: rigid
         ("impulse", np.float64),  # result: the impulse of the last solve
+        ("earlier", np.float64),  # scratch of joint_schur.solve_tree_again
     ],
     align=True,
 )

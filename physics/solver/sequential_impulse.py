@@ -24,7 +24,7 @@ from physics.settings import AUTO_SUBSTEPS, BAUMGARTE, ITERATIONS_PER_SUBSTEP, P
 from physics.solver import lanes as at
 from physics.solver.contact_lanes import ContactLanes, estimate_substeps
 from physics.solver.energy import limit_energy
-from physics.solver.joint_direct import begin_trees, finish_joints, solve_once, start_joints
+from physics.solver.joint_direct import begin_trees, finish_joints, solve_all_trees, solve_once, start_joints
 from physics.solver.joint_rows import store_joints
 from physics.solver.lanes import (
     SIZE,
@@ -48,7 +48,7 @@ from physics.solver.motions import (
 from physics.solver.restitution import bounce_once
 from physics.solver.soft_step import WARM_LANES, clear_impulses, follow_inertias, turn_arms
 from physics.solver.step_context import context_of, separation_speed
-from physics.tables.step_state import StepState, stage
+from physics.tables.step_state import CAP_HITS, StepState, stage
 
 BOTH = (False, True)
 # Moment arms and normals of round contacts are taken after this fraction of the step. With 0, the start, planks that
@@ -387,6 +387,8 @@ def make_passes(drag: bool, rotation: bool, friction: bool, joints: bool) -> Cal
             if joints and n > 0:
                 solve_once(True, context, joints_inout, motions_inout)
             solve_all(count, context, passes, motions_inout, blocks_inout)
+        if joints:
+            solve_all_trees(True, context, joints_inout, motions_inout)
         for block in range(count):
             c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
             for lane in range(lanes_of(blocks_inout.contact, block)):
@@ -442,6 +444,7 @@ def solve(state: StepState, contacts: ContactLanes, passes: int | None = None, w
         contacts.store(state, motions, count, context)
         if len(group.joints):
             store_joints(group.joints, context, state.joints)
+            state.work[CAP_HITS] += found.schur.counts[2]
         lists, plan, moving = motions.lists, contacts.selection.plan, len(motions.kinematic)
         limit_energy(blocks, count, group, lists.links_islands, moving, context, plan, lists.balance, motions.used)
     return dt

@@ -35,7 +35,7 @@ from physics.solver.motions import (
     run_solver,
 )
 from physics.solver.step_context import context_of, separation_speed
-from physics.tables.step_state import StepState, stage
+from physics.tables.step_state import CAP_HITS, StepState, stage
 
 # ---- soft pass -------------------------------------------------------------------------------------------------------
 # Passes of the soft step over blocks of lanes; see lanes.py for the layout.
@@ -644,6 +644,7 @@ def solve(state: StepState, contacts: ContactLanes, kernels: Mapping = SUBSTEPS)
         contacts.store(state, motions, count, context)
         if len(group.joints):
             store_joints(group.joints, context, state.joints)
+            state.work[CAP_HITS] += found.schur.counts[2]
         lists, plan, moving = motions.lists, contacts.selection.plan, len(motions.kinematic)
         limit_energy(blocks, count, group, lists.links_islands, moving, context, plan, lists.balance, motions.used)
     return h

@@ -229,7 +229,17 @@ JointInts = Literal[
     "joint_b",
 ]
 JointFlags = Literal[
-    "enabled", "contacts", "locks_angle", "follows_point", "follows_angle", "turns_motor", "awake", "direct", "broken"
+    "enabled",
+    "contacts",
+    "locks_angle",
+    "follows_point",
+    "follows_angle",
+    "turns_motor",
+    "awake",
+    "direct",
+    "broken",
+    "exact_limits",
+    "exact_motor",
 ]
 JointRows = Rows[JointFloats, JointInts, JointFlags, Never]
 BrokenFloats = Literal["force", "torque"]

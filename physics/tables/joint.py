@@ -25,8 +25,10 @@ STATE = (  # fields on which the next step depends
     ("follows_angle", np.bool_),  # likewise for the angle
     ("turns_motor", np.bool_),  # the motor acts on the angle instead of the coordinate
     ("awake", np.bool_),  # the joint was solved in the last step, and has not fallen asleep in it
-    ("direct", np.bool_),  # the joint is in a tree, see solver/joint_direct.py
+    ("direct", np.bool_),  # the joint is solved exactly: in a tree, or beside one, see solver/joint_direct.py
     ("broken", np.bool_),  # a breaking force or torque was exceeded in the last step
+    ("exact_limits", np.bool_),  # the limits are solved with the tree of the joint, see solver/joint_schur.py …
+    ("exact_motor", np.bool_),  # … and the motor
     ("hold", np.int64),  # FREE 0, PINNED 1, ON_AXIS 2, TOOTHED 3, GEARED 4, SLUNG 5
     ("coordinate", np.int64),  # NO_COORDINATE 0, ANGLE 1, TRANSLATION 2, LENGTH 3
     # Geometry.

@@ -48,8 +48,8 @@ class Joints:
         self.a.append(a)
         self.b.append(b)
         self.counts.append(len(rows))
-        rows = [(*left, *right, rhs, soft, 0.0) for left, right, rhs, soft in rows]
-        self.rows += rows + [(0.0,) * 9] * (MOST_ROWS - len(rows))
+        rows = [(*left, *right, rhs, soft, 0.0, 0.0) for left, right, rhs, soft in rows]
+        self.rows += rows + [(0.0,) * 10] * (MOST_ROWS - len(rows))
 
     def pin(self, a, b, arm_a, arm_b, rhs=(0.0, 0.0), soft=0.0):
         self.add(a, b, pin_rows(arm_a, arm_b, rhs, soft))
@@ -500,7 +500,7 @@ def test_lengths_scaled_by_a_power_of_two_give_the_same_bits(power):
     for name in ("vx", "vy", "free_vx", "free_vy"):
         other.motions[name] *= scale
     other.motions["inverse_inertia"] /= scale * scale
-    lengths = (1.0, 1.0, scale, 1.0, 1.0, scale, scale, 1.0, 1.0)
+    lengths = (1.0, 1.0, scale, 1.0, 1.0, scale, scale, 1.0, 1.0, 1.0)
     other.rows = [tuple(np.multiply(row, lengths).tolist()) for row in joints.rows]
     joints.solve()
     other.solve()
