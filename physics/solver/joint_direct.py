@@ -60,8 +60,8 @@ from physics.tables.joint import ANGLE, COUPLING, PINNED
 from physics.tables.table import root_of, zeros_in_lines
 
 FADING = 0.25  # [s] for which a tension counts
-SLACK = 0.05  # growth of an inertia by tension, from which on bend() is nothing
-SLOW = 0.01  # [rad²] square of a turn in a substep, from which on bend() is nothing
+SLACK = 1.0  # growth of an inertia by tension, from which on bend() is nothing
+SLOW = 0.5  # [rad²] square of a turn in a substep, from which on bend() is nothing
 
 # ---- trees -----------------------------------------------------------------------------------------------------------
 

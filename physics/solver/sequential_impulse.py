@@ -444,7 +444,7 @@ def solve(state: StepState, contacts: ContactLanes, passes: int | None = None, w
         contacts.store(state, motions, count, context)
         if len(group.joints):
             store_joints(group.joints, context, state.joints)
-            state.work[CAP_HITS] += found.schur.counts[2]
+            state.work[CAP_HITS] += contacts.trees.schur.counts[2]
         lists, plan, moving = motions.lists, contacts.selection.plan, len(motions.kinematic)
         limit_energy(blocks, count, group, lists.links_islands, moving, context, plan, lists.balance, motions.used)
     return dt

@@ -644,7 +644,7 @@ def solve(state: StepState, contacts: ContactLanes, kernels: Mapping = SUBSTEPS)
         contacts.store(state, motions, count, context)
         if len(group.joints):
             store_joints(group.joints, context, state.joints)
-            state.work[CAP_HITS] += found.schur.counts[2]
+            state.work[CAP_HITS] += contacts.trees.schur.counts[2]
         lists, plan, moving = motions.lists, contacts.selection.plan, len(motions.kinematic)
         limit_energy(blocks, count, group, lists.links_islands, moving, context, plan, lists.balance, motions.used)
     return h
