@@ -18,6 +18,7 @@ from physics.jit import inlined, kernel, subkernel
 from physics.math2d import norm
 from physics.solver.joint_couplings import list_couplings, solve_couplings, sum_couplings, warm_couplings
 from physics.solver.joint_rows import (
+    aim_springs,
     bounded,
     coordinate_of,
     holds_angle,
@@ -29,6 +30,7 @@ from physics.solver.joint_rows import (
     softness_of,
     solve_joints,
     spring_inverse_mass,
+    spring_of,
     sum_joints,
     warm_joints,
     write_line,
@@ -181,12 +183,14 @@ def write_rows(joint, h, a, b, first, rows_out):
         soften(j.angle_hertz, j.angle_damping, h, turning, rows_out[at])
         at += 1
     if holds_coordinate(j):
-        hertz = 0.0 if j.lower == j.upper else j.spring_hertz
         if j.coordinate == ANGLE:
             write_turn(rows_out[at])
         else:
             write_line(j, j.nx, j.ny, rows_out[at])
-        soften(hertz, j.spring_damping, h, spring_inverse_mass(j, a, b), rows_out[at])
+        rows_out[at].compliance = 0.0
+        if j.lower != j.upper:
+            _, _, give = spring_of(j.spring_hertz, j.spring_damping, h)
+            rows_out[at].compliance = give * spring_inverse_mass(j, a, b)
 
 
 @subkernel
@@ -247,11 +251,11 @@ def write_targets(joint, rate, context, a, b, first, rows_inout):
         draw(j.turn, j.angle_hertz, j.angle_damping, j.hold_impulse, rate, context.push_turn, h, rows_inout[at])
         at += 1
     if holds_coordinate(j):
-        held = j.lower == j.upper
-        error = coordinate_of(j) - (j.lower if held else j.spring_target)
-        hertz = 0.0 if held else j.spring_hertz
-        most = context.push_turn if j.coordinate == ANGLE else most
-        draw(error, hertz, j.spring_damping, j.spring, rate, most, h, rows_inout[at])
+        if j.lower == j.upper:
+            most = context.push_turn if j.coordinate == ANGLE else most
+            draw(coordinate_of(j) - j.lower, 0.0, 0.0, 0.0, rate, most, h, rows_inout[at])
+        else:
+            rows_inout[at].rhs = j.spring_aim - rows_inout[at].compliance * j.spring
 
 
 @subkernel
@@ -372,6 +376,15 @@ def begin_trees(context, joints_inout, motions_inout):
     place_trees(s.rows, s.order, context.h, motions_inout, s.table, s.tree_rows)
     begin_schur(s.rows, s.table, s.tree_rows, motions_inout, s.schur)
     return factor_trees(s.tree_rows, s.counts, motions_inout, s.forest)
+
+
+@subkernel
+def begin_substep(context, motions, joints_inout):
+    """Prepare the springs of all joints for a substep, before accelerations act. joints_inout: JointSet.
+
+    context: see StepContext; motions: MOTION rows.
+    """
+    aim_springs(joints_inout.rows, context.h, motions, joints_inout.table)
 
 
 @subkernel

@@ -16,6 +16,7 @@ from physics.tables.step_state import JOINTS_SOLVED
 from physics.tables.table import row_of
 
 LEAST_INVERSE = 1e-9  # least share of an inverse inertia that an arm leaves of it: beyond, rounding decides
+RESOLVED = 0.5  # [rad] phase of a spring in a substep up to which an undamped spring keeps its energy
 LIMIT_SHARE = 0.25  # fraction of the error of a limit that a substep removes, for a joint that a tree solves
 
 # ---- selection -------------------------------------------------------------------------------------------------------
@@ -315,6 +316,40 @@ def softness_of(hertz, damping, h):
 
 
 @inlined
+def spring_of(hertz, damping, h):
+    """Return (rate [1/s], carry, give) of a spring on a coordinate, over a substep of h [s]. It is stable at any hertz.
+
+    With the coordinate's distance c from rest, its velocity v at the start of the substep and its inverse effective
+    mass w, the spring solves: new velocity + give · w · impulse = carry · v - rate · c. An undamped spring has the
+    stiffness of the implicit midpoint rule, and keeps its energy (Hairer, Lubich and Wanner, Geometric Numerical
+    Integration, 2006, chapter 6). With a damping ratio of 1 or more, or if its swing is too fast for the substeps, it
+    is an implicit Euler step (Catto, Soft Constraints, GDC 2011), which does not overshoot. hertz [1/s]: frequency;
+    damping: damping ratio.
+    """
+    x = h * math.tau * hertz
+    implicit = max(min(damping, 1.0), 1.0 - RESOLVED / x if x > RESOLVED else 0.0)
+    grip = 0.25 * (1.0 + 3.0 * implicit) * x * x + 2.0 * damping * x
+    if not grip > 0.0:
+        return 0.0, 0.0, 0.0
+    return x * x / (grip * h), 0.25 * (1.0 - implicit) * x * x / grip, 1.0 / grip
+
+
+@subkernel
+def aim_springs(rows, h, motions, joints_inout):
+    """Write the velocities for which springs on coordinates aim in a substep, before other impulses act. O(rows).
+
+    rows: indices of JOINT rows; h [s]: length of the substep; motions: MOTION rows. joints_inout: JOINT rows.
+    """
+    for k in range(len(rows)):
+        j = joints_inout[rows[k]]
+        if j.spring_hertz > 0.0 and j.coordinate != NO_COORDINATE:
+            a, b = motions[j.motion_a], motions[j.motion_b]
+            place_joint(a, b, j)
+            rate, carry, _ = spring_of(j.spring_hertz, j.spring_damping, h)
+            j.spring_aim = carry * coordinate_speed(j, a, b) - rate * (coordinate_of(j) - j.spring_target)
+
+
+@inlined
 def rigid_softness(biased, context):
     """Return the softness of a part of a joint that has no spring of its own, in the format of softness_of.
 
@@ -448,10 +483,9 @@ def solve_coordinate(biased, context, joint_inout, a_inout, b_inout):
     mass = 1.0 / inverse
     now = coordinate_of(j)
     if j.spring_hertz > 0.0 and not j.direct:
-        rate, mass_share, give = softness_of(j.spring_hertz, j.spring_damping, context.h)
-        compliance = give * spring_inverse_mass(j, a, b) / mass_share if mass_share > 0.0 else 0.0
-        change = -(coordinate_speed(j, a, b) + rate * (now - j.spring_target) + compliance * j.spring)
-        change /= inverse + compliance
+        _, _, give = spring_of(j.spring_hertz, j.spring_damping, context.h)
+        compliance = give * spring_inverse_mass(j, a, b)
+        change = (j.spring_aim - coordinate_speed(j, a, b) - compliance * j.spring) / (inverse + compliance)
         j.spring += change
         push_coordinate(j, change, a, b)
     if j.motor_max > 0.0 and not j.turns_motor and not j.exact_motor:

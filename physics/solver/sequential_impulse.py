@@ -24,7 +24,14 @@ from physics.settings import AUTO_SUBSTEPS, BAUMGARTE, ITERATIONS_PER_SUBSTEP, P
 from physics.solver import lanes as at
 from physics.solver.contact_lanes import ContactLanes, estimate_substeps
 from physics.solver.energy import limit_energy
-from physics.solver.joint_direct import begin_trees, finish_joints, solve_all_trees, solve_once, start_joints
+from physics.solver.joint_direct import (
+    begin_substep,
+    begin_trees,
+    finish_joints,
+    solve_all_trees,
+    solve_once,
+    start_joints,
+)
 from physics.solver.joint_rows import store_joints
 from physics.solver.lanes import (
     SIZE,
@@ -373,6 +380,8 @@ def make_passes(drag: bool, rotation: bool, friction: bool, joints: bool) -> Cal
         """
         if not passes.warm:
             clear_impulses(members, count, motions_inout, blocks_inout)
+        if joints:
+            begin_substep(context, motions_inout, joints_inout)
         velocities(members, context.h, context.drag, motions_inout)
         if rotation and turns_any(count, blocks_inout):
             foresee_turns(members, kinematic, LEAD * context.h, count, motions_inout, blocks_inout)

@@ -8,7 +8,7 @@ from physics.settings import BLOW_GIVE, CALM_SHARE
 from physics.solver import lanes as at
 from physics.solver.contact_lanes import ContactLanes, estimate_substeps
 from physics.solver.energy import limit_energy
-from physics.solver.joint_direct import begin_trees, finish_joints, solve_all_trees, start_joints
+from physics.solver.joint_direct import begin_substep, begin_trees, finish_joints, solve_all_trees, start_joints
 from physics.solver.joint_rows import store_joints
 from physics.solver.lanes import (
     IN_CONTACT,
@@ -591,6 +591,8 @@ def make_substeps(
         for n in range(context.substeps):
             if not warm:
                 clear_impulses(members, count, motions_inout, blocks_inout)
+            if joints:
+                begin_substep(context, motions_inout, joints_inout)
             velocities(members, h, context.drag, motions_inout)
             if warm and n == 0:
                 warm_start(count, motions_inout, blocks_inout)

@@ -199,6 +199,7 @@ JointFloats = Literal[
     "point_y",
     "hold_impulse",
     "spring",
+    "spring_aim",
     "motor",
     "low",
     "high",

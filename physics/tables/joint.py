@@ -103,6 +103,7 @@ SCRATCH = (  # rows in this step, and solver fields, which the solver writes bef
     ("point_y", np.float64),
     ("hold_impulse", np.float64),  # impulse that holds the angle
     ("spring", np.float64),  # impulse of the spring
+    ("spring_aim", np.float64),  # [px/s or rad/s] velocity for which the spring aims in the substep, see aim_springs
     ("motor", np.float64),  # impulse of the motor
     ("low", np.float64),  # impulse of the lower limit
     ("high", np.float64),  # impulse of the upper limit

@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from physics import Effects, Filter, Polygon, Revolute, World
+from physics import Distance, Effects, Filter, Polygon, Prismatic, Revolute, Spring, World
+from physics.annotations import SolverName
 
 EFFECTS = Effects.rigid_bodies().with_(joints=True, sleeping=False)
 GRAVITY = 9.8
@@ -49,3 +50,84 @@ def test_a_double_pendulum_keeps_its_energy_and_its_pins(angle, ratio, substeps)
         off = max(off, abs(energy(world) - start) / fall)
         gap = max(gap, float(world.joints["separation"].max()))
     assert off < 0.06 / substeps and gap < 2e-3 / substeps
+
+
+# ---- springs ---------------------------------------------------------------------------------------------------------
+
+
+def hung(kind, hertz, damping, substeps, solver: SolverName = "soft_step", drop=0.3):
+    """A body on a spring that is let go `drop` above its rest; returns (world, function of its distance from rest)."""
+    world = World(EFFECTS, gravity=(0.0, 0.0), pixels_per_meter=1, substeps=substeps, solver=solver)
+    spring = Spring(hertz, damping)
+    body = world.add_body(Polygon.box(0.4, 0.4), position=(0.0, 2.0), filter=Filter(1, 0))
+    if kind == "distance":
+        joint = world.add_joint(Distance(None, body, at_a=(0, 0), at_b=(0, 2), length=2.0 + drop, spring=spring))
+        return world, lambda: joint.translation - 2.0 - drop
+    if kind == "slider":
+        spring = Spring(hertz, damping, target=drop)
+        joint = world.add_joint(Prismatic(None, body, at=(0, 2), axis=(0, 1), spring=spring))
+        return world, lambda: joint.translation - drop
+    spring = Spring(hertz, damping, target=drop)
+    joint = world.add_joint(Revolute(None, body, at=(0, 0), spring=spring))
+    return world, lambda: joint.angle - drop
+
+
+@pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse"])
+@pytest.mark.parametrize("substeps", [1, 4])
+@pytest.mark.parametrize("hertz", [0.3, 1.0, 2.0])
+@pytest.mark.parametrize("kind", ["distance", "slider", "door"])
+def test_an_undamped_spring_keeps_its_swing(kind, hertz, substeps, solver):
+    world, away = hung(kind, hertz, 0.0, substeps, solver)
+    first, last = [], []
+    periods = 20
+    for n in range(round(periods / hertz / world.dt)):
+        world.step()
+        time = n * world.dt * hertz
+        if time < 2.0 or time > periods - 2.0:
+            (first if time < 2.0 else last).append(away())
+    assert max(first) == pytest.approx(0.3, rel=0.03) and min(first) == pytest.approx(-0.3, rel=0.03)
+    assert max(last) == pytest.approx(max(first), rel=0.04) and min(last) == pytest.approx(min(first), rel=0.04)
+
+
+@pytest.mark.parametrize("substeps", [1, 4])
+@pytest.mark.parametrize("hertz", [5.0, 30.0, 200.0, 1e4])
+@pytest.mark.parametrize("kind", ["distance", "slider", "door"])
+def test_a_stiff_undamped_spring_stays_bounded(kind, hertz, substeps):
+    world, away = hung(kind, hertz, 0.0, substeps)
+    for _ in range(600):
+        world.step()
+        assert abs(away()) < 0.3 * 1.15
+
+
+@pytest.mark.parametrize("damping", [0.05, 0.2, 0.5])
+@pytest.mark.parametrize("hertz", [0.5, 2.0])
+@pytest.mark.parametrize("kind", ["distance", "slider", "door"])
+def test_a_damped_swing_fades_by_its_damping_ratio(kind, hertz, damping):
+    """By exp(-2 pi z / sqrt(1 - z²)) a period."""
+    world, away = hung(kind, hertz, damping, 4)
+    values = []
+    for _ in range(round(2.2 / hertz / world.dt)):
+        world.step()
+        values.append(away())
+    peaks = [-values[n] for n in range(1, len(values) - 1) if values[n - 1] > values[n] < values[n + 1]]
+    left = math.exp(-2.0 * math.pi * damping / math.sqrt(1.0 - damping**2))
+    assert peaks and peaks[0] / 0.3 == pytest.approx(left, rel=0.08)
+
+
+@pytest.mark.parametrize("hertz", [1.0, 8.0, 60.0])
+@pytest.mark.parametrize("ratio", [1.0, 1e3])
+def test_a_chain_of_undamped_springs_gains_no_energy(ratio, hertz):
+    """Several springs act on each body; the chain is let go bent, without gravity, and swings about itself."""
+    world, before = World(EFFECTS, gravity=(0.0, 0.0), pixels_per_meter=1, substeps=4), None
+    for k in range(6):
+        at, to = (k, 0.2 * (k % 2)), (k + 1.0, 0.2 * ((k + 1) % 2))
+        link = rod(world, at, to, ratio if k == 5 else 1.0)
+        spring = Spring(hertz, 0.0, target=0.5)
+        world.add_joint(Revolute(before, link, at=at, spring=spring))
+        before = link
+    fastest = []
+    for _ in range(1200):
+        world.step()
+        b = world.bodies
+        fastest.append(0.5 * float((b["mass"] * (b["vx"] ** 2 + b["vy"] ** 2)).sum()))
+    assert np.isfinite(fastest).all() and max(fastest[600:]) < 1.5 * max(fastest[:600])
