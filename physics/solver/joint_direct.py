@@ -62,8 +62,10 @@ from physics.tables.joint import ANGLE, COUPLING, PINNED
 from physics.tables.table import root_of, zeros_in_lines
 
 FADING = 0.25  # [s] for which a tension counts
-SLACK = 1.0  # growth of an inertia by tension, from which on bend() is nothing
-SLOW = 0.5  # [rad²] square of a turn in a substep, from which on bend() is nothing
+# Growth of an inertia by tension, and square of a turn in a substep [rad²], from which on bend() is nothing. In a closed
+# mechanism the joints may be redundant in a singular pose, where the corrections of different joints contradict.
+SLACK, SLOW = 0.05, 0.01
+OPEN_SLACK, OPEN_SLOW = 1.0, 0.5  # in an open tree
 
 # ---- trees -----------------------------------------------------------------------------------------------------------
 
@@ -132,13 +134,13 @@ def drop_meshes(order, row_counts, motion_a, motion_b, taken, parents_inout, sum
 def mark_direct(rows, taken, joints_inout):
     """Record in JOINT.direct whether each joint of a group is in a tree. O(rows).
 
-    JOINT.exact_limits and exact_motor are cleared, see joint_schur.list_schur. rows: indices of JOINT rows; taken: the
+    JOINT.exact_limits, exact_motor and in_open_tree are cleared, see joint_schur.py. rows: indices of JOINT rows; taken: the
     values, in the order of `rows`.
     """
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
         j.direct = taken[k]
-        j.exact_limits, j.exact_motor = False, False
+        j.exact_limits, j.exact_motor, j.in_open_tree = False, False, False
 
 
 # ---- rows ------------------------------------------------------------------------------------------------------------
@@ -219,7 +221,8 @@ def bend(joint, a, b, h):
     j = joint
     growth = max(a.tension * a.own_inverse_inertia, b.tension * b.own_inverse_inertia)
     of_a, of_b = a.angular_velocity * a.angular_velocity, b.angular_velocity * b.angular_velocity
-    h *= max(1.0 - growth / SLACK - max(of_a, of_b) * h * h / SLOW, 0.0)
+    slack, slow = (OPEN_SLACK, OPEN_SLOW) if j.in_open_tree else (SLACK, SLOW)
+    h *= max(1.0 - growth / slack - max(of_a, of_b) * h * h / slow, 0.0)
     return 0.5 * h * (of_b * j.bx - of_a * j.ax), 0.5 * h * (of_b * j.by - of_a * j.ay)
 
 
@@ -500,7 +503,7 @@ class Trees:
         schur = self.schur
         if len(schur.slot_of) < len(motions):
             schur = self.schur = schur._replace(slot_of=np.zeros(2 * len(motions), np.int32))
-        count = count_schur(rows, joints, motions, self.forest, self.counts, taken, schur)
+        count = count_schur(rows, motions, self.forest, self.counts, taken, joints, schur)
         entries = schur.counts.item(1)
         if count > len(schur.rows):
             schur = schur._replace(rows=zeros_in_lines(2 * count, SCHUR_ROW))

@@ -82,6 +82,7 @@ SCHUR_TREE = in_lines(
         ("loops", np.int32),  # number of rows of joints that close loops
         ("limits", np.int32),  # number of limits …
         ("motors", np.int32),  # … and motors
+        ("anchors", np.int32),  # number of joints to bodies of infinite mass
         ("is_coupled", np.bool_),  # a gear or pulley acts on the tree
         ("first", np.int32),  # index of its first row …
         ("count", np.int32),  # … and their number
@@ -158,20 +159,21 @@ def number_of_limits(joint):
 def count_schur(
     # read
     rows,
-    joints,
     motions,
     forest,
     row_counts,
     taken,
     # write
+    joints_inout,
     schur_out,
 ):
     """Count the rows beside the trees, and write where the rows of each tree begin. O(MOTION rows + joints).
 
-    Return the number of rows. A tree with a gear or pulley has no rows for limits and motors.
+    Return the number of rows. A tree with a gear or pulley has no rows for limits and motors. JOINT.in_open_tree is
+    set for the joints of trees without loops that hold to bodies of infinite mass by one joint at most.
 
-    rows: JOINT rows of the group; joints, motions: all JOINT and MOTION rows; forest: result of build_forest;
-    row_counts, taken: for each joint of `rows` its number of tree rows, and whether it is in the forest.
+    rows: JOINT rows of the group; motions: MOTION rows; forest: result of build_forest; row_counts, taken: for each
+    joint of `rows` its number of tree rows, and whether it is in the forest. joints_inout: all JOINT rows.
     """
     f, s = forest, schur_out
     for i in range(len(motions)):
@@ -179,13 +181,14 @@ def count_schur(
     for slot in range(f.sizes[0]):
         body, t = f.bodies[slot], s.trees[slot]
         s.tree_of[slot] = slot if body.parent < 0 else s.tree_of[body.parent]
-        t.loops, t.limits, t.motors, t.count, t.slots = 0, 0, 0, 0, 0
+        t.loops, t.limits, t.motors, t.count, t.slots, t.anchors = 0, 0, 0, 0, 0, 0
         t.is_coupled = False
         s.trees[s.tree_of[slot]].slots += 1
+        s.trees[s.tree_of[slot]].anchors += 1 if body.is_fixed else 0
         if not body.is_fixed:
             s.slot_of[body.motion] = slot
     for k in range(len(rows)):
-        j = joints[rows[k]]
+        j = joints_inout[rows[k]]
         tree = tree_of_joint(j, motions, s)
         if j.hold >= GEARED:
             for side in range(2):
@@ -196,6 +199,11 @@ def count_schur(
             s.trees[tree].loops += 0 if taken[k] else row_counts[k]
             s.trees[tree].limits += number_of_limits(j)
             s.trees[tree].motors += 1 if has_motor(j) else 0
+    for k in range(len(rows)):
+        if taken[k]:
+            j = joints_inout[rows[k]]
+            t = s.trees[tree_of_joint(j, motions, s)]
+            j.in_open_tree = t.loops == 0 and t.anchors <= 1 and not t.is_coupled
     return place_blocks(f.sizes[0], s)
 
 

@@ -241,6 +241,7 @@ JointFlags = Literal[
     "broken",
     "exact_limits",
     "exact_motor",
+    "in_open_tree",
 ]
 JointRows = Rows[JointFloats, JointInts, JointFlags, Never]
 BrokenFloats = Literal["force", "torque"]

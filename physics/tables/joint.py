@@ -29,6 +29,7 @@ STATE = (  # fields on which the next step depends
     ("broken", np.bool_),  # a breaking force or torque was exceeded in the last step
     ("exact_limits", np.bool_),  # the limits are solved with the tree of the joint, see solver/joint_schur.py …
     ("exact_motor", np.bool_),  # … and the motor
+    ("in_open_tree", np.bool_),  # the tree of the joint has no loops, and at most one joint to bodies of infinite mass
     ("hold", np.int64),  # FREE 0, PINNED 1, ON_AXIS 2, TOOTHED 3, GEARED 4, SLUNG 5
     ("coordinate", np.int64),  # NO_COORDINATE 0, ANGLE 1, TRANSLATION 2, LENGTH 3
     # Geometry.

@@ -171,7 +171,7 @@ def test_a_sprung_slider_has_its_period_wherever_its_anchor_is(at, tier, setting
             crossings.append(world.time - now / (now - before) * world.dt)
         before = now
     assert crossings[1] - crossings[0] == pytest.approx(1.0, rel=0.02)
-    assert abs(box.angle) < 1e-3
+    assert abs(box.angle) < (1e-2 if tier == "iterative" else 1e-3)
 
 
 @pytest.mark.parametrize("setting", SETTINGS)
