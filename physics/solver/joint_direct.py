@@ -62,10 +62,10 @@ from physics.tables.joint import ANGLE, COUPLING, PINNED
 from physics.tables.table import root_of, zeros_in_lines
 
 FADING = 0.25  # [s] for which a tension counts
-# Growth of an inertia by tension, and square of a turn in a substep [rad²], from which on bend() is nothing. In a closed
-# mechanism the joints may be redundant in a singular pose, where the corrections of different joints contradict.
-SLACK, SLOW = 0.05, 0.01
-OPEN_SLACK, OPEN_SLOW = 1.0, 0.5  # in an open tree
+# How fast bend() fades to 0: per growth of an inertia by tension, and per square of a turn in a substep [1/rad²]. In a
+# closed mechanism it fades early: in a singular pose the corrections of different joints contradict one another.
+FADE_BY_GROWTH, FADE_BY_TURN = 20.0, 100.0
+OPEN_FADE_BY_GROWTH, OPEN_FADE_BY_TURN = 1.0, 2.0  # in an open tree
 
 # ---- trees -----------------------------------------------------------------------------------------------------------
 
@@ -134,8 +134,8 @@ def drop_meshes(order, row_counts, motion_a, motion_b, taken, parents_inout, sum
 def mark_direct(rows, taken, joints_inout):
     """Record in JOINT.direct whether each joint of a group is in a tree. O(rows).
 
-    JOINT.exact_limits, exact_motor and in_open_tree are cleared, see joint_schur.py. rows: indices of JOINT rows; taken: the
-    values, in the order of `rows`.
+    The flags that joint_schur.py sets are cleared. rows: indices of JOINT rows; taken: the values, in the order of
+    `rows`.
     """
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
@@ -221,8 +221,10 @@ def bend(joint, a, b, h):
     j = joint
     growth = max(a.tension * a.own_inverse_inertia, b.tension * b.own_inverse_inertia)
     of_a, of_b = a.angular_velocity * a.angular_velocity, b.angular_velocity * b.angular_velocity
-    slack, slow = (OPEN_SLACK, OPEN_SLOW) if j.in_open_tree else (SLACK, SLOW)
-    h *= max(1.0 - growth / slack - max(of_a, of_b) * h * h / slow, 0.0)
+    by_growth, by_turn = FADE_BY_GROWTH, FADE_BY_TURN
+    if j.in_open_tree:
+        by_growth, by_turn = OPEN_FADE_BY_GROWTH, OPEN_FADE_BY_TURN
+    h *= max(1.0 - by_growth * growth - by_turn * max(of_a, of_b) * h * h, 0.0)
     return 0.5 * h * (of_b * j.bx - of_a * j.ax), 0.5 * h * (of_b * j.by - of_a * j.ay)
 
 
