@@ -466,6 +466,8 @@ def limit_change(gap, speed, old, mass, soft, most, inverse_h):
         change = -mass * (speed + gap * inverse_h)
     else:
         change = -mass * mass_share * (speed + max(bias_rate * gap, -most)) - give * old
+        # A motor may press so hard on the limit that the softness alone would let it pass.
+        change = max(change, -mass * speed)
     return max(old + change, 0.0) - old
 
 
