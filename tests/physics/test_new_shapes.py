@@ -65,7 +65,7 @@ ROUNDED = Polygon(TRIANGLE, 2.0)
         (lambda: Material(rolling_resistance=-0.1), ValueError, ("rolling_resistance", ">= 0")),
         (lambda: Material(surface_speed=math.inf), ValueError, ("surface_speed", "inf")),
         (lambda: World().add_body(Chain([(0, 0), (1, 1)])), ValueError, ("Chain", "static or kinematic")),
-        (lambda: World().add_body(Segment((0, 0), (1, 1))), ValueError, ("Segment", "mass")),
+        (lambda: World().add_body(Segment((0, 0), (1, 1))), ValueError, ("Segment", "area")),
         (lambda: World().add_body(Chain([(0, 0), (1, 1)]), kind="static").set_kind("dynamic"), ValueError, ("Chain",)),
     ],
 )

@@ -33,7 +33,7 @@ def words(scene):
 
 @pytest.mark.parametrize("lane", range(len(SOLVERS)))
 def test_a_channel_is_judged_as_it_is(lane):
-    scene, session = after("lab/cradle", 5)
+    scene, session = after("lab/cradle", 5, gap=8)
     assert scene.verdict(lane)[0] == "not struck yet"
     for _ in range(95):
         session.step()
@@ -53,7 +53,7 @@ def test_a_channel_is_judged_as_it_is(lane):
 
 @pytest.mark.parametrize("lane", range(len(SOLVERS)))
 def test_the_check_of_the_cradle_covers_every_channel(lane):
-    scene, session = after("lab/cradle", 60)
+    scene, session = after("lab/cradle", 60, gap=8)
     scene.balls[lane][3].velocity = (0.2 * SPEED, 0.0)
     for _ in range(60):
         session.step()
