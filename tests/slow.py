@@ -5,8 +5,8 @@
     python -m tests.slow --more                         # only those that are not on the list yet
     python -m pytest -p tests.slow --seconds=FILE       # any run; FILE holds the seconds of each test
 
-A test is slow if it takes a quarter of a second of processor time, that of its child processes included; from one
-second on it is nightly. The time that numba takes to compile or load kernels is left out: the first test that needs a
+A test is slow if it takes a quarter of a second of processor time, that of its child processes included; from 0.8
+seconds on it is nightly. The time that numba takes to compile or load kernels is left out: the first test that needs a
 kernel would pay for all. A fixture that several tests share counts for each of them. Other work on the machine
 lengthens processor time less than the clock's, by about a third where caches are shared.
 
@@ -30,7 +30,7 @@ ROOT = Path(__file__).resolve().parent.parent
 KEPT, KEPT_WITHOUT_NUMBA = ROOT / "tests/slow_tests.txt", ROOT / "tests/slow_without_numba.txt"
 SLOW = 0.25  # [s] processor time from which a test is listed
 STAYS = 0.7  # of that: a listed test stays listed from here on, so that tests at the border do not come and go
-NIGHT = 1.0  # [s] a listed test from which on is run by .ci/nightly alone
+NIGHT = 0.8  # [s] a listed test from which on is run by .ci/nightly alone
 COLLECTED = pytest.StashKey[list[str]]()  # node ids of all tests of a run, before any is deselected
 # Tests that the README's command runs however long they take: every scene once, and what the sources must keep to.
 NEVER = (
@@ -39,10 +39,12 @@ NEVER = (
     "tests/test_docs.py::",
     "tests/test_kernel_dialect.py::",
     "tests/test_lockstep.py::",
+    "tests/test_words.py::",
 )
 # Tests that .ci/run runs however long they take: of the kernels on disk, of what is installed, of the games as a whole.
 DAILY = (
     "tests/fuzz/",
+    "tests/game/test_near_misses.py::test_three_keys_lead_a_stranger_from_the_title_to_the_false_hits_of_boxes",
     "tests/physics/test_background.py::",
     "tests/physics/test_kernel_cache.py::",
     "tests/physics/test_kernel_store.py::",
