@@ -162,7 +162,7 @@ class Masks(Scene):
         canvas.fix(box)
         canvas.surface.fill(color, (box.x, box.y, 3 if verdict else 1, box.height))
         canvas.text(NAMES.get(tier, tier), TABLE_X + 2, y - 1, PAPER)
-        word = "HIT, and it is none" if lies else "HIT" if verdict else "no"
+        word = "FALSE HIT" if lies else "HIT" if verdict else "no"
         canvas.text(word, 474, y, GOLD if lies else PAPER, SMALL, align="right")
         figures = self.figures.get(tier)
         if figures is None:
