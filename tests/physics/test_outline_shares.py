@@ -4,11 +4,13 @@ import math
 
 import numpy as np
 import pytest
-from shapely import affinity, box, unary_union
 
 from physics import PixelMask
 from physics.raster.exact import SquaresPair, outline_shares, shared_squares
 from physics.shapes.library import Library
+
+pytest.importorskip("shapely")
+from shapely import affinity, box, unary_union  # noqa: E402
 
 ANGLES = (0.0, 1e-9, 0.3, math.pi / 4, math.pi / 2, 2.2, math.pi, -1.1)
 SIZES = ((1, 1), (3, 5), (17, 9), (40, 40), (64, 20), (65, 20), (130, 12))

@@ -95,6 +95,8 @@ def open_scene(driver, name):
 def test_enter_puts_a_setting_to_work_and_a_recording_holds_it(driver):
     play = open_scene(driver, "lab/pyramid")
     assert isinstance(play.scene, Pyramid)
+    play.scene.change_slider("solver", play.scene.solvers.index("soft_step"))
+    driver.turns(3)
     here = play.measuring.now()
     play.costs.hovered = here._replace(substeps=8)
     driver.key(pygame.K_RETURN)
