@@ -14,6 +14,15 @@ IN_CHECKOUT = __package__ == "game"  # or an editable install; a wheel has all p
 START = ("python", "main.py") if IN_CHECKOUT else ("hitbox",)  # command that starts the program
 
 
+def start_line(*arguments: str) -> str:
+    """Return the command that starts the program with these arguments, as one line that the system's shell splits."""
+    import shlex
+    import subprocess
+
+    command = [*START, *arguments]
+    return subprocess.list2cmdline(command) if sys.platform == "win32" else shlex.join(command)
+
+
 def python_problem(version: tuple, executable: str) -> str:
     """Return a line that reports a Python that is too old, with its version; "" if it is new enough."""
     if tuple(version[:2]) >= OLDEST_PYTHON:

@@ -19,6 +19,11 @@ def machine() -> dict[str, Any]:
     }
 
 
+def machine_line() -> str:
+    """Return the facts about this machine as one line of text."""
+    return ", ".join(f"{name} {value}" for name, value in machine().items())
+
+
 def cpu_model() -> str:
     """Return the name of the processor, or its architecture if the system does not report one."""
     try:

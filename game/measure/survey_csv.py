@@ -4,9 +4,9 @@ import csv
 import io
 import json
 
-from game.measure.machine import machine
+from game.measure.machine import machine_line
 from game.measure.survey import Survey
-from game.startup import START
+from game.startup import start_line
 
 COLUMNS = (
     "scene, broadphase, narrowphase, solver, substeps, tier, moments, runs, us_least, us_median, us_upper, error_kind, "
@@ -24,8 +24,8 @@ def csv_of(survey: Survey, scene: str, seed: int, steps: int) -> str:
     file = io.StringIO()
     writer = csv.writer(file, lineterminator="\n")
     writer.writerow(COLUMNS)
-    command = " ".join((*START, "--advise", scene, "--seed", str(seed), "--frames", str(max(60, steps)), "--json"))
-    system = ", ".join(f"{name} {value}" for name, value in machine().items())
+    command = start_line("--advise", scene, "--seed", str(seed), "--frames", str(max(60, steps)), "--json")
+    system = machine_line()
     for kind in survey.kinds:
         for setting, (cost, error) in survey.known(kind).items():
             low, high = error.interval

@@ -3,9 +3,6 @@
 import csv
 import io
 import json
-import shlex
-import subprocess
-import sys
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from pathlib import Path
@@ -17,7 +14,7 @@ from game.report.chart import Chart
 from game.report.claim import Claim
 from game.report.job import Row
 from game.report.plots import draw, shown
-from game.startup import START
+from game.startup import start_line
 
 HEADLINE = "tiers"  # key of the chart whose first panel follows the answer
 # The questions of the report, and the keys of the charts that answer them; other charts follow the last question.
@@ -134,12 +131,7 @@ def _chart(measured, reported, folder, quick):
 def command(row: Row, folder: str, quick: bool) -> str:
     """Return the shell command that repeats the job of a row. folder, quick: values of --report and --quick."""
     report = [f"--report={folder}"] if folder.startswith("-") else ["--report", folder]
-    return quoted([*START, *report, *(["--quick"] if quick else []), "--only", row["job"]])
-
-
-def quoted(arguments: Sequence[str]) -> str:
-    """Return the arguments as one line of text that the system's shell splits into the same arguments."""
-    return subprocess.list2cmdline(arguments) if sys.platform == "win32" else shlex.join(arguments)
+    return start_line(*report, *(["--quick"] if quick else []), "--only", row["job"])
 
 
 def _claims(claims: Iterable[Claim]):

@@ -2,17 +2,16 @@
 
 import csv
 import io
-import shlex
 from collections.abc import Iterator
 from typing import NamedTuple
 
 from game.measure.effect_totals import FIELDS, SCALES, EffectTotal
-from game.measure.machine import machine
+from game.measure.machine import machine_line
 from game.measure.measured_runs import RunFigures
 from game.measure.tiers import TierFigures
 from game.measure.timing import Cost
 from game.scene import Scene
-from game.startup import START
+from game.startup import start_line
 
 
 class Figure(NamedTuple):
@@ -39,18 +38,11 @@ def command_of(scene: Scene, replay: str | None = None, bot: bool = False) -> st
     replay: file of the recorded run; None: the run had no input, or that of the scene's bot (`bot`).
     """
     if replay is not None:
-        run = ("--replay", replay)
+        run = ["--replay", replay]
     else:
-        run = (
-            "--scene",
-            scene.name,
-            *(("--bot",) if bot else ()),
-            "--seed",
-            f"{scene.seed}",
-            "--frames",
-            f"{scene.frame}",
-        )
-    return shlex.join((*START, *run, "--headless", "--csv", "figures.csv"))
+        run = ["--scene", scene.name, "--seed", f"{scene.seed}", "--frames", f"{scene.frame}"]
+        run += ["--bot"] if bot else []
+    return start_line(*run, "--headless", "--csv", "figures.csv")
 
 
 def figures_csv(scene: Scene, command: str) -> str:
@@ -61,7 +53,7 @@ def figures_csv(scene: Scene, command: str) -> str:
     file = io.StringIO()
     writer = csv.writer(file, lineterminator="\n")
     writer.writerow(COLUMNS)
-    system = ", ".join(f"{name} {value}" for name, value in machine().items())
+    system = machine_line()
     for figure in figures_of(scene):
         writer.writerow((scene.name, scene.seed, scene.frame, *figure, command, system))
     return file.getvalue()
