@@ -65,14 +65,18 @@ def choices_of(moment: Moment) -> dict[str, Side]:
 
 
 def measure_totals(
-    moment: Moment, report: Callable[[str, dict[str, Any]], object], goes_on: Callable[[], bool], seed: int = 0
+    moment: Moment,
+    sides: Mapping[str, Side],
+    report: Callable[[str, dict[str, Any]], object],
+    goes_on: Callable[[], bool],
+    seed: int = 0,
 ) -> None:
     """Time a step of each choice in several rounds of random order, and count the bytes of its world.
 
-    report(name, {field of EffectTotal: value}) is called after each round, and with the bytes first. The function
-    returns early when goes_on() is False. seed: for the order.
+    sides: result of choices_of(moment). report(name, {field of EffectTotal: value}) is called after each round, and
+    with the bytes first. The function returns early when goes_on() is False. seed: for the order.
     """
-    sides, chance = choices_of(moment), Random(seed)
+    chance = Random(seed)
     spent: dict[str, list[float]] = {name: [] for name in sides}
     for name, side in sides.items():
         world = world_under(moment, side)
@@ -91,30 +95,30 @@ def measure_totals(
 
 
 def measure_starts(
-    order: Mapping[str, Any], report: Callable[[str, dict[str, Any]], object], goes_on: Callable[[], bool]
+    order: Mapping[str, Any],
+    sides: Mapping[str, Side],
+    report: Callable[[str, dict[str, Any]], object],
+    goes_on: Callable[[], bool],
 ) -> None:
     """Measure how long a new process takes to build the world of an order and to make its first step.
 
-    order: {"snapshot": file, "broadphase": name}. report(name, {"start": seconds}) is called for each choice. The first
-    process of a choice may have to compile kernels; it is not counted.
+    order: {"snapshot": file, "broadphase": name}; sides: result of choices_of for its moment. report(name, {"start":
+    seconds}) is called for each choice. The first process of a choice may have to compile kernels; it is not counted.
     """
-    for name in NAMES:
+    for name, side in sides.items():
+        asked = json.dumps([order["snapshot"], order["broadphase"], side.effects.names(), side.idle])
         found = []
         for turn in range(STARTS):
             if not goes_on():
                 return
             process = start_module(f"{__package__}.first_step")
             try:
-                line, _ = process.communicate(json.dumps([order["snapshot"], order["broadphase"], name]) + "\n")
+                line, _ = process.communicate(asked + "\n")
             finally:
                 end_all([process])
-            last = line.split()[-1:]  # libraries may print greetings; nothing: the world cannot have these effects
-            if not last:
-                break
             if turn:
-                found.append(float(last[0]))
-        if found:
-            report(name, {"start": min(found)})
+                found.append(float(line.split()[-1]))  # libraries may print greetings
+        report(name, {"start": min(found)})
 
 
 def bytes_of(root: object) -> int:

@@ -1,6 +1,6 @@
 """Measurement of a scene's requests in this process, which waits for the results; for runs without a player."""
 
-from game.measure.effect_totals import EffectTotal, measure_totals
+from game.measure.effect_totals import EffectTotal, choices_of, measure_totals
 from game.measure.measured_runs import RunFigures, measure_runs
 from game.measure.moment import Moment
 from game.measure.tiers import measure_tiers
@@ -33,4 +33,5 @@ def measure_requests(scene: Scene) -> None:
         def take_total(name, values):
             scene.totals[name] = scene.totals.get(name, EffectTotal(0))._replace(**values)
 
-        measure_totals(Moment(world.snapshot(), world.broadphase.name), take_total, lambda: True)
+        moment = Moment(world.snapshot(), world.broadphase.name)
+        measure_totals(moment, choices_of(moment), take_total, lambda: True)

@@ -190,14 +190,14 @@ def measure_costs(order: dict[str, Any], report: Callable[[str], object], goes_o
             send(effect=name, costs=costs)
             send_counts(wait=False)
 
-        measure_totals(moment, send_total, goes_on)
+        measure_totals(moment, choices, send_total, goes_on)
         send_counts(wait=False)
         if order["each"]:
             measure_effects(moment, send_costs, goes_on)
         send_counts(wait=True)
     finally:
         end_all([counting])
-    measure_starts(order, send_total, goes_on)
+    measure_starts(order, choices, send_total, goes_on)
     send(done=True)
 
 

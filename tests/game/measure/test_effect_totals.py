@@ -66,13 +66,15 @@ def test_what_a_world_cannot_be_without_stays():
 
 def test_totals_are_measured_in_rounds_and_without_effects_a_world_is_smaller():
     found = {}
-    measure_totals(moment(), lambda name, values: found.setdefault(name, {}).update(values), lambda: True)
+    here = moment()
+    choices = choices_of(here)
+    measure_totals(here, choices, lambda name, values: found.setdefault(name, {}).update(values), lambda: True)
     assert list(found) == list(NAMES)
     assert all(each["time"].runs == RUNS for each in found.values())
     sizes = [found[name]["bytes"] for name in (NOTHING, DECLARED, EVERYTHING)]
     assert 10_000 < sizes[0] < sizes[1] <= sizes[2]
     calls = []
-    measure_totals(moment(), lambda name, values: calls.append(values), lambda: False)
+    measure_totals(here, choices, lambda name, values: calls.append(values), lambda: False)
     assert all("time" not in values for values in calls), "another order ends it"
 
 
@@ -88,11 +90,10 @@ def test_bytes_count_each_block_once():
 @pytest.mark.skipif(not physics.JIT, reason="three processes that run plain kernels")
 def test_the_start_is_that_of_a_new_process(tmp_path):
     path = str(tmp_path / "moment.npz")
-    moment().snapshot.save(path)
-    found = {}
-    measure_starts(
-        {"snapshot": path, "broadphase": "hash"}, lambda name, values: found.update({name: values}), lambda: True
-    )
+    here = moment()
+    here.snapshot.save(path)
+    order, found = {"snapshot": path, "broadphase": "hash"}, {}
+    measure_starts(order, choices_of(here), lambda name, values: found.update({name: values}), lambda: True)
     assert list(found) == list(NAMES) and all(0.0 < each["start"] < 60.0 for each in found.values())
 
 
