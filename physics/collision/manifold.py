@@ -256,6 +256,12 @@ def circle_at(bodies, shapes, row):
 
 
 @inlined
+def hull_with(shape, corners, count):
+    """Return the Hull of a SHAPE row whose corners have been placed. count: number of corners."""
+    return Hull(corners, count, 0.0 if shape.kind == BOUNDS else shape.radius, ALL_EDGES ^ shape.inner)
+
+
+@inlined
 def hull_of(geometry, bodies, shapes, row, corners_out):
     """Return the Hull of a shape in the world. A BOUNDS has the corners of its AABB, a CIRCLE has one corner.
 
@@ -263,7 +269,6 @@ def hull_of(geometry, bodies, shapes, row, corners_out):
     """
     s = shapes[row]
     b = bodies[s.body_row]
-    radius = 0.0 if s.kind == BOUNDS else s.radius
     if s.kind == BOUNDS:
         count = aabb_corners(s, corners_out)
     elif s.kind == CIRCLE:
@@ -274,7 +279,7 @@ def hull_of(geometry, bodies, shapes, row, corners_out):
         count = polygon_at(geometry.polygons, geometry.corners, s.geometry, b.x, b.y, c, math.sin(b.angle), corners_out)
     if count > 1:
         write_normals(count, corners_out)
-    return Hull(corners_out, count, radius, ALL_EDGES ^ s.inner)
+    return hull_with(s, corners_out, count)
 
 
 @inlined
@@ -291,8 +296,7 @@ def hull_in(batch, row, workspace):
         hull = hull_of(batch.geometry, batch.bodies, batch.shapes, row, corners)
         workspace.hull_rows[place, 0] = row
         workspace.hull_rows[place, 1] = hull.count
-    radius = 0.0 if s.kind == BOUNDS else s.radius
-    return Hull(corners, workspace.hull_rows[place, 1], radius, ALL_EDGES ^ s.inner)
+    return hull_with(s, corners, workspace.hull_rows[place, 1])
 
 
 @inlined

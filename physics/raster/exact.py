@@ -541,13 +541,24 @@ def share_in_row(words, a, row, px, py, qx, qy):
 
 
 @subkernel
+def with_share(shares, part):
+    """Return the sum of two Shares."""
+    return Shares(
+        shares.area + part.area,
+        shares.moment_x + part.moment_x,
+        shares.moment_y + part.moment_y,
+        shares.loss_x + part.loss_x,
+        shares.loss_y + part.loss_y,
+    )
+
+
+@subkernel
 def edge_share(words, a, px, py, qx, qy):
     """Return the Shares of a line of B's outline.
 
     words: pixels of all rasters; a: RASTER row of A; px, py, qx, qy [px]: ends of the line in A's raster.
     """
-    area, moment_x, moment_y = 0.0, 0.0, 0.0
-    loss_x, loss_y = 0.0, 0.0
+    total = Shares(0.0, 0.0, 0.0, 0.0, 0.0)
     sign = 1.0
     if qy < py:
         px, py, qx, qy = qx, qy, px, py
@@ -562,28 +573,13 @@ def edge_share(words, a, px, py, qx, qy):
             end = bottom if ends else row + 1.0
             end_x = qx if end == qy else px + slope * (end - py)
             if max(x, end_x) > a.set_left - 1.0:
-                part = share_in_row(words, a, row, x, y, end_x, end)
-                area += part.area
-                moment_x += part.moment_x
-                moment_y += part.moment_y
-                loss_x += part.loss_x
-                loss_y += part.loss_y
+                total = with_share(total, share_in_row(words, a, row, x, y, end_x, end))
             if ends:
                 break
             x, y = end_x, end
             row += 1
-    return Shares(sign * area, sign * moment_x, sign * moment_y, sign * loss_x, sign * loss_y)
-
-
-@subkernel
-def with_share(shares, part):
-    """Return the sum of two Shares."""
     return Shares(
-        shares.area + part.area,
-        shares.moment_x + part.moment_x,
-        shares.moment_y + part.moment_y,
-        shares.loss_x + part.loss_x,
-        shares.loss_y + part.loss_y,
+        sign * total.area, sign * total.moment_x, sign * total.moment_y, sign * total.loss_x, sign * total.loss_y
     )
 
 
