@@ -4,7 +4,8 @@ import numpy as np
 
 from physics import checks
 from physics.annotations import ContinuousName
-from physics.edit import MATERIAL, checked_continuous, checked_sensor, refresh_mass, write_material
+from physics.edit import checked_continuous, checked_sensor, refresh_mass, write_material
+from physics.hints import MATERIALS
 from physics.islands import sleep
 from physics.shapes.shape import Filter, Material, checked_filter, checked_material
 from physics.world_state import WorldState
@@ -21,7 +22,7 @@ def _own_rows(world, identity, own) -> np.ndarray:
 def material_of(world: WorldState, identity: int) -> Material:
     """Return the material of a body. Shapes without a material of their own have it. identity: id of the body."""
     given = world._definitions.rows[world._row_number(identity)]
-    return Material(*(given[name].item() for name in MATERIAL))
+    return Material(*(given[name].item() for name in MATERIALS))
 
 
 def filter_of(world: WorldState, identity: int) -> Filter:

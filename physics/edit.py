@@ -12,6 +12,7 @@ from physics.broadphase.proxies import write_rectangles
 from physics.contacts.cache import shift_center
 from physics.contacts.matching import KeptImpulses
 from physics.dynamics.integrate import refresh_centers, write_center
+from physics.hints import MATERIALS
 from physics.islands import sleep
 from physics.shapes.approximate import fit
 from physics.shapes.kinds import check_shapes
@@ -29,7 +30,6 @@ from physics.world_state import WorldState
 # ---- shape rows ------------------------------------------------------------------------------------------------------
 # SHAPE rows of the shapes of a body, and of the parts of the outlines of its masks.
 
-MATERIAL = ("density", "friction", "restitution", "rolling_resistance", "surface_speed")
 LAST_SHAPE = 2**31 - 1  # greatest shape id, because candidates are reported in 32 bits
 
 
@@ -118,12 +118,12 @@ def _enter(world, rows):
 
 def write_own_values(rows: np.ndarray, given: np.ndarray, shape: Shape) -> None:
     """Write material, filter and sensor flag to SHAPE rows: the shape's own, else those of `given` (BODY_DEF rows)."""
-    for name in (*MATERIAL, "membership", "mask", "sensor"):
+    for name in (*MATERIALS, "membership", "mask", "sensor"):
         rows[name] = given[name]
     for name in ("material", "filter", "sensor"):
         rows["own_" + name] = getattr(shape, name) is not None
     if shape.material is not None:
-        for name in MATERIAL:
+        for name in MATERIALS:
             rows[name] = getattr(shape.material, name)
     if shape.filter is not None:
         rows["membership"], rows["mask"] = shape.filter.membership, shape.filter.mask
@@ -693,7 +693,7 @@ def checked_continuous(world: WorldState, value: Any) -> int:
 
 def write_material(rows: np.ndarray, material: Material) -> None:
     """Write the values of a material to SHAPE or BODY_DEF rows."""
-    for name in MATERIAL:
+    for name in MATERIALS:
         rows[name] = getattr(material, name)
 
 

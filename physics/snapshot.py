@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from physics import checks
-from physics.edit import MATERIAL
+from physics.hints import MATERIALS
 from physics.islands.awake import Awake
 from physics.islands.sleep import Island, SleepingSet
 from physics.joint import JOINT_SOLVERS
@@ -431,7 +431,7 @@ def _unpack(arrays, facts, geometry):
 
 def _with_own_values(shape, row) -> Shape:
     """Return a shape with the material, filter and sensor flag that its SHAPE row has as own values, if any."""
-    material = Material(*(row[name].item() for name in MATERIAL)) if row["own_material"] else None
+    material = Material(*(row[name].item() for name in MATERIALS)) if row["own_material"] else None
     filter = Filter(row["membership"].item(), row["mask"].item()) if row["own_filter"] else None
     return shape.with_(material, filter, row["sensor"].item() if row["own_sensor"] else None)
 
