@@ -182,6 +182,8 @@ class Disagreement(Shooter):
         lit = self.reference.lit
         wrong, name = self.reference.wrong[lit], NAMES.get(lit, lit)
         sentence = f"The {name} reports hits where no pixel is shared."
+        if not wrong.count:
+            sentence = f"Does the {name} report hits where no pixel is shared?"
         number, unit = f"{wrong.count} of {wrong.total}", "reported hits are false"
         return Headline(sentence, "wheel: shape", number, unit, wrong.total, 1, "hits", not wrong.count)
 

@@ -287,9 +287,11 @@ class GhostBumps(Scene):
     def headline(self):
         """Return the sentence and the number of the title line, a Headline."""
         worst = max(self.slowed["boxes", kind] for kind in KINDS)
-        sentence = f"At {self.values['speed']} px/s over {self.run} separate boxes each seam takes speed."
+        good = worst <= KEEPS["boxes"]
+        takes = "do seams take speed?" if good else "seams take speed."
+        sentence = f"At {self.values['speed']} px/s over {self.run} separate boxes, {takes}"
         number, unit = f"{100 * worst:.3f} %", "of the speed lost at seams"
-        return Headline(sentence, "left right: speed", number, unit, self.run, MANY, "boxes", worst <= KEEPS["chain"])
+        return Headline(sentence, "left right: speed", number, unit, self.run, MANY, "boxes", good)
 
     def finding(self):
         """Return a sentence with the greatest loss of speed on each floor, and the time of a step."""

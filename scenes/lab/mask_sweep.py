@@ -296,7 +296,9 @@ class MaskSweep(Scene):
     def headline(self):
         """Return the sentence and the number of the title line, a Headline."""
         passed, met = ({way: sum(each[way, shape] for shape in SHAPES) for way in WAYS} for each in self._ended())
-        sentence = f"At {float(self.values['speed']) / 60:.0f} px a step, unswept sprites pass walls of one pixel."
+        do = "" if passed["off"] else "do "
+        sentence = f"At {float(self.values['speed']) / 60:.0f} px a step, {do}unswept sprites pass walls of one pixel"
+        sentence += "?" if do else "."
         number, unit = f"{passed['off']} of {met['off']}", f"passed; swept, {passed['toi']} of {met['toi']}"
         return Headline(sentence, "left: slower", number, unit, met["off"], ENOUGH, "shots", not passed["off"])
 

@@ -355,6 +355,8 @@ class Sensors(Scene):
         due, unseen = sum(self.due.values()), sum(self.unseen.values())
         step = max(self.values["speed"], self.values["scanner"]) / 60
         sentence = f"At {step:.0f} px a step, entries fall between two steps; sweeping finds them."
+        if not unseen:
+            sentence = f"At {step:.0f} px a step, do entries fall between two steps?"
         unit = "entries unseen where bodies stand"
         return Headline(sentence, "left: slower", f"{unseen} of {due}", unit, due, ENOUGH, "entries", not unseen)
 

@@ -252,8 +252,9 @@ class Stacks(Scene):
     def headline(self):
         """Return the sentence and the number of the title line, a Headline."""
         lost = max(self.sag["projection"] / (self.values["crates"] * SIZE), 0.0)
-        sentence = "Projection only pushes overlaps apart: its column of crates falls."
         unit, good = "of its height lost", self.stands_now(0)
+        does = "does its column of crates stand?" if good else "its column of crates falls."
+        sentence = f"Projection only pushes overlaps apart: {does}"
         return Headline(sentence, "left: fewer", f"{100 * lost:.0f} %", unit, self.since, SETTLED, "steps", good)
 
     def finding(self):

@@ -139,3 +139,33 @@ def test_a_number_waits_for_its_data():
     boxes = {text: rect for rect, text in canvas.boxes}
     assert "7 of 9" in boxes and boxes["7 of 9"].width == canvas.measure("7 of 9", TEXT, LARGE)[0]
     assert boxes["A LAB"].height > boxes["It fails."].height == canvas.measure("It", SMALL)[1]
+
+
+@needs_speed
+@pytest.mark.parametrize(
+    "name, values, fails",
+    [
+        ("lab/tunnelling", {}, True),
+        ("lab/tunnelling", {"speed": 300, "plate": 16}, False),
+        ("lab/tunnelling", {"speed": 12000}, True),
+        ("lab/mask_sweep", {}, True),
+        ("lab/mask_sweep", {"speed": 300}, None),
+        ("lab/stacks", {}, True),
+        ("lab/stacks", {"crates": 4, "substeps": 8}, None),
+        ("lab/sensors", {}, True),
+        ("lab/sensors", {"speed": 60, "scanner": 300}, False),
+        ("lab/ghost_bumps", {}, False),
+        ("lab/ghost_bumps", {"speed": 600}, False),
+        ("lab/disagreement", {}, None),
+    ],
+)
+def test_a_sentence_claims_only_what_the_number_shows(name, values, fails):
+    scene = make_scene(name)
+    for slider, value in values.items():
+        scene.change_slider(slider, value)
+    play = Play(scene, DeviceSource(), Silent())
+    for _ in range(60 if name == "lab/disagreement" else 400):
+        headline = scene.headline()
+        assert headline.sentence.endswith("?") == headline.good, headline
+        play.step()
+    assert fails is None or headline.good != fails, headline
