@@ -21,6 +21,7 @@ from physics.solver.joint_rows import (
     aim_springs,
     bounded,
     coordinate_of,
+    has_spring,
     holds_angle,
     holds_coordinate,
     holds_point,
@@ -132,15 +133,18 @@ def drop_meshes(order, row_counts, motion_a, motion_b, taken, parents_inout, sum
 
 @kernel
 def mark_direct(rows, taken, joints_inout):
-    """Record in JOINT.direct whether each joint of a group is in a tree. O(rows).
+    """Record in JOINT.direct whether each joint of a group is in a tree. Return the number of joints with a spring.
 
-    The flags that joint_schur.py sets are cleared. rows: indices of JOINT rows; taken: the values, in the order of
-    `rows`.
+    O(rows). Only springs on coordinates count. The flags that joint_schur.py sets are cleared. rows: indices of JOINT
+    rows; taken: the values, in the order of `rows`.
     """
+    springs = 0
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
         j.direct = taken[k]
         j.exact_limits, j.exact_motor, j.in_open_tree = False, False, False
+        springs += int(has_spring(j))
+    return springs
 
 
 # ---- rows ------------------------------------------------------------------------------------------------------------
@@ -359,6 +363,7 @@ class JointSet(NamedTuple):
 
     table: np.ndarray  # all JOINT rows
     rows: np.ndarray  # int32 JOINT rows of the group, in the order of ids
+    springs: int  # number of joints with a spring on their coordinate
     couplings: np.ndarray  # COUPLING those of gears, pulleys and ratchets
     order: np.ndarray  # int64 indices into `rows` of the joints with parts for a tree
     counts: np.ndarray  # int32 number of tree rows of each joint of `rows`
@@ -389,7 +394,8 @@ def begin_substep(context, motions, joints_inout):
 
     context: see StepContext; motions: MOTION rows.
     """
-    aim_springs(joints_inout.rows, context.h, motions, joints_inout.table)
+    if joints_inout.springs > 0:
+        aim_springs(joints_inout.rows, context.h, motions, joints_inout.table)
 
 
 @subkernel
@@ -423,28 +429,36 @@ def solve_once(biased, context, joints_inout, motions_inout):
 
 
 @subkernel
-def start_joints(context, joints_inout, motions_inout):
+def start_joints(first, context, joints_inout, motions_inout):
     """Apply the joint impulses of the last substep (warm start), then solve all joints once.
 
-    context: see StepContext; joints_inout: JointSet; motions_inout: MOTION rows.
+    first: whether this is the first substep of the step; context: see StepContext; joints_inout: JointSet;
+    motions_inout: MOTION rows.
     """
     s = joints_inout
-    warm_joints(s.rows, s.table, motions_inout)
+    warm_joints(s.rows, first, s.table, motions_inout)
+    if not first:
+        sum_couplings(s.couplings, s.table)
     warm_couplings(s.couplings, s.table, motions_inout)
     solve_once(True, context, s, motions_inout)
 
 
 @subkernel
 def finish_joints(context, joints_inout, motions_inout):
-    """Solve all joints once after a substep, for velocities only, and add the impulses to the totals of the step.
+    """Solve all joints once after a substep, at the new poses and for velocities only.
 
-    The trees are solved at the new poses. context: see StepContext; joints_inout: JointSet; motions_inout: MOTION rows.
+    context: see StepContext; joints_inout: JointSet; motions_inout: MOTION rows.
     """
     s = joints_inout
     begin_trees(context, s, motions_inout)
     solve_once(False, context, s, motions_inout)
-    sum_joints(s.rows, s.table)
-    sum_couplings(s.couplings, s.table)
+
+
+@subkernel
+def end_joints(joints_inout):
+    """Add the impulses of the last substep to the totals of the step. joints_inout: JointSet."""
+    sum_joints(joints_inout.rows, joints_inout.table)
+    sum_couplings(joints_inout.couplings, joints_inout.table)
 
 
 class Trees:
@@ -482,12 +496,11 @@ class Trees:
             taken_count = build_forest(order, self.motion_a, self.motion_b, motions, self.forest, taken)
             if tier == "auto" and taken_count < found:
                 order, taken_count = self._drop_meshes(order, motions, taken)
-        if n:
-            mark_direct(rows, taken, joints)
+        springs = mark_direct(rows, taken, joints) if n else 0
         self.schur.counts[:] = 0
         schur = self._list_schur(rows, joints, motions, taken) if taken_count else self.schur
         couplings = self.couplings[: list_couplings(rows, joints, self.couplings) if n else 0]
-        return JointSet(joints, rows, couplings, order, self.counts, self.rows, self.forest, schur)
+        return JointSet(joints, rows, springs, couplings, order, self.counts, self.rows, self.forest, schur)
 
     def _drop_meshes(self, order, motions, taken):
         """Return the joints for trees without those of meshes, and the number of joints in trees."""
@@ -498,7 +511,7 @@ class Trees:
         left = drop_meshes(order, self.counts, a, b, taken, self.forest.parents, sums, order)
         if left < len(order):
             taken[:] = False
-        return order[:left], build_forest(order[:left], a, b, motions, self.forest, taken)
+        return order[:left], build_forest(order[:left], a, b, motions, self.forest, taken) if left else 0
 
     def _list_schur(self, rows, joints, motions, taken):
         """Return the rows beside the trees."""

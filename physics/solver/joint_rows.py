@@ -342,7 +342,7 @@ def aim_springs(rows, h, motions, joints_inout):
     """
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
-        if j.spring_hertz > 0.0 and j.coordinate != NO_COORDINATE:
+        if has_spring(j):
             a, b = motions[j.motion_a], motions[j.motion_b]
             place_joint(a, b, j)
             rate, carry, _ = spring_of(j.spring_hertz, j.spring_damping, h)
@@ -384,6 +384,20 @@ def holds_angle(joint):
 def holds_coordinate(joint):
     """Return whether a tree can solve the coordinate of a joint: it has equal limits, or a spring."""
     return joint.coordinate != NO_COORDINATE and (joint.lower == joint.upper or joint.spring_hertz > 0.0)
+
+
+@inlined
+def has_spring(joint):
+    """Return whether a joint has a spring on its coordinate."""
+    return joint.coordinate != NO_COORDINATE and joint.spring_hertz > 0.0
+
+
+@inlined
+def is_coordinate_free(joint):
+    """Return whether neither a spring nor a motor nor a limit acts on the coordinate of a joint, if it has one."""
+    j = joint
+    unlimited = j.lower == -math.inf and j.upper == math.inf
+    return j.coordinate == NO_COORDINATE or (j.spring_hertz == 0.0 and j.motor_max == 0.0 and unlimited)
 
 
 @inlined
@@ -472,11 +486,11 @@ def limit_change(gap, speed, old, mass, soft, most, inverse_h):
 
 
 @subkernel
-def solve_coordinate(biased, context, joint_inout, a_inout, b_inout):
+def solve_coordinate(biased, soft, context, joint_inout, a_inout, b_inout):
     """Solve the spring, the motor and the limits on the coordinate of a joint.
 
-    biased: True to also remove errors of position; context: see StepContext; joint_inout: JOINT row; a_inout, b_inout:
-    MOTION rows.
+    biased: True to also remove errors of position; soft: result of rigid_softness; context: see StepContext;
+    joint_inout: JOINT row; a_inout, b_inout: MOTION rows.
     """
     j, a, b = joint_inout, a_inout, b_inout
     inverse = coordinate_inverse_mass(j, a, b)
@@ -494,7 +508,6 @@ def solve_coordinate(biased, context, joint_inout, a_inout, b_inout):
         solve_motor(context, j, a, b)
     if j.exact_limits:
         return
-    soft = rigid_softness(biased, context)
     most = context.push_turn if j.coordinate == ANGLE else context.push_speed
     if j.direct and biased:
         soft = (LIMIT_SHARE * context.inverse_h, 1.0, 0.0)  # a soft limit would yield to the rigid parts of the tree
@@ -518,17 +531,17 @@ def solve_coordinate(biased, context, joint_inout, a_inout, b_inout):
 
 
 @subkernel
-def solve_hold_of_angle(biased, context, joint_inout, a_inout, b_inout):
+def solve_hold_of_angle(soft, context, joint_inout, a_inout, b_inout):
     """Solve the part of a joint that holds its angle, with a bounded torque.
 
-    The angle is held rigidly or by a spring, or only the angular velocity is controlled. biased: True to also remove
-    errors of position; context: see StepContext; joint_inout: JOINT row; a_inout, b_inout: MOTION rows.
+    The angle is held rigidly or by a spring, or only the angular velocity is controlled. soft: result of
+    rigid_softness; context: see StepContext; joint_inout: JOINT row; a_inout, b_inout: MOTION rows.
     """
     j, a, b = joint_inout, a_inout, b_inout
     inverse = a.inverse_inertia + b.inverse_inertia
     if inverse <= 0.0:
         return
-    rate, mass_share, give = rigid_softness(biased, context)
+    rate, mass_share, give = soft
     if j.angle_hertz > 0.0:
         rate, mass_share, give = softness_of(j.angle_hertz, j.angle_damping, context.h)
     if not j.follows_angle:
@@ -540,17 +553,16 @@ def solve_hold_of_angle(biased, context, joint_inout, a_inout, b_inout):
 
 
 @subkernel
-def solve_hold_across(biased, context, joint_inout, a_inout, b_inout):
+def solve_hold_across(soft, context, joint_inout, a_inout, b_inout):
     """Solve the part of a joint that keeps B's anchor on the axis of A.
 
-    biased: True to also remove errors of position; context: see StepContext; joint_inout: JOINT row; a_inout, b_inout:
-    MOTION rows.
+    soft: result of rigid_softness; context: see StepContext; joint_inout: JOINT row; a_inout, b_inout: MOTION rows.
     """
     j, a, b = joint_inout, a_inout, b_inout
     inverse = inverse_mass_along(j, -j.ny, j.nx, a, b)
     if inverse <= 0.0:
         return
-    rate, mass_share, give = rigid_softness(biased, context)
+    rate, mass_share, give = soft
     across = j.apart_y * j.nx - j.apart_x * j.ny
     bias = bounded(rate * across, context.push_speed)
     change = -mass_share * (speed_across(j, -j.ny, j.nx, a, b) + bias) / inverse - give * j.point_y
@@ -559,25 +571,26 @@ def solve_hold_across(biased, context, joint_inout, a_inout, b_inout):
 
 
 @subkernel
-def solve_hold_of_point(biased, context, joint_inout, a_inout, b_inout):
+def solve_hold_of_point(soft, context, joint_inout, a_inout, b_inout):
     """Solve the part of a joint that holds its two anchors together, with a bounded force.
 
     The anchors are held rigidly or by a spring, or only their relative velocity is controlled. Both directions are
-    solved together. biased: True to also remove errors of position; context: see StepContext; joint_inout: JOINT row;
-    a_inout, b_inout: MOTION rows.
+    solved together. soft: result of rigid_softness; context: see StepContext; joint_inout: JOINT row; a_inout, b_inout:
+    MOTION rows.
     """
     j, a, b = joint_inout, a_inout, b_inout
     k_11, k_12, k_22 = point_inverse_mass(j, a, b)
     determinant = k_11 * k_22 - k_12 * k_12
     if determinant <= 0.0:
         return
-    rate, mass_share, give = rigid_softness(biased, context)
+    rate, mass_share, give = soft
     if j.point_hertz > 0.0:
         rate, mass_share, give = softness_of(j.point_hertz, j.point_damping, context.h)
     bias_x, bias_y = rate * j.apart_x, rate * j.apart_y
-    fast = norm(bias_x, bias_y)
-    if fast > context.push_speed and j.point_hertz == 0.0:
-        bias_x, bias_y = bias_x * context.push_speed / fast, bias_y * context.push_speed / fast
+    if max(abs(bias_x), abs(bias_y)) > 0.5 * context.push_speed and j.point_hertz == 0.0:
+        fast = norm(bias_x, bias_y)
+        if fast > context.push_speed:
+            bias_x, bias_y = bias_x * context.push_speed / fast, bias_y * context.push_speed / fast
     if not j.follows_point:
         mass_share, give = 1.0, 0.0
         bias_x = j.ny * j.target_vy - j.nx * j.target_vx  # nx, ny: the x axis of A
@@ -587,11 +600,12 @@ def solve_hold_of_point(biased, context, joint_inout, a_inout, b_inout):
     before_x, before_y = j.point_x, j.point_y
     j.point_x -= mass_share * (k_22 * x - k_12 * y) / determinant + give * before_x
     j.point_y -= mass_share * (k_11 * y - k_12 * x) / determinant + give * before_y
-    most = j.point_max * context.h
-    size = norm(j.point_x, j.point_y)
-    if size > most:
-        j.point_x *= most / size
-        j.point_y *= most / size
+    if j.point_max < math.inf:
+        most = j.point_max * context.h
+        size = norm(j.point_x, j.point_y)
+        if size > most:
+            j.point_x *= most / size
+            j.point_y *= most / size
     push(j, j.point_x - before_x, j.point_y - before_y, 0.0, a, b)
 
 
@@ -621,16 +635,23 @@ def impulse_of(joint):
 
 
 @subkernel
-def warm_joints(rows, joints_inout, motions_inout):
-    """Compute the geometry of joints at the present poses, and apply the impulses of the last substep (warm start).
+def warm_joints(rows, first, joints_inout, motions_inout):
+    """Apply the impulses of the last substep (warm start). O(rows).
 
-    rows: indices of JOINT rows. O(rows). motions_inout: MOTION rows.
+    rows: indices of JOINT rows; first: whether this is the first substep, for which the geometry of the joints is
+    computed. After it, the last pass of the last substep has computed the geometry, and the impulses are added to the
+    totals of the step. motions_inout: MOTION rows.
     """
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
         a, b = motions_inout[j.motion_a], motions_inout[j.motion_b]
-        place_joint(a, b, j)
+        if first:
+            place_joint(a, b, j)
         x, y, torque = impulse_of(j)
+        if not first:
+            j.total_x += x
+            j.total_y += y
+            j.total_torque += torque
         push(j, x, y, torque, a, b)
         a.in_contact = True
         b.in_contact = True
@@ -643,6 +664,7 @@ def solve_joints(rows, biased, context, joints_inout, motions_inout):
     rows: indices of JOINT rows; biased: True to also remove errors of position, False to solve only the velocities at
     the present poses; context: see StepContext. motions_inout: MOTION rows.
     """
+    soft = rigid_softness(biased, context)
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
         a, b = motions_inout[j.motion_a], motions_inout[j.motion_b]
@@ -650,21 +672,21 @@ def solve_joints(rows, biased, context, joints_inout, motions_inout):
             place_joint(a, b, j)
         if j.turns_motor and j.motor_max > 0.0 and not j.exact_motor:
             solve_motor(context, j, a, b)
-        if j.coordinate != NO_COORDINATE:
-            solve_coordinate(biased, context, j, a, b)
+        if not is_coordinate_free(j):
+            solve_coordinate(biased, soft, context, j, a, b)
         if j.locks_angle and not (j.direct and holds_angle(j)):
-            solve_hold_of_angle(biased, context, j, a, b)
+            solve_hold_of_angle(soft, context, j, a, b)
         if j.direct and holds_point(j):
             continue
         if j.hold == ON_AXIS:
-            solve_hold_across(biased, context, j, a, b)
+            solve_hold_across(soft, context, j, a, b)
         elif j.hold == PINNED:
-            solve_hold_of_point(biased, context, j, a, b)
+            solve_hold_of_point(soft, context, j, a, b)
 
 
 @subkernel
 def sum_joints(rows, joints_inout):
-    """Add the impulses of a substep to the totals of the step. rows: indices of JOINT rows. O(rows)."""
+    """Add the impulses of the last substep to the totals of the step. rows: indices of JOINT rows. O(rows)."""
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
         x, y, torque = impulse_of(j)

@@ -27,6 +27,7 @@ from physics.solver.energy import limit_energy
 from physics.solver.joint_direct import (
     begin_substep,
     begin_trees,
+    end_joints,
     finish_joints,
     solve_all_trees,
     solve_once,
@@ -391,7 +392,7 @@ def make_passes(drag: bool, rotation: bool, friction: bool, joints: bool) -> Cal
                 follow_inertias(count, motions_inout, blocks_inout)
         warm_start(count, motions_inout, blocks_inout)
         if joints:
-            start_joints(context, joints_inout, motions_inout)
+            start_joints(True, context, joints_inout, motions_inout)
         for n in range(passes.count):
             if joints and n > 0:
                 solve_once(True, context, joints_inout, motions_inout)
@@ -410,6 +411,7 @@ def make_passes(drag: bool, rotation: bool, friction: bool, joints: bool) -> Cal
         if joints:
             accelerate_again(members, context.h, motions_inout)
             finish_joints(context, joints_inout, motions_inout)
+            end_joints(joints_inout)
         stop_impacts(count, motions_inout, blocks_inout)
         sum_up(count, blocks_inout)
 

@@ -8,7 +8,14 @@ from physics.settings import BLOW_GIVE, CALM_SHARE
 from physics.solver import lanes as at
 from physics.solver.contact_lanes import ContactLanes, estimate_substeps
 from physics.solver.energy import limit_energy
-from physics.solver.joint_direct import begin_substep, begin_trees, finish_joints, solve_all_trees, start_joints
+from physics.solver.joint_direct import (
+    begin_substep,
+    begin_trees,
+    end_joints,
+    finish_joints,
+    solve_all_trees,
+    start_joints,
+)
 from physics.solver.joint_rows import store_joints
 from physics.solver.lanes import (
     IN_CONTACT,
@@ -597,7 +604,7 @@ def make_substeps(
             if warm and n == 0:
                 warm_start(count, motions_inout, blocks_inout)
             if joints:
-                start_joints(context, joints_inout, motions_inout)
+                start_joints(n == 0, context, joints_inout, motions_inout)
             for _ in range(iterations):
                 push_out(count, context, motions_inout, blocks_inout)
             if joints:
@@ -613,6 +620,8 @@ def make_substeps(
                 relax(count, context, motions_inout, blocks_inout)
             if rotation:
                 turn_impulses(count, motions_inout, blocks_inout)
+        if joints:
+            end_joints(joints_inout)
 
     return run_substeps
 
