@@ -26,7 +26,7 @@ from physics.solver.loads import ContactLists
 from physics.tables.body import DYNAMIC, KINDS, SCATTERED, STATIC
 from physics.tables.columns import BodyRows, ContactRows, JointRows
 from physics.tables.step_state import COUNTERS
-from physics.tables.table import Table, row_number, rows_in, rows_of
+from physics.tables.table import Table, numbers_after, row_number, rows_in, rows_of
 
 # ---- profile ---------------------------------------------------------------------------------------------------------
 # Times of the stages of a step, and its work counters, an int64 array to which kernels add.
@@ -588,13 +588,14 @@ class WorldState:
         keep = np.ones(self._bodies.count, bool)
         keep[rows] = False
         kept_shapes = keep[self.shapes["body_row"]]
-        drop_contacts(self, keep, kept_shapes)
+        new_bodies = numbers_after(keep)
+        drop_contacts(self, new_bodies, numbers_after(kept_shapes))
         self._drop_shapes(kept_shapes)
         self._bodies.keep(keep)
         self._definitions.keep(keep)
         self._runs.keep(keep)
-        self.awake.keep_rows(keep)
-        self.shapes["body_row"] = (np.cumsum(keep) - 1)[self.shapes["body_row"]]
+        self.awake.renumber(new_bodies)
+        self.shapes["body_row"] = new_bodies[self.shapes["body_row"]]
         if self.characters.count:
             self.characters.keep(~np.isin(self.characters.rows["body"], ids))
         self._refresh_joint_rows()

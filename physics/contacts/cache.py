@@ -473,7 +473,7 @@ def update_contacts_at_final_poses(state: StepState) -> None:
 def copy_kept(contacts, new_bodies, new_shapes, kept_out):
     """Copy the contacts whose bodies and shapes still exist to kept_out, with new row numbers. Return their number.
 
-    O(contacts). contacts: CONTACT rows with the row numbers before a removal. new_bodies, new_shapes: int32 new row
+    O(contacts). contacts: CONTACT rows with the row numbers before a removal. new_bodies, new_shapes: int64 new row
     number for each old row, negative for a removed row.
     """
     found = 0
@@ -490,17 +490,14 @@ def copy_kept(contacts, new_bodies, new_shapes, kept_out):
     return found
 
 
-def drop_contacts(tables: WorldTables, kept_bodies: np.ndarray, kept_shapes: np.ndarray) -> None:
+def drop_contacts(tables: WorldTables, new_bodies: np.ndarray, new_shapes: np.ndarray) -> None:
     """Drop the contacts of removed bodies and shapes, and update the row numbers of the others.
 
-    kept_bodies, kept_shapes: bool for each row before the removal, False for a removed row; tables: a World or
-    StepState.
+    new_bodies, new_shapes: int64 new number of each row before the removal, negative for a removed row; tables: a World
+    or StepState.
     """
     found = tables.contact_rows
     if len(found):
-        new_bodies, new_shapes = (
-            np.where(kept, np.cumsum(kept, dtype=np.int32) - 1, -1) for kept in (kept_bodies, kept_shapes)
-        )
         kept = np.empty(len(found), CONTACT)
         tables.contact_rows = kept[: copy_kept(found, new_bodies, new_shapes, kept)]
 

@@ -16,7 +16,7 @@ from physics.math2d import norm, rotation_of
 from physics.tables.body import DYNAMIC, KINEMATIC
 from physics.tables.joint import GEARED, LENGTH, ON_AXIS, PINNED, SLUNG, TOOTHED
 from physics.tables.step_state import StepState, WorldTables, stage
-from physics.tables.table import distinct, join_trees, root_of, rows_of
+from physics.tables.table import distinct, join_trees, root_of, rows_of, without
 
 NONE = np.zeros(0, np.int64)
 
@@ -113,17 +113,16 @@ class Awake:
                 self.numbers = np.arange(2 * most)
             self.bodies, self.shapes = self.numbers[: len(bodies)], self.numbers[: len(shapes)]
 
-    def keep_rows(self, kept_bodies: np.ndarray) -> None:
+    def renumber(self, new_bodies: np.ndarray) -> None:
         """Update the row numbers in the lists after body rows were removed.
 
-        kept_bodies: bool for each row before the removal, False for a removed row.
+        new_bodies: new number of each row before the removal, negative for a removed row.
         """
         if self.sleeping and not self.stale:
-            new = np.cumsum(kept_bodies) - 1
             for name in ("bodies", "dynamic", "kinematic"):
-                rows = getattr(self, name)
-                setattr(self, name, new[rows[kept_bodies[rows]]])
-            self.known = (int(np.count_nonzero(kept_bodies[: self.known[0]])), -1)
+                rows = new_bodies[getattr(self, name)]
+                setattr(self, name, rows[rows >= 0])
+            self.known = (int(np.count_nonzero(new_bodies[: self.known[0]] >= 0)), -1)
 
     def forget_shapes(self) -> None:
         """Mark the list of shape rows to be rebuilt, after shape rows were added or removed."""
@@ -250,7 +249,7 @@ def list_awake(state: StepState) -> None:
         return
     flags = bodies["active"]
     begun = rows[~flags[rows]]
-    ended = np.setdiff1d(awake.bodies, rows, assume_unique=True)
+    ended = without(awake.bodies, rows, len(bodies))
     if len(begun):
         awake.include(state, begun)
         state.sleeping_set.return_reported(state, bodies["id"][begun])
