@@ -89,11 +89,9 @@ class Body(Handle):
 
         Raises TypeError for a value that is not a point, ValueError for one that is not finite.
         """
-        row = self._row
-        x, y = checks.vector("point", point)
-        angle = row["angle"].item()
-        u, v = rotate(x, y, math.cos(angle), math.sin(angle))
-        return Vec2(row["x"].item() + u, row["y"].item() + v)
+        x, y, angle = self._values("x", "y", "angle")
+        u, v = rotate(*checks.vector("point", point), math.cos(angle), math.sin(angle))
+        return Vec2(x + u, y + v)
 
     def to_local(self, point: Pair) -> Vec2:
         """Return the point in body space [px] of a world point.
@@ -102,10 +100,9 @@ class Body(Handle):
 
         Raises TypeError for a value that is not a point, ValueError for one that is not finite.
         """
-        row = self._row
-        x, y = checks.vector("point", point)
-        angle = row["angle"].item()
-        return Vec2(*rotate(x - row["x"].item(), y - row["y"].item(), math.cos(angle), -math.sin(angle)))
+        x, y, angle = self._values("x", "y", "angle")
+        u, v = checks.vector("point", point)
+        return Vec2(*rotate(u - x, v - y, math.cos(angle), -math.sin(angle)))
 
     def move_to(self, position: Pair, angle: float | None = None) -> None:
         """Teleport the body. Nothing on the way is hit; the body and the island that it touched wake.
@@ -209,9 +206,8 @@ class Body(Handle):
     @property
     def kinetic_energy(self) -> float:
         """Kinetic energy, m v² / 2 + I ω² / 2 [mass px²/s²]."""
-        row = self._row
-        vx, vy, spin = row["vx"].item(), row["vy"].item(), row["angular_velocity"].item()
-        return 0.5 * row["mass"].item() * (vx * vx + vy * vy) + 0.5 * row["inertia"].item() * spin * spin
+        mass, inertia, vx, vy, spin = self._values("mass", "inertia", "vx", "vy", "angular_velocity")
+        return 0.5 * mass * (vx * vx + vy * vy) + 0.5 * inertia * spin * spin
 
     def velocity_at(self, point: Pair) -> Vec2:
         """Return the velocity (x, y) [px/s] of the body at a point.
@@ -220,13 +216,9 @@ class Body(Handle):
 
         Raises TypeError for a value that is not a point, ValueError for one that is not finite.
         """
-        row = self._row
+        vx, vy, spin, cx, cy = self._values("vx", "vy", "angular_velocity", "center_x", "center_y")
         x, y = checks.vector("point", point)
-        spin = row["angular_velocity"].item()
-        return Vec2(
-            row["vx"].item() - spin * (y - row["center_y"].item()),
-            row["vy"].item() + spin * (x - row["center_x"].item()),
-        )
+        return Vec2(vx - spin * (y - cy), vy + spin * (x - cx))
 
     def apply_force(self, force: Pair, point: Pair | None = None) -> None:
         """Add a force for the next step.
@@ -556,10 +548,14 @@ class Body(Handle):
         world = self._world
         return world._bodies.columns[name][world._row_at(self._id)]
 
-    def _pair(self, first: str, second: str) -> Vec2:
+    def _values(self, *names: str) -> list[Any]:
+        """Return several values of the body's BODY row as Python numbers."""
         world = self._world
         row, columns = world._row_at(self._id), world._bodies.columns
-        return Vec2(columns[first][row], columns[second][row])
+        return [columns[name][row] for name in names]
+
+    def _pair(self, first: str, second: str) -> Vec2:
+        return Vec2(*self._values(first, second))
 
     @property
     def _definitions(self) -> np.void:

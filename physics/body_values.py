@@ -11,12 +11,13 @@ from physics.shapes.shape import Filter, Material, checked_filter, checked_mater
 from physics.world_state import WorldState
 
 
-def _own_rows(world, identity, own) -> np.ndarray:
+def _own_rows(world, at, own) -> np.ndarray:
     """Return the row numbers of a body's shapes without a value of their own.
 
-    own: which value, "own_material", "own_filter" or "own_sensor".
+    at: row of the body; own: which value, "own_material", "own_filter" or "own_sensor".
     """
-    return np.flatnonzero((world.shapes["body"] == identity) & ~world.shapes[own])
+    rows = world._shape_rows(at)
+    return rows[~world.shapes[own][rows]]
 
 
 def material_of(world: WorldState, identity: int) -> Material:
@@ -40,7 +41,7 @@ def set_material(world: WorldState, identity: int, value: Material) -> None:
     value = checked_material(value)
     at = world._row_number(identity)
     write_material(world._definitions.rows[at : at + 1], value)
-    for row in _own_rows(world, identity, "own_material"):
+    for row in _own_rows(world, at, "own_material"):
         write_material(world.shapes[row : row + 1], value)
     refresh_mass(world, identity)
 
@@ -52,9 +53,10 @@ def set_filter(world: WorldState, identity: int, value: Filter) -> None:
     """
     world._unlocked()
     value = checked_filter(value)
-    given = world._definitions.rows[world._row_number(identity)]
+    at = world._row_number(identity)
+    given = world._definitions.rows[at]
     given["membership"], given["mask"] = value.membership, value.mask
-    rows = _own_rows(world, identity, "own_filter")
+    rows = _own_rows(world, at, "own_filter")
     world.shapes["membership"][rows], world.shapes["mask"][rows] = value.membership, value.mask
     world.pairs.set_filter(world.shapes["proxy"][rows], value)
     sleep.disturb(world, [identity])
@@ -67,8 +69,9 @@ def set_sensor(world: WorldState, identity: int, value: bool) -> None:
     """
     world._unlocked()
     value = checked_sensor(world, value)
-    world._definitions.rows["sensor"][world._row_number(identity)] = value
-    rows = _own_rows(world, identity, "own_sensor")
+    at = world._row_number(identity)
+    world._definitions.rows["sensor"][at] = value
+    rows = _own_rows(world, at, "own_sensor")
     world.shapes["sensor"][rows] = value
     world.pairs.set_sensor(world.shapes, rows)
     sleep.disturb(world, [identity])

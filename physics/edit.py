@@ -403,7 +403,8 @@ def _weigh(world, at, used):
     mass = weigh(used, float(given["density"]), float(given["mass"]))
     set_mass(world.bodies[at : at + 1], mass, used, world.effects.response)
     refresh_centers(np.array([at]), world.bodies)
-    shift_center(world.contact_rows, body["id"], body["center_x"] - x, body["center_y"] - y)
+    if body["center_x"] != x or body["center_y"] != y:
+        shift_center(world.contact_rows, body["id"], body["center_x"] - x, body["center_y"] - y)
 
 
 def refresh_mass(world: WorldState, identity: int) -> None:
@@ -453,10 +454,13 @@ def set_shapes(world: WorldState, identity: int, shapes: Sequence[Shape]) -> Non
         for place, (shape_id, mask) in enumerate(zip(ids, masks, strict=True)):
             replace_mask(world, identity, place, shape_id, mask)
     else:
-        kept = KeptImpulses(world, np.flatnonzero(world.shapes["body"] == identity))
-        world._drop_shapes(world.shapes["body"] != identity)
+        at = world._row_number(identity)
+        own, keep = world._shape_rows(at), np.ones(len(world.shapes), bool)
+        keep[own] = False
+        kept = KeptImpulses(world, own)
+        world._drop_shapes(keep)
         _add(world, identity, tuple(shapes), tuple(shapes))
-        kept.transfer(world, np.flatnonzero(world.shapes["body"] == identity))
+        kept.transfer(world, world._shape_rows(at))
     world._tiers.pop(identity, None)
     world._sources.pop(identity, None)
 
@@ -522,7 +526,7 @@ def _add(world, identity, shapes, new) -> np.ndarray:
     world._write_run(at)
     refresh_mass(world, identity)
     if world.bodies["quarantined"][at]:
-        own = world.shapes["body"] == identity
+        own = world._shape_rows(at)
         world.pairs.free_proxies(world.shapes["proxy"][own])
         world.shapes["proxy"][own] = -1
     world.awake.forget_shapes()
@@ -703,7 +707,8 @@ def set_kind(world: WorldState, identity: int, kind: KindName) -> None:
     row = world._body_row(identity)
     if kind != "kinematic" and (world.characters.rows["body"] == identity).any():
         raise ValueError(f"kind must be 'kinematic' for the body of a character (got {kind!r}, body {identity})")
-    shapes, own_mass = world._shapes_of[identity], world._definitions.rows["mass"][world._row_number(identity)].item()
+    at = world._row_number(identity)
+    shapes, own_mass = world._shapes_of[identity], world._definitions.rows["mass"][at].item()
     check_shapes(shapes, KINDS.index(kind), [row["angle"].item()])
     check_weight(world, shapes, KINDS.index(kind), own_mass)
     row["kind"] = KINDS.index(kind)
@@ -712,8 +717,7 @@ def set_kind(world: WorldState, identity: int, kind: KindName) -> None:
     if kind != "kinematic":
         world._targets.pop(identity, None)
     refresh_mass(world, identity)
-    own = world.shapes["body"] == identity
-    world.pairs.set_still(world.shapes["proxy"][own], kind == "static")
+    world.pairs.set_still(world.shapes["proxy"][world._shape_rows(at)], kind == "static")
     world.awake.start_over()
 
 
@@ -725,5 +729,5 @@ def restore(world: WorldState, identity: int) -> None:
         row["quarantined"], row["awake"] = False, True
         world.awake.start_over()
         world.awake.mark_dirty([identity])
-        own = np.flatnonzero(world.shapes["body"] == identity)
+        own = world._shape_rows(world._row_number(identity))
         world.pairs.add_proxies(world.shapes, own, np.full(len(own), row["kind"] == STATIC))

@@ -37,7 +37,7 @@ from physics.queries.batches import beyond_drawn, cast, find_candidates, query_p
 from physics.queries.index import AskedWorld, IndexedWorld
 from physics.shapes.kinds import checked_pose
 from physics.shapes.library import place
-from physics.shapes.placement import hull_at, is_hull, refresh_aabbs, rounding
+from physics.shapes.placement import add_missing_rasters, hull_at, is_hull, refresh_aabbs, rounding
 from physics.shapes.shape import Filter, Parts, Placed, Shape, checked_filter, parts_near, parts_of
 from physics.tables.body import BODY
 from physics.tables.shape import BOUNDS, CHAIN, MASK, PART, PIXELS, SHAPE, TILES
@@ -85,15 +85,16 @@ def query_rect(world: AskedWorld, rect: Any, filter: Filter, sensors: bool) -> l
     return query_aabb(world, (x, y), end, filter, sensors)
 
 
-def bounds_of(world: IndexedWorld, identity: int) -> tuple[float, float, float, float] | None:
+def bounds_of(world: Any, identity: int) -> tuple[float, float, float, float] | None:
     """Return the AABB (min_x, min_y, max_x, max_y) [px] of all shapes of a body; None if all are empty.
 
-    identity: id of the body.
+    world: a World, annotated Any because its module imports this one; identity: id of the body. O(shapes of the body).
     """
-    world.queries.refresh(world)
-    rows = with_content(world, np.flatnonzero(world.shapes["body"] == identity))
+    rows = with_content(world, world._shape_rows(world._row_number(identity)))
     if not len(rows):
         return None
+    add_missing_rasters(world.library, rows, world.bodies, world.shapes, 0.0)
+    refresh_aabbs(rows, world.library.tables, world.bodies, world.shapes)
     s = world.shapes[rows]
     return (s["min_x"].min().item(), s["min_y"].min().item(), s["max_x"].max().item(), s["max_y"].max().item())
 
@@ -481,13 +482,6 @@ def _allowed(world, rows, filter, sensors, leave=PIXELS):
     rows = rows[s["role"][rows] != leave]
     keep = (s["membership"][rows] & filter.mask != 0) & (s["mask"][rows] & filter.membership != 0)
     return rows[keep if sensors else keep & ~s["sensor"][rows]]
-
-
-def _box_around(start, end, beyond):
-    return (
-        (min(start[0], end[0]) - beyond, min(start[1], end[1]) - beyond),
-        (max(start[0], end[0]) + beyond, max(start[1], end[1]) + beyond),
-    )
 
 
 def _hit(world, row, fraction, nx, ny, point):
