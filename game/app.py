@@ -219,7 +219,7 @@ class App:
         self.clock.rest()
 
     def _save_what_is_open(self) -> None:
-        """Before the program ends, enter the results, and save the settings and the current run or its recording."""
+        """Save the high score, the settings and the current run or its recording, before the program ends."""
         if not self.options.frames:
             self.screens.enter_results()
         self.arcade.save_settings()

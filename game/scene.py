@@ -34,7 +34,7 @@ kept.use(OUTLINES)
 STEP_SECONDS = 1.0 / 60.0
 SOLVERS_OF_JOINTS: tuple[SolverName, ...] = ("sequential_impulse", "soft_step")
 SUBSTEPS = (1, 2, 4, 8, 16, 32, "auto")  # the player's choices
-# What labs are about, in the order of the menu.
+# Questions of the labs, in the order of the menu.
 FAIR, STANDS, FAST, COSTS = "Which hits are fair?", "What stands?", "What is fast?", "What does it cost?"
 QUESTIONS = (FAIR, STANDS, FAST, COSTS)
 ASSISTS = {"invincible": False, "hit_stop": True}  # name -> initial value; they affect the game, so they are input

@@ -89,7 +89,7 @@ class Canvas:
     ) -> pygame.Rect:
         """Draw one line of text with its upper edge at y, and return its rectangle.
 
-        align: as in text_rect(); outline: with a dark edge around the letters, which lies outside the rectangle. The
+        align: as in text_rect(); outline: whether the letters have a dark edge, which lies outside the rectangle. The
         caller must keep the rectangle clear of other text. scale: enlargement of the letters, a whole number.
         """
         rect = self.text_rect(text, x, y, font, scale, align)

@@ -18,8 +18,8 @@ class Headline(NamedTuple):
     """One sentence and one live number of a lab.
 
     sentence: at most 14 words; mend: the key that changes the number, and its effect; number: measured in this run,
-    as text; unit: of the number, in words; seen, needed: data so far, and those without which no number is shown;
-    of: name of these data; good: whether nothing goes wrong now.
+    as text; unit: unit of the number, in words; seen: count of the data so far; needed: count from which on the number
+    is shown; of: name of the data; good: whether nothing goes wrong now.
     """
 
     sentence: str

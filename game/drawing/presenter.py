@@ -1,8 +1,8 @@
 """Presentation of the 480 x 270 canvas in the window: scale, letterbox, and the frame that overlays draw on.
 
-The scale is a whole number, but beside a docked panel: there the picture takes all the room that the panel leaves.
+The scale is a whole number, except beside a docked panel, where the picture takes all the room that the panel leaves.
 
-This replaces pygame.SCALED, which fails under SDL's dummy driver (as OpenGL does), and has no integer scale in
+The module replaces pygame.SCALED, which fails under SDL's dummy driver (as OpenGL does), and has no integer scale in
 fullscreen.
 """
 

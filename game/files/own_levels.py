@@ -17,7 +17,7 @@ def levels_folder() -> Path:
 def own_levels(suffixes: Sequence[str]) -> tuple[Path, ...]:
     """Return the paths of the player's level files with one of these suffixes, sorted by name.
 
-    suffixes: as of Scene.level_suffixes. Return () if there is no levels folder.
+    suffixes: result of Scene.level_suffixes(). Return () if there is no levels folder.
     """
     try:
         return tuple(sorted(path for path in levels_folder().iterdir() if path.suffix in suffixes and path.is_file()))

@@ -145,7 +145,7 @@ def takes_joints(world: World) -> bool:
 
 
 def _add_target(world, body, point):
-    """Add a Target that pulls a body at a world point, at first to where it is. Return its id."""
+    """Add a Target that holds a body at a world point, until _move_target() moves the Target. Return its id."""
     force = MOST_PULL * world.tolerances.pixels_per_meter * body.mass
     return world.add_joint(Target(body, at=point, spring=Spring(HERTZ, DAMPING_RATIO), max_force=force)).id
 

@@ -41,8 +41,8 @@ def measure_settings(
 ) -> None:
     """Measure the errors and times of `settings` at several states of a world, and add them to the survey.
 
-    moments: snapshots of the world; seed: for the random order of the runs. report(number of runs done, number of all
-    runs) is called after each run.
+    moments: snapshots of the world; seed: seed of the random order of the runs. report(number of runs done, number of
+    all runs) is called after each run.
     """
     settings, chance, done = list(settings), Random(seed), 0
     survey.planned, of = survey.planned + len(settings), len(moments) * len(settings) * (RUNS + 1)

@@ -96,9 +96,8 @@ def measure_effects(
 ) -> None:
     """Time a step from the snapshot `moment` with and without every effect, in several rounds of random order.
 
-    report(effect, cost with the effect, cost without it) is called after each round. An effect that the world cannot be
-    without is left out (characters need response). The function returns early when goes_on() is False. seed: for the
-    order.
+    report(effect, cost with the effect, cost without it) is called after each round. An effect that the world needs is
+    left out (characters need response). The function returns early when goes_on() is False. seed: seed of the order.
     """
     sides = {
         name: pair for name, pair in sides_of(moment.effects).items() if all(can_be(moment, each) for each in pair)

@@ -1,7 +1,7 @@
 """The cost of a scene's choice of effects as a whole: as declared, with every effect, and with the fewest possible.
 
 Each of the three has its time of a step, its number of kernels, the time of its first step in a new process, and the
-bytes of its tables. A declared effect that the world cannot be without stays.
+bytes of its tables. "The fewest possible" includes the declared effects that the world needs.
 """
 
 import json
@@ -30,8 +30,8 @@ SCALES = {"time": 1e6, "kernels": 1.0, "start": 1e3, "bytes": 1e-3}  # from the 
 class EffectTotal(NamedTuple):
     """Costs of one choice of effects; None: not measured yet.
 
-    effects: number of effects; time: of a step [s], a Cost; kernels: number of kernels that such a world can call;
-    start: least time of building the world and of its first step in a new process [s]; bytes: of the world's arrays.
+    effects: number of effects; time: time of a step [s], a Cost; kernels: number of kernels that such a world can call;
+    start: least time of building the world and of its first step in a new process [s]; bytes: size of its arrays.
     """
 
     effects: int
@@ -73,8 +73,8 @@ def measure_totals(
 ) -> None:
     """Time a step of each choice in several rounds of random order, and count the bytes of its world.
 
-    sides: result of choices_of(moment). report(name, {field of EffectTotal: value}) is called after each round, and
-    with the bytes first. The function returns early when goes_on() is False. seed: for the order.
+    sides: result of choices_of(moment). report(name, {field of EffectTotal: value}) is called with the bytes first, and
+    with the times after each round. The function returns early when goes_on() is False. seed: seed of the order.
     """
     chance = Random(seed)
     spent: dict[str, list[float]] = {name: [] for name in sides}

@@ -156,7 +156,7 @@ class References:
         }
 
     def _verdict(self, setting) -> Error:
-        """Return the "verdict" error of a setting, the mean over all reported and missed hits [px].
+        """Return the "verdict" error of a setting: wrong answers per 100 encounters.
 
         At LOOKS steps of the run, the touching pairs are compared with those of an exact world. Bodies move alike in
         both worlds, because there is no collision response.

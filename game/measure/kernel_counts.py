@@ -36,8 +36,9 @@ def counts(
 ) -> Iterable[tuple[str, int]]:
     """Yield (name, number of kernels) for every choice of effects, then for every effect.
 
-    The number of an effect counts the kernels that are compiled only because of it. effects, broadphase: of the world;
-    pieces: shape pairs and queries that it uses, as in physics.warmup; choices: {name: names of effects}.
+    The number of an effect counts the kernels that are compiled only because of it. effects: effects of the world;
+    broadphase: name of its broad phase; pieces: shape pairs and queries that it uses, as in physics.warmup; choices:
+    {name: names of effects}.
     """
     wanted = None if pieces is None else tuple(pieces)
     known = cache(lambda each: called(each, broadphase, wanted))

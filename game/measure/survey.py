@@ -92,7 +92,7 @@ class Survey:
         self.kinds: tuple[str, ...] = ()
         self.moments = 0
         self.planned = 0  # settings that are being measured
-        # Of the whole run, by tier; they count instead of the encounters at the moments. {}: no run was recorded.
+        # Encounters in the whole recorded run, by tier, which replace those at the moments. {}: no run was recorded.
         self.encounters: dict[str, Verdicts] = {}
 
     @property
@@ -135,8 +135,8 @@ class Survey:
         """Return one sentence that compares the setting `here` with the others by cost and by this kind of error; "" if
         too few are measured.
 
-        Two errors count as different only if their intervals are apart. proven: the cheaper setting that has proved
-        itself on the whole run; only this one is said to be cheaper.
+        Two errors count as different only if their intervals do not overlap. proven: the cheaper setting that has
+        proved itself on the whole run; only this one is said to be cheaper.
         """
         known = {s: each for s, each in self.known(kind).items() if self.dots[s].sure}
         if here not in known or len(known) < 2:

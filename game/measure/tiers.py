@@ -90,7 +90,7 @@ def measure_tiers(
 ) -> None:
     """Measure the collision tiers for two sprites (PixelMasks) over random relative poses.
 
-    report(TierFigures) is called for each tier. tiers: their names; seed: for the poses and the order of the runs.
+    report(TierFigures) is called for each tier. tiers: their names; seed: seed of the poses and of the order of runs.
     Raises ValueError for a sprite without solid pixels.
     """
     measure_at(first, second, poses_around(first, second, seed=seed), report, tiers, seed)
@@ -107,7 +107,7 @@ def measure_at(
     """Measure the collision tiers for two sprites (PixelMasks) at given poses.
 
     report(TierFigures) is called for each tier. poses: Poses, which must include hits and misses; tiers: their names;
-    seed: for the order of the runs.
+    seed: seed of the order of the runs.
     """
     shapes = {tier: (fit(first, tier), fit(second, tier)) for tier in tiers}
     verdicts, batches = {tier: np.zeros(len(poses.met), bool) for tier in tiers}, {}

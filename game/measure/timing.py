@@ -88,7 +88,7 @@ def timed_in_turns(
 ) -> dict[str, Cost]:
     """Return {name: Cost} of the functions `works`, each called `runs` times in random order.
 
-    A call of works[name] does pieces[name] pieces of work. The first call is not counted. seed: for the order.
+    A call of works[name] does pieces[name] pieces of work. The first call is not counted. seed: seed of the order.
     """
     order, spent = list(works), {name: [] for name in works}
     chance = Random(seed)

@@ -50,7 +50,7 @@ class Features(Layer):
     def notes(self) -> list[LegendLine]:
         """Return (color, text) lines for the legend.
 
-        They count points, because the ids are written after the legend.
+        The count is that of the points, because the ids are written after the legend.
         """
         return [(self.color, f"feature ids {len(self.labels)} of {self.total}, where room")]
 

@@ -55,7 +55,7 @@ def _steps(turn, radius, scale):
 def corners_of(outline: tuple, scale: float = 1.0) -> tuple[list[Point], bool] | None:
     """Return (corners [(x, y), ...] in the world, whether the outline is closed); None for masks and tiles.
 
-    outline: of physics.debug; scale: as in ring().
+    outline: an outline of physics.debug; scale: as in ring().
     """
     kind = outline[0]
     if kind == "circle":

@@ -12,10 +12,11 @@ WAITS = "The answer comes with the first chart: its jobs are not done yet."
 
 
 def answer_of(rows: Sequence[Row]) -> str:
-    """Return the answer as a sentence. rows: of the chart "tiers".
+    """Return the answer as a sentence. rows: rows of the chart "tiers".
 
     The rate of false hits is pooled over the sprites, with its 95 % interval (Wilson). The time of a hit by exact
-    pixels is given as the range of its ratio over the sprites; if the intervals of all ratios hold 1, as no difference.
+    pixels is given as the range of its ratio over the sprites. If the intervals of all ratios contain 1, the sentence
+    says that there is no difference.
     """
     mine = [row for row in rows if row.get("panel") == AROUND]
     costs = {(row["sprite"], row["series"]): row["hit_cost"] for row in mine}

@@ -96,7 +96,7 @@ def _headline(measured, reported, folder, quick):
 
 
 def _figure(panel, rows, name, reported, folder, quick):
-    """Return a panel as a figure, and add what is said of its dots to `reported`; "" if it has no dots."""
+    """Return a panel as a figure, "" if it has no dots. Add the texts of its dots to `reported`, {id: texts}."""
     svg, dots = draw(panel, rows, name)
     if not svg:
         return ""

@@ -15,7 +15,7 @@ ITERATIONS = 10  # pymunk's default
 def space_of(pile: Pile, iterations: int = ITERATIONS) -> Any:
     """Return a pymunk space with the pile's boxes, all of one density, on wide ground.
 
-    iterations: of pymunk's solver.
+    iterations: number of iterations of pymunk's solver.
     """
     try:
         import pymunk

@@ -27,7 +27,7 @@ class Beside:
         self.background: Background | None = None
 
     def _all_scenes(self, registry) -> Iterator[type[Scene]]:
-        """Yield the scene classes one by one. Each is imported only now; scenes with errors are skipped."""
+        """Yield the scene classes one by one. Each is imported when it is due; scenes with errors are skipped."""
         for name in registry.names:
             with contextlib.suppress(UsageError):
                 yield registry.scene_class(name)

@@ -15,7 +15,7 @@ from game.startup import start_line
 
 
 class Figure(NamedTuple):
-    """One row of the file. of: what shows it: "headline", "goal", "finding", "own hits", "run", "tier" or "effects".
+    """One row of the file. of: source of the number, which is "headline", "goal", "finding", "own hits", "run", ...
 
     value: a number or a text; low, high: its interval, for times the least and the upper quartile; "" for none.
     """
@@ -35,7 +35,8 @@ COLUMNS = ("scene", "seed", "step", *Figure._fields, "command", "machine")
 def command_of(scene: Scene, replay: str | None = None, bot: bool = False) -> str:
     """Return the command that makes the same run again and writes its numbers to figures.csv.
 
-    replay: file of the recorded run; None: the run had no input, or that of the scene's bot (`bot`).
+    replay: file of the recorded run, None for a run without a recording. bot: whether the scene's bot played that run;
+    otherwise it had no input.
     """
     if replay is not None:
         run = ["--replay", replay]

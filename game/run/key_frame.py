@@ -72,7 +72,7 @@ def table_of(rows: np.ndarray, capacity: int) -> Table:
 
 
 def shared(number: int) -> object:
-    """Placeholder, in a pickle, for the object `kept[number]` of its key frame.
+    """Represent, in a pickle, the object `kept[number]` of its key frame.
 
     A key frame's own reader replaces this function. A call of the function itself raises LookupError.
     """

@@ -94,7 +94,7 @@ class Picture:
     def draw_without(self, draw: Callable[[Frame], None], overlays: Overlays, panel: Docked | None = None) -> Frame:
         """Make a picture with draw(frame) in place of a scene, with an optional panel beside it. Return the frame.
 
-        overlays: those for the strip that is shown with a panel.
+        overlays: the overlays for the strip that is shown with a panel.
         """
         self.canvas.begin(INK)
         self.presenter.docked = panel is not None

@@ -157,7 +157,7 @@ class Encounters:
             self.met.setdefault(tier, set()).update(pairs_of(world))
 
     def verdicts(self) -> dict[str, Verdicts]:
-        """Return what each tier reported, beside the pairs that the exact tier reported; {} before the first look."""
+        """Return {tier: Verdicts}: its pairs, and the pairs that the exact tier reported; {} before the first look."""
         true = frozenset(self.met.get(self.exact, ()))
         return {tier: Verdicts(frozenset(pairs), true, tier == self.exact) for tier, pairs in self.met.items()}
 

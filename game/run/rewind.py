@@ -2,9 +2,9 @@
 
 Key frames (stored states) are taken at intervals, and between them the inputs of the steps are stored. A seek restores
 the last key frame before the wanted step and makes the steps from there again. A key frame is due once the steps since
-the previous one took KEY_SECONDS, or number MOST_STEPS; this bounds the time of a seek. An expensive key frame waits
-until the steps took twice its own time, or is not taken at all. If key frames hold more than MOST_BYTES, the oldest are
-dropped. A restart by the player clears the past.
+the previous one took KEY_SECONDS, or once there are MOST_STEPS of them. This bounds the time of a seek. An expensive
+key frame waits until the steps took twice its own time, or is not taken at all. If key frames hold more than
+MOST_BYTES, the oldest are dropped. A restart by the player clears the past.
 While kernels run uncompiled, which makes steps slow, a key frame waits PLAIN times as long, and nothing is compressed.
 A seek in the first seconds of a first start may therefore take that much longer.
 """
@@ -197,9 +197,9 @@ class Rewind:
         session.scene.cues.clear()
 
     def _put_back(self, stretch, inputs, step):
-        """Restore the last stored state at or before `step`. inputs: those of the stretch.
+        """Restore the last stored state at or before `step`. inputs: inputs of the stretch.
 
-        It is the key frame of `stretch`, or one of the extra key frames (`stones`) from earlier seeks.
+        The state is that of the stretch's key frame, or of an extra key frame (`stones`) from an earlier seek.
         """
         last = stretch.start + len(inputs)
         self.stones = {at: stone for at, stone in self.stones.items() if stretch.start < at <= last}

@@ -17,7 +17,7 @@ from game.run.session import Session
 from game.scene import Scene
 
 if not hasattr(pygame.Surface, "__deepcopy__"):
-    # pygame 2.6.1 cannot copy pictures. A reduction that is a name makes copy return the object itself.
+    # pygame 2.6.1 cannot copy pictures. If an object is reduced to a string, `copy` returns the object itself.
     copyreg.pickle(pygame.Surface, lambda picture: "picture")
 
 KEY_SECONDS = 5
@@ -73,7 +73,7 @@ class Tape:
             self.keys[self.position] = copy.deepcopy((self.scene, self.session.inputs))
 
     def seek(self, frame: int) -> None:
-        """Move to a frame. The call takes as long as playing to it takes."""
+        """Move to a frame. The call returns once the steps up to this frame have been played."""
         self.begin_seek(frame)
         while self.goal is not None:
             self.seek_on(60.0)

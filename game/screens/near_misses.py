@@ -174,7 +174,7 @@ class NearMisses(CanvasScreen):
         """Advance both worlds by dt [s]."""
         self.time = (self.time + dt) % self.length
         self.drift += DRIFT * dt
-        # By turns each is first: the first one in a picture pays for the caches that drawing has emptied.
+        # The worlds are stepped first in turns, because the first one pays for the caches that drawing has emptied.
         self.flights_in_turn.reverse()
         for flight in self.flights_in_turn:
             flight.step(self.time, self.length, dt)

@@ -212,7 +212,10 @@ class Screens:
             self.menu()
 
     def _open_in_game(self, toggle, name):
-        """Return to the game, and open one of its panels. toggle: method of Play; name: attribute, True if open."""
+        """Return to the game, and open one of its panels by toggle(play), a method of Play.
+
+        name: name of the attribute of Play that is true while the panel is open.
+        """
         play = self._game()
         while self.top is not play:
             self.stack.pop().close()

@@ -165,7 +165,7 @@ class Tour(SceneScreen):
 
     @cached_property
     def misses(self) -> NearMisses:
-        """The split screen of near misses, which flies on from stop to stop."""
+        """The split screen of near misses, whose flight continues from stop to stop."""
         return NearMisses()
 
     @property

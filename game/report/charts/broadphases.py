@@ -118,7 +118,7 @@ def measure(layout: str, n: int, moving: str) -> list[Row]:
     truth = len(worlds["hash"].contacts)  # of boxes
     for _ in range(RUNS):
         for name, world in worlds.items():
-            # Over STEPS, because moving bodies are searched for once in several steps.
+            # The mean of STEPS steps, because moving bodies are searched for once in several steps.
             spent[name].append(seconds_of_stage(world, "broad_phase", STEPS))
     return [
         {

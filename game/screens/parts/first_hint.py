@@ -16,7 +16,7 @@ GAP, HEIGHT = 10, 17  # [text px] between two parts; of the strip
 
 
 class HintCard:
-    """Strip that closes after a key named on it, Enter or a click on it, and after READ pictures after any key."""
+    """Strip that a key named on it, Enter or a click on it closes. After READ pictures, any key closes it."""
 
     keeps_keys = False  # every key keeps its function
 

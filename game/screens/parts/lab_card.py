@@ -1,4 +1,4 @@
-"""A lab's card: its question, the answer in short and a thing to try; on a second page all about it, and its goals."""
+"""A lab's card: its question, the answer in short and a thing to try. The second page has all texts and the goals."""
 
 import sys
 from collections.abc import Iterable

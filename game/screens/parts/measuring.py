@@ -31,7 +31,7 @@ EVERY = 8.0  # [s] between two moments (measured states of the world), if the la
 
 
 class Proof(NamedTuple):
-    """A trial of a setting on the recorded run: the order to the measuring process, and what it was given for."""
+    """A trial of a setting on the recorded run, as it was ordered from the measuring process."""
 
     here: Setting  # the present setting at that time
     setting: Setting
