@@ -117,7 +117,7 @@ def _pixels(rect):
 def walking_range(level, x, y, most=4):
     """Return the distance [px] that a walker who starts at a tile may go to either side, at most `most` tiles.
 
-    The ground must be level and free so far on both sides. On a platform the walker may go as far as the platform
+    The ground must be level and free that far on both sides. On a platform the walker may go as far as the platform
     reaches. level: see level_text.Map; x, y: the tile.
     """
     deck = _deck(level, x, y + 1)

@@ -1,9 +1,9 @@
 """Convert assets/levels/platformer.txt, one letter per tile, to a Tiled map (.tmj) with the tileset embedded.
 
 Layers, back to front: "wall", "decor", "solid" (tiles), "cover" (tiles that hide rooms until the hero is inside), then
-"things" and "bot hints" (objects). Objects are rectangles in px, given by their top left corner (x, y). Moving
-platforms have to_x, to_y, that corner at the far end [px], and period, the time there and back [s]. Belts have speed
-[px/s]. Zones have the act that sets their look.
+"things" and "bot hints" (objects). Objects are rectangles in px, given by their top left corner (x, y). A moving
+platform has to_x, to_y (its corner at the far end [px]) and period (time there and back [s]). Belts have speed [px/s].
+Zones have the act that sets their look.
 """
 
 import itertools

@@ -47,7 +47,7 @@ def tones_of(name, safe):
 
 
 def round_bullet(name, safe, frame):
-    """Return one round bullet. name: key of ROUND; safe: in the colours for colour blindness; frame: 0..1."""
+    """Return one round bullet. name: key of ROUND; safe: whether in colours for colour blindness; frame: 0..1."""
     radius, size, _ = ROUND[name]
     sprite = Sprite(size, size)
     dx, dy = sprite.x - size / 2, sprite.y - size / 2
@@ -78,7 +78,7 @@ def round_bullet(name, safe, frame):
 
 
 def needle(safe):
-    """Return the bullet of aimed shots, pointing down, 7 x 14 px. safe: in the colours for colour blindness."""
+    """Return the bullet of aimed shots, pointing down, 7 x 14 px. safe: whether in colours for colour blindness."""
     sprite = Sprite(7, 14)
     x, y = sprite.x, sprite.y
     edge, body, light = tones_of("bullet_needle", safe)

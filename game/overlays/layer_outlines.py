@@ -51,7 +51,7 @@ class Outlines(Layer):
                 mine = seen[parts & (rows["kind"] == kind) & (rows["sensor"] == sensor)]
                 open_ones = world.shapes["kind"][mine] == CHAIN
                 self._draw_parts(frame, lens, world, mine[~open_ones], frame.tone(PINK) if sensor else tone, width)
-                # Open ground (one-way masks) has the colour of one-way tile tops.
+                # The upper sides of one-way masks have the colour of one-way tile tops.
                 self._draw_parts(frame, lens, world, mine[open_ones], frame.tone(PINK if sensor else ORANGE), width)
         rows, seen = rows[~parts], seen[~parts]
         for outline, kind, sensor in zip(

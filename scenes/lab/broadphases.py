@@ -2,11 +2,11 @@
 
 In short: all four report the same pairs. Which one is cheapest depends on the layout; brute force tests every pair.
 
-What to see: each layout has another cheapest strategy. The hash suits up to a thousand slow bodies; the sweep suits
+What to see: each layout has its own cheapest strategy. The hash suits up to a thousand slow bodies; the sweep suits
 fast ones, because speed costs it little; the tree suits many still bodies and few movers. Brute force tests all n
 squared pairs.
 
-Why it matters: Without it n bodies are n (n - 1) / 2 pairs a step, too many for any narrow phase.
+Why it matters: Without a broad phase, n bodies are n (n - 1) / 2 pairs a step, too many for any narrow phase.
 
 To try: change the layout with left and right, wait for the exponents, and compare the order of the four.
 

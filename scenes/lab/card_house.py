@@ -11,7 +11,7 @@ Why it matters: A house of cards stands by friction alone, so friction that is t
 
 To try: lower the friction until the house falls, and compare with the single pairs beside it.
 
-Source: Coulomb, Theorie des machines simples, 1785: a body slides beyond the friction times its load.
+Source: Coulomb, Theorie des machines simples, 1785: a push above the friction times the load makes a body slide.
 """
 
 from math import atan2, cos, hypot, radians, sin
@@ -271,7 +271,7 @@ class CardHouse(Scene):
     def bot(self):
         """Return the bot's input for the next step.
 
-        The bot gives the cards enough friction. After ten seconds it lowers it again.
+        The bot gives the cards enough friction, and lowers the friction after ten seconds.
         """
         friction = {0: ROUGH, SLIPPERY_AT: SLIPPERY}.get(self.frame)
         return InputFrame(changes=() if friction is None else (("slider:friction", friction),))

@@ -1,6 +1,6 @@
-"""Ground of 480 x 240 pixels to blast and dig: what is undermined falls, rolls and comes to rest by its own pixels.
+"""Ground of 480 x 240 pixels to blast and dig: do loose parts fall, roll and come to rest by their own pixels?
 
-In short: a carve rebuilds only the tiles that it touches. What comes loose falls with its own pixels and mass.
+In short: a carve rebuilds only the tiles that it touches. A loose part falls with its own pixels and mass.
 
 What to see: a carve rebuilds only the tiles that it touches, so it costs the same in large ground as in small. A loose
 part becomes a body in the same step, with its own pixels, mass and spin. All pixels are counted: a pixel that left the

@@ -3,12 +3,12 @@
 In short: above, belts carry crates by their surface speed. Below, the same belts without the effect carry nothing.
 
 What to see: above, the surfaces of the belts carry boxes, a hexagon, a capsule and a wheel with rolling resistance.
-Below, the same belts are in a world without the effect "conveyor", and the same crates stay where they fall. Turn the
-speed.
+Below, the same belts are in a world without the effect "conveyor", and the same crates stay where they fall. Change
+the speed.
 
-Why it matters: A belt moves others and does not move itself; imitations by hand jitter on slopes.
+Why it matters: A belt moves other bodies and does not move itself; hand-made imitations jitter on slopes.
 
-To try: turn the speed below zero and see what the slopes still hold.
+To try: set the speed below zero and see what the slopes still hold.
 
 Source: Box2D's tangent speed: friction works towards a speed along the surface, not towards rest.
 """
@@ -340,7 +340,7 @@ def on_belt(point, start, end):
     """Return (along, aside, length) of a point relative to a belt from `start` to `end`.
 
     along: position along the belt, 0 at `start`, 1 at `end`; aside: distance from the belt's line [px], negative above
-    it; length: of the belt [px].
+    it; length: length of the belt [px].
     """
     tx, ty = direction(start, end)
     length = hypot(end[0] - start[0], end[1] - start[1])

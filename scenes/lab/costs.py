@@ -13,7 +13,7 @@ class Difference(NamedTuple):
 
     @property
     def counts(self):
-        """Whether the difference exceeds the noise."""
+        """True if the difference exceeds the noise."""
         return abs(self.seconds) > self.noise
 
     def exceeds(self, other):
@@ -28,8 +28,8 @@ class Difference(NamedTuple):
 def difference_of(scene, name, other):
     """Return the Difference of the step times of the runs `name` and `other`, None while measurements are missing.
 
-    The least times are subtracted, because other load of the machine only adds time. Noise of one run: its median minus
-    its least time. The noise of the difference is the sum for both runs.
+    The least times are subtracted, because other load of the machine only adds time. The noise of a run is its median
+    minus its least time. The noise of the difference is the sum for both runs.
     """
     both = [scene.figures.get(each) for each in (name, other)]
     if any(figures is None or not figures.sure for figures in both):

@@ -1,4 +1,4 @@
-"""Five steel balls in a row, struck by one or two: do only as many leave at the other end?
+"""Five steel balls in a row, struck by one or two: do as many leave at the other end?
 
 In short: with a gap, each collision is one of two balls. Without it several meet in one step, and projection scatters
 its row.

@@ -8,7 +8,7 @@ at once. The large numbers are the widest gap of a joint.
 
 Why it matters: Heavy loads on light parts pull iterative joints apart.
 
-To try: change the solver on the bridge; drag and break.
+To try: change the solver on the bridge; drag it, and break it.
 
 Source: Baraff, Linear-Time Dynamics using Lagrange Multipliers, 1996.
 """
@@ -95,7 +95,10 @@ class Joints(Scene):
         self.since = 0
 
     def _set_tiers(self):
-        """Give the first world the iterative solver of joints, and the second the chosen one, or the direct one."""
+        """Set the solvers of joints: "iterative" in the first world, the chosen one in the second.
+
+        If "iterative" is chosen, the second world has "direct".
+        """
         chosen = TIERS[int(self.values["joints"])]
         self.tiers_shown = ("iterative", "auto" if chosen == "auto" else "direct")
         for world, tier in zip(self.worlds, self.tiers_shown, strict=True):
@@ -112,7 +115,7 @@ class Joints(Scene):
         return self.machines[self.shown]
 
     def change_slider(self, name, value):
-        """Set a slider. Another machine is built from its start; another tier shows its world as it is."""
+        """Set a slider. A new machine is built in both worlds; a new tier of solver shows its world as it is now."""
         super().change_slider(name, value)
         if name == "machine":
             self.open()
@@ -120,7 +123,7 @@ class Joints(Scene):
             self._set_tiers()
 
     def update(self, inputs):
-        """Process keys, drag in the hidden world as in the shown one, step both, and keep their gaps."""
+        """Process keys, drag in the hidden world as in the shown one, step both, and record their gaps."""
         turn = inputs.pressed("right") - inputs.pressed("left")
         if turn:
             self.change_slider("machine", (self.values["machine"] + turn) % len(NAMES))
@@ -227,7 +230,7 @@ class Joints(Scene):
         canvas.text("widest gap of the last second", x + width // 2, y + 31, FOG, SMALL, align="center")
 
     def gap(self, number):
-        """Return the widest gap of a joint in the last second [px]. number: of the world."""
+        """Return the widest gap of a joint in the last second [px]. number: index of the world."""
         return max(self.gaps[number], default=0.0)
 
     def draw_on_frame(self, frame):
@@ -273,7 +276,7 @@ class Joints(Scene):
     def bot(self):
         """Return the bot's input for the next step: it opens each machine in turn, drags it, and breaks it.
 
-        The moments of the last two depend on the seed.
+        The steps in which it drags and breaks depend on the seed.
         """
         number, step = divmod(self.frame, TURN)
         number %= len(NAMES)

@@ -3,8 +3,8 @@
 In short: red is covered but not drawn, blue is drawn but not covered. Closer shapes take more bytes.
 
 What to see: red pixels are covered by the shape only, blue ones by the sprite only. Down the ladder, the shapes lie
-closer to the pixels, and take more bytes and more time to build. The time of a test goes up, and at the pixels down
-again.
+closer to the pixels, and take more bytes and more time to build. The time of a test goes up, and down again at the
+pixels.
 
 Why it matters: The shape that stands for a sprite decides what is unfair in a game, and what a frame costs.
 

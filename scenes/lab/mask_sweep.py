@@ -170,8 +170,8 @@ class MaskSweep(Scene):
     def _mark(self, column, kind, body, ghost):
         """Record the mark of a shot that has hit a wall, with its sound and sparks.
 
-        column: number of the world; kind: of the shot; ghost: row of debug.impact_ghosts with the shot's pose if the
-        wall were not there, or None.
+        column: number of the world; kind: kind of the shot; ghost: row of debug.impact_ghosts with the shot's pose if
+        the wall were not there, or None.
         """
         world = self.worlds[column]
         rows = np.flatnonzero(world.shapes["body"] == body.id)

@@ -1,8 +1,8 @@
-"""Two planes, nine verdicts, from circle to exact pixels. Which of them lie, how often, and what does the truth cost?
+"""Two planes, nine verdicts, from circle to exact pixels. How often is each one wrong, and what do the pixels cost?
 
 In short: boxes say HIT while there is sky between the planes. The table counts false hits of thousands of poses.
 
-What to see: it opens where the box is wrong. Drag one plane along the other: the cheap shapes say HIT while there is
+What to see: at the start, the box is wrong. Drag one plane along the other: the cheap shapes say HIT while there is
 sky between the planes; the pixels say HIT only when a pixel is shared. Beside each verdict are its rates of false and
 of missed hits over thousands of poses, and the times of one test that hits and one that misses.
 

@@ -1,6 +1,6 @@
-"""Rays, casts, overlaps, areas, the closest point among hundreds of shapes: what do four broad phases look at for it?
+"""Rays, casts, overlaps, areas, the closest point among hundreds of shapes: which boxes do four broad phases visit?
 
-In short: one query, four worlds, one answer. Drawn is what each strategy visits for it; beside it, how many boxes.
+In short: one query, four worlds, one answer. The places that each strategy visits are drawn, and its boxes counted.
 
 What to see: the same query runs in four worlds in every step, one per strategy. All give the same answer: hits with
 their normals and fractions. The places that each one visits are drawn: boxes of the tree that were entered or rejected;

@@ -14,7 +14,7 @@ def ask(world, query, origin, target, size):
     """Run a query in a world, and return its results as a list, in which None stands for "nothing found".
 
     query: its name; origin, target: (x, y) [px], start and end of a ray or cast, while other queries are at `target`;
-    size: of the shapes [px].
+    size: size of the shapes [px].
     """
     way = target[0] - origin[0], target[1] - origin[1]
     if query == "ray":

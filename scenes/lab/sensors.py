@@ -1,7 +1,7 @@
 """Zones that only watch: standing, moving, thin and sweeping. Is every entry seen, with one exit, at any speed?
 
-In short: some saucers are faster than the zones are wide. Entries, exits, and what geometry demands are counted beside
-each zone.
+In short: some saucers are faster than the zones are wide. Beside each zone, its entries and exits are counted, and the
+entries that geometry demands.
 
 What to see: saucers cross a field, a drifting field and a beam of one pixel, some of them faster than the zones are
 wide. Below, a fast scanner runs over resting mines. Beside each zone are its entries and exits, and the number of

@@ -1,7 +1,7 @@
 """Any two convex shapes: how far apart are they, or how deep in each other, and do three methods agree?
 
-In short: at the right, all differences A - B of their points: the shapes overlap if these contain the origin. GJK walks
-towards it.
+In short: the right side shows all differences A - B of their points. The shapes overlap if these contain the origin.
+GJK walks towards it.
 
 What to see: drag and turn the shapes. Below them is the best axis of SAT, with both projections. At the right is the
 set of all differences A - B of their points: the shapes overlap if it contains the origin. GJK moves towards the origin
@@ -113,7 +113,7 @@ class Shapes(Scene):
 
     @property
     def step_shown(self):
-        """Iteration of GJK or EPA that is drawn, a row of physics.gjk_steps; None if there is none."""
+        """Iteration of GJK or EPA that is drawn, an element of shape_traces.gjk_steps(); None if there is none."""
         return self.steps[min(int(self.values["step"]), len(self.steps) - 1)] if self.steps else None
 
     def change_slider(self, name, value):

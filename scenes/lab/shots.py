@@ -26,7 +26,7 @@ SAMPLE = 0.1  # [px] between two samples of the slow reference for rods
 def aim(kind, speed, plate, random):
     """Choose a random shot. Return (shots, gap).
 
-    kind: one of SHOTS; speed: of the shot [px/s]; plate: width of the plate [px]; random: random.Random.
+    kind: one of SHOTS; speed: speed of the shot [px/s]; plate: width of the plate [px]; random: random.Random.
 
     shots: list of (shape, place, velocity, angle, spin), two for bullets that fly at each other. The start varies by
     the path of a step, so that impacts occur at any time within a step. gap: least distance of the shot from its target

@@ -1,4 +1,4 @@
-"""Heaps that fall asleep, and a ball that wakes one of them: who wakes whom, and what does lying still cost?
+"""Heaps that fall asleep, and a ball that wakes one of them: which bodies wake, and what does lying still cost?
 
 In short: bodies at rest for half a second sleep, darker, and cost next to nothing. A knock wakes the island that it
 meets.

@@ -30,7 +30,7 @@ def wall_of(shape):
 def is_beyond(shape, x, y):
     """Return whether a shot has passed the wall. x, y: place of the shot relative to the wall's middle [px].
 
-    shape: of the wall, one of SHAPES.
+    shape: shape of the wall, one of SHAPES.
     """
     if shape == "straight":
         return x > 0.5

@@ -294,7 +294,7 @@ def in_blade(x, y):
 
 
 def draw_drum(surface, camera, angle):
-    """Draw the drum's walls, blades and rivets, lit from the upper left. angle: of the drum [rad]."""
+    """Draw the drum's walls, blades and rivets, lit from the upper left. angle: angle of the drum [rad]."""
     x, y = camera.to_canvas(*MIDDLE)
 
     def at(distance, turn):

@@ -9,7 +9,7 @@ each other's plate.
 
 Why it matters: Each sweep misses the shots that it does not model. The lanes show which ones, and what each costs.
 
-To try: turn up the speed or thin the plate, then Space for rods: see which lane misses first.
+To try: raise the speed or thin the plate, press Space for rods, and see which lane misses first.
 
 Source: Mirtich 1996 (conservative advancement); Catto, Continuous Collision, GDC 2013.
 """

@@ -44,7 +44,7 @@ class Ground:
     def around(self, column, row, border):
         """Return the remaining pixels of a tile with `border` px around it, a bool array [row, column].
 
-        column, row: of the tile. Return None if the tile and its neighbours have not changed since the start.
+        column, row: place of the tile. Return None if the tile and its neighbours have not changed since the start.
         """
         if not any((column + dx, row + dy) in self.touched for dx in (-1, 0, 1) for dy in (-1, 0, 1)):
             return None

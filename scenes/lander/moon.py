@@ -19,7 +19,7 @@ LEVEL = LEVELS / "lander.json"
 
 @dataclass(frozen=True)
 class Pad:
-    """A landing pad. x: of its middle [px]; y: of its deck [px]. The first pad of the moon is the base."""
+    """A landing pad. x: x of its middle [px]; y: y of its deck [px]. The first pad of the moon is the base."""
 
     name: str
     title: str
@@ -63,7 +63,7 @@ class Moon:
     """The moon: its ground as a mask, and where its caves are.
 
     mask: the ground as one PixelMask, at the world's origin. solid: bool array [row, column] of the ground's pixels.
-    massif: the same of the mountain, including its caves.
+    massif: bool array of the mountain's pixels, caves included.
     """
 
     def __init__(self):

@@ -34,7 +34,7 @@ class Rubble:
     def add_ground(self, bodies):
         """Add pieces that have just come loose from the ground. Call it before they have moved.
 
-        bodies: of the pieces.
+        bodies: the bodies of the pieces.
         """
         for body in bodies:
             (mask,) = body.shapes
@@ -76,7 +76,7 @@ class Rubble:
 def _source(part, before, mask, parent):
     """Return the `source` of a new fragment, for its Piece. part: body of the fragment.
 
-    before: the Piece from which it was carved; mask: mask of that piece before; parent: its body.
+    before: the Piece from which it was carved; mask: mask of that piece before the carve; parent: body of that piece.
     """
     (own,) = part.shapes
     x, y = parent.to_local(part.position)

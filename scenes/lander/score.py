@@ -21,8 +21,8 @@ class Score:
     def land(self, number, speed, off, fuel, hull):
         """Count a landing and add its points. Return a list of (reason, points).
 
-        number: 1 for the first site; speed: at touchdown [px/s]; off: distance from the pad's middle [px]; fuel, hull:
-        remaining amounts.
+        number: 1 for the first site; speed: speed at touchdown [px/s]; off: distance from the pad's middle [px]; fuel,
+        hull: remaining amounts.
         """
         self.landings += 1
         self.softest = min(self.softest, speed)

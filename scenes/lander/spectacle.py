@@ -104,7 +104,7 @@ class Spectacle:
                 )
 
     def _jet(self, ship, side):
-        """Emit a puff of one of the small jets that turn the ship. side: of the ship, -1 left, 1 right."""
+        """Emit a puff of one of the small jets that turn the ship. side: side of the ship, -1 left, 1 right."""
         across, down = cos(ship.angle), sin(ship.angle)
         self.scene.particles.burst(
             ship.x + 9 * side * across + 6 * down,
@@ -231,7 +231,7 @@ class Spectacle:
         self.scene.play("heavy_laser", self._at(ship.x), 0.4)
 
     def blast(self, x, y, radius):
-        """Show an explosion at (x, y) [px]: fire, a shock wave, flying stones. radius: of the crater [px]."""
+        """Show an explosion at (x, y) [px]: fire, a shock wave, stones. radius: radius of the crater [px]."""
         large = radius > 20.0
         self.works.burst("explosion_large" if large else "explosion_small", x, y)
         self.works.ring(x, y, 4.0 * radius)

@@ -124,7 +124,7 @@ class Contents:
     def press_stones(self, riding, begun):
         """Let those crumbling stones shake that carry the hero, an enemy or a crate.
 
-        riding: body under the hero, or None; begun: the step's begin events, which tell what crates have landed on.
+        riding: body under the hero, or None; begun: the step's begin events, which include the landings of crates.
         """
         pressed = {enemy.riding for enemy in self.enemies.values()} | ({riding.id} if riding is not None else set())
         for a, b in zip(begun["body_a"].tolist(), begun["body_b"].tolist(), strict=True):

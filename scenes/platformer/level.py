@@ -138,7 +138,7 @@ class Level:
     def on_plank(self, left, bottom, width):
         """Return whether feet stand on planks and nothing else.
 
-        left, bottom: x and y of the feet's left end [px]; width: of the feet [px].
+        left, bottom: x and y of the feet's left end [px]; width: width of the feet [px].
         """
         if bottom % self.tile:
             return False

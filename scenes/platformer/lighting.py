@@ -39,7 +39,7 @@ class Lighting:
     def draw(self, surface, lights, dark, time):
         """Darken the picture where no light reaches, and draw the glows.
 
-        lights: list of (x [canvas px], y [canvas px], name); dark: darkness, 0..1; time: for the flicker [s].
+        lights: list of (x [canvas px], y [canvas px], name); dark: darkness, 0..1; time: time [s], for the flicker.
         """
         level = whole(dark * STEPS)
         if level:
@@ -67,8 +67,8 @@ class Lighting:
 def flickering(radius, share, speed, time, x):
     """Return the current radius [px] of a flickering light. radius: its full radius [px].
 
-    share: part of the radius that flickers, 0..1; speed: of the flicker [rad/s]; time [s]; x: place of the light, which
-    shifts its phase.
+    share: part of the radius that flickers, 0..1; speed: angular frequency of the flicker [rad/s]; time [s]; x: place
+    of the light, which shifts its phase.
     """
     return GRAIN * whole(radius * (1.0 - share + share * wave(time * speed / 6.28 + x * 0.013)) / GRAIN)
 

@@ -145,7 +145,7 @@ class Platformer(Scene):
             self._lose()
 
     def _handle_bombs(self, inputs):
-        """Let the hero take a bomb that he reaches, or throw or lay down the bomb that he carries, by the key focus."""
+        """Let the hero take a bomb that he reaches. On the key `focus`, he throws or lays down the one he carries."""
         hero, bomb = self.hero, self.things.carried
         if bomb is None:
             for each in self.things.bombs:

@@ -143,7 +143,7 @@ class Block:
 
 
 class Belt(Block):
-    """A conveyor belt, which carries bodies. speed: of its surface, positive to the right [px/s]."""
+    """A conveyor belt, which carries bodies. speed: speed of its surface, positive to the right [px/s]."""
 
     def __init__(self, world, thing):
         super().__init__(world, thing)

@@ -288,7 +288,7 @@ class View:
         return image if way > 0 else pygame.transform.flip(image, True, False)
 
     def _tinted(self, name, way, color, alpha):
-        """Return a picture of the hero with `color` added. name: of the picture.
+        """Return a picture of the hero with `color` added. name: name of the picture.
 
         way: -1 mirrors it; alpha: opacity, 0..255.
         """

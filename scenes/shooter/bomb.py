@@ -14,7 +14,7 @@ DAMAGE, LEADER_DAMAGE = 18.0, 45.0  # damage in plain shots
 
 
 class Bomb:
-    """The player's bomb. body: its sensor, or None while no bomb burns; age: in steps.
+    """The player's bomb. body: its sensor, or None while no bomb burns; age: age of the bomb [steps].
 
     struck: ids of the planes that this bomb has damaged already.
     """

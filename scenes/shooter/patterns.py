@@ -21,7 +21,7 @@ def aimed(x, y, target):
 def lead(x, y, target, velocity, speed):
     """Return the heading [rad] at which a bullet from (x, y) hits a target that keeps its velocity.
 
-    target: (x, y) [px]; velocity: of the target [px/s]; speed: of the bullet [px/s].
+    target: (x, y) [px]; velocity: velocity of the target [px/s]; speed: speed of the bullet [px/s].
     """
     ahead = 0.0
     for _ in range(3):  # each round halves the error at least, because targets are slower than bullets
@@ -45,7 +45,8 @@ def ring(count, turn=0.0):
 def wall(spacing, middle, gap, width=WIDTH):
     """Return the x [px] of the bullets of a row across the sky that has a gap.
 
-    spacing: distance between bullets [px]; middle, gap: middle and width of the gap [px]; width: of the sky [px].
+    spacing: distance between bullets [px]; middle, gap: middle and width of the gap [px]; width: width of the sky
+    [px].
     """
     count = int(width / spacing) + 1
     edge = (width - (count - 1) * spacing) / 2

@@ -280,7 +280,7 @@ class Spectacle:
         self.works.embers(xs[::each], ys[::each])
 
     def grazed(self, plane, world, ids, worth):
-        """Show sparks between the plane and the bullets that graze it. ids: of the bullets; worth: points for them."""
+        """Show sparks between the plane and the bullets that graze it. ids: ids of the bullets; worth: their points."""
         bodies = world.bodies
         for row in world.rows(ids).tolist():
             x, y = bodies["x"][row].item(), bodies["y"][row].item()

@@ -51,7 +51,7 @@ class Pattern:
     """The firing pattern of one gun. shoot: kind of fire ("aimed", "fan", ...); it decides which other fields are used.
 
     The first shot comes after `after` [s], the next ones every `every` [s]. After a burst of `shots` shots, the gun
-    rests for `rest` [s] in addition. faster: each shot of a burst is faster by this than the shot before [px/s].
+    rests for `rest` [s] in addition. faster: added to the speed from each shot of a burst to the next [px/s].
     muzzles: points relative to the plane's centre [px]; bullets start at distance `out` [px] from a muzzle.
     """
 

@@ -21,7 +21,7 @@ class Number:
     def read(self, reader, place, value):
         """Return `value` if it is a valid number. Raises FileError, which names `place`, if it is not.
 
-        reader: Reader of the file; place: of the field in the file.
+        reader: Reader of the file; place: place of the field in the file.
         """
         kind = "a whole number" if self.whole else "a number"
         whole = isinstance(value, int) and not isinstance(value, bool)
@@ -41,7 +41,7 @@ class Text:
     def read(self, reader, place, value):
         """Return `value` if it is a valid text. Raises FileError, which names `place`, if it is not.
 
-        reader: Reader of the file; place: of the field in the file.
+        reader: Reader of the file; place: place of the field in the file.
         """
         if not isinstance(value, str):
             reader.fail(place, f"must be text (got {value!r:.60})")
@@ -62,8 +62,8 @@ class Choice:
     def read(self, reader, place, value):
         """Return `value` if it is one of the texts.
 
-        Raises FileError otherwise; the message suggests the most similar one. reader: Reader of the file; place: of the
-        field in the file.
+        Raises FileError otherwise; the message suggests the most similar one. reader: Reader of the file; place: place
+        of the field in the file.
         """
         if value not in self.names:
             reader.fail(place, f"must be one of {', '.join(self.names)} (got {value!r:.60}){guess(value, self.names)}")
@@ -79,7 +79,7 @@ class List:
     def read(self, reader, place, value):
         """Return the entries of the list `value` as a tuple. Raises FileError if the list or an entry is invalid.
 
-        reader: Reader of the file; place: of the field in the file.
+        reader: Reader of the file; place: place of the field in the file.
         """
         if not isinstance(value, list):
             reader.fail(place, f"must be a list (got {value!r:.40})")
@@ -98,8 +98,8 @@ class Record:
     def read(self, reader, place, value):
         """Return the object that make() builds from the fields of the JSON object `value`.
 
-        Raises FileError if a field is invalid, missing or unknown. reader: Reader of the file; place: of the field in
-        the file.
+        Raises FileError if a field is invalid, missing or unknown. reader: Reader of the file; place: place of the
+        field in the file.
         """
         return self.make(**reader.fields(place, value, self.fields))
 
@@ -116,7 +116,7 @@ class Variant:
     def read(self, reader, place, value):
         """Read the JSON object `value` with the Record that its tag selects. Return the object that the Record builds.
 
-        Raises FileError if a field is invalid. reader: Reader of the file; place: of the field in the file.
+        Raises FileError if a field is invalid. reader: Reader of the file; place: place of the field in the file.
         """
         tag = Choice(self.records)
         if not isinstance(value, dict) or self.tag not in value:
@@ -140,7 +140,7 @@ class Reader:
     def fields(self, place, value, wanted, others=False):
         """Return {name: value} of the fields of the JSON object `value`.
 
-        place: of the object in the file; wanted: {name: field type}; others: whether unknown fields are allowed.
+        place: place of the object in the file; wanted: {name: field type}; others: whether unknown fields are allowed.
         """
         if not isinstance(value, dict):
             self.fail(place or "file", f"must be an object with {', '.join(wanted)} (got {value!r:.40})")

@@ -26,7 +26,7 @@ SUBSTEPS, SHARE = 4, 0.2  # of the simulated wheel; the share of Box2D Lite
 
 
 def build_gates(side, speed=GATE_SPEED):
-    """Build three gates and a crate under each. speed: of the gates [px/s]. side: see page.Side."""
+    """Build three gates and a crate under each. speed: speed of the gates [px/s]. side: see page.Side."""
     floor(side.world)
     side.kept.update(chance=np.random.default_rng(4), speed=speed, gates=[], crates=[])
     for number, (x, offset) in enumerate(zip(GATES, OFFSETS, strict=True)):
@@ -81,7 +81,7 @@ def thrown(side):
 def build_bowl(side, radius=20.0, turn=0.7):
     """Build a bowl, a chain of 240 links, and a disc at rest on its inside.
 
-    radius: of the disc [px]; turn: place of the disc on the half circle, 0 (right end) .. 1 (left end). side: see
+    radius: radius of the disc [px]; turn: its place on the half circle, 0 (right end) .. 1 (left end). side: see
     page.Side.
     """
     corners = [(RIM * cos(at), RIM * sin(at)) for at in np.linspace(pi, 0.0, LINKS + 1)]

@@ -61,8 +61,8 @@ def apex(side):
 def blows():
     """Return a list of (offset, speed, further) of 24 glancing collisions.
 
-    offset: of the resting disc, off the path of the other [diameters]; speed [px/s]; further: extra distance of the
-    flying disc at the start [px], random within one step's motion.
+    offset: distance of the resting disc from the other's path [diameters]; speed: speed of the other disc [px/s];
+    further: extra distance of that disc at the start [px], random within one step's motion.
     """
     chance = np.random.default_rng(5)
     return [(0.1 + 0.8 * k / 7, v, float(chance.uniform()) * v / 60) for v in SPEEDS for k in range(8)]

@@ -7,7 +7,7 @@ number of substeps, no sleep, hulls, or a simple solver of the page itself. The 
 each are its error, the limit of the page, and the time of a step. On some pages both sides should be alike: a thousand
 bodies at one point, ten million pixels from the origin.
 
-Why it matters: An engine is chosen for its worst case, not for its demo; here both ways are shown at each.
+Why it matters: An engine is chosen for its worst case, not for its demo; each case is shown both ways here.
 
 To try: step through the pages, and look for one where the naive way is as good.
 

@@ -55,7 +55,7 @@ class Bridge(Machine):
             self.ball.apply_force((PUSH * self.weight * GRAVITY * way, 0.0))
 
     def smash(self):
-        """Drop a ball of ten times the mass on the middle, whose pins are worn then."""
+        """Weaken the pins in the middle of the bridge, and drop a ball of ten times the mass on them."""
         self.disturbed = True
         for pin in self.weak:
             if self.holds(pin):
@@ -64,7 +64,7 @@ class Bridge(Machine):
             self.second = self.add(Circle(RADIUS + 6), 0.0, -180.0, GOLDEN, mass=10 * self.weight, velocity=(0.0, DROP))
 
     def measure(self):
-        """Keep the lowest place of the ball."""
+        """Record the lowest place of the ball."""
         self.lowest = max(self.lowest, self.ball.position.y)
 
     def figure(self):
@@ -72,7 +72,7 @@ class Bridge(Machine):
         return f"sag {self.lowest + RADIUS - DECK:.0f} px"
 
     def figures(self):
-        """Return (lowest y of the ball,)."""
+        """Return (y of the lowest place of the ball [px],)."""
         return (self.lowest,)
 
     def handle(self):

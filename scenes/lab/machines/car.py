@@ -44,7 +44,7 @@ class Car(Machine):
         return self.world.add_joint(Wheel(frame, wheel, at=(x, -RADIUS), spring=SUSPENSION, limits=(-6, 6)))
 
     def drive(self):
-        """Drive in the present direction, with a torque that lifts the car at its wheels' rims twice over, or brake."""
+        """Drive in the present direction, or brake. The torque of a wheel gives twice the car's weight at its rim."""
         torque = 2.0 * self.mass * GRAVITY * RADIUS
         for axle in self.axles:
             if self.holds(axle):
@@ -58,11 +58,11 @@ class Car(Machine):
             self.drive()
 
     def measure(self):
-        """Keep the greatest height of the chassis."""
+        """Record the greatest height of the chassis."""
         self.highest = max(self.highest, -self.chassis.center.y)
 
     def figure(self):
-        """Return its height, and the number of crossings, as text."""
+        """Return the present height of the chassis, and the number of crossings, as text."""
         return f"up {max(0.0, -self.chassis.center.y - RADIUS - 9):.0f} px, crossed {self.crossed}x"
 
     def figures(self):
@@ -70,12 +70,12 @@ class Car(Machine):
         return self.highest, self.crossed
 
     def handle(self):
-        """Return the place of its chassis."""
+        """Return the place of the chassis."""
         return tuple(self.chassis.center)
 
     @classmethod
     def goals(cls, iterative, direct):
-        """Return the goals: it climbs the hill of 30 degrees, its axles hold, and the hitch breaks."""
+        """Return the goals: the car climbs the hill of 30 degrees, the axles hold, and the hitch breaks."""
         gap, broken, highest, _ = direct or (9.0, 0, 0.0, 0)
         return [
             ("it climbs 30 degrees", highest > HILL, f"{highest:.0f} of {HILL:.0f} px"),

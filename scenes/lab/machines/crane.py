@@ -53,16 +53,16 @@ class Crane(Machine):
             self.drive()
 
     def measure(self):
-        """Add up the way of the crate while the claw holds it [px]."""
+        """Add up the distance [px] over which the claw has carried the crate."""
         if not self.broken:
             self.carried += abs(self.crate.velocity.x) * self.world.dt
 
     def figure(self):
-        """Return the way of the crate, or that it is gone, as text."""
+        """Return the distance of the carried crate, or that the claw let go, as text."""
         return "let go" if self.broken else f"carried {self.carried:.0f} px"
 
     def figures(self):
-        """Return (way of the crate while it was held [px],)."""
+        """Return (distance over which the crate was carried [px],)."""
         return (self.carried,)
 
     def handle(self):

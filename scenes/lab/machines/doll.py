@@ -14,7 +14,7 @@ SPEED = 190.0  # [px/s] with which it comes
 KICK, KICK_EVERY = 9.0, 40  # [rad/s] speed of the limbs, [steps] in each direction
 STRONG = 60.0  # torso's weights times METER: greatest torque of a limb's motor
 APART = Filter(2, 1)  # its parts touch the stairs and not one another
-# name, place of its hinge, its end, half of its width, limits [rad], of which part, colours
+# name, place of its hinge, its end, half of its width, limits [rad], the part that it hangs on, colours
 LIMBS = (
     ("upper arm", (-1, -24), (0, 20), 4.5, (-2.6, 2.6), "torso", TEAL),
     ("forearm", (-1, -4), (0, 18), 4.0, (-2.2, 0.0), "upper arm", CORAL),
@@ -60,19 +60,19 @@ class Doll(Machine):
         self.excess = 0.0
 
     def drive(self):
-        """Let the limbs go to and fro."""
+        """Set the motors that swing the limbs to and fro."""
         for number, joint in enumerate(self.limbs):
             if self.holds(joint):
                 way = 1 if (self.steps // KICK_EVERY + number // 4) % 2 else -1
                 joint.motor = Drive(way * KICK, max=self.strong) if self.running else None
 
     def control(self):
-        """Turn the limbs round."""
+        """Reverse the motors of the limbs every KICK_EVERY steps."""
         if self.running and self.steps % KICK_EVERY == 0:
             self.drive()
 
     def measure(self):
-        """Keep the greatest angle beyond a limit, until it is dragged or broken."""
+        """Record the greatest angle beyond a limit, until the doll is dragged or broken."""
         rows = self.world.joints
         rows = rows[rows["coordinate"] == 1]
         over = np.maximum(rows["lower"] - rows["angle"], rows["angle"] - rows["upper"])
@@ -88,12 +88,12 @@ class Doll(Machine):
         return (self.excess,)
 
     def handle(self):
-        """Return the place of its torso."""
+        """Return the place of the torso."""
         return tuple(self.parts["torso"].center)
 
     @classmethod
     def goals(cls, iterative, direct):
-        """Return the goals: limits and pins hold down the stairs, and its head comes off."""
+        """Return the goals: limits and pins hold on the way down the stairs, and the head comes off."""
         gap, broken, excess = direct or (9.0, 0, 9.0)
         return [
             ("limits hold to six degrees", degrees(excess) < 6.0, f"{degrees(excess):.3f} deg"),

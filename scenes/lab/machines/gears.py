@@ -74,13 +74,13 @@ class Gears(Machine):
         """Turn back when the rack is at the end of its way."""
         rise = self.rail.translation
         way = -1 if rise > ROOM else 1 if rise < -ROOM else self.way
-        # Of three gears the last turns as the first, and lowers the rack when it turns to the right.
+        # The last of three gears rotates in the direction of the first, and lowers the rack by rotating to the right.
         if way != self.way:
             self.way = way
             self.drive()
 
     def measure(self):
-        """Add up the angle turned, and keep the greatest error of a ratio, until it is broken."""
+        """Add up the angle turned, and record the greatest error of a ratio, until a joint is dragged or broken."""
         self.turned += abs(self.axles[0].speed) * self.world.dt
         if not self.broken and not self.disturbed:
             ratios = (RADII[1] / RADII[0], RADII[2] / RADII[1])

@@ -29,7 +29,8 @@ class Machine:
     """A machine of bodies and joints in a world.
 
     paints: {body id: name of its colours}; broken: number of joints that have broken; worst: greatest separation of a
-    joint [px] before anything was dragged or broken; recent: of the last step; steps: steps so far.
+    joint [px] before anything was dragged or broken; recent: greatest separation in the last step [px]; steps: steps
+    so far.
     """
 
     name: ClassVar[str]
@@ -42,7 +43,7 @@ class Machine:
         self.world = world
         self.paints: dict[int, str] = {}
         self.grounds: list[int] = []  # ids of the static bodies
-        self.weak: list[Joint] = []  # joints that break() breaks
+        self.weak: list[Joint] = []  # joints that smash() breaks
         self.steps = self.broken = 0
         self.worst = self.recent = 0.0
         self.running = self.disturbed = False
@@ -120,14 +121,14 @@ class Machine:
         self.drive()
 
     def smash(self) -> None:
-        """Lower the breaking force of the weak joints to almost nothing, so that they break by what they bear."""
+        """Lower the breaking force of the weak joints to almost nothing, so that they break under their load."""
         self.disturbed = True
         for joint in self.weak:
             if self.holds(joint):
                 joint.breaks = (WEAK, WEAK)
 
     def holds(self, joint: Joint) -> bool:
-        """Return whether a joint is still there."""
+        """Return whether a joint is still in the world."""
         return bool((self.world.joints["id"] == joint.id).any())
 
     def step(self) -> None:
@@ -165,7 +166,7 @@ class Machine:
 def separation(world: World) -> float:
     """Return the greatest separation of a joint that holds anchors together [px]; 0 without such joints.
 
-    A Target, the mouse, is none of them: its separation is the distance of the pointer.
+    A Target does not count: it is the joint of a mouse drag, and its separation is the distance to the pointer.
     """
     rows = world.joints
     held = rows["separation"][np.isin(rows["hold"], HOLDS) & (rows["point_hertz"] == 0.0) & rows["enabled"]]

@@ -20,7 +20,7 @@ PLATES = (TEAL, VIOLET, CORAL)
 
 
 def circles(a, b, ra, rb, side):
-    """Return the point at distances ra from a and rb from b; `side` (1, -1) of the line from a to b."""
+    """Return the point at the distance ra from a and rb from b. side: 1 or -1, its side of the line from a to b."""
     dx, dy = b[0] - a[0], b[1] - a[1]
     far = hypot(dx, dy)
     along = (ra * ra - rb * rb + far * far) / (2.0 * far)
@@ -102,7 +102,7 @@ class Walker(Machine):
         return self.add(shape, x, y, paint, angle=-pose[2], filter=LEGS, material=material)
 
     def drive(self):
-        """Turn the crank, with a torque that lifts the walker by the crank's radius four times over, or hold it."""
+        """Turn the crank, or hold it, with a torque that lifts 1.5 times the walker's weight at the crank's radius."""
         torque = 1.5 * self.mass * GRAVITY * CRANK * UNIT
         self.crank.motor = Drive(self.way * SPEED if self.running else 0.0, max=torque)
 
@@ -114,7 +114,7 @@ class Walker(Machine):
 
     @property
     def heading(self):
-        """The direction of its walk: 1 to the right, -1 to the left."""
+        """Direction in which the walker walks: 1 to the right, -1 to the left."""
         return WALKS * self.way
 
     def measure(self):
@@ -134,12 +134,12 @@ class Walker(Machine):
         return self.walked, self.tilt
 
     def handle(self):
-        """Return the place of its body."""
+        """Return the place of the walker's body."""
         return tuple(self.chassis.center)
 
     @classmethod
     def goals(cls, iterative, direct):
-        """Return the goals: it walks, upright, its pins hold, and a leg breaks off."""
+        """Return the goals: the walker walks upright, its pins hold, and a leg breaks off."""
         gap, broken, walked, tilt = direct or (9.0, 0, 0.0, 9.0)
         return [
             ("the walker walks", walked > 60.0, f"{walked:.0f} px"),
@@ -153,6 +153,6 @@ WALKS = 1  # direction of its walk when the crank turns clockwise
 
 
 def moved(pose, point):
-    """Return a point after a motion by a pose (x, y, angle)."""
+    """Return a point of a plate in the plan, for the plate's pose (x, y, angle)."""
     x, y, angle = pose
     return x + cos(angle) * point[0] - sin(angle) * point[1], y + sin(angle) * point[0] + cos(angle) * point[1]
