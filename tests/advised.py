@@ -23,7 +23,7 @@ ARGUMENTS = ("--error", f"{VISIBLE:g}", "--json")
 
 
 def frames_of(name: str) -> int:
-    """Of the bot's run."""
+    """Return the number of frames of the bot's run in a scene."""
     return FRAMES.get(name, DEFAULT_FRAMES)
 
 
@@ -42,7 +42,7 @@ def ask(name: str) -> dict:
 
 
 def agreed(runs: list[dict]) -> dict:
-    """The changes that every run advises."""
+    """Return the changes that every run advises, {name: value}."""
     first, *others = (run["changes"] for run in runs)
     return {name: value for name, value in first.items() if all(other.get(name) == value for other in others)}
 
@@ -64,7 +64,7 @@ def main(names: list[str]) -> None:
 
 
 def write(kept: dict) -> None:
-    """A scene a line, in the order of the menu."""
+    """Write docs/advice.json, with one line for each scene, in the order of the menu."""
     rows = [f"  {json.dumps(name)}: {json.dumps(kept['scenes'][name])}" for name in SCENES if name in kept["scenes"]]
     head = "".join(f" {json.dumps(key)}: {json.dumps(kept[key])},\n" for key in ("command", "machine"))
     KEPT.write_text(f'{{\n{head} "scenes": {{\n' + ",\n".join(rows) + "\n }\n}\n", encoding="utf-8")

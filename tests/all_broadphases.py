@@ -68,7 +68,7 @@ class AsksAll:
 
 
 def meeting(proxies, box, slots):
-    """Return the slots, sorted, that every strategy must list: up to date, with a box that meets the box asked for.
+    """Return the sorted slots that every strategy must list: those that are up to date, and whose box meets `box`.
 
     A strategy may list others besides (leaves of the tree are fat, cells are large); queries drop those.
     """

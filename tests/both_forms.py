@@ -21,7 +21,7 @@ from physics.solver.lanes import LANES, SIZE, Blocks
 
 
 class FormsDiffer(AssertionError):
-    """The two forms of a kernel are not the same; says which kernel, and in what."""
+    """Error for two forms of a kernel that differ. Its text names the kernel and the difference."""
 
 
 class Seen:
@@ -110,7 +110,10 @@ class Copies:
         return copy
 
     def take_over_empty_lanes(self):
-        """Leave out what only a compiled pass works on: lanes that hold no row, and what is gathered within a pass."""
+        """Copy the parts that only a compiled pass writes: lanes that hold no row, and data gathered within a pass.
+
+        They are then left out of the comparison.
+        """
         for blocks, copy in self.blocks:
             copy.gathered[:] = blocks.gathered
             empty = np.broadcast_to((blocks.contact < 0)[:, None, :], (len(blocks.contact), SIZE // LANES, LANES))

@@ -66,7 +66,10 @@ def bind(target, value, rows):
 
 
 def behind(node, rows):
-    """The arguments that an expression may be a part of; none where the part says by its name that it is written."""
+    """Return the arguments of which an expression may be a part.
+
+    The set is empty for an attribute whose name ends in WRITTEN, which declares the write.
+    """
     if isinstance(node, ast.Name):
         return rows.get(node.id, set())
     if isinstance(node, ast.Attribute):

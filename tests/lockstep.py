@@ -50,7 +50,7 @@ def make_scene(name, few=False, seed=1, asks_all=False, **chosen):
 
 
 class Run:
-    """A scene being played, by its bot unless told. step() returns the digest after the step."""
+    """A scene that is played by a source, its bot by default. step() returns the digest after the step."""
 
     def __init__(self, label, scene, source=None, recorder=None, replay=None):
         self.label, self.scene = label, scene
@@ -63,7 +63,7 @@ class Run:
 
 
 class DrawnRun(Run):
-    """The whole picture is drawn with every overlay, now and then between two steps."""
+    """Run that is drawn with every overlay, every DRAWN_EVERY frames."""
 
     def __init__(self, label, scene, source=None, replay=None):
         super().__init__(label, scene, source, replay=replay)
@@ -79,7 +79,7 @@ class DrawnRun(Run):
 
 
 class Changing:
-    """A source, the scene's bot unless told, while settings change: {frame: ((name, value), ...)}, frames from 0."""
+    """Source of input, by default the scene's bot, with changes of settings {frame (from 0): ((name, value), ...)}."""
 
     def __init__(self, changes, source=None):
         self.changes, self.source = changes, source or BotSource()
@@ -92,9 +92,9 @@ class Changing:
 
 
 class PlainRun:
-    """Scenes with few bodies, one after another, in a process without compiled kernels. To be closed.
+    """Scenes with few bodies, one after another, in a process without compiled kernels. close() ends the process.
 
-    The process is ahead by the length of a pipe.
+    The process runs ahead of the reader until the pipe is full.
     """
 
     scene = None
@@ -124,9 +124,10 @@ class PlainRun:
 
 
 def ways_to_run(name, recorder=None, few=False, seed=1):
-    """All that must not matter: the first run is the one that the others are held against.
+    """Yield a run for each condition that must not change the result. The others are compared with the first run.
 
-    recorder(scene) makes what notes the first run. One broad phase is the scene's own: that run is the same twice.
+    recorder(scene) makes the recorder of the first run. The run under the scene's own broad phase repeats the first
+    run.
     """
     first = make_scene(name, few, seed)
     yield Run("the scene", first, recorder=recorder and recorder(first))
@@ -156,7 +157,10 @@ def first_difference(one, other, frames):
 
 
 def place_of(scene, other):
-    """ " in world 0, the scene's state": the parts whose digests differ; empty where one of them is elsewhere."""
+    """Return the parts whose digests differ as text, such as " in world 0, the scene's state".
+
+    The text is "" if one of the scenes is None, because it runs in another process.
+    """
     if scene is None or other is None:
         return ""
     places = [

@@ -89,7 +89,7 @@ def write(path: Path, names: dict[str, float]) -> None:
 def refreshed(kept: dict[str, float], measured: dict[str, float], more: bool = False) -> dict[str, float]:
     """Return the list after a run that measured some files: their lines are replaced, those of others stay.
 
-    more: what was measured was not on the list, all whose lines stay.
+    more: True if the measured tests were not on the list; all lines of the list then stay.
     """
     files = set() if more else {name.split("::")[0] for name in measured}
     stays = {name: seconds for name, seconds in kept.items() if name.split("::")[0] not in files}

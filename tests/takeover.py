@@ -17,7 +17,7 @@ SHARE_LEFT = 0.01  # of the kernels called in the first frame that still run pla
 
 @contextmanager
 def beginning_plain() -> Iterator[None]:
-    """Let every kernel begin plain, and nothing take over by itself; afterwards all is as it was before."""
+    """Start every kernel as plain Python, without automatic take-overs, until the end of the block."""
     assert not tiers.background and not tiers.wanted and not tiers.arrived
     kept = {kernel: dict(kernel.forms) for kernel in registry}
     tiers.forget()
@@ -34,14 +34,14 @@ def beginning_plain() -> Iterator[None]:
 
 
 class TakeOvers:
-    """Lets each wanted kernel's compiled form arrive with `chance` whenever it is asked to."""
+    """Delivery of compiled forms: before each frame, each wanted one arrives with the probability `chance`."""
 
     def __init__(self, seed: int, chance: float) -> None:
         self.random, self.chance = random.Random(seed), chance
         self.frames: dict[str, int] = {}  # kernel -> frame before which its compiled form took over
 
     def before(self, frame: int) -> None:
-        """Let some arrive: World.step lets them run."""
+        """Deliver some compiled forms, which the next World.step uses."""
         for kernel, keys in list(tiers.wanted):
             if self.random.random() < self.chance:
                 tiers.arrived.append((kernel, keys, compiling.load_or_compile(kernel, keys)))

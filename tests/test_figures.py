@@ -33,7 +33,7 @@ def kept(path):
 
 
 def ratios(bench, pattern):
-    """{what the groups of a pattern match in a ratio's name: its value}."""
+    """Return {groups of the match: value} of the ratios of a benchmark whose names match a pattern."""
     found = {}
     for name, value in kept("bench/0.1.0.json")["ratios"][bench].items():
         match = re.fullmatch(pattern, name)

@@ -12,7 +12,7 @@ from tests.lockstep import Changing, Diverged, DrawnRun, PlainRun, Run, failures
 
 
 class Pushed(Arena):
-    """Goes another way in one frame."""
+    """Arena in which a disc gets another velocity in one frame."""
 
     def update(self, inputs):
         super().update(inputs)
@@ -21,14 +21,14 @@ class Pushed(Arena):
 
 
 class Counted(Arena):
-    """Counts another thing from one frame on."""
+    """Arena whose state differs in one frame."""
 
     def state(self):
         return (*super().state()[:-1], 0.0) if self.frame == 8 else super().state()
 
 
 class Shaken(Arena):
-    """Draws random numbers for its picture out of the game's own."""
+    """Arena whose drawing uses the random numbers of the game."""
 
     def draw(self, canvas, alpha):
         super().draw(canvas, alpha)

@@ -15,7 +15,7 @@ text { font-family: sans-serif; }
 
 
 def main(folder: Path) -> None:
-    """Keep the rows, draw, write."""
+    """Write docs/accuracy.json, docs/accuracy.md and the plots from the finished report in a folder."""
     manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
     if manifest["quick"]:
         raise SystemExit(f"{folder} holds a quick report; the page is made from a full one")

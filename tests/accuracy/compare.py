@@ -24,12 +24,12 @@ ROWS = 4  # of a series, at least: two rows of one tier were 1.16 times slower b
 
 
 def read(folder: Path) -> Reports:
-    """{chart's key: its rows}."""
+    """Return {key of a chart: its rows} of the report in a folder."""
     return {chart.key: json.loads((folder / "data" / f"{chart.key}.json").read_text()) for chart in CHARTS}
 
 
 def claims_of(report: Reports, charts: Sequence[Chart] = CHARTS) -> dict[str, Claim]:
-    """{what is claimed, but for who wins: the claim}."""
+    """Return {text of a claim, without the name of the winner: Claim} of a report."""
     found = {}
     for chart in charts:
         for claim in chart.claims(report[chart.key]):
@@ -38,14 +38,14 @@ def claims_of(report: Reports, charts: Sequence[Chart] = CHARTS) -> dict[str, Cl
 
 
 def contradicts(a: Claim, b: Claim) -> bool:
-    """Return whether a certain result of one is wrong by the other."""
+    """Return whether a certain result of one claim is wrong according to the other."""
     if a.order and b.order:
         return not set(a.order) & set(b.order)
     return {a.verdict, b.verdict} == {HOLDS, FAILS}
 
 
 def contradictions(first: Reports, second: Reports, charts: Sequence[Chart] = CHARTS) -> list[tuple[str, Claim, Claim]]:
-    """(what, by the first, by the second) of what both claim and do not agree on."""
+    """Return (text, claim in the first report, claim in the second) of each claim on which the reports disagree."""
     ours, theirs = claims_of(first, charts), claims_of(second, charts)
     both = [name for name in ours if name in theirs]
     return [(name, ours[name], theirs[name]) for name in both if contradicts(ours[name], theirs[name])]
@@ -59,14 +59,17 @@ class Change(NamedTuple):
 
     @property
     def slower(self) -> bool:
-        """For sure, and by more than what is a tie in a report."""
+        """True if the series is certainly slower, by more than the share that counts as a tie in a report."""
         return self.ratio >= 1.0 + TIE_SHARE and self.sure >= SURE
 
 
 def changes(first: Reports, second: Reports, charts: Sequence[Chart] = CHARTS) -> dict[tuple[str, str], Change]:
-    """{(chart, series): Change}, relative to the median of the same job: a machine is as fast as at any other time for
-    minutes, not for a whole report. Jobs of fewer than LEAST series have nothing to be compared with, and are left out.
-    So are series of fewer than ROWS times. What charts show of others' rows is told once."""
+    """Return {(chart, series): Change} of the times in two reports.
+
+    A time counts relative to the median of its job, because a machine keeps its speed for minutes, but not for a whole
+    report. Jobs of fewer than LEAST series are left out, because there is nothing to compare them with. So are series
+    of fewer than ROWS times. A chart that shows the rows of another chart is skipped.
+    """
     found: dict[tuple[str, str], list[tuple[float, bool]]] = {}
     for chart in charts:
         if chart.of:
@@ -88,7 +91,7 @@ def changes(first: Reports, second: Reports, charts: Sequence[Chart] = CHARTS) -
 
 
 def _pairs(rows, others) -> Iterator[tuple[Row, list[float], list[float]]]:
-    """(row, its seconds, the same in the other report) of every time that both have."""
+    """Yield (row, its seconds, its seconds in the other report) of every time that both reports have."""
     theirs = {_name(row): row for row in others}
     for row in rows:
         for name, cost in _costs(row):
@@ -108,7 +111,10 @@ def _name(row):
 
 
 def main(first: Path, second: Path) -> int:
-    """Print both; 1 where they contradict each other, 2 for a folder without a finished report."""
+    """Print the changes and the contradictions of two reports.
+
+    Return 1 if the reports contradict each other, 2 for a folder without a finished report, otherwise 0.
+    """
     try:
         a, b = read(first), read(second)
     except FileNotFoundError as error:

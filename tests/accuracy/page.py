@@ -47,7 +47,7 @@ def panel_of(chart: Chart, rows: list) -> Panel:
 
 
 def rounded(value):
-    """Numbers with DIGITS digits, in whatever holds them."""
+    """Return a value with all its floats rounded to DIGITS digits. The value may be a dict, a list or a number."""
     if isinstance(value, dict):
         return {key: rounded(each) for key, each in value.items()}
     if isinstance(value, list):
@@ -66,12 +66,12 @@ def dots(kept: dict, chart: Chart) -> list[Dot]:
 
 
 def charts() -> list[Chart]:
-    """Those of the story, in the order of their numbers."""
+    """Return the charts of the story, in the order of their numbers."""
     return [chart for chart in CHARTS if chart.key in STORY]
 
 
 def text(kept: dict) -> str:
-    """The page."""
+    """Return the text of the page."""
     facts = ", ".join(f"{name} {value}" for name, value in kept["machine"].items())
     version = f"Hitbox {kept['version']}"
     parts = [INTRODUCTION.format(version=version, machine=facts, seconds=kept["seconds"])]

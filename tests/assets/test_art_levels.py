@@ -102,7 +102,7 @@ def test_objects_are_known_and_inside(tmj):
 
 
 def decks(tmj):
-    """(left, top, right) of what carries and is no tile [px]."""
+    """Return (left, top, right) [px] of the platforms, crates and belts, which carry the hero and are no tiles."""
     return [
         (thing["x"], thing["y"], thing["x"] + thing["width"])
         for kind in ("platform", "crate", "belt")

@@ -1,4 +1,4 @@
-"""Drawings as text: what is read, and what a mistake in one is told."""
+"""Drawings as text: the pixels that are read, and the message for each kind of mistake."""
 
 import pytest
 

@@ -66,22 +66,22 @@ def step_time(world):
 
 
 class Findings:
-    """[s] of each run by how many moved, the layout, the size and the strategy, and what is read from them."""
+    """Measured times {(share of moving bodies, layout, size): {strategy: seconds}}, and ratios of these times."""
 
     def __init__(self):
         self.times = {}
 
     def keep(self, moving, layout, size, strategy, seconds):
-        """Take down one measurement."""
+        """Store one measurement."""
         self.times.setdefault((moving, layout, size), {})[strategy] = seconds
 
     def fastest(self, moving, layout, size):
-        """The strategy that is fastest there, and how much slower the next one is."""
+        """Return the fastest strategy for a layout and size, and how much slower the next one is, as text."""
         (best, name), (second, _) = sorted((t, name) for name, t in self.times[moving, layout, size].items())[:2]
         return f"{name} ({second / best:.1f}x)"
 
     def ratios(self):
-        """{name: a strategy's time over brute force's}, where that was run and there is something to do."""
+        """Return {name: time of a strategy / that of brute force}, where brute force was run and bodies move."""
         return {
             f"{size} bodies {layout}, {moving}: {name} / brute": seconds / found["brute"]
             for (moving, layout, size), found in self.times.items()
@@ -91,13 +91,13 @@ class Findings:
 
 
 def growth(times):
-    """The power of the number of bodies by which the time grows, from the second size to the last."""
+    """Return the exponent with which the time grows with the number of bodies, from the second size to the last."""
     sizes = sorted(times)
     return math.log(times[sizes[-1]] / times[sizes[1]]) / math.log(sizes[-1] / sizes[1])
 
 
 def timed(strategies, layout, n, moving):
-    """{name: what steps a world of that strategy and tells its time}, slow ones left out of large worlds."""
+    """Return {strategy: function that steps its world and returns the time}; slow ones only in small worlds."""
     return {
         name: partial(step_time, make_world(make(), layout, n, moving))
         for name, make in strategies.items()

@@ -28,7 +28,7 @@ STEP = 1 / 60  # [s]
 
 
 def frames_of(name: str, scale: int, seconds: float, opens: bool) -> np.ndarray:
-    """(n, 2) milliseconds of each frame: on the clock, and worked."""
+    """Return the milliseconds of each frame, (n, 2): on the clock, and in the program's own thread."""
     registry, settings = Registry(SCENES), Settings(window_scale=scale, labs_seen=list(SCENES))
     app = App(read_options(["--scene", name, "--bot"], registry), registry, settings, open_window(settings))
     app._rest = lambda started: None  # the wait for the next frame is ours

@@ -28,7 +28,7 @@ def crates(shape, count):
 
 
 def pair_times(shape, count):
-    """Seconds for each pair: narrow phase of one at rest, of a new one, and a whole step of one at rest."""
+    """Return seconds per pair: (narrow phase of a pair at rest, of a new pair, whole step of a pair at rest)."""
     world = crates(shape, count)
 
     def narrow():
@@ -54,7 +54,10 @@ def hills():
 
 
 def carve_times(count):
-    """(seconds of making the ground, of each carve without a split, of each with one): discs along its surface."""
+    """Return the seconds of making the ground, of each carve that splits nothing, and of each carve that does.
+
+    The carves are discs along the surface of the ground.
+    """
     world, rng = World(Effects.rigid_bodies().with_(carving=True)), np.random.default_rng(SEED)
     solid = hills()
     start = perf_counter()

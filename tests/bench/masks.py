@@ -109,7 +109,7 @@ def pairs_of(found):
 
 
 def mean_step(field, world, read):
-    """Return the mean seconds of some steps; read: with the contacts of each step read."""
+    """Return the mean time of a step [s] over STEPS steps. read: whether the contacts of each step are read."""
     spent = 0.0
     for _ in range(STEPS):
         field.turn_back(world)

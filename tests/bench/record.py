@@ -26,7 +26,7 @@ def to_record(ratios, quick):
 
 
 def installed():
-    """Bytes of the libraries that are used at run time, of those that are there."""
+    """Return the bytes of the libraries that are used at run time and are installed."""
     files = [metadata.distribution(name).files or () for name in LIBRARIES if version_of(name)]
     places = [Path(str(each.locate())) for some in files for each in some]
     return sum(place.stat().st_size for place in places if place.exists())
@@ -52,7 +52,7 @@ def read_record(path):
 
 
 def compared(kept, measured):
-    """Rows (bench and name, kept, measured, what became of it), of every ratio that either record has."""
+    """Return a row (bench and name, kept ratio, measured ratio, the change) for every ratio that either record has."""
     rows = []
     for bench in dict.fromkeys([*kept["ratios"], *measured["ratios"]]):
         before, now = kept["ratios"].get(bench, {}), measured["ratios"].get(bench, {})

@@ -1,8 +1,9 @@
-"""`python -m tests.bench.rewind [SCENE …] [--cpu]`: what ten seconds of rewind take, scene by scene.
+"""`python -m tests.bench.rewind [SCENE …] [--cpu]`: memory and time of ten seconds of rewind, scene by scene.
 
-Bytes of all that is kept, per moving body and frame beyond 64 kB; the slowest of the seeks from the end to each key
-frame's last step, where most steps have to be made, and of seeks one step back from there. --cpu: seconds of this
-process in place of those on the clock, for a machine that others use too; rewind itself then measures so as well.
+The memory is that of all stored data: in all, and per moving body and frame beyond 64 kB. The times are those of the
+slowest seek and the mean seek. Each key frame's last step is reached from the end, which takes the most steps, and then
+the step before it. --cpu measures seconds of this process instead of seconds on the clock, for a machine with other
+load; rewind itself then measures in the same way.
 """
 
 import argparse
@@ -22,7 +23,7 @@ SLOWEST = 0.1  # [s] that a seek may take
 
 
 def measured(name: str, clock) -> dict[str, float]:
-    """One scene: bytes in all and a body and frame, key frames, and of seeks the slowest and their mean [s]."""
+    """Return the figures of one scene by name: bytes in all and per body and frame, key frames, seek times [s]."""
     with patch("game.run.rewind.perf_counter", clock), patch("game.run.session.perf_counter", clock):
         session = Session(make_scene(name), BotSource())
         set_loaded_aside()  # as the game does when a scene begins

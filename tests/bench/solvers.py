@@ -60,7 +60,7 @@ class Pymunk:
         )
 
     def depth(self):
-        """Asked outside of the timed steps."""
+        """Return the overlap of the deepest contact. Called outside of the timed steps."""
         return overlap_in(self.space)
 
 
@@ -88,7 +88,7 @@ class Run:
         self.gain = max(self.gain, self._energy() - self.energy)
 
     def settle(self):
-        """Measure the overlap once it has come to rest, or has not."""
+        """Measure the overlap at the end of the run, whether the pile has come to rest or not."""
         self.depth = self.pile.depth()
 
     def row(self, reference):
@@ -153,9 +153,10 @@ PASSES = 2 * 4  # of a step over its contacts: each of four substeps solves them
 
 
 def measure_stages(every):
-    """Which stages a step's time goes to with four substeps. Prints the table; returns {name: narrow phase over step}.
+    """Measure the times of the stages of a step with four substeps. Print the table; return {name: narrow phase over
+    step}.
 
-    A pass's time is that of the whole stage over manifolds and passes: what is prepared and stored is in it.
+    The time of a pass is that of the whole stage divided by manifolds and passes, so it includes preparing and storing.
     """
     lines, ratios = [], {}
     for rows in every:

@@ -31,7 +31,7 @@ NAME, LIMIT, CELL = 20, 12, 12  # [characters]
 
 
 def shown(verdict):
-    """Its cell."""
+    """Return the cell of the table for a verdict."""
     if verdict.fell is not None:
         return f"X{verdict.fell:.1f}" + (f" {verdict.stood}/{verdict.seeds}" if verdict.seeds > 1 else "")
     figure = verdict.figure
@@ -40,7 +40,7 @@ def shown(verdict):
 
 
 def number(value):
-    """Three digits, without an exponent down to a thousandth."""
+    """Return a number as text with three digits, without an exponent down to a thousandth."""
     size = abs(value)
     if size >= 100.0:
         return f"{value:.0f}"
@@ -60,7 +60,7 @@ def line(name, limit, cells, quoted):
 
 
 def study(chosen, names, seeds):
-    """Play the rows, print each as it is done: of their first so many seeds, None: of all.
+    """Play the rows, and print each row as it is done. seeds: number of seeds to play of each row, None for all.
 
     Returns {row: {limit, unit, source, engines: {name: its verdict}}}.
     """
@@ -85,7 +85,7 @@ def study(chosen, names, seeds):
 
 
 def finite(value):
-    """The value with verdicts as dicts, and what JSON has no word for as a text."""
+    """Return a value in a form that JSON can hold: verdicts as dicts, nan and inf as texts."""
     if isinstance(value, Verdict):
         value = asdict(value)
     if isinstance(value, dict):
@@ -100,8 +100,10 @@ def to_text(found, quick):
 
 
 def chosen_names(text, known, what):
-    """Those of the known names that any of the patterns, separated by commas, fits. Raises ValueError for one that fits
-    none."""
+    """Return the known names that match any of the patterns in `text`, which are separated by commas.
+
+    Raises ValueError for a pattern that no name matches.
+    """
     found = []
     for pattern in filter(None, text.split(",")):
         fitting = [name for name in known if fnmatchcase(name, pattern)]

@@ -56,7 +56,7 @@ print(json.dumps({"frames": frames, "worked": worked, "ready": ready[:1], "compi
 
 
 def start(arguments, seconds, cache, display):
-    """Return what one run of the program tells of itself."""
+    """Return the measurements that one run of the program prints about itself, a dict."""
     environment = {**os.environ, "HITBOX_CACHE_DIR": cache, "PYTHONPATH": str(ROOT)}
     with tempfile.TemporaryDirectory() as data:
         environment["HITBOX_DATA"] = data

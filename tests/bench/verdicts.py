@@ -1,5 +1,7 @@
-"""One mask verdict, hit or not, without the step around it: AND of two snapped masks, and the exact test of two that
-are not, hits and misses apart. 32 px sprites: a disc, a plane, and pixels at random."""
+"""Time of one test of two masks, without the step around it. Sprites of 32 px: a disc, a plane, and random pixels.
+
+Snapped masks are tested by an AND of words, others by the exact test. Hits and misses are timed separately.
+"""
 
 from time import perf_counter
 
@@ -34,9 +36,9 @@ def sprites():
 
 
 class Pairs:
-    """Pairs of one sprite with itself, the second anywhere around the first; where: offsets, and angles unless snapped.
+    """Pairs of a sprite with itself. where: poses of the second sprite relative to the first (offsets only if `snap`).
 
-    Their rows are shuffled, as in a world.
+    The rows of the pairs are shuffled, as in a world.
     """
 
     def __init__(self, solid, where, snap):

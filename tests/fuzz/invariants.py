@@ -29,7 +29,7 @@ def hold(condition, name, found=""):
 
 
 class Watch:
-    """Looks at one world; remembers which pairs have begun to touch."""
+    """Checks of one world's invariants. It stores the pairs that have begun to touch."""
 
     def __init__(self, world):
         self.world = world
@@ -46,7 +46,7 @@ class Watch:
         self.handles()
 
     def after_edit(self, line, space):
-        """After anything but a step."""
+        """Check the invariants after a line that is not a step."""
         if line.startswith("kept ="):
             self.kept = set(self.touching), set(self.sensing)
         if line == "world.restore(kept)":
@@ -54,7 +54,7 @@ class Watch:
         self.handles()
 
     def after_step(self):
-        """After every step."""
+        """Check the invariants after a step."""
         self.numbers()
         self.handles()
         self.contacts()
@@ -65,13 +65,13 @@ class Watch:
             self.as_the_shapes_are()
 
     def alike(self, twin):
-        """A world that was restored from a snapshot of this one has gone on as it has."""
+        """Raise Broken if a world that was restored from a snapshot of this one differs from this world."""
         hold(twin.digest() == self.world.digest(), "a restored world goes on alike")
 
     # --- numbers ---------------------------------------------------------------------------------------------------
 
     def numbers(self):
-        """U1, U2: finite, of unit length, of what sleeps too; and contacts push."""
+        """Check U1 and U2, sleeping contacts included, and that contacts push."""
         world = self.world
         for name, bad in (
             ("numbers are finite", not_finite(world, sleeping=True)),
@@ -84,7 +84,7 @@ class Watch:
     # --- handles ---------------------------------------------------------------------------------------------------
 
     def handles(self):
-        """Tables, bodies and shapes say the same of who is there."""
+        """Check that the tables, the bodies and the shapes list the same bodies and shapes."""
         world = self.world
         ids, shapes = world.bodies["id"], world.shapes
         hold((np.diff(ids) > 0).all(), "bodies stand in the order of ids", ids)
@@ -109,7 +109,7 @@ class Watch:
     # --- contacts and events ---------------------------------------------------------------------------------------
 
     def contacts(self):
-        """U10: of two shapes that are there, of two bodies, not both static, that may meet."""
+        """Check that candidates and contacts are of shapes that exist, on two bodies that may collide (U10)."""
         world = self.world
         pairs = world.candidates
         once = len(np.unique(pairs, axis=0)) == len(pairs) and (pairs[:, 0] < pairs[:, 1]).all()
@@ -133,7 +133,7 @@ class Watch:
         return found[0]
 
     def events(self, before, begin, end, persist):
-        """An end for every begin: each pair begins when it did not touch, and goes on or ends when it did."""
+        """Check that each pair begins when it did not touch, then persists or ends. Return the touching pairs."""
         told = {name: self._pairs(name) for name in (begin, end, persist) if name}
         for name, pairs in told.items():
             hold(len(set(pairs)) == len(pairs), f"{name} is told once of a pair", pairs)
@@ -160,7 +160,7 @@ class Watch:
         hold(found <= self.touching, "contacts have begun", found - self.touching)
 
     def as_the_shapes_are(self):
-        """U10 in worlds that only look: contacts are of those shapes, and no others, whose distance is not above 0."""
+        """Check U10 in worlds without response: two shapes have a contact exactly if their distance is not above 0."""
         world, placed = self.world, []
         for body in world:
             row = world.bodies[world.rows([body.id])[0]]

@@ -105,7 +105,7 @@ class Runner:
                 self._forget_twin(line)
 
     def _step_twin(self, line):
-        """The twin that was restored from a snapshot goes on as the world does."""
+        """Step the twin that was restored from a snapshot, and check that it still equals the world."""
         if "twin" in self.space:
             exec(line.replace("world", "twin"), self.space)
             self.watch.alike(self.space["twin"])
@@ -119,7 +119,7 @@ class Runner:
 
 
 def run_lines(lines, strategy=None):
-    """(failure or None, the runner) of a program."""
+    """Run a program. Return (its failure or None, the runner)."""
     runner = Runner(strategy)
     for line in lines:
         failure = runner.run(line)
@@ -143,7 +143,7 @@ def failure_of(lines, strategy=None):
 
 
 def write_program(seed, lines=LINES):
-    """(lines, failure or None, strategy) of a random program, run while it is written."""
+    """Write a random program, and run each line as it is written. Return (lines, failure or None, strategy)."""
     rng = random.Random(seed)
     writer, runner = Writer(rng), Runner()
     failure = runner.run(writer.first())

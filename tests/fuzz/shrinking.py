@@ -45,7 +45,7 @@ def fewer_lines(lines, fails):
 
 
 def shorter_loops(lines, fails):
-    """Fewer rounds of each loop, and none for one."""
+    """Reduce the number of rounds of each loop. A loop of one round becomes its body."""
     for at, line in enumerate(lines):
         found = re.match(r"for _ in range\((\d+)\): (.*)", line)
         for rounds in (1, 2, 3, 5, 8, 12, 20, 30) if found else ():
@@ -58,7 +58,7 @@ def shorter_loops(lines, fails):
 
 
 def simpler_lines(lines, fails):
-    """Without the arguments that are not needed, with rounder numbers."""
+    """Leave out arguments that the failure does not need, and round numbers."""
     for at in range(len(lines)):
         for pattern, simpler in ((ARGUMENT, lambda text: [""]), (NUMBER, _rounder)):
             number = 0

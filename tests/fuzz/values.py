@@ -28,7 +28,7 @@ class Values:
         return self.rng.random() < share
 
     def number(self, low, high):
-        """Mostly of four digits, sometimes whole, so that things touch exactly."""
+        """Return a number in low .. high, mostly of four digits, sometimes whole, so that shapes touch exactly."""
         value = self.rng.uniform(low, high)
         return float(round(value)) if self.chance(0.3) else float(f"{value:.4g}")
 
@@ -36,7 +36,7 @@ class Values:
         return (self.number(-reach, reach), self.number(-reach, reach))
 
     def place(self):
-        """Near the others; now and then on the grid, where things stand side by side, or far out."""
+        """Return a place near the others; now and then on a grid, where shapes lie side by side, or far out."""
         if self.chance(0.3):
             return (8.0 * self.rng.randint(-12, 12), 8.0 * self.rng.randint(-12, 12))
         return self.pair(1e6) if self.chance(0.01) else self.pair(120.0)

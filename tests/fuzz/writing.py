@@ -38,7 +38,7 @@ class Writer:
         return f"world = World(Effects({said}), {rng.choice(STRATEGIES)}, {', '.join(more)})"
 
     def next(self, space):
-        """One line more."""
+        """Return the next line of the program."""
         self.space, self.world = space, space["world"]
         kind = self.rng.random()
         if len(self.world) < 3 or kind < 0.1:
@@ -56,7 +56,7 @@ class Writer:
         return self.rng.choice(self.edits)(self.rng.choice(bodies or [f"world.body({len(self.world)})"]))
 
     def _living(self, pattern, start=0):
-        """Names of handles whose body is there."""
+        """Return the names of the handles that match a pattern and whose body is in the world."""
         found = []
         for name, value in self.space.items():
             if re.fullmatch(pattern, name) and getattr(value, "body", value) in self.world:

@@ -8,7 +8,7 @@ from tests.game.driving import Driver
 
 @pytest.fixture(autouse=True)
 def data_folder_of_the_test(tmp_path, monkeypatch):
-    """No test reads or writes what belongs to the person who runs it."""
+    """Give each test a data folder of its own, so that it neither reads nor writes the user's files."""
     monkeypatch.setenv("HITBOX_DATA", str(tmp_path))
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
     monkeypatch.setenv("SDL_AUDIODRIVER", "dummy")

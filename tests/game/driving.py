@@ -124,7 +124,7 @@ class Driver:
         self.click((place.x + 12, place.centery))
 
     def mark(self, label, by=None):
-        """Go down to the row with that label by key or pad, and say yes."""
+        """Move down to the row with that label and confirm it. by: functions (down, confirm); None: the keys."""
         down, yes = by or (lambda: self.key(pygame.K_DOWN), lambda: self.key(pygame.K_RETURN))
         for _ in range(40):
             row = self.screen.list.marked
@@ -134,5 +134,5 @@ class Driver:
         raise AssertionError(f"no row {label!r} on {self.name}")
 
     def by_pad(self, label):
-        """The same with the controller."""
+        """Move down to the row with that label and confirm it, by the controller."""
         self.mark(label, (lambda: self.pad("down"), lambda: self.pad("a")))

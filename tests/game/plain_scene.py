@@ -2,7 +2,7 @@
 
 
 class Plain:
-    """Beside game.scene.Scene: steps its worlds, on a plain ground; without goals, a bot or a state of its own."""
+    """Base class beside game.scene.Scene that steps the worlds on a plain ground, without goals, bot and state."""
 
     def update(self, inputs):
         for world in self.worlds:

@@ -1,4 +1,4 @@
-"""Boxes that lie: those that the layer shows are those that a slow look at every pair finds."""
+"""False hits of boxes: the pairs that the layer shows are those that a slow test of every pair finds."""
 
 from itertools import combinations
 
@@ -64,7 +64,11 @@ def test_who_is_not_to_meet_is_not_asked():
 
 @pytest.fixture(scope="module")
 def flown():
-    """The shooter flown by its bot, the layer on; [(world's ids by a slow look, by the layer)] of some steps."""
+    """Fly the shooter by its bot, with the layer on. Return (pairs, texts, overlays).
+
+    pairs: for some steps, (ids of the false hits by the slow test, ids by the layer); texts: for each new mark, whether
+    the picture has a text about it.
+    """
     scene = Registry(SCENES).scene_class("shooter")(seed=1)
     session, overlays = Session(scene, BotSource()), Overlays(["disagreement"])
     looks, said = [], []
@@ -115,7 +119,7 @@ def test_the_players_own_box_would_have_died(flown):
 
 
 class Visit(Scene):
-    """A corner comes into the box of the player's own corner, by so many steps of 4 px, and goes as it came."""
+    """Scene in which a corner comes into the box of the player's corner, by `depth` steps of 4 px, and goes back."""
 
     name, title, about, effects = "test/visit", "Visit", "", Effects()
     depth = 2
@@ -127,7 +131,7 @@ class Visit(Scene):
         self.other = world.add_body(corner(True), position=(12.0, -12.0), kind="kinematic")
 
     def update(self, inputs):
-        """There, and back."""
+        """Move the other corner there, or back."""
         way = 1 if self.frame < self.depth else -1
         self.other.velocity = (-240.0 * way, 240.0 * way)
         self.world.step()

@@ -44,7 +44,7 @@ costs = count(1)
 
 
 def tiers_of(request):
-    """Figures of sprites, from few poses and the tiers that are told: they are measured in full elsewhere."""
+    """Return figures of two sprites, from few poses and some tiers only. Other tests measure them in full."""
     found = {}
     poses = poses_around(*request, count=200)
     measure_at(
@@ -68,7 +68,7 @@ def figures_of(scene):
 
 
 def know(play):
-    """Give a played scene its figures, as the process that measures would."""
+    """Give a played scene its figures, as the measuring process would."""
     if play.scene.measured() is not None:
         play.scene.figures = play.measuring.bench.figures = figures_of(play.scene)
         request = play.scene.measured()
@@ -80,7 +80,7 @@ def has_found(finding):
 
 
 def read_whole(play, finding):
-    """The card is opened, and the finding is written on it, at every size of the window."""
+    """Check at every size of the window that the open card shows the whole finding."""
     for size in SIZES:
         play.hint = LabCard(play.scene)
         frame = play.draw(Picture(pygame.Surface(size)))

@@ -1,4 +1,4 @@
-"""Full-screen flashes: at most three a second whatever happens, none for who asks for none.
+"""Flashes of the whole picture: at most three a second in any game, and none if the player has switched them off.
 
 A flash as WCAG 2.1 has it: a pair of opposing changes of a tenth or more of the full relative luminance, the darker
 side under 0.8, over a quarter of the picture or more.

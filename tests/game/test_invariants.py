@@ -43,7 +43,7 @@ def pile(boxes=3, **settings):
 
 
 def floating(speed=40.0):
-    """Two that meet, and nothing else."""
+    """Return a world with two bodies that meet, without gravity and ground."""
     world = World(FLOATING)
     world.add_body(BOX, position=(0, 0), velocity=(speed, 3.0), angular_velocity=0.4)
     world.add_body(Circle(9), position=(40, 5), velocity=(-speed, 1.0), material=Material(restitution=0.4))
@@ -58,7 +58,7 @@ def falling():
 
 
 def looking(*shapes):
-    """Shapes in each other, in a world that only looks."""
+    """Return a world without response in which the shapes overlap."""
     world = World(Effects.detection())
     for k, shape in enumerate(shapes):
         world.add_body(shape, position=(5.0 * k, 3.0 * k), kind="kinematic")
@@ -66,7 +66,10 @@ def looking(*shapes):
 
 
 def watched(world, steps=1, tamper=None, watch=None):
-    """The answers after so many steps; tamper(world) right after the last of them, before it is looked at."""
+    """Step a world, and return the results of the checks after the last step.
+
+    tamper(world) is called after the last step, before its checks.
+    """
     watch = watch or Watch()
     for number in range(steps):
         watch.before(world)
@@ -190,7 +193,7 @@ def test_u6_settled_and_too_deep():
 
 
 def settled_watch(world):
-    """One that has seen the world for a second and a half."""
+    """Return a Watch that has checked the world for a second and a half."""
     watch = Watch()
     watched(world, 90, watch=watch)
     return watch
@@ -285,7 +288,7 @@ def test_u9_takes_two_worlds():
 
 
 def two_orders(places, **options):
-    """(how far two worlds of boxes at these places are apart after 60 steps, the worlds), one in another order."""
+    """Return (greatest difference after 60 steps, worlds) of two worlds with equal boxes, added in different orders."""
     worlds, ids, count = [], [], len(places)
     for order in (range(count), [5 * k % count for k in range(count)]):
         world = World(**options)
@@ -396,7 +399,7 @@ def test_bodies_on_joints_break_nothing(held, links, solver):
 
 
 def flail(speed, solver):
-    """Five links in flight, one of them fast, with limits at their hinges that jerk."""
+    """Return a world of five links in flight. One is fast, and the limits of the hinges stop its rotation abruptly."""
     world = World(Effects.rigid_bodies().with_(joints=True), substeps=4)
     world.gravity, world.joint_solver, before = (0.0, 0.0), solver, None
     for k in range(5):

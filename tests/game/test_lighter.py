@@ -22,7 +22,7 @@ LIGHTER = [name for name in REGISTRY.names if REGISTRY.scene_class(name).lighter
 
 
 class Kernels:
-    """Stands in place of the tiers, and tells of kernels what a test wants: whether any is on disk, which run plain."""
+    """Replacement of the kernels' state: whether any kernel is on disk, and which kernels run as plain Python."""
 
     def __init__(self):
         self.empty, self.background, self.load, self.wanted = False, True, id, {}
@@ -42,7 +42,7 @@ def lighter_of(name):
 
 
 def take(scene, devices):
-    """Apply what goes in with the next step; return it."""
+    """Apply the changes that the devices give to the next step. Return them, {name: value}."""
     changes = devices.next().changes
     for change, value in changes:
         scene.change(change, value)

@@ -37,7 +37,7 @@ def turned(points, pose):
 
 
 def is_solid(mask, points):
-    """Which body points lie in a solid pixel, at once far from any edge and by the pixels alone."""
+    """Return whether each point in body space lies in a solid pixel, looked up in the mask's pixels alone."""
     column = np.floor(points[:, 0] + mask.origin[0]).astype(int)
     row = np.floor(points[:, 1] + mask.origin[1]).astype(int)
     width, height = mask.size

@@ -51,7 +51,7 @@ def played():
 
 
 class Mixed:
-    """A bot's keys, with what is switched meanwhile."""
+    """Source with a bot's keys, and with the changes of settings that the devices give."""
 
     def __init__(self, source, devices):
         self.source, self.devices = source, devices

@@ -39,7 +39,7 @@ class Hands:
         return int(self.random.integers(-5, width + 5)), int(self.random.integers(-5, height + 5))
 
     def deed(self):
-        """One of all that a person can do."""
+        """Do one random thing that a player can do."""
         kind = str(self.random.choice(list(KINDS), p=np.array([*KINDS.values()]) / 100))
         self.deeds.append(kind)
         getattr(self, kind)()
@@ -103,7 +103,7 @@ def watched(monkeypatch):
 
 
 def try_out(driver, scene, seed, deeds):
-    """Do so many things to a scene, which is begun again when it was left."""
+    """Do `deeds` random things in a scene. The scene is started again if it was left."""
     hands = Hands(driver, seed)
     driver.app.screens.play(scene)
     driver.turns(5)

@@ -47,7 +47,7 @@ class Noted:
         return scene_digest(self.session.scene)
 
     def play(self, steps, source=None):
-        """From where it stands; what was noted after that place is forgotten."""
+        """Play `steps` steps from the current state, and record them. Later recorded steps are dropped first."""
         self.session.source = source or self.session.source
         self.rewind.drop_future()
         del self.digests[self.rewind.position + 1 :], self.inputs[self.rewind.position :]
@@ -98,7 +98,7 @@ def test_ten_seconds_back_and_on_again_in_every_scene(name):
 
 @pytest.fixture
 def even_clock(monkeypatch):
-    """Key frames take as long as each other: on a busy machine one that takes long is put off, as it should be."""
+    """Make all key frames take the same time, because one that takes long on a busy machine would be put off."""
     ticks = count()
     monkeypatch.setattr("game.run.rewind.perf_counter", lambda: 1e-6 * next(ticks))
 

@@ -1,4 +1,4 @@
-"""A person's runs: each attempt its own recording, help noticed, results ranked, ghosts kept, damaged files told."""
+"""A person's runs: one recording for each attempt, notes of help, ranked results, ghosts, reports of damaged files."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""Tiled levels: what is read, and what a damaged file is told."""
+"""Tiled levels: the contents that are read, and the message for each kind of damage."""
 
 import base64
 import copy

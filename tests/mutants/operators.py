@@ -88,7 +88,10 @@ def is_kernel(node, name):
 
 
 def places(function, kind):
-    """The nodes of a kernel that can be changed so, in the order of the source; no default and no docstring."""
+    """Return the nodes of a kernel at which a change of this kind is possible, in the order of the source.
+
+    Defaults of arguments and the docstring are left out.
+    """
     possible, _ = KINDS[kind]
     found = [node for statement in function.body for node in ast.walk(statement) if possible(node)]
     return sorted(found, key=lambda node: (node.lineno, node.col_offset, node.end_lineno, node.end_col_offset))
@@ -113,6 +116,6 @@ def change(folder, name, kind, seed):
 
 
 def innermost_statement(function, node):
-    """The statement of a function that a node belongs to most closely."""
+    """Return the innermost statement of a function that contains a node."""
     holding = [each for each in ast.walk(function) if isinstance(each, ast.stmt) and node in ast.walk(each)]
     return holding[-1]

@@ -1,4 +1,4 @@
-"""Ground as the closed area that it encloses: what a body's centre must never get into."""
+"""Ground as the closed area that it encloses, which no body's centre may enter."""
 
 import itertools
 

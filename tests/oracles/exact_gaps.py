@@ -6,7 +6,7 @@ import numpy as np
 
 
 def sign_of_gap(a, b):
-    """1 apart, 0 touching, -1 overlapping: of outlines whose corners are floats, taken as the rationals they are."""
+    """Return 1 if two outlines are apart, 0 if they touch, -1 if they overlap, computed in exact rational numbers."""
     a, b = ([(Fraction(x), Fraction(y)) for x, y in corners] for corners in (a, b))
     widest = None
     for one, other in ((a, b), (b, a)):
@@ -21,9 +21,10 @@ def sign_of_gap(a, b):
 
 
 def gaps_on_a_lattice(a, b):
-    """(n,) gaps of pairs of outlines (n, m, 2) of int64 corners, clockwise on the screen: the widest over all faces.
+    """Return the (n,) gaps of pairs of outlines: for each pair the widest gap over the normals of all faces.
 
-    Every number is whole and below 2^62, so that the sign is exact; the length is a float, in units of the lattice.
+    a, b: (n, m, 2) int64 corners, clockwise on the screen. Every number is whole and below 2^62, so that the sign is
+    exact; the length is a float, in units of the lattice.
     """
     widest = np.full(len(a), -np.inf)
     for one, other in ((a, b), (b, a)):

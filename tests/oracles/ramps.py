@@ -20,6 +20,6 @@ def resting_y(points, radius, x, slope, through=(0.0, 0.0)):
 
 
 def slide(slope, way):
-    """(pixels along x, pixels down) that a way straight down [px] leads along a slope."""
+    """Return the displacement (x, down) [px] along a slope that results from a motion straight down by `way` [px]."""
     angle = math.atan(slope)
     return -way * math.sin(angle) * math.cos(angle), way * math.sin(angle) ** 2

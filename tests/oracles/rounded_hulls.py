@@ -73,7 +73,10 @@ def distance_to_core(hulls, points):
 
 
 def _nearest(corners, points):
-    """((n, 2), (n, 2)): of points (n, k, 2) the nearest to the edges between corners (n, m, 2), and where on them."""
+    """Return (points, places), (n, 2) each: the nearest of an outline's `points`, and the nearest place on its edges.
+
+    corners (n, m, 2): corners of the outlines; points (n, k, 2): the points to compare.
+    """
     edges = np.roll(corners, -1, axis=1) - corners
     square = (edges * edges).sum(axis=2)
     to = points[:, None] - corners[:, :, None]

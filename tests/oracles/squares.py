@@ -25,7 +25,11 @@ def at(union, pose):
 
 
 def touching(a, b, angle, direction):
-    """A pose (x, y, angle) at which b, turned and come from outside towards a's middle, touches a or has passed it."""
+    """Return the pose (x, y, angle) at which b, moved from outside towards the middle of a, first touches a.
+
+    angle: rotation of b [rad]; direction: direction from a in which b starts [rad]. If b passes a without a touch, the
+    pose lies beyond the middle of a.
+    """
     turned = at(b, (0.0, 0.0, angle))
     c, s = math.cos(direction), math.sin(direction)
     away = sum(math.hypot(*np.ptp(np.array(each.bounds).reshape(2, 2), axis=0)) for each in (a, b))
@@ -38,8 +42,10 @@ def touching(a, b, angle, direction):
 
 
 def random_pose(rng, a, b, near):
-    """A pose of b: within 2 px of where it touches a, or anywhere around it; at one in four at quarter turns, half of
-    these on halves of pixels."""
+    """Return a random pose (x, y, angle) of b around a. near: within 2 px of the pose at which it touches a.
+
+    One pose in four has a multiple of a quarter turn; half of these lie on multiples of half a pixel.
+    """
     angle, direction = rng.uniform(-7.0, 7.0), rng.uniform(-math.pi, math.pi)
     straight = rng.random()
     if straight < 0.25:

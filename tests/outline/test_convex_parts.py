@@ -19,7 +19,11 @@ SQUARE = np.array([[0, 0], [10, 0], [10, 10], [0, 10]], float)
 
 
 def check(outer, holes=()):
-    """Parts, after what must hold for all: exact, convex, at most 16 corners, inner sides inside, others outside."""
+    """Return the convex parts of a polygon, after a check of all that must hold for them.
+
+    They must be exact and convex, with at most 16 corners, inner sides inside the polygon and the others on its
+    outline.
+    """
     parts = convex_parts(outer, holes)
     whole = Polygon(outer, holes)
     size = float(np.ptp(outer, axis=0).max())

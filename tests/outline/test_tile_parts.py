@@ -32,7 +32,7 @@ def clouds(seed, size=140):
 
 
 def boxes(seed):
-    """Random boxes, there where none or two were before: long straight edges along and across borders."""
+    """Return the exclusive-or of random boxes, which has long straight edges along and across the borders of tiles."""
     rng = np.random.default_rng(seed)
     found = np.zeros((140, 140), bool)
     for _ in range(12):

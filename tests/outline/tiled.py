@@ -48,8 +48,11 @@ def is_near(line, other, distance):
 
 
 def check(solid, smooth=0.5, size=SIZE):
-    """The parts of a mask's tiles, after what must hold for all: convex, in their tile, without overlaps, inner sides
-    inside and others outside, and together within the contract of outlines."""
+    """Return the parts of a mask's tiles, after a check of all that must hold for them.
+
+    Each part must be convex and lie in its tile. Parts must not overlap. Inner sides lie inside the outline and the
+    others on it, and the whole must fulfil the contract of outlines.
+    """
     parts = parts_of(solid, smooth, size)
     if not parts:
         assert not solid.any()

@@ -38,7 +38,7 @@ for line in sys.stdin:
 
 @pytest.fixture
 def pool(tmp_path, monkeypatch):
-    """Workers of a module that answers, dies or hangs as it is told."""
+    """Return a function that starts Workers of a module whose tasks answer, die or hang."""
     (tmp_path / "answering.py").write_text(ANSWERS.replace("ROOT", repr(str(ROOT))))
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     made = []
@@ -143,7 +143,7 @@ def test_a_wrong_number_of_workers_is_refused(given):
 
 
 class Asked:
-    """A pool that keeps the tasks it is given, and is told which of them a process would take."""
+    """Pool that stores its tasks. The test chooses which of them a process would take."""
 
     count, alive, left = 1, True, 0
 
@@ -183,7 +183,7 @@ def calling(called):
 
 @pytest.fixture
 def ordered(monkeypatch):
-    """ordered(seconds, function): the kernel, ordered of a Background that has no thread and no processes."""
+    """Return order(seconds, function), which orders a kernel of a Background without threads and processes."""
     monkeypatch.setattr(physics.background, "JIT", False)
     monkeypatch.setattr(physics.background, "Workers", lambda *given: Asked())
     background = physics.background.Background(1)

@@ -25,7 +25,7 @@ FAR = 2.0**20  # [px] a character is carried by so many pixels one by one: more 
 
 
 def write_wrong(world, rng, walkers):
-    """Some numbers of some columns into some bodies, most of which are touched."""
+    """Write some of NUMBERS into some columns of random bodies, and wake most of these bodies."""
     columns = rng.sample(COLUMNS, rng.choice((1, 3)))
     numbers = [each for each in NUMBERS if not (walkers and FAR < abs(each) < math.inf)]
     share = rng.choice((0.1, 0.5))

@@ -26,7 +26,7 @@ def standing(world, x, floor, **options):
 
 
 def play(world, steps, hero, dx=0.0, dy=2.0):
-    """Move the hero and step. Returns what the moves said."""
+    """Move the hero and step the world, `steps` times. Return the results of the moves."""
     told = []
     for _ in range(steps):
         told.append(hero.move(dx, dy))

@@ -1,4 +1,4 @@
-"""One rule for every ground: flatter than max_slope is walked, steeper is slid down, and the slope is told."""
+"""One rule for every ground: flatter than max_slope is walked, steeper is slid down, and the slope is reported."""
 
 import math
 

@@ -43,7 +43,7 @@ class Twin:
         )
 
     def candidates(self, reach=0.0):
-        """Pairs whose rectangles meet; reach: by how many radii those of what is not static may hold later motion."""
+        """Return the pairs whose rectangles meet. reach [radii]: enlargement of moving ones for later motion."""
         found, items = [], [(i, b, self.rectangle(b, reach)) for i, b in sorted(self.bodies.items())]
         for at, (i, b, p) in enumerate(items):
             for j, c, q in items[at + 1 :]:

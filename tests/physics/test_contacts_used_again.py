@@ -1,5 +1,7 @@
-"""Contacts of the step before that are used as they are: where both bodies stand as that step left them, nothing about
-them is asked a second time. The oracle asks all the same, of every contact in every step: their flag is cleared."""
+"""Contacts of the previous step are recycled where both bodies are still at the poses of that step.
+
+The oracle is a run in which no contact is recycled: the flag `can_recycle` of every contact is cleared in every step.
+"""
 
 import math
 
@@ -33,14 +35,17 @@ def heap(effects, solver="soft_step", shapes=SHAPES, **arguments):
 
 
 def ask_again(world):
-    """Have every contact asked anew in the next step."""
+    """Clear `can_recycle` of all contacts, so that the next step computes all of them."""
     world.contact_rows["can_recycle"] = False
     for island in world.sleeping_set.islands.values():
         island.contacts["can_recycle"] = False
 
 
 def follow(make, edit):
-    """Run a world as it is, and with all asked: what is told in each step is the same. edit(world, step, memory)."""
+    """Run a world with recycled contacts, and again without them. Assert that each step reports the same.
+
+    edit(world, step, memory) is called before each step.
+    """
     ran = []
     for asked in (False, True):
         world, _, _ = made = make()
@@ -79,7 +84,7 @@ def turn_one_in_the_table(world, step, memory):
 
 
 def put_in_its_place(world, step, memory):
-    """Another takes the row and the very pose of one that is removed, and its own is taken by a third."""
+    """Remove a body, and move the next one in the table to its pose, so that this one has its row and its pose."""
     _, _, bodies = memory["made"]
     if step in (STEPS // 3, STEPS // 2):
         first, second = bodies.pop(4), bodies[4]
@@ -89,7 +94,7 @@ def put_in_its_place(world, step, memory):
 
 
 def restore(world, step, memory):
-    """A floor that was moved by hand before the snapshot was taken, and stood there in the steps after it."""
+    """Move the floor by hand before a snapshot, and restore this snapshot later. The floor stays there in between."""
     _, floor, _ = memory["made"]
     if step == STEPS // 4:
         floor.position = (0.0, 20.75)
@@ -113,7 +118,7 @@ def test_a_heap_that_is_left_alone(solver):
 
 
 def spoil_contacts(world, step, memory):
-    """Numbers of contacts that are none: the contact is found at its anchor, as it was."""
+    """Write NaN into contact values: the next step must find the contacts from the contact cache as before."""
     if step % 8 == 6:
         for name in ("normal_x", "y_1", "separation_1"):
             world.contact_rows[name][step % 3 :: 4] = math.nan

@@ -43,7 +43,11 @@ def gap_of(a, b, room=None, start=(0, 0)):
 
 
 def check_certificates(a, b, room):
-    """Lower bound <= distance <= |witnesses|; depth <= the AABBs' overlap. Returns whether they overlap."""
+    """Assert bounds on the distance and depth of two outlines. Return whether they overlap.
+
+    The distance lies between the gap along the normal and the distance of the witness points; the depth is at most the
+    overlap of the AABBs.
+    """
     size = max(np.ptp(a, axis=0).max(), np.ptp(b, axis=0).max(), 1e-300)
     found, normal, on_a, on_b = gap_of(a, b, room)
     assert abs(math.hypot(*normal) - 1.0) <= 1e-12
@@ -62,7 +66,7 @@ def check_certificates(a, b, room):
 
 
 def fuzz(seed, pairs, slimmest):
-    """C13: random pairs; returns the share of hits and the rounds of those that are apart."""
+    """Check random pairs (C13). Return (share of hits, number of rounds for each pair without a hit)."""
     rng, room, hits, rounds = np.random.default_rng(seed), new_gap_workspace(), 0, []
     for _ in range(pairs):
         a, b = (

@@ -14,7 +14,10 @@ SUBSTEPS = (4, 16, 32, "auto")
 
 
 def energies(world, body, height, steps):
-    """Kinetic energy plus height, of a body, as shares of the start. height() [px] over the lowest place."""
+    """Return (steps,) kinetic plus potential energy of a body, as shares of that at the start.
+
+    height(): height of the centre of mass over its lowest place [px].
+    """
     start, found = body.mass * world.gravity[1] * height() + body.kinetic_energy, []
     for _ in range(steps):
         world.step()
@@ -69,7 +72,7 @@ def test_a_disc_in_a_bowl_of_links_never_gains(links, radius, start, substeps):
 
 
 def rocking(half_height, tilt, effects=EFFECTS, **settings):
-    """A plank that rocks on a static disc of 12 px, rolled from its middle by an angle."""
+    """Return (world, plank) of a plank on a static disc of 12 px, rolled from its middle by the angle `tilt` [rad]."""
     world, rough = World(effects, **settings), Material(friction=0.9)
     world.add_body(Circle(12), kind="static", material=rough)
     n, t = (math.sin(tilt), -math.cos(tilt)), (math.cos(tilt), math.sin(tilt))

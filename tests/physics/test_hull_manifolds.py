@@ -45,7 +45,10 @@ def hull_of(shape, pose):
 
 
 def gap_of(a, b):
-    """Signed distance of two rounded hulls: the origin's from the Minkowski difference of the cores, less the radii."""
+    """Return the signed distance of two rounded hulls.
+
+    It is the distance of the origin from the Minkowski difference of their cores, minus both radii.
+    """
     difference = shapely.MultiPoint([tuple(q - p) for p in a[0] for q in b[0]]).convex_hull
     origin = shapely.Point(0, 0)
     inside = difference.geom_type == "Polygon" and difference.contains(origin)
@@ -61,7 +64,7 @@ def surface_gap(hull, x, y):
 
 
 def mirrored(a, pose_a, b, pose_b, margin=0.0):
-    """The manifold of A and B, after a look at that of B and A: the same but for the normal's direction."""
+    """Return the manifold of A and B, after a check that that of B and A is the same with the opposite normal."""
     one, two = collide(a, pose_a, b, pose_b, margin), collide(b, pose_b, a, pose_a, margin)
     assert len(one) == len(two) <= 2
     assert one.points.tolist() == two.points.tolist() and one.separations.tolist() == two.separations.tolist()

@@ -1,6 +1,7 @@
-"""`world.ignored_effects` names the declared effects that the solver does not honour: found out by taking each away.
+"""`world.ignored_effects` names the declared effects that the solver does not honour. Each effect is removed to find
+out.
 
-Without an honoured effect its scene goes another way; without an ignored one every scene goes the same way to the bit.
+Without an honoured effect its scene takes another course; without an ignored one every scene is the same to the bit.
 """
 
 from dataclasses import fields

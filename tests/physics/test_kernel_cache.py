@@ -51,9 +51,9 @@ ONES = [make_one(part) for part in PARTS]
 
 
 def run(code, folder, cache, *arguments, **environment):
-    """Return what a process prints last, read as JSON.
+    """Run code in a new process. Return the last line that it prints, read as JSON.
 
-    It writes no bytecode: Python takes a source of the same length and second for the one that it compiled before.
+    The process writes no bytecode, because Python takes a changed source of the same length and second for the old one.
     """
     path = os.pathsep.join((str(folder), str(ROOT)))
     done = subprocess.run(

@@ -71,7 +71,7 @@ def rays(seed, count=RAYS):
 
 
 def row_of(hit, origin, way):
-    """The row of ray_casts that says what a RayHit, or None, says."""
+    """Return the row of ray_casts that is equal to a RayHit, or to None."""
     if hit is None:
         return (-1, -1, origin[0] + way[0], origin[1] + way[1], 0.0, 0.0, 1.0)
     return (hit.body.id, hit.shape, *hit.point, *hit.normal, hit.fraction)

@@ -34,7 +34,7 @@ def add_floor(world, kind, top=50.0, half=320):
 
 
 def drop(shape, floor, solver, angle=0.0, seconds=3.0):
-    """(begins, ends, step at which it fell asleep or None, the body) of what falls by some pixels."""
+    """Drop a shape by some pixels. Return (begins, ends, step at which it fell asleep or None, the body)."""
     world = World(solver=solver)
     add_floor(world, floor)
     body = world.add_body(shape, position=(0.3, 20.0), angle=angle)

@@ -29,7 +29,7 @@ def solid_squares(mask, pose):
 
 
 def same_both_ways(mask, mask_pose, shape, pose):
-    """Both orders, which must agree; the first order's manifold."""
+    """Return the manifold of a mask and a shape, after a check that the opposite order gives the same."""
     one, two = collide(mask, mask_pose, shape, pose), collide(shape, pose, mask, mask_pose)
     assert len(one) == len(two) and one.area == two.area
     if len(one):

@@ -17,7 +17,7 @@ def at(mask, left, top):
 
 
 def check_pair(a, a_left, a_top, b, b_left, b_top):
-    """Compare everything a manifold of two bitmaps tells with the double loop. Returns whether they hit."""
+    """Compare all results of a manifold of two bitmaps with the double loop. Returns whether they hit."""
     mask_a, mask_b = PixelMask(a), PixelMask(b)
     shared = shared_pixels(a.tolist(), a_left, a_top, b.tolist(), b_left, b_top)
     found = collide(mask_a, at(mask_a, a_left, a_top), mask_b, at(mask_b, b_left, b_top))

@@ -1,4 +1,4 @@
-"""Masks that are not snapped: do the unions of their squares share area, against shapely; how much, where, how deep."""
+"""Masks that are not snapped, against shapely: whether the unions of their squares share area, how much, how deep."""
 
 import math
 
@@ -59,7 +59,7 @@ def masks_of(name, snap=False):
 
 
 def drawn(mask, pose):
-    """The squares of a snapped mask as drawn at a pose, and of others where they are."""
+    """Return the union of a mask's squares at a pose: as drawn if the mask is snapped, otherwise at the exact pose."""
     if not mask.snap:
         return at(union_of(mask.solid.tolist(), mask.origin), pose)
     turned = mask.turned(pose[2])
@@ -68,7 +68,7 @@ def drawn(mask, pose):
 
 
 def verdicts(a, pose_a, b, poses, full=False):
-    """Return whether a at one pose meets b at each of many, and the reported area, by the passes that worlds use."""
+    """Return (hits (n,) bool, areas (n,)) of a at one pose against b at each of `poses`, by the passes of a world."""
     library, bodies, shapes = Library(), np.zeros(1 + len(poses), BODY), np.zeros(1 + len(poses), SHAPE)
     for row, (mask, pose) in enumerate([(a, pose_a), *((b, pose) for pose in poses)]):
         place(library, mask, bodies, shapes, row, pose)
@@ -82,7 +82,7 @@ def verdicts(a, pose_a, b, poses, full=False):
 
 
 def check_verdicts(name, snap, seed, count):
-    """Half of the poses near touching. Returns (hits, misses within 2 px)."""
+    """Check random poses, half of them near touching. Return (hits, misses within 2 px)."""
     rng = np.random.default_rng(seed)
     a, b = masks_of(name, snap)
     pose_a = (*rng.uniform(-50.0, 50.0, 2), float(rng.choice([0.0, 1.0, QUARTERS[int(rng.integers(12))]])))
@@ -119,7 +119,7 @@ def test_a_hundred_thousand_poses_meet_as_shapely_has_it(name, seed):
 
 
 def both_ways(a, pose_a, b, pose_b):
-    """Both orders, which must agree; the first order's manifold."""
+    """Return the manifold of a and b, after a check that the opposite order gives the same."""
     one, two = collide(a, pose_a, b, pose_b), collide(b, pose_b, a, pose_a)
     assert len(one) == len(two) and one.area == two.area
     assert one.points.tolist() == two.points.tolist() and one.separations.tolist() == two.separations.tolist()

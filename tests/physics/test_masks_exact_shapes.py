@@ -33,7 +33,7 @@ def some_pose(rng):
 
 
 def both_ways(mask, mask_pose, shape, pose):
-    """Both orders, which must agree, and the distance, which must say the same; the first order's manifold."""
+    """Return the manifold of a mask and a shape, after a check that the opposite order and the distance agree."""
     one, two = collide(mask, mask_pose, shape, pose), collide(shape, pose, mask, mask_pose)
     assert len(one) == len(two) and one.area == two.area
     assert one.points.tolist() == two.points.tolist() and one.separations.tolist() == two.separations.tolist()

@@ -37,7 +37,7 @@ def peak_of(world, bodies, steps, before_step):
 
 
 def door(shape, speed, count, **settings):
-    """A leaf comes down on a pile, and stops in the floor."""
+    """Return a case in which a leaf comes down on a pile, and stops in the floor."""
     world = World(**settings)
     world.add_body(FLOOR, position=(0, 120), kind="static")
     leaf = world.add_body(Polygon.box(16, 100), position=(0, -60 - 20 * count), kind="kinematic", velocity=(0, speed))
@@ -51,7 +51,7 @@ def door(shape, speed, count, **settings):
 
 
 def block(shape, speed, count, **settings):
-    """A block pushes a row against a wall, and goes on into it."""
+    """Return a case in which a block pushes a row against a wall, and continues into the wall."""
     world = World(**settings)
     world.add_body(FLOOR, position=(0, 120), kind="static")
     world.add_body(Polygon.box(32, 96, (0, -48)), position=(200, 100), kind="static")
@@ -65,7 +65,7 @@ def block(shape, speed, count, **settings):
 
 
 def press(shape, speed, count, **settings):
-    """Two jaws close on a row in space."""
+    """Return a case in which two jaws close on a row, without gravity."""
     world = World(gravity=(0, 0), **settings)
     jaws = [
         world.add_body(Polygon.box(40, 200), position=(-100 * way, 0), kind="kinematic", velocity=(way * speed, 0))

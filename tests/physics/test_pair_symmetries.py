@@ -38,7 +38,7 @@ def poses(seed, count=15):
 
 
 def ask(a, b, at):
-    """All that is told of two shapes, as numbers."""
+    """Return the results of collide, distance and time_of_impact for two shapes. at: start and end of A, then of B."""
     met, gap = collide(a, at[0], b, at[2]), distance(a, at[0], b, at[2])
     way = time_of_impact(a, at[0], at[1], b, at[2], at[3])
     return met, gap, way

@@ -19,7 +19,11 @@ EASE = 0.15  # [px]
 
 
 def touched(shape, width, height, tilt, depth, turn):
-    """Where, along the face, a shape touches it whose base is tilted, and whose lowest corner is so deep in it."""
+    """Return the places along the face at which a shape touches it, sorted and without repetition.
+
+    tilt: angle of the shape's base against the face [rad]; depth: depth of its lowest corner in the face [px]; turn:
+    angle of the face [rad].
+    """
     world = World(gravity=(0, 0))
     face, lift = world.add_body(Polygon.box(400, 40), kind="static", angle=turn), abs(math.sin(tilt)) * width / 2
     up = 20 + 0.5 * height * math.cos(tilt) + lift - depth

@@ -1,4 +1,4 @@
-"""Tiles of a raster and what hangs together in each, against a flood fill of the pixels."""
+"""Tiles of a raster and the connected pixels in each, against a flood fill of the pixels."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,10 @@ from physics.raster.pixel_tiles import TILE, PixelTiles
 
 
 def figures_of(solid):
-    """A row per tile and per set of pixels in it that touch, corners too: what a NODE holds, from the pixels."""
+    """Return the contents of the NODE rows, found from the pixels: one row for each set of connected pixels of a tile.
+
+    Pixels that share only a corner are connected.
+    """
     found = []
     height, width = solid.shape
     columns = -(-width // TILE)

@@ -13,7 +13,7 @@ from physics.jit.plain import view_of
 
 
 def _tables():
-    """Every dtype of rows with columns of numbers that a module of the physics names."""
+    """Return {name: dtype} of every row type in the modules of physics whose columns are all numbers."""
     found = {}
     for module in pkgutil.walk_packages(physics.__path__, f"{physics.__name__}."):
         if module.name.startswith(f"{physics.__name__}.jit"):
@@ -28,7 +28,7 @@ TABLES = _tables()
 
 
 def _any_rows(dtype, count):
-    """Rows with other values in each column: the least and the greatest of whole numbers, fractions, and no numbers."""
+    """Return rows with different values in each column: extremes of integers, fractions, infinity and NaN."""
     rows = np.zeros(count, dtype)
     random = np.random.default_rng(3)
     for name in dtype.names:

@@ -39,7 +39,7 @@ GROUND = (
 
 
 class EveryShape:
-    """Stands in for world.queries: looks at every shape, in order. The truth the strategies are tested with."""
+    """Replacement of world.queries that tests every shape, in order. It is the reference for the strategies."""
 
     def __init__(self, world):
         self.work, self.index = np.zeros_like(world.queries.work), world.queries

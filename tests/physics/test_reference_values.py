@@ -77,7 +77,7 @@ def test_drag_is_implicit(rate):
 
 
 def apexes(world, ball, start, count, steps=1200):
-    """(time, height above the floor) of the first rests between impacts."""
+    """Return (time, height above the floor) of the first `count` apexes of a ball, at which its velocity is 0."""
     found, before = [], ball.velocity[1]
     for n in range(1, steps + 1):
         world.step()
@@ -223,7 +223,10 @@ def test_cradle_hands_on_the_velocity(solver, gap):
 
 
 def slide_down(solver, angle, shape, height, friction, inertia=None, seconds=1.0):
-    """Acceleration along the slope over the seconds after it has settled, and spin, of a shape let go on a slope."""
+    """Release a shape on a slope. Return (acceleration along the slope, spin, speed) after it has settled for 12 steps.
+
+    seconds: time over which the acceleration is measured.
+    """
     world = metres(solver)
     floor(world, friction=friction, angle=angle)
     body = world.add_body(

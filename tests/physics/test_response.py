@@ -131,7 +131,7 @@ def test_blocking_never_creates_an_overlap():
 
 
 def worst(a, b):
-    """The separation of two bodies."""
+    """Return the least separation of two bodies [px]; 0 if they have no contact."""
     from physics import collide
 
     found = collide(a.shapes[0], (*a.position, a.angle), b.shapes[0], (*b.position, b.angle))

@@ -134,7 +134,7 @@ def pairs_of(events):
 
 
 def asked_of_the_world(world):
-    """Pairs of body ids, of which one is no sensor of the other's, that `overlap` tells of the sensors' shapes."""
+    """Return the pairs of body ids that world.overlap reports for the shapes of sensors."""
     found = set()
     for body, shape in sides(world).values():
         if senses(body, shape):
@@ -145,7 +145,7 @@ def asked_of_the_world(world):
 
 
 class Ways:
-    """The ways that bodies may take in the next step: to where they end, or would have ended freely."""
+    """Paths of the bodies in the next step: to their final poses, and to those that free motion would reach."""
 
     def __init__(self, world):
         self.world = world
@@ -170,8 +170,10 @@ class Ways:
         )
 
     def placed(self, side, ends, share):
-        """(shape, pose) of a side when it has gone a share of its way; pixels at the exact pose, as sweeps have them,
-        and a Bounds as it stood: it does not turn on its way."""
+        """Return (shape, pose) of a side after a share 0..1 of its path.
+
+        A mask is placed at the exact pose, as sweeps do. A Bounds does not rotate on its way.
+        """
         body, shape = side
         (start, angle), (end, turned) = self.starts[body.id], ends[body.id]
         if isinstance(shape, PixelMask):
@@ -183,7 +185,10 @@ class Ways:
 
 
 def watched(world, steps):
-    """Step a world and compare. Returns (pairs that overlapped, counted over the steps; pairs told by a sweep)."""
+    """Step a world, and compare the sensor events with geometry.
+
+    Returns (number of overlapping pairs, summed over the steps; number of pairs that only a sweep reported).
+    """
     now, seen, swept = set(), 0, 0
     sweeps = world.effects.continuous
     for step in range(steps):

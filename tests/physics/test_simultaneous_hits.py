@@ -27,7 +27,7 @@ BODIES = {
 
 
 def apex_after(ground, shapes, half, height, restitution, apart=False, x=0.0, **settings):
-    """The height of the first bounce as a share of the fall, and the spin after it [rad/s]."""
+    """Drop a body. Return (height of its first bounce as a share of the fall, greatest spin after it [rad/s])."""
     material = Material(restitution=restitution, friction=0.6)
     world = World(**settings)
     at = (-640, 0) if isinstance(ground[0], TileGrid) else (0, 0)

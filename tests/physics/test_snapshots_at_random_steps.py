@@ -111,7 +111,7 @@ def edit(world, seed, step):
 
 
 def told(world):
-    """Digest and events of the last step."""
+    """Return the digest and the events of the last step."""
     return world.digest(), {name: getattr(world.events, name).tolist() for name in EVENTS}
 
 
@@ -130,7 +130,10 @@ def run(effects, solver, seed, put_back=lambda world, moment: world):
 
 
 class Interruptions:
-    """Puts a world back at random moments: after steps that are undone, into a new world, or by way of a file."""
+    """Interruptions of a run at random moments, each of which restores a world from its snapshot.
+
+    The snapshot is restored after steps that are undone, in a new world, or by way of a file.
+    """
 
     def __init__(self, seed, folder=None):
         self.rng, self.path, self.count = np.random.default_rng((seed, 7)), folder and folder / "kept.npz", 0
@@ -174,7 +177,7 @@ def test_digests_and_events_of_every_step_are_those_of_the_run_that_was_left_alo
 
 
 def broken(world):
-    """Have a body that is far away quarantined in the next step."""
+    """Make a number of a far body NaN, so that the next step disables the body."""
     world.bodies["vx"][world.rows([2])[0]] = np.nan
 
 

@@ -13,7 +13,11 @@ EFFECTS = Effects.rigid_bodies()
 
 
 def is_squeezed(world, moving):
-    """By all pairs of faces of the disc: two deeper than the slop that differ, or a moving one opposite to another."""
+    """Return whether the disc is squeezed, by a test of all pairs of its contact normals.
+
+    It is squeezed by two normals that face each other at contacts deeper than the slop, or by a fast body opposite to
+    another contact.
+    """
     rows, limits, disc = world.contact_rows, world.tolerances.limits, world.bodies["id"][-1]
     rows = rows[(rows["body_a"] == disc) | (rows["body_b"] == disc)]
     overlaps = -rows["separation_1"]

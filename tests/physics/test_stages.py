@@ -28,7 +28,7 @@ SCALARS = {"effects", "tolerances", "gravity", "drag", "wind", "dt", "substeps"}
 
 
 def frozen(value, seen=()):
-    """Something to compare by: the bytes of all arrays that can be reached from a value, and its plain parts."""
+    """Return a value for comparisons: the bytes of all arrays that can be reached from `value`, and its plain parts."""
     if isinstance(value, ATOMS):
         return value
     if id(value) in seen:
@@ -86,7 +86,7 @@ class Guard:
 
 
 def step_watched(world, dt=None):
-    """A step whose stages are held to what they say."""
+    """Step a world, and assert that each stage reads and writes only what it declares."""
     state = begin(world, world.dt if dt is None else dt)
     for run in plan(world.effects, world.solver).stages:
         before = photographed(state)

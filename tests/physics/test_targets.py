@@ -1,4 +1,4 @@
-"""set_target: a kinematic body arrives exactly at the end of the next step, carries who rides it, and stands there."""
+"""set_target: a kinematic body arrives exactly at the end of the next step, carries its riders, and then rests."""
 
 import copy
 import math

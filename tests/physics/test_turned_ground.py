@@ -11,7 +11,7 @@ STEPS = 40
 
 
 def slid(solver, shape, lean, turned):
-    """[px] along the ground, after STEPS, [rad] that it has turned."""
+    """Return (distance along the ground [px], rotation [rad]) of a shape after STEPS steps."""
     gravity = (0.0, 320.0) if turned else (320.0 * sin(lean), 320.0 * cos(lean))
     world = World(EFFECTS, solver=solver, gravity=gravity, substeps=4)
     angle = lean if turned else 0.0

@@ -9,7 +9,11 @@ from physics.solver.lanes import block_factor, solve_two
 
 
 def exact(k_11, k_12, k_22, wanted_1, wanted_2, old_1, old_2):
-    """All (x_1, x_2) >= 0 that give each point the change of speed that it wants, or let go of one that gets more."""
+    """Return all solutions (x_1, x_2) of the linear complementarity problem of two contact points, in exact arithmetic.
+
+    Each impulse is at least 0. A point with an impulse has its wanted change of speed; one without gets at least that
+    much.
+    """
     k_11, k_12, k_22, wanted_1, wanted_2, old_1, old_2 = map(
         Fraction, (k_11, k_12, k_22, wanted_1, wanted_2, old_1, old_2)
     )

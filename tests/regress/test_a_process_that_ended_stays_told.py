@@ -7,7 +7,7 @@ from game.measure.surveyor import Surveyor
 
 
 class Packed:
-    """A snapshot whose saving takes until it is let go."""
+    """Snapshot whose save() waits until the test sets `free`."""
 
     def __init__(self) -> None:
         self.begun, self.free, self.done = threading.Event(), threading.Event(), threading.Event()

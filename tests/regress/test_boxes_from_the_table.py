@@ -14,7 +14,7 @@ SHAPES = (
 
 
 def box_of(shape, pose):
-    """The same AABB as a polygon: a world of its own tells where it is."""
+    """Return (polygon, pose) of the AABB of a shape at a pose, read from a world with this shape alone."""
     world = World(Effects())
     world.add_body(Bounds(shape), position=pose[:2], angle=pose[2])
     world.step()

@@ -1,7 +1,8 @@
 """A corner of a mask's outline that several parts share: its contact must come from a part that can report it.
 
-It came from the first of them, though both its sides there were covered, so there was none. A body on such a corner had
-no contact; a fast one was stopped by the sweep in every step, and its speed grew by gravity's for ever.
+The contact was taken from the first part, and dropped, because both sides of that part were covered at this corner. A
+body on such a corner had no contact. A fast one was stopped by the sweep in every step, and its speed grew by gravity's
+for ever.
 """
 
 import math
@@ -32,7 +33,10 @@ GAP = 0.05  # [px] between the corner and the floor
 
 
 def outermost(mask):
-    """Corners of an outline (x, y) that stick out of all of it, with the middle of the directions that they face."""
+    """Yield (x, y, direction [rad]) of each corner of the convex hull of a mask's outline.
+
+    direction: the middle of the directions that the corner faces.
+    """
     points = sorted({tuple(point) for part in outline_of(mask) for point in part.shape.points})
     hull = []
     for row in (points, points[::-1]):

@@ -1,4 +1,4 @@
-"""Of a run whose verdicts were compared, only the last step's failures were counted, and no body that was put aside."""
+"""A run whose verdicts were compared counted only the failures of its last step, and no disabled bodies."""
 
 import numpy as np
 

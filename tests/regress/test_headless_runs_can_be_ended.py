@@ -1,4 +1,4 @@
-"""A run without a window did not end when it was told to (SIGTERM): SDL took the signal and made an event of it."""
+"""A run without a window did not end on SIGTERM: SDL took the signal and made an event of it."""
 
 import signal
 import subprocess

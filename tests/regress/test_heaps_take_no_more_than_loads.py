@@ -1,6 +1,6 @@
 """In a heap something leans all the time: the tumbler took 128 substeps in every step, 3.6 times as long as with four.
 
-More than a load may ask for is for columns, which have one thing below and one above.
+More substeps than the loads need are for columns, whose bodies have one body below and one above.
 """
 
 from scenes.lab.tumbler import Tumbler

@@ -1,4 +1,4 @@
-"""An impact is told where it was, on the side from which the body came, also when the body has flown on since."""
+"""An impact is reported at its place, on the side from which the body came, even if the body has moved on since."""
 
 import math
 

@@ -45,7 +45,11 @@ def test_pixels_kept_are_those_covered_most_as_counted_for_every_pixel(solid):
 
 
 def counted(solid, origin, turned, angle):
-    """(rows, columns): of how many samples in each pixel of a turned mask the source is solid; and its centre."""
+    """Return (counts, centres), both (rows, columns), for the pixels of a rotated mask.
+
+    counts: number of samples in the pixel at which the source is solid; centres: whether the source is solid at the
+    pixel's centre.
+    """
     height, width = turned.solid.shape
     at = (np.arange(SAMPLES) + 0.5) / SAMPLES
     y, x = np.meshgrid(

@@ -1,4 +1,4 @@
-"""A moment of a world that slept was stepped awake: its own solver was set anew, and to set a solver wakes all."""
+"""A snapshot of a sleeping world was stepped awake, because its own solver was set again, which wakes all bodies."""
 
 from game.measure.moment import Moment
 from physics import Effects, Polygon, World

@@ -1,4 +1,4 @@
-"""A file's name that the system does not take ended the program with a traceback: it is told, at every door."""
+"""A file name that the system does not accept ended the program with a traceback; now each place reports it."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""A closed standard error made exit 1 and no word of every mistake; a full disk behind our output was a traceback."""
+"""With a closed standard error a mistake ended in exit code 1 without a message; a full disk ended in a traceback."""
 
 import subprocess
 import sys

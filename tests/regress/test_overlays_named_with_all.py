@@ -1,4 +1,4 @@
-"""--overlay bounds,all and none,bounds were taken, and the word beside the names did nothing."""
+"""--overlay bounds,all and none,bounds were accepted, and the word beside the names did nothing."""
 
 import pytest
 

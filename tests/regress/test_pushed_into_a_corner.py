@@ -18,8 +18,9 @@ STEPS = 3
 
 
 def gets_out(solver, velocity, turn, place, angle, beside, spin):
-    """Return whether a box gets out of a room that moves and rotates; place, beside: from the corner, from the room's
-    speed.
+    """Return whether a box gets out of a room that moves and rotates.
+
+    place: position of the box relative to the corner [px]; beside: its velocity relative to that of the room [px/s].
     """
     effects = Effects(response=True, rotation=True, friction=True, stacking=True, continuous=True)
     world = World(effects, solver=solver, substeps=1)

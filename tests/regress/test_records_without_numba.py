@@ -9,7 +9,7 @@ from tests.bench import record
 
 @pytest.fixture
 def without(monkeypatch):
-    """A function that makes distributions absent, by their names."""
+    """Return a function that makes the distributions with some names absent."""
     there = metadata.distribution
 
     def leave_out(*names):

@@ -1,4 +1,4 @@
-"""`squeezed` is told in every move while what crushes is in the character, however slowly it came, or stands."""
+"""`squeezed` is reported in every move while a crushing body is in the character, whether the body moves or rests."""
 
 import math
 
@@ -20,7 +20,10 @@ TOUCHES = 3.0  # [px] in a body that is no box, a character may be by its feet a
 
 
 def crushed(effects, hero, crusher, speed, down, stop, up, times=1):
-    """Per step: (told squeezed in all moves, in none, depth in the crusher [px], its lower side above the middle)."""
+    """Return a tuple for each step: (all moves report squeezed, none does, depth in the crusher [px], side).
+
+    side: whether the lower side of the crusher is above the middle of the character.
+    """
     world = World(effects)
     world.add_body(Polygon.box(200, 20), position=(0, 10), kind="static")
     who = Character(world, HEROES[hero], (0, -10))

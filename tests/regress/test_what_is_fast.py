@@ -1,7 +1,7 @@
 """A body is fast when a step takes its centre further than its surface is away, whatever its shape.
 
-Half of the least width was asked: a triangle's centre is nearer to its base than that, so a step of 0.36 sides, not
-swept, took it to the other side of ground that is met from one side only.
+The test compared the path with half of the least width. A triangle's centre is nearer to its base than that. So a step
+of 0.36 sides, not swept, took it to the other side of ground that is met from one side only.
 """
 
 import math

@@ -94,7 +94,7 @@ class Stage:
             self.hero.ladders[identity] = self.ladders[identity]
 
     def until(self, keys, met, most=200):
-        """Hold keys until something is so."""
+        """Hold keys until met(hero) is true. Fail if it is not after `most` steps. Return the hero."""
         for _ in range(most):
             self.run(keys)
             if met(self.hero):

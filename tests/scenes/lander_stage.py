@@ -23,7 +23,7 @@ class Flight:
             self.scene.step(self.inputs)
 
     def until(self, done, most, keys=()):
-        """Step until something is so; fails when it is not after `most` steps."""
+        """Step until done() is true. Fail if it is not after `most` steps."""
         for _ in range(most):
             if done():
                 return
@@ -31,7 +31,7 @@ class Flight:
         raise AssertionError(f"not after {most} steps")
 
     def put(self, x, y, velocity=(0.0, 0.0), angle=0.0):
-        """The ship is somewhere else."""
+        """Move the ship to (x, y) [px]."""
         body = self.ship.body
         body.move_to((x, y), angle)
         body.velocity, body.angular_velocity = velocity, 0.0
@@ -39,7 +39,7 @@ class Flight:
         self.ship.read()
 
     def put_over(self, pad, high=60.0, velocity=(0.0, 0.0)):
-        """The ship is over a pad, its feet so many px above it."""
+        """Move the ship over a pad, with its feet `high` px above the pad."""
         self.put(pad.x, pad.y - 16.0 - high, velocity)
 
     def piece(self, number=0):

@@ -76,7 +76,7 @@ class Sky:
         raise AssertionError(f"not reached within {most} steps")
 
     def enemy(self, kind, x, y, thinks=False, **group):
-        """A plane that hangs where it is put, unless it thinks."""
+        """Return a new plane at (x, y), which stays there unless `thinks` is True."""
         group.setdefault("side", "left")
         made = Group(kind, (0.5,), 0.5, 0.0, "", **group)
         plane = self.scene.fleet.launch(made, 0.5)
@@ -86,7 +86,7 @@ class Sky:
         return plane
 
     def bullet(self, look, x, y, heading=1.5707963267948966, speed=0.0):
-        """A bullet of the other side; it is in the world after the next step. Returns its id then."""
+        """Fire an enemy bullet, and make one step, which adds it to the world. Return its id."""
         self.scene.incoming.fire(look, x, y, [heading], speed)
         self.step()
         return int(self.scene.incoming.ids[-1])

@@ -95,7 +95,7 @@ LEDGER = {
 
 
 class Noting:
-    """The bot, and what it pressed."""
+    """Source of the bot's input, which also stores the input of each step."""
 
     def __init__(self):
         self.bot, self.frames = BotSource(), []
@@ -116,7 +116,7 @@ def digests(scene_class, source):
 
 @pytest.fixture(scope="module")
 def played():
-    """played(name): (scene class, keys, digests) of a game by its bot, played once."""
+    """Return played(name), which plays a game once by its bot and returns (scene class, inputs, digests)."""
     kept = {}
 
     def play(name):
@@ -130,7 +130,7 @@ def played():
 
 
 def with_effects(scene_class, names, wanted):
-    """The scene with these effects declared, or not."""
+    """Return a scene class with these effects declared, or not declared if `wanted` is False."""
     effects = scene_class.effects.with_(**dict.fromkeys(names, wanted))
     return type(scene_class.__name__, (scene_class,), {"effects": effects})
 
@@ -145,7 +145,7 @@ def test_the_ledger_names_every_effect():
 
 
 def cases():
-    """Return (game, effect) of all. Neutral effects are put in one by one at night; in every run, all at once below."""
+    """Return (game, effect) of all games and effects. Neutral effects are nightly tests."""
     return [
         pytest.param(name, effect, marks=pytest.mark.nightly if LEDGER[name][effect] == NEUTRAL else ())
         for name in FRAMES

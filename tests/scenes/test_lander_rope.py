@@ -15,7 +15,10 @@ SKY = (300.0, 160.0)  # [px] nothing is near it
 
 
 def hooked(dx, dy, velocity=(0.0, 0.0)):
-    """A ship in the sky with a piece of cargo on its line, which is (dx, dy) px from it, and has a velocity."""
+    """Return (flight, load): a ship in the sky with a piece of cargo on its line.
+
+    dx, dy: position of the load relative to the ship [px]; velocity: velocity of the load [px/s].
+    """
     flight = Flight()
     _, piece = flight.piece()
     flight.put(*SKY)

@@ -36,7 +36,7 @@ def scene_class(name):
 
 
 def pairs(declared, names):
-    """(scene, effect), of those that it declares, or of the others."""
+    """Return the pairs (scene, effect) with a declared effect, or with another one if `declared` is False."""
     return [
         pytest.param(name, effect, marks=needs_speed if (name, effect) in SLOW else ())
         for name in names
@@ -123,7 +123,7 @@ class Drop(Scene):
 
 
 class Spins(Drop):
-    """The same, and the ball turns: it cannot be built without rotation."""
+    """The same scene with a second ball that rotates, so that it cannot be built without rotation."""
 
     effects = Drop.effects.with_(rotation=True)
 

@@ -44,7 +44,7 @@ class Cave:
         raise AssertionError(f"not within {most} steps; the bomb is {self.bomb.phase} at {self.bomb.place}")
 
     def blow(self):
-        """Throw the bomb from where it reaches the wall, and wait until all lies still."""
+        """Throw the bomb from a place where it reaches the wall, and wait until all rubble sleeps."""
         self.run("", 2)
         right = self.wall.left + self.wall.size[0]
         self.until(lambda: self.scene.hero.character.position[0] < right + 62, "left")
@@ -55,7 +55,7 @@ class Cave:
 
 
 class Over:
-    """Runs to a place, and jumps at what is in the way."""
+    """Source of input that runs to a place, and jumps over obstacles."""
 
     held = 0
 

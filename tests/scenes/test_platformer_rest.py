@@ -10,7 +10,10 @@ SECOND = 60  # steps
 
 
 def after(steps, seed=1, lift=0.0, only=None):
-    """(ids of what can be pushed, (n, 2) places [px] at first and then, whether awake) of a level with some lifted."""
+    """Lift some bodies of the level, and play it for some steps.
+
+    Return (ids of the dynamic bodies, (n, 2) places [px] before and after the steps, (n,) whether awake).
+    """
     scene = Platformer(seed=seed)
     bodies = scene.world.bodies
     rows = np.flatnonzero(bodies["inverse_mass"] > 0.0)
@@ -31,7 +34,7 @@ def places(bodies):
 
 
 def lying(seed):
-    """Ids of what is still where it was after a second: the others are on lifts and belts."""
+    """Return the ids of the bodies that are still in place after a second; the others are on lifts and belts."""
     ids, first, then, _ = after(SECOND, seed)
     return ids[np.hypot(*(then - first).T) < 0.5]
 

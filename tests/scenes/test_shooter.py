@@ -37,7 +37,10 @@ def hull_sky(**chosen):
 
 
 def offsets(shares):
-    """A place of a dart beside the plane at which boxes overlap, and pixels are shared or not: the most of the box."""
+    """Return the offset (dx, dy) of a dart from the plane at which their boxes overlap most while pixels are shared.
+
+    shares: False for the offset at which no pixel is shared.
+    """
     planes = load_atlas("planes")
     mine, other = planes.mask("player"), planes.mask("dart_0")
     left, top, right, bottom = (int(edge) for edge in mine.bounds)

@@ -20,7 +20,7 @@ CLIPPING = 1e-9  # of the larger shape: within it a contact keeps a face where t
 
 
 class Chunk(NamedTuple):
-    """Some pairs with what was told of them; points as seen from A's place [px]."""
+    """Some pairs, with the results for each; points are relative to A's place [px]."""
 
     a: Hulls
     b: Hulls
@@ -60,14 +60,15 @@ def chunks(seed, count):
 
 
 def room_for(a, b):
-    """(n,) roundings [px] of the larger of two hulls, with its way from the origin it is seen from."""
+    """Return (n,) allowances for rounding [px], in proportion to the farthest coordinate of each pair of hulls."""
     return ROUNDING * np.maximum(*(np.abs(each.boxes()).max(axis=(0, 2)) for each in (a, b)))
 
 
 def distance_excess(found):
-    """Parted by the normal by as much as is told, by no line more; the points on both surfaces, so far apart.
+    """Return the worst error of the distances, divided by the allowance for rounding. At most 1 is right.
 
-    How far the worst is beyond that, of the room for rounding: at most 1 is right.
+    The normal must separate the hulls by the reported distance, and no line by more. The points must lie on both
+    surfaces, at that distance from each other.
     """
     known = rounded_hulls.bounds(found.a, found.b)
     overlap = found.distance <= 0.0
@@ -87,8 +88,11 @@ def distance_excess(found):
 
 
 def contact_excess(found):
-    """A unit normal that parts them by the move that ends the overlap: how far the worst is beyond that, as above, and
-    the share of those that are beyond rounding, where a face is kept beside a rounded corner."""
+    """Return (worst error of the contacts over the allowance for rounding, share of contacts beyond the allowance).
+
+    The normal must be a unit vector, and the move along it must end the overlap. Contacts beyond the allowance are
+    those that keep a face beside a rounded corner.
+    """
     met, room = found.touching, found.room * (CLIPPING / ROUNDING)
     along = rounded_hulls.gap_along(found.a, found.b, found.contact_normal)
     off = np.array([np.abs(found.separation - told)[met] for told in (found.distance, along)])
@@ -97,5 +101,5 @@ def contact_excess(found):
 
 
 def disagreements(found):
-    """Pairs with a contact though they are apart, or without one though they overlap (U10)."""
+    """Return the number of pairs with a contact though they are apart, or without one though they overlap (U10)."""
     return int((found.touching != (found.distance <= 0.0)).sum())

@@ -29,7 +29,7 @@ def run(world, seconds, each=None):
 
 
 def named(figure, solver):
-    """A figure's name: that of the solver is told where it is not the usual one."""
+    """Return the name of a figure, with that of the solver if it is not the usual one."""
     return figure if solver == "soft_step" else f"{figure}, {solver}"
 
 
@@ -41,7 +41,7 @@ def energy(world, gravity=GRAVITY):
 
 
 class Gaps:
-    """The errors of pins, welds and rods [m], from the poses of their bodies: none when this is made.
+    """The errors of pins, welds and rods [m], relative to the poses of their bodies when this object is made.
 
     No body may be added or removed afterwards.
     """

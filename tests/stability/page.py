@@ -39,17 +39,17 @@ def kept_figures():
 
 
 def number(value):
-    """A number as short as it is exact enough."""
+    """Return a number as short text."""
     return f"{value:.0f}" if value == round(value) and abs(value) < 1e6 else f"{value:.4g}"
 
 
 def cell(text):
-    """Text that does not end its cell."""
+    """Return a text with its bars escaped, so that it is one cell of a table."""
     return text.replace("|", "\\|")
 
 
 def measured_cells(limit, value, usual):
-    """A value and its margin; usual: the limit that the line tells already."""
+    """Return (value, margin) as cells. The limit is added to the value if it differs from `usual`, that of the line."""
     if value is None:
         return "–", "–"
     told = f"{number(value)} {limit.unit}".rstrip()
@@ -57,7 +57,7 @@ def measured_cells(limit, value, usual):
 
 
 def lines_of(row, figures, defaults):
-    """A line per figure of a row; the case stands on the first.
+    """Return a line for each figure of a row. The case is in the first line only.
 
     figures, defaults: {figure: value} with 4 substeps and under the default settings.
     """

@@ -56,7 +56,10 @@ def hulls_of(shapes):
 
 
 def draw_pairs(seed, count):
-    """Pairs of a tenth as many shapes: one half anywhere near each other, the other within a hair of touching."""
+    """Return `count` random pairs of some shapes: half of them anywhere near each other, the others nearly touching.
+
+    The number of shapes is a tenth of `count`, at least 20.
+    """
     rng = np.random.default_rng(seed)
     shapes = [any_shape(rng) for _ in range(max(count // 10, 20))]
     hulls = hulls_of(shapes)
@@ -76,14 +79,14 @@ def draw_pairs(seed, count):
 
 
 def _near(rng, a, b):
-    """Offsets that put B's box somewhere over A's, and beyond it by a fifth."""
+    """Return offsets at which B's box is anywhere on A's box, or beyond it by up to a fifth."""
     (low_a, high_a), (low_b, high_b) = a.boxes(), b.boxes()
     low, high = low_a - high_b, high_a - low_b
     return (low + high) / 2.0 + (high - low) / 2.0 * rng.uniform(-1.2, 1.2, low.shape)
 
 
 def _touching(rng, a, b):
-    """Offsets that leave, along some direction, a gap or an overlap of 1 to 1e-12 of the smaller of both."""
+    """Return offsets that leave a gap or overlap along a random direction: 1 to 1e-12 of the smaller size."""
     angle = rng.uniform(0.0, 2.0 * np.pi, len(a.radii))
     normal = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     rows = np.arange(len(angle))

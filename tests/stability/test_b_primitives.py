@@ -39,7 +39,7 @@ def moved(corners, way, by):
 
 
 def told(a, b):
-    """(the sign of the distance, whether collide and the distance the other way round say something else)."""
+    """Return (sign of the distance, whether collide or the distance of the opposite order contradicts it)."""
     a, b = Polygon(a), Polygon(b)
     gap = distance(a, STILL, b, STILL).distance
     odd = (gap <= 0.0) != (len(collide(a, STILL, b, STILL)) > 0)
@@ -131,7 +131,10 @@ def test_b6_shapes_inside_themselves(measured, shape, width):
 
 
 def long_and_short(measured, poses):
-    """A box that drifts and turns on a long one: every contact's push ends the overlap, and is no more than needed."""
+    """Check the contacts of a box that drifts and rotates on a long one.
+
+    The push of each contact must end the overlap, and be no longer than needed.
+    """
     long, short = Polygon.box(600.0, 3.0), Polygon.box(20.0, 20.0)
     x, y, angle, missing, left, most = 0.0, 0.0, 0.0, 0, 0.0, 0.0
     for _ in range(poses):

@@ -16,7 +16,7 @@ STILL = (0.0, 0.0, 0.0)
 
 
 def off_unit(*vectors):
-    """By how much the worst of some vectors is longer or shorter than 1."""
+    """Return the greatest difference of the length of a vector from 1."""
     return max(abs(math.hypot(*each) - 1.0) for each in vectors)
 
 
@@ -162,7 +162,7 @@ def test_c12_near_parallel_planes_end_soon(measured):
 
 
 def certify(measured, seed, count):
-    """So many random pairs of one seed."""
+    """Check `count` random pairs of one seed."""
     hits = 0
     for found in chunks(seed, count):
         measured("C13", "outside the bounds", distance_excess(found))

@@ -26,8 +26,9 @@ def test_d2_single_pixels_meet_where_they_share_area(measured):
 
 
 def wrong_verdicts(turned):
-    """Return how many of random pairs of masks at exact poses, rotated or not, differ in their verdict from their
-    squares.
+    """Return the number of random pairs of masks whose verdict differs from that of their squares.
+
+    turned: whether the masks are rotated.
     """
     pytest.importorskip("shapely")
     from tests.oracles import outlines

@@ -66,7 +66,7 @@ def test_e3_fast_slide_is_not_stopped_by_its_own_floor(measured, ground, shape):
 
 
 def over_boxes(raised):
-    """The least share of its speed that a box has on a floor of separate boxes, every other one raised by so much."""
+    """Return the least share of its speed that a box keeps on boxes, every other one raised by `raised` [px]."""
     world = pixels(solver="soft_step")
     for k in range(220):
         world.add_body(Polygon.box(16, 16), position=(16.0 * k, 8.0 - raised * (k % 2)), kind="static", material=SMOOTH)

@@ -101,7 +101,7 @@ def test_impulses_on_a_slope_carry_both_parts_of_the_weight(solver):
 
 
 def dominoes(scale, density=1.0, seconds=9.0):
-    """Fifteen dominoes, the first one struck at its top; the times at which each has turned by half a radian."""
+    """Strike the first of fifteen dominoes at its top. Return the times at which each has turned by half a radian."""
     world = metres(dt=1 / 240)
     floor(world, width=400.0)
     first = None

@@ -11,7 +11,7 @@ PUSH = 3.0  # [m/s] the fastest that overlapping bodies are pushed apart
 
 
 def parting(world):
-    """The greatest speed [px/s] at which the middles of two bodies in contact part."""
+    """Return the greatest speed [px/s] with which two bodies in contact separate along the normal."""
     rows, contacts = world.bodies, world.contacts
     a, b = world.rows(contacts["body_a"]), world.rows(contacts["body_b"])
     along = (rows["vx"][b] - rows["vx"][a]) * contacts["normal_x"] + (rows["vy"][b] - rows["vy"][a]) * contacts[
@@ -62,7 +62,7 @@ def test_f10_a_hundred_boxes_at_one_point(measured, solver):
 
 
 def crowd(measured, side, steps):
-    """More discs than there is room for in a closed box, as side x side; the share of the area is that of F11."""
+    """Check a closed box with side x side discs, more than it has room for. The share of the area is that of F11."""
     world = metres(effects=pile_effects())
     width, height = side * 0.8, side * 0.78
     for x, y, w, h in (

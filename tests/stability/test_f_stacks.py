@@ -25,7 +25,10 @@ G = 10.0
 
 
 def stiffness(substeps):
-    """[1/s2] of a soft contact per mass of the lighter side: 60 Hz, or an eighth of the substeps a second."""
+    """Return the stiffness of a soft contact per mass of the lighter side [1/s2].
+
+    The frequency is 60 Hz, or an eighth of the substeps per second if that is less.
+    """
     return (math.tau * min(60.0, 60.0 * substeps / 8.0)) ** 2
 
 

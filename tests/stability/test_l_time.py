@@ -133,8 +133,7 @@ print(cairn(sys.argv[1], 200))
 
 
 def cairn(solver, steps):
-    """Digest of eight balls and eighty boxes that fall on a floor and sleep,
-    and the step at which the last one does."""
+    """Drop eight balls and eighty boxes on a floor. Return (digest, step at which the last body fell asleep)."""
     world = metres(solver, effects=pile_effects(sleeping=True))
     floor(world)
     world.add_bodies(Circle(0.4), [(1.0 * k - 3.5, -4.0 - 0.3 * k) for k in range(8)])
@@ -332,7 +331,7 @@ def test_l7_stack_at_any_rate_stays(measured, rate):
 
 
 class Frames:
-    """Frame times [s] as a game sees them, until so many have been handed on."""
+    """Frame times [s] of a game in one of PATTERNS. The run ends after a number of frames."""
 
     PATTERNS = {
         "even": lambda rng, k: 1 / 60,

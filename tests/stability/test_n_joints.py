@@ -54,7 +54,7 @@ def test_n1_a_pendulum_keeps_its_period_its_energy_and_its_pin(measured, solver)
 
 
 def double_pendulum(world):
-    """Two rods of 1 m: one is let go level, the other bent up to 1 rad. Returns the energy of the whole fall."""
+    """Add two rods of 1 m: one is released level, the other bent by up to 1 rad. Return the energy of the fall."""
     at, before = (0.0, 0.0), None
     for turn in (0.0, -phase(1.0)):
         end = at[0] + math.cos(turn), at[1] + math.sin(turn)
@@ -106,7 +106,7 @@ def swing(measured, row, ratio, solver):
 
 
 def naive_swing(measured, row, ratio):
-    """The same without trees, for 12 s: with four substeps the joints part."""
+    """Let the same chain swing for 12 s under the iterative tier: with four substeps the joints come apart."""
     world = jointed(tier=NAIVE, substeps=4)
     chain(world, 30, ratio, phase(0.8))
     measured(row, "greatest gap, iterative tier", worst_in(world, SHARE * 12.0))

@@ -33,7 +33,7 @@ class Crank:
         self.hinge.motor = Drive(2.0 * math.pi * 2.03, max=1e5)
 
     def place(self):
-        """Where the piston is by the angle of the crank: r cos a + sqrt(l² - r² sin² a)."""
+        """Return the place of the piston at the angle of the crank: r cos a + sqrt(l² - r² sin² a)."""
         angle = self.turn + (self.hinge.angle if hasattr(self, "piston") else 0.0)
         return self.RADIUS * math.cos(angle) + math.sqrt(self.LENGTH**2 - (self.RADIUS * math.sin(angle)) ** 2)
 
@@ -182,7 +182,7 @@ def meet(center, radius, other, far, like):
 
 
 def linkage(turn):
-    """Where the points of the right leg are when the crank has turned by an angle, relative to its axle."""
+    """Return {name: (x, y)} of the right leg's points relative to the axle, with the crank turned by an angle."""
     (x, y), pivot = POINTS["hub"], POINTS["pivot"]
     hub = math.cos(turn) * x - math.sin(turn) * y, math.sin(turn) * x + math.cos(turn) * y
     tip = meet(pivot, length_of("pivot", "tip"), hub, length_of("tip", "hub"), ("pivot", "hub", "tip"))

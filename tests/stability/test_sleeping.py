@@ -77,7 +77,7 @@ def test_a_body_that_rolls_below_the_sleeping_speed_falls_asleep(share):
 
 
 def kept_awake(seconds=3.0):
-    """(world, plank, crate) that lie still, and stay awake as something slides along the plank without friction."""
+    """Return (world, plank, crate): both are at rest, but awake, because a box slides along the smooth plank."""
     world = metres(effects=SLEEPY)
     floor(world)
     plank = world.add_body(Polygon.box(40, 1), position=(0.0, -0.5), material=Material(friction=0.0))

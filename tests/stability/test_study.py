@@ -1,5 +1,7 @@
-"""The study's own measures: overlap against shapely, falling against scripted motions and closed forms, and every row
-of its table played for a few steps. What engines make of the rows is told by `python -m tests.bench stability`."""
+"""The study's own measures: overlap against shapely, falling against scripted motions and closed forms.
+
+Every row of the table is also played for a few steps. `python -m tests.bench stability` prints the engines' figures.
+"""
 
 import json
 import math
@@ -44,7 +46,10 @@ def corners(part, x, y, angle):
 
 
 def depth_by_shapely(a, b):
-    """Of parts at poses: how far the origin lies within the hull of all differences of corners, and the radii."""
+    """Return the depth of two parts at their poses, found with shapely.
+
+    It is the depth of the origin in the hull of all differences of corners, plus both radii.
+    """
     differences = [(bx - ax, by - ay) for ax, ay in corners(*a) for bx, by in corners(*b)]
     hull, origin = shapely.MultiPoint(differences).convex_hull, shapely.Point(0, 0)
     signed = -hull.distance(origin) if not hull.contains(origin) else hull.boundary.distance(origin)
@@ -97,7 +102,7 @@ def test_overlap_at_the_end_is_that_of_the_last_tenth_in_millimetres():
 
 
 class Scripted:
-    """An engine that says what it is told: {step: {(body, column): by how much its start is changed}}."""
+    """Engine that plays a script, {step: {(body, column): change of its value at the start}}."""
 
     def __init__(self, scene, script):
         self.start, self.script, self.steps, self.removed = poses_of(scene), script, 0, []

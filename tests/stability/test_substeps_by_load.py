@@ -27,7 +27,7 @@ def heap(world, boxes, x=0.0, density=1.0, top=None):
 
 
 def asked(world, *bodies):
-    """The most substeps that some bodies ask for."""
+    """Return the greatest number of substeps that some bodies need."""
     return max(int(world.bodies["substeps"][world.rows(each.id)]) for each in bodies)
 
 

@@ -49,7 +49,7 @@ def any_mover(rng):
 
 
 def any_ground(rng, kind):
-    """(shape, area that it encloses, whether the area is the free one, half the size of what is shot at)."""
+    """Return (shape, enclosed area, whether the bodies are inside this area, the middle at which they are shot)."""
     if kind == "tiles":
         cells = rng.choice([EMPTY, EMPTY, FULL, FULL, RISES, FALLS, HALF_RISES, HALF_FALLS], (3, 3))
         cells[1, 1] = cells[1, 1] or FULL
@@ -70,7 +70,7 @@ def place_for(rng, reach, area, free, middle):
 
 
 def shoot(rng, kind, solver, substeps):
-    """Steps of one world; the deepest [px] that a centre of mass was beyond the outline at the end of one, or None."""
+    """Step one world. Return how deep [px] a centre of mass was beyond the outline at most; None without a shot."""
     stacking = solver in STACKING
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, restitution=True, continuous=True)
     world = World(effects.with_(stacking=stacking), solver=solver, substeps=substeps)

@@ -1,4 +1,4 @@
-"""The table, the tests and the page of the stability suite tell the same."""
+"""The table, the tests and the page of the stability suite agree."""
 
 import ast
 import math

@@ -8,7 +8,7 @@ from tests.stability.piles import floor, metres
 
 
 def heap(x=0.0, y=0.0, mirror=1.0, density=1.0, order=None, solver="soft_step", steps=60, round_only=False):
-    """A heap of boxes, balls and capsules that falls; poses in the order of making, unmirrored, at the origin."""
+    """Drop a heap of boxes, balls and capsules. Return poses in the plan's order, unmirrored, at the origin."""
     world = metres(solver, gravity=(0, 10))
     floor(world, x=x, y=y)
     rng = np.random.default_rng(8)

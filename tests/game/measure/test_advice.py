@@ -22,7 +22,7 @@ needs_speed = pytest.mark.skipif(not physics.JIT, reason="thousands of steps")
 
 
 class Table(Moment):
-    """A moment whose settings cost and err as a table says: what is chosen can be known beforehand."""
+    """Moment whose settings have the costs and errors of a table, so that the right choice is known beforehand."""
 
     table: dict = {}
 

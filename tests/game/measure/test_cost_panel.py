@@ -40,7 +40,7 @@ def driver(drive):
 
 
 def look(driver, known):
-    """A picture in which so much is measured: known(survey)."""
+    """Wait until known(survey) is true. Return the frame that shows the survey then."""
     surveyor, end = driver.screen.measuring.surveyor, monotonic() + 120.0
     while not known(surveyor.survey) and monotonic() < end:
         surveyor.wait(0.1)

@@ -32,7 +32,7 @@ def run_of(count, **more):
 
 
 class Requesting(Arena):
-    """Wants to know what the piles in `piles` cost; counts how often it was asked to make one."""
+    """Scene that requests the costs of the piles in `piles`. made: number of calls of its make()."""
 
     piles, made = (1, 2), 0
 
@@ -61,7 +61,7 @@ def test_a_stage_costs_less_than_the_step_and_an_unknown_one_nothing():
 
 
 def counting(world, record):
-    """Appends the steps of the world at each call: an act for the test."""
+    """Return a function that appends (record, number of the world's steps) to ACTS at each call."""
     return lambda: ACTS.append((record, world.steps))
 
 

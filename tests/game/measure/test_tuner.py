@@ -1,4 +1,4 @@
-"""The advice in the plot of costs, and the tuner that takes it: only what is sure, and told."""
+"""The advice in the plot of costs, and the tuner that applies and reports it, but only if it is certain."""
 
 import pygame
 import pytest

@@ -10,7 +10,7 @@ from physics import Circle, Effects, World
 
 
 def fall(bodies: int):
-    """A fact that any process finds, and a time that none finds again."""
+    """Return a row with a digest that is equal in every process, and with a time that differs in each."""
     world = World(Effects(gravity=True))
     world.add_bodies(Circle(4.0), [(20.0 * k, 0.0) for k in range(bodies)])
     world.step()
@@ -19,7 +19,7 @@ def fall(bodies: int):
 
 
 def fail():
-    """The failure of a job is reported."""
+    """Raise an error, as a job does that cannot measure."""
     raise ValueError("nothing can be measured here")
 
 
@@ -34,7 +34,7 @@ def die(path: str, times: int):
 
 
 def wait(path: str):
-    """Note that it was run, and take a while."""
+    """Create a file that shows that the job was run, and wait 0.05 s."""
     Path(path).touch()
     time.sleep(0.05)
     return [{"series": "s", "label": path, "n": 1}]

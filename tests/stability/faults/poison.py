@@ -106,7 +106,7 @@ class Scene:
             self.world.step()
 
     def target(self, field):
-        """[id] of the body that a field is of."""
+        """Return [id] of the body to which a field belongs."""
         return [self.heroes[0].body.id if field.table == "characters" else self.sick]
 
     def others(self):
@@ -150,9 +150,10 @@ def same(found, wanted, rows):
 
 
 def columns_of(value, fill, depth=3):
-    """Fill every float of every array in an object's attributes, and in those of its parts. Returns how many arrays.
+    """Fill every float of every array in an object's attributes, and in those of its parts. Returns the number of
+    arrays.
 
-    Contacts are kept in its tables from step to step: they are poisoned by name instead.
+    The attribute `tables` is left out: it holds the contacts, which are poisoned by name.
     """
     if isinstance(value, np.ndarray):
         if value.dtype.names:

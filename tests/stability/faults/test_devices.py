@@ -12,7 +12,7 @@ from game.run.replay_shelf import shelf
 
 
 class Report(list):
-    """Lines that were said."""
+    """List of the reported lines."""
 
     def __call__(self, line):
         self.append(line)
@@ -25,7 +25,7 @@ def sounds():
 
 
 def everything(sounds):
-    """All that a game asks of its sounds in a few pictures."""
+    """Make all calls by which a game uses its sounds in a few pictures."""
     sounds.play("laser", 100.0)
     sounds.play_cues([("hit", 10.0, 1.0), ("coin", None, 0.5)])
     sounds.tune("title")

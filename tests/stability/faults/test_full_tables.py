@@ -159,7 +159,7 @@ def test_loads_that_need_more_substeps_than_there_are_are_counted(solver):
 
 
 def large_shapes():
-    """Name -> one that has more rows of its own table than that is made with, and where a disc falls on its last."""
+    """Return {name: (shape, place)}: a shape with more rows than its table has at first; a place above the last row."""
     return {
         "cells": (TileGrid(np.ones((1, 300), bool), 4.0), (1198.0, -10.0)),
         "links": (Chain([(10.0 * k, 0.1 * (k % 2)) for k in range(301)]), (2995.0, -10.0)),

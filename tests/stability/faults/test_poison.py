@@ -52,7 +52,10 @@ def scenes():
 
 
 def poisoned(scene, field, value):
-    """Write, step, and return who was told quarantined; all that others see is finite after every step."""
+    """Write a value into a field, and step. Return the ids of the bodies that were reported as quarantined.
+
+    After every step, all numbers of the other bodies and of the contacts must be finite.
+    """
     scene.poison(field, value)
     told = []
     for _ in range(STEPS):

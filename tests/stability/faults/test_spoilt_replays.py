@@ -1,4 +1,4 @@
-"""A recording cut off, or with a byte of another value: told by file, place and reason, or played as far as it differs.
+"""A recording cut off, or with one wrong byte: refused with file, place and reason, or played as far as it is equal.
 
 What its entries may be: tests/game/test_replay.py; how long: tests/regress/test_recordings_beyond_reason.py.
 """
@@ -26,7 +26,7 @@ def recording(tmp_path):
 
 
 def places(content):
-    """Name -> length of what is left: each kind of place at which a file can end."""
+    """Return {name: length of the remaining file} of each kind of place at which a recording can be cut off."""
     inputs, digests = content.index(b'"inputs"'), content.index(b'"digests"')
     return {
         "nothing": 0,
@@ -67,7 +67,7 @@ def test_every_length_is_refused_but_the_whole(recording):
 
 
 def spoilt(content, seed):
-    """The content with one bit of one byte turned, by a random number."""
+    """Return the content with one random bit changed."""
     rng, wrong = random.Random(seed), bytearray(content)
     wrong[rng.randrange(len(wrong))] ^= 1 << rng.randrange(8)
     return bytes(wrong)

@@ -32,7 +32,7 @@ class Limit:
         return max(one, two) if self.sense == "<=" else min(one, two)
 
     def near(self, recorded):
-        """Return the limit within twice a recorded value, or this one where it is nearer.
+        """Return a limit at twice a recorded value, or this limit if it is nearer.
 
         Values of up to a thousandth of the limit do not count: most of them are rounding.
         """
@@ -73,9 +73,9 @@ def exactly(figure, value, unit=""):
 class Row:
     """A hard case.
 
-    limits: what is measured of it; none where `absent` tells why the case cannot be put to this engine. defaults: other
-    limits of figures under the default settings. fault: what is known to be outside its limit, and why; its test is
-    expected to fail. peer: the best figure of another engine that a source quotes.
+    limits: limits of the measured figures; none if `absent` gives the reason why the case does not apply to this
+    engine. defaults: other limits of figures under the default settings. fault: a known figure outside its limit, and
+    the reason; its test is expected to fail. peer: the best figure of another engine that a source quotes.
     """
 
     id: str
@@ -97,7 +97,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Section:
-    """The rows of one letter, whose tests are in one file; ids: of the catalogue, in its order."""
+    """The rows of one letter, whose tests are in one file. numbers: numbers of its rows in the catalogue, in order."""
 
     letter: str
     title: str
@@ -106,5 +106,5 @@ class Section:
 
     @property
     def ids(self):
-        """The ids of the catalogue that this section owes."""
+        """Ids of the catalogue's rows in this section."""
         return [f"{self.letter}{number}" for number in self.numbers]

@@ -14,7 +14,7 @@ SLIPPED, TIPPED = 0.002, 0.02  # [m], [rad] against the plate
 
 
 def depths(run, first=1, every=5):
-    """The deepest overlap [m] of every so many steps, from the last back to the first that is asked for."""
+    """Return the deepest overlap [m] of every `every`-th step, from the last step back to step `first`."""
     overlaps = Overlaps(run.scene)
     return np.array([overlaps.deepest(run.poses[k]) for k in range(len(run.poses) - 1, first - 1, -every)])
 
@@ -25,7 +25,7 @@ def overlap_at_end(run):
 
 
 def overlap_share(run, share):
-    """[mm] The deepest overlap of a step, below which it stays in so many % of them."""
+    """[mm] The percentile `share` of the deepest overlaps of the steps."""
     return MM * np.percentile(depths(run), share)
 
 
@@ -40,7 +40,7 @@ def lean(run):
 
 
 def fall_over_theory(run, theory):
-    """The time until a body has turned by 0.1 rad, over that of the rigid upper part [s]; inf: none has."""
+    """Time until a body has turned by 0.1 rad, divided by that of the rigid upper part; inf if none has."""
     return math.inf if run.fell is None else run.fell / theory
 
 
@@ -62,14 +62,14 @@ def milliseconds(run):
 
 
 def _on_plate(run):
-    """Of the box on the plate, per step: where along it, and its turn against it."""
+    """Return (place along the plate [m], rotation relative to the plate [rad]) of the box, per step."""
     plate, box = run.poses[:, 0], run.poses[:, 1]
     dx, dy = box[:, 0] - plate[:, 0], box[:, 1] - plate[:, 1]
     return dx * np.cos(plate[:, 2]) + dy * np.sin(plate[:, 2]), box[:, 2] - plate[:, 2]
 
 
 def _angle_when(changed):
-    """Degrees of the plate less what theory says, atan(1/2) for both, at the first step at which something changed."""
+    """Return the plate's angle [degrees] at the first step of a change, minus the theory's, atan(1/2); or inf."""
     when = np.flatnonzero(changed)
     theory = math.degrees(math.atan(0.5))
     return math.degrees(PLATE_SPIN) * when[0] * STEP - theory if len(when) else math.inf
@@ -88,7 +88,7 @@ def tips_late(run):
 
 
 def _down(run, first):
-    """Way and speed down the slope of body 1, of two columns from this one on."""
+    """Return the component of body 1 down the slope, per step. first: column of x or vx; y or vy follows it."""
     return run.poses[:, 1, first] * math.cos(SLOPE) + run.poses[:, 1, first + 1] * math.sin(SLOPE)
 
 
@@ -130,9 +130,10 @@ def bounce_error(run, restitution, count=17):
 
 
 def oblique_errors(run):
-    """Difference of the struck-off disc's velocity to theory's over the speed, of each pair.
+    """Return the error of each flying disc's velocity after its blow, as a share of its speed.
 
-    The normal at the touch is (sqrt(1 - b²), b) for an offset of b diameters; equal masses exchange what is along it.
+    The normal at the touch is (sqrt(1 - b²), b) for an offset of b diameters; equal masses exchange the velocity along
+    it.
     """
     errors = []
     for k, (offset, speed, _) in enumerate(oblique_pairs()):

@@ -39,8 +39,10 @@ def polygon(points):
 
 @dataclass(frozen=True)
 class Solid:
-    """A body. Its parts lie about its centre of mass, which is its origin; friction and restitution are those of a pair
-    of two that are alike."""
+    """A body. Its parts lie about its centre of mass, which is its origin.
+
+    friction, restitution: those of a pair of two bodies with equal values.
+    """
 
     parts: tuple[Part, ...]
     x: float
@@ -64,8 +66,10 @@ class Solid:
 
 @dataclass(frozen=True)
 class Fall:
-    """From when on a dynamic body counts as fallen: moved sideways by this share of its least extent and this much [m],
-    or turned by this much [rad]. A scene ends there."""
+    """Limits beyond which a dynamic body counts as fallen. A scene ends when one falls.
+
+    It has fallen if it moved sideways by `share` of its least extent and by `shift` [m], or turned by `turn` [rad].
+    """
 
     share: float = 0.5
     shift: float = 0.15
@@ -77,7 +81,7 @@ TURNS = Fall(share=math.inf, shift=math.inf, turn=0.1)
 
 @dataclass(frozen=True)
 class Scene:
-    """Bodies, how long, and what happens on the way. removals: (step before which, index of the body that goes)."""
+    """The bodies, the duration, and the removals. removals: (step before which, index of the body that is removed)."""
 
     solids: tuple[Solid, ...]
     seconds: float

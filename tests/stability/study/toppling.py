@@ -14,8 +14,11 @@ FINE = 1e-4  # [s] step of the integration
 
 
 def overhangs(places, size=1.0):
-    """(boxes of it, distance of its centre of mass beyond the edge [m], x of the edge) of each upper part, the whole
-    tower first; places: x of the boxes [m], the lowest first. A distance below 0: it stands."""
+    """Return (number of its boxes, distance, x of the edge) of each upper part, the whole tower first.
+
+    places: x of the boxes [m], the lowest first. distance: distance of the part's centre of mass beyond the edge [m];
+    below 0 the part stands.
+    """
     found = []
     for k in range(len(places)):
         below = places[max(0, k - 1)]
@@ -32,8 +35,11 @@ def stands(places):
 
 
 def pendulum(arm, height, inertia, turn, gravity=GRAVITY):
-    """Seconds that a rigid body takes from rest to turn about an edge; arm, height: of its centre of mass beyond and
-    above the edge [m]; inertia: about the edge, per mass [m2]. Inf when it does not turn that way."""
+    """Return the seconds that a rigid body takes from rest to turn by `turn` [rad] about an edge; inf if it does not
+    turn.
+
+    arm, height: place of its centre of mass beyond and above the edge [m]; inertia: about the edge, per mass [m2].
+    """
     angle = speed = time = 0.0
     if arm <= 0.0:
         return math.inf

@@ -39,7 +39,7 @@ class Verdict:
 
 
 def worst(values):
-    """The one whose size is greatest; nan when any is, or when there are none."""
+    """Return the value with the greatest size; nan if any value is nan, or without values."""
     values = list(values)
     if not values or any(math.isnan(each) for each in values):
         return math.nan
