@@ -68,7 +68,7 @@ def imports_of(path: Path) -> frozenset[str]:
 
 
 def graph(folder: str) -> dict[str, set[str]]:
-    """{module: the modules of the same top folder that it imports}."""
+    """Return {module: the modules of the same top folder that it imports}."""
     return {
         name_of(path): {each for each in imports_of(path) if each.split(".")[0] == folder and each != name_of(path)}
         for path in sources(folder)
@@ -76,7 +76,9 @@ def graph(folder: str) -> dict[str, set[str]]:
 
 
 def circles(edges: dict[str, set[str]]) -> list[list[str]]:
-    """Sets of nodes that reach each other (strongly connected components of two and more, Tarjan 1972), sorted."""
+    """Return the sorted sets of two or more nodes that reach each other (strongly connected components, Tarjan
+    1972).
+    """
     order, low, stack, found = {}, {}, [], []
 
     def visit(node):
@@ -101,13 +103,13 @@ def circles(edges: dict[str, set[str]]) -> list[list[str]]:
 
 
 def part_of(name: str) -> str:
-    """The part of the design's order that a module of physics belongs to; "root" for the rest of its root."""
+    """Return the part of the order of physics to which a module belongs; "root" for the other modules of its root."""
     parts = name.split(".")
     return parts[1] if len(parts) > 1 and parts[1] in PHYSICS else "root"
 
 
 def parts_graph() -> dict[str, set[str]]:
-    """{part of physics: the parts it imports}."""
+    """Return {part of physics: the parts it imports}."""
     found = defaultdict(set)
     for name, others in graph("physics").items():
         found[part_of(name)] |= {part_of(each) for each in others} - {part_of(name)}
@@ -121,7 +123,7 @@ def folder_of(name: str) -> str:
 
 
 def report() -> str:
-    """The tree, folder by folder, with the folders that each imports, and the circles."""
+    """Return the text of the tree: each folder with the folders that it imports, and the circles."""
     lines = []
     for top in TOPS:
         folders = defaultdict(lambda: [0, 0, set()])

@@ -143,14 +143,14 @@ def _difference(plain, result, copies):
 
 
 def columns(array, copy):
-    """(name, array, copy) of every column of a table, or of the array itself."""
+    """Return (name, array, copy) of every column of a table, or of the array itself."""
     if array.dtype.names:
         return [(name, array[name], copy[name]) for name in array.dtype.names]
     return [(f"an array of {array.dtype}", array, copy)]
 
 
 def same_elements(one, two):
-    """Element by element: the same bits, or both NaN."""
+    """Return for each element whether both have the same bits, or are both NaN."""
     if one.dtype.kind != "f":
         return one == two
     return ((one == two) & (np.signbit(one) == np.signbit(two))) | (np.isnan(one) & np.isnan(two))

@@ -29,7 +29,7 @@ sys.path.insert(0, str(ROOT))
 
 
 def pytest_sessionstart(session):
-    """Before workers start, compile what they would otherwise each compile."""
+    """Compile the kernels before the workers start, because each worker would otherwise compile them."""
     workers = session.config.getoption("numprocesses", None)
     if workers and "NUMBA_DISABLE_JIT" not in os.environ and not hasattr(session.config, "workerinput"):
         from tests.warm_kernels import warm_up

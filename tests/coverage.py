@@ -62,7 +62,7 @@ EXPLAINED = (
 
 
 def merged(reports: list[dict]) -> dict[str, dict]:
-    """{path: {"lines": how many, "missing": [[number, text], ...]}} of SlipCover's reports, by path."""
+    """Return SlipCover's reports as {path: {"lines": number of lines, "missing": [[number, text], ...]}}."""
     run: dict[str, set[int]] = {}
     known: dict[str, set[int]] = {}
     for report in reports:
@@ -104,7 +104,7 @@ def unexplained(files: dict[str, dict]) -> list[str]:
 
 
 def page(files: dict[str, dict]) -> str:
-    """docs/coverage.md."""
+    """Return the text of docs/coverage.md."""
     lines = sum(file["lines"] for file in files.values())
     missing = sum(len(file["missing"]) for file in files.values())
     rows = [

@@ -72,7 +72,7 @@ STILL = (
 
 
 def air(effects):
-    """The arguments of a world with drag and wind, where they are declared."""
+    """Return the arguments of a World for drag and wind, if these effects are declared."""
     return {"drag": 0.1, "wind": (5.0, 0.0)} if effects.drag and effects.wind else {}
 
 
@@ -103,7 +103,7 @@ def crowded(kind, strategy, solver=None, seed=0, walkers=True):
 
 
 def ask(world, x=0.0, y=20.0):
-    """Each kind of question at a place."""
+    """Make each kind of query at a place."""
     world.ray_cast_all((x - 50.0, y), (100.0, 3.0))
     for shape in (Circle(4.0), Polygon.box(6.0, 6.0), MASKS[0], MASKS[1]):
         world.overlap(shape, (x, y, 0.3))

@@ -10,7 +10,7 @@ PASS_ON = ("enumerate", "zip", "reversed")  # calls that give out rows of what t
 
 
 def undeclared_writes(source, parameters=None):
-    """[(line, kernel, argument)] of writes to arguments whose names do not say so (WRITTEN).
+    """Return [(line, kernel, argument)] of writes to arguments whose names do not say so (WRITTEN).
 
     source: Python text, every function of which counts as a kernel. parameters: {kernel name: its parameter names} of
     kernels that may be called; an argument handed over as a parameter that is written is written too.
@@ -23,7 +23,7 @@ def undeclared_writes(source, parameters=None):
 
 
 def writes_of(function, parameters):
-    """[(line, argument)] of one function node, in the order of the lines."""
+    """Return [(line, argument)] of one function node, in the order of the lines."""
     rows = {each.arg: {each.arg} for each in (*function.args.posonlyargs, *function.args.args)}
     bindings = [binding for node in ast.walk(function) for binding in bound_by(node)]
     while True:  # until no name is known to stand for more
@@ -44,7 +44,7 @@ def writes_of(function, parameters):
 
 
 def bound_by(node):
-    """(target, value) of what a statement or expression gives a name to."""
+    """Yield (target, value) of each name that a statement or expression binds."""
     if isinstance(node, ast.Assign):
         yield from ((target, node.value) for target in node.targets)
     elif isinstance(node, (ast.AnnAssign, ast.NamedExpr)) and node.value is not None:

@@ -41,7 +41,9 @@ class Diverged(AssertionError):
 
 
 def make_scene(name, few=False, seed=1, asks_all=False, **chosen):
-    """A scene of the game, with few bodies where it lets one choose. asks_all: its worlds ask all four broad phases."""
+    """Return a scene of the game. few: with few bodies if it has such a slider; asks_all: worlds ask all broad
+    phases.
+    """
     scene_class = Registry(SCENES).scene_class(name)
     scene = (scene_asking_all(scene_class) if asks_all else scene_class)(seed, **chosen)
     if few and "bodies" in scene.values:
@@ -111,7 +113,7 @@ class PlainRun:
         )
 
     def step(self):
-        """The digest that the process printed next. Raises RuntimeError with its last words when it has ended."""
+        """Return the next digest that the process prints. Raises RuntimeError with its last output if it has ended."""
         line = self.process.stdout.readline()
         if not line:
             raise RuntimeError(f"{self.label} ended early: {self.process.stderr.read()}")
@@ -175,7 +177,7 @@ def place_of(scene, other):
 
 
 def failures_of(run, frames):
-    """Goals that were due and are not met, and what --strict objects to, of a run in this process."""
+    """Return the goals that were due and are not met, and the failures of --strict, of a run in this process."""
     return judge(run.scene, frames, run.session.report.strict_failures())["failures"]
 
 

@@ -49,7 +49,7 @@ class TakeOvers:
 
 
 def digests_of(run: Run, frames: int, before: Callable[[int], object] = lambda frame: None) -> Iterator[tuple]:
-    """(digest, digests of the worlds) after every frame; before(frame) is called before each."""
+    """Yield (digest, digests of the worlds) after every frame; before(frame) is called before each."""
     for frame in range(1, frames + 1):
         before(frame)
         yield run.step(), [world.digest() for world in run.scene.worlds]

@@ -15,7 +15,7 @@ RATIOS = {"masks": {"hash / collidelistall": 0.0401234}, "solvers": {"soft_step 
 
 @pytest.fixture
 def reported(monkeypatch):
-    """The benches find RATIOS at once, and say so."""
+    """Replace the benches by functions that return RATIOS at once and print a line."""
 
     def measured(names, quick):
         print("a table")

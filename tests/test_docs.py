@@ -79,7 +79,7 @@ def test_each_command_of_the_readme_is_one_line(marker):
 
 
 def names_in(path):
-    """Every function and class of a file, and Class.method of what stands in it."""
+    """Return the names of all functions and classes of a file, methods as Class.method."""
     found = set()
     for node in ast.parse(path.read_text()).body:
         if isinstance(node, (ast.FunctionDef, ast.ClassDef)):

@@ -48,7 +48,7 @@ def words(text):
 
 
 def sweeps_lead():
-    """Return the ratio of the next strategy's time to the sweep's if everything moves, over layouts and sizes."""
+    """Return a sentence: the next strategy's time over the sweep's if everything moves, over layouts and sizes."""
     shipped = ratios("broadphase", r"(\d+) bodies (.*), all moving: (sweep|hash|tree) / brute")
     leads = {}
     for place in {(size, layout) for size, layout, _ in shipped}:
@@ -63,7 +63,7 @@ def sweeps_lead():
 
 
 def pyramids():
-    """The default beside four substeps and pymunk, awake."""
+    """Return a sentence: pyramids that are awake, by load and with four substeps, beside pymunk."""
     default, four = (
         {int(boxes): value for (boxes,), value in ratios("solvers", rf"(\d+) boxes, soft_step {some} / pymunk").items()}
         for some in ("auto", "4")
@@ -76,7 +76,7 @@ def pyramids():
 
 
 def moving():
-    """Three moving scenes beside pymunk, by load and with four substeps."""
+    """Return a sentence: three moving scenes by load and with four substeps, beside pymunk."""
     some = {
         name: [ratios("moving", rf"({name}.*), substeps {each} / pymunk").popitem()[1] for each in ("auto", "4")]
         for name in ("rain of 1,500", "pyramid", "tumbler")
@@ -98,7 +98,7 @@ def crater():
 
 
 def sinks():
-    """Return which piles stand, and their overlap, by load and with four substeps."""
+    """Return sentences on the overlap of two piles, by load and with four substeps."""
     rows = kept("study.json")["rows"]
     heavy, column = (rows["ratio_1000_on_1"]["engines"]["auto"], rows["crooked_40"]["engines"]["hb4"])
     assert heavy["fell"] is None and column["stood"] == column["seeds"] > 1

@@ -42,7 +42,7 @@ def decorated(node):
 
 @cache
 def kernels():
-    """(path, function node) of every kernel in physics/."""
+    """Return (path, function node) of every kernel in physics/."""
     found = []
     for path in sorted((ROOT / "physics").rglob("*.py")):
         if path.parent.name == "jit":
@@ -236,7 +236,7 @@ def test_writes_are_seen_through_rows_tuples_loops_and_calls(body, written):
 
 
 def statement_lines(function):
-    """Lines of a kernel's body, one a statement, however long its calls are: what there is to understand."""
+    """Return the lines of a kernel's body, one for each statement, however long its calls are."""
     return sum(len(ast.unparse(node).splitlines()) for node in function.body[1:])
 
 

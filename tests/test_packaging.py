@@ -28,7 +28,7 @@ PACKAGES = ("assets", "game", "physics", "scenes")
 
 
 def files_of(package):
-    """Paths relative to the package of what belongs into it."""
+    """Return the paths, relative to the package, of the files that belong into it."""
     return [
         path.relative_to(ROOT / package)
         for path in (ROOT / package).rglob("*")
@@ -121,7 +121,7 @@ def made(tmp_path_factory):
 
 
 def environment_beside(folder):
-    """A new environment with the packages of this one, but for what is installed as editable; returns its Python."""
+    """Make an environment with the packages of this one, except editable installations. Return its Python."""
     call(sys.executable, "-m", "venv", "--without-pip", folder, cwd=folder.parent)
     bin_folder = folder / ("Scripts" if os.name == "nt" else "bin")
     python = bin_folder / Path(sys.executable).name

@@ -207,7 +207,7 @@ def test_what_is_allowed_is_there_and_reported_in_a_checkout_only():
 
 
 def derived():
-    """(place, name) of each f"{__package__}.x:y" and f"{__name__}:y" in the sources, where nothing else is in it."""
+    """Yield (place, name) of each string f"{__package__}.x:y" or f"{__name__}:y" in the sources."""
     for top in layout.PACKAGES:
         for path in sorted((ROOT / top).rglob("*.py")):
             if not re.search(r"f['\"]{__(?:package|name)__}", path.read_text(encoding="utf-8")):

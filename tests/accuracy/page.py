@@ -41,7 +41,7 @@ python -m tests.accuracy DIR            # writes this page from that report
 
 
 def panel_of(chart: Chart, rows: list) -> Panel:
-    """The panel of a chart that the story shows."""
+    """Return the panel of a chart that the story shows."""
     panels = chart.panels if isinstance(chart.panels, tuple) else chart.panels(rows)
     return next(panel for panel in panels if panel.title == STORY[chart.key])
 
@@ -56,7 +56,7 @@ def rounded(value):
 
 
 def rows_of(kept: dict, chart: Chart) -> list:
-    """The rows that a chart shows."""
+    """Return the rows that a chart shows."""
     return kept["rows"][chart.of or chart.key]
 
 

@@ -9,7 +9,7 @@ from assets.craft import png
 
 
 def load(sheet):
-    """({frame: (h, w, 4) uint8}, {animation: entry}) of assets/images/<sheet>."""
+    """Return ({frame: (h, w, 4) uint8}, {animation: entry}) of assets/images/<sheet>."""
     picture = png.decode((FOLDER / "images" / f"{sheet}.png").read_bytes())
     table = json.loads((FOLDER / "images" / f"{sheet}.json").read_text(encoding="utf-8"))
     frames = {}
@@ -25,7 +25,7 @@ def backdrop(name):
 
 
 def oklab(rgb):
-    """(..., 3) of OKLab lightness 0..1, a and b for colours (..., 3) 0..255 (Ottosson 2020)."""
+    """Return (..., 3) OKLab values of colours (..., 3) 0..255: lightness 0..1, a and b (Ottosson 2020)."""
     share = np.asarray(rgb, float) / 255
     linear = np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)
     cone = np.cbrt(

@@ -11,7 +11,7 @@ from assets.audio.voices import RATE
 
 @cache
 def decoded(name):
-    """(frames, 2) int16 of assets/music/<name>.ogg, at the rate of the file."""
+    """Return (frames, 2) int16 of assets/music/<name>.ogg, at the rate of the file."""
     pygame.mixer.quit()
     pygame.mixer.init(RATE, -16, 2, allowedchanges=0)
     try:
@@ -21,5 +21,5 @@ def decoded(name):
 
 
 def sides_of(name):
-    """(2, frames) float64 within -1..1: left and right."""
+    """Return the left and the right side, (2, frames) float64 within -1..1."""
     return decoded(name).T.astype(np.float64) / 32767

@@ -17,7 +17,7 @@ CORE_LEAST, RING_LEAST, INNER_LEAST = 0.30, 0.18, 0.25  # OKLab lightness differ
 
 
 def seen(ground):
-    """Lightness of what lies behind bullets: the ground bare, and under all its clouds. (n,) each."""
+    """Return the lightness of a ground's pixels, (n,) each: the bare ground, and the ground under all its clouds."""
     bare = backdrop(ground)[..., :3].astype(float)
     under = bare.copy()
     for name in GROUNDS[ground]:

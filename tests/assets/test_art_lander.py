@@ -33,7 +33,7 @@ def test_a_pad_stands_on_level_ground_under_air(moon, pad):
 
 
 def reached(solid, start):
-    """The cells that a ship comes to from a place [px]."""
+    """Return the cells that a ship can reach from a place [px]."""
     height, width = (size // CELL for size in solid.shape)
     closed = solid[: height * CELL, : width * CELL].reshape(height, CELL, width, CELL).any(axis=(1, 3))
     for _ in range(SHIP):

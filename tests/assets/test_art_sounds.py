@@ -56,7 +56,7 @@ def read(name):
 
 
 def spectrum(samples):
-    """(Hz, power) of a whole sound."""
+    """Return (Hz, power) of a whole sound."""
     return np.fft.rfftfreq(len(samples), 1 / RATE), np.abs(np.fft.rfft(samples)) ** 2
 
 

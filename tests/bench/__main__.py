@@ -29,7 +29,10 @@ def read_arguments(arguments):
 
 
 def measured(names, quick):
-    """{bench: its ratios}; the benches print their tables as they go. Raises ModuleNotFoundError without the peers."""
+    """Run the benches, which print their tables. Return {bench: its ratios}.
+
+    Raises ModuleNotFoundError without the peers.
+    """
     return {name: importlib.import_module(f"tests.bench.{name}").run(quick=quick) for name in names}
 
 

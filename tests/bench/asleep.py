@@ -19,12 +19,12 @@ def empty() -> World:
 
 
 def apart(count: int) -> World:
-    """Boxes that lie by themselves, each on its own place of a wide floor."""
+    """Return a world of boxes that lie apart from each other on a wide floor."""
     return _boxes(count, 1)
 
 
 def stacked(count: int) -> World:
-    """Boxes in stacks of ten."""
+    """Return a world of boxes in stacks of ten."""
     return _boxes(count, HIGH)
 
 
@@ -51,7 +51,7 @@ def put_to_sleep(world: World, most: int = 400) -> int:
 
 
 def median_steps(worlds: dict, steps: int = STEPS) -> dict:
-    """{name: median milliseconds of a step}, the worlds stepped in turns."""
+    """Return {name: median milliseconds of a step}, the worlds stepped in turns."""
     spent = {name: [] for name in worlds}
     for _ in range(steps):
         for name, world in worlds.items():
@@ -62,7 +62,10 @@ def median_steps(worlds: dict, steps: int = STEPS) -> dict:
 
 
 def measure(count: int = BOXES, steps: int = STEPS) -> dict:
-    """{layout: {"none": …, "one": …}}: the step with none and with one awake, as multiples of an empty world's."""
+    """Measure a step with no body and with one body awake, as multiples of a step of an empty world.
+
+    Return {layout: {"none": …, "one": …}}.
+    """
     found = {}
     for name, build in (("apart", apart), ("stacked", stacked)):
         world = build(count)

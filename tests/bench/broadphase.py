@@ -21,7 +21,7 @@ SPEED = 60.0  # px/s
 
 
 def giant(rng, n):
-    """Even bodies over one that is as wide as all of them."""
+    """Return evenly spread bodies, and one body that is as wide as all of them."""
     places, _ = charts.even(rng, n - 1)
     width = charts.SPACING * math.sqrt(n)
     return places, [(Polygon.box(width, 40.0), (width / 2, width))]
@@ -57,7 +57,9 @@ def make_world(strategy, layout, n, moving):
 
 
 def step_time(world):
-    """Mean [s] of the broad phase of some steps, as what moves is looked for once in a few."""
+    """Return the mean time of the broad phase over some steps [s]. Moving bodies are searched for once in a few
+    steps.
+    """
     spent = 0.0
     for _ in range(STEPS):
         world.step()

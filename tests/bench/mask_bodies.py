@@ -17,7 +17,7 @@ PILE = Effects.rigid_bodies().with_(sleeping=False)
 
 
 def crates(shape, count):
-    """A world of so many crates, each at rest on a slab of the same."""
+    """Return a world of `count` crates, each at rest on a slab of the same shape."""
     world = World(PILE)
     for k in range(count):
         world.add_body(shape, position=(GAP * k, SIDE), kind="static")
@@ -84,7 +84,7 @@ def carve_times(count):
 
 
 def pygame_carve_time(count):
-    """Seconds in which pygame does the same to a Mask: erase a disc, and look for the pieces that it leaves."""
+    """Return the seconds in which pygame erases a disc from a Mask and finds the remaining pieces."""
     rng = np.random.default_rng(SEED)
     side = int(2.0 * RADIUS)
     surface = pygame.Surface((side, side), pygame.SRCALPHA)

@@ -72,7 +72,7 @@ class Field:
         return {(place[a], place[b]) for a, others in hits.items() for b in others if place[a] < place[b]}
 
     def hits_of_collidelistall(self):
-        """The fastest that pygame alone can do."""
+        """Return the hits by the fastest way that pygame alone has."""
         found, rects, masks = set(), self.rects, self.masks
         for number, (rect, mask) in enumerate(zip(rects, masks, strict=True)):
             for other in rect.collidelistall(rects):
@@ -97,14 +97,14 @@ class Field:
 
 
 def ways():
-    """{name: (broad phase, effects, whether its contacts are read)}."""
+    """Return {name: (broad phase, effects, whether the contacts are read)}."""
     found = {each.name: (each, Effects(), False) for each in (SpatialHashGrid, DynamicTree, SweepAndPrune, BruteForce)}
     found["hash, contacts"] = (SpatialHashGrid, Effects(), True)
     return found | {"hash, contacts of outlines": (SpatialHashGrid, Effects(response=True), True)}
 
 
 def pairs_of(found):
-    """{(body, body)} of contacts or manifolds."""
+    """Return {(body, body)} of contacts or manifolds."""
     return set(zip(found["body_a"].tolist(), found["body_b"].tolist(), strict=True))
 
 

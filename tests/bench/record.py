@@ -19,7 +19,7 @@ NOTABLE = 0.05  # a ratio that moved by more than this share of the kept one is 
 
 
 def to_record(ratios, quick):
-    """The object to be written. ratios: {bench: {name: our time over the peer's}}."""
+    """Return the record of a run as a dict. ratios: {bench: {name: our time over the peer's}}."""
     rounded = {bench: {name: float(f"{value:.4g}") for name, value in found.items()} for bench, found in ratios.items()}
     found = {"version": VERSION, "quick": quick, "machine": machine(), "installed_mb": round(installed() / 1e6)}
     return found | {"ratios": rounded}

@@ -33,7 +33,7 @@ class Ours:
         self.step = self.world.step
 
     def state(self):
-        """(x, y), (vx, vy), spin of the boxes."""
+        """Return (x, y), (vx, vy) and the angular velocity of the boxes."""
         rows = self.world.bodies[1:]
         return np.stack([rows["x"], rows["y"]]), np.stack([rows["vx"], rows["vy"]]), rows["angular_velocity"]
 
@@ -75,7 +75,7 @@ class Run:
         self.energy = self._energy()
 
     def _energy(self):
-        """[px2/s2] per unit of mass, summed: of motion and of height."""
+        """Return the kinetic and potential energy of the boxes per unit of mass, summed [px2/s2]."""
         (_, y), velocity, spin = self.pile.state()
         return float((0.5 * (velocity**2).sum(axis=0) + 0.5 * spin**2 * BOX * BOX / 6.0 - GRAVITY * y).sum())
 
@@ -125,7 +125,7 @@ HEADER = (
 
 
 def measure(rows, seconds):
-    """All solvers on one pyramid, a second each in turns. Prints the table; returns {name: time over pymunk's}."""
+    """Run all solvers on one pyramid, a second each in turns. Prints the table; returns {name: time over pymunk's}."""
     piles = [
         Ours(rows, solver, substeps) for solver in ("soft_step", "sequential_impulse") for substeps in (1, 2, 4, 8)
     ]

@@ -14,7 +14,8 @@ def best_of(runs, function):
 
 
 def best_in_turns(rounds, timed):
-    """Least seconds of each of several: {name: [s]}, all in every round, so that other load meets them alike.
+    """Return {name: least seconds of a call} of several functions, all called in every round, so that load affects them
+    alike.
 
     timed: {name: function that does the work once and returns its seconds}.
     """

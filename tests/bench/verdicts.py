@@ -25,7 +25,7 @@ NEAR = 2.0  # [px] a miss that is nearer is measured apart
 
 
 def sprites():
-    """{name: solid[row, col]} of 32 px each."""
+    """Return {name: solid[row, col]} of 32 px each."""
     y, x = np.mgrid[0:SIZE, 0:SIZE] + 0.5 - SIZE / 2
     plane = (abs(x) < 3) | (abs(y - 1) < 3) | ((y > 10) & (abs(x) < 8))
     return {
@@ -58,7 +58,7 @@ class Pairs:
         self.kind = MASKS if snap else MASKS_EXACT
 
     def hits(self, run):
-        """(whether each pair meets, seconds a pair: the least of some runs, their median)."""
+        """Return (whether each pair overlaps, least seconds per pair of some runs, their median)."""
         count, seconds = len(self.candidates), []
         kinds = np.full(count + 1, self.kind, np.int64)
         tables = self.library.tables
@@ -80,7 +80,7 @@ def poses_around(rng, count):
 
 
 def half_over(rng, count):
-    """Offsets of whole pixels at which the boxes of two sprites share about half of each."""
+    """Return offsets in whole pixels at which the boxes of two sprites share about half of each box."""
     return np.concatenate(
         [rng.choice([-1.0, 1.0], (count, 2)) * rng.integers(6, 14, (count, 2)), np.zeros((count, 1))], 1
     )
@@ -97,7 +97,7 @@ def is_near(solid, where):
 
 
 def time_overlap(solid, where):
-    """Seconds a call of pygame's Mask.overlap, which answers at whole pixels alone."""
+    """Return the seconds of a call of pygame's Mask.overlap, which tests at whole pixels only."""
     mask = pygame.mask.from_surface(pygame.Surface((SIZE, SIZE)), 255)
     for y, x in zip(*np.nonzero(solid), strict=True):
         mask.set_at((int(x), int(y)))

@@ -30,7 +30,7 @@ def shrink(lines, failure, strategy=None, tries=4000):
 
 
 def fewer_lines(lines, fails):
-    """Delta debugging: leave out runs of lines, halving their length."""
+    """Leave out runs of lines, of half the length in each round (delta debugging)."""
     size = max(len(lines) // 2, 1)
     while size:
         at = len(lines)

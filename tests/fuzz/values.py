@@ -65,7 +65,7 @@ class Values:
     # --- shapes ----------------------------------------------------------------------------------------------------
 
     def shape(self, kind="dynamic", also_wrong=0.02):
-        """A shape that a body of a kind may have; now and then one that it may not."""
+        """Return a shape that a body of a kind may have; now and then one that it may not have."""
         of_all = kind != "dynamic" or self.chance(also_wrong)
         text = getattr(self, "_" + self.rng.choice(STILL if of_all else MOVING))()
         if self.chance(0.08):

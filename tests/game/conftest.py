@@ -16,7 +16,7 @@ def data_folder_of_the_test(tmp_path, monkeypatch):
 
 @pytest.fixture
 def drive(monkeypatch):
-    """drive(*arguments) starts the whole program under the dummy driver."""
+    """Return drive(*arguments), which starts the whole program under the dummy driver."""
     pygame.display.init()
     yield lambda *arguments, **more: Driver(monkeypatch, *arguments, **more)
     pygame.event.clear()

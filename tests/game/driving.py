@@ -52,7 +52,7 @@ class Driver:
         return type(self.app.screen).__name__
 
     def turns(self, count=1):
-        """So many turns of the loop, a step of 1/60 s each."""
+        """Make `count` turns of the loop, each a step of 1/60 s."""
         for _ in range(count):
             if self.app.arcade.running:
                 self.now += 1.0001 / 60

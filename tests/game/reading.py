@@ -13,7 +13,7 @@ LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 
 def assert_text_is_apart(boxes, picture):
-    """Each box inside the picture, no two of them meeting."""
+    """Assert that each box is inside the picture, and that no two boxes overlap."""
     for rect, text in boxes:
         assert picture.contains(rect), f"{text!r} at {rect} leaves {picture}"
     for (a, text_a), (b, text_b) in combinations(boxes, 2):
@@ -56,7 +56,7 @@ class Reader:
         Canvas.text, Canvas.text_if_free = self.before
 
     def assert_readable(self):
-        """Every line that still stands in its canvas's boxes is there and stands out."""
+        """Assert that each line in the boxes of its canvas is still visible, and stands out from its background."""
         for canvas, rect, line, color in self.lines:
             if any(box == rect and text == line for box, text in canvas.boxes) and line.strip():
                 share = share_that_stands_out(canvas.surface, rect, color)
@@ -66,7 +66,10 @@ class Reader:
 
 
 def share_that_stands_out(surface, rect, color):
-    """Of the pixels beside the letters, the share far enough from their colour. 0 if the letters are covered."""
+    """Return the share of the pixels beside the letters that are far enough from the letters' colour.
+
+    The share is 0 if the letters are covered.
+    """
     around = rect.inflate(2, 2).clip(surface.get_rect())
     pixels = pygame.surfarray.array3d(surface.subsurface(around)).astype(int)
     letters = (pixels == np.array(color[:3])).all(axis=2)

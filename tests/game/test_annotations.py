@@ -10,7 +10,7 @@ FILES = sorted(GAME.rglob("*.py"))
 
 
 def public_callables(node, owner=""):
-    """(name, FunctionDef) of functions, methods and constructors that stand in the open."""
+    """Yield (name, FunctionDef) of the public functions, methods and constructors."""
     for child in ast.iter_child_nodes(node):
         if isinstance(child, ast.ClassDef) and not child.name.startswith("_"):
             yield from public_callables(child, f"{child.name}.")

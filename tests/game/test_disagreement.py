@@ -84,7 +84,7 @@ def flown():
 
 
 def slow_lies(world):
-    """Ids of the pairs with a sprite whose boxes share area, and no pixel: every pair of bodies, one by one."""
+    """Return the ids of the pairs with a sprite whose boxes share area but no pixel, found by a test of every pair."""
     found = set()
     mask_of = {body.id: body.shapes[0] for body in world}
     filters = {body.id: body.filter for body in world}

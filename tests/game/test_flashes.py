@@ -54,7 +54,7 @@ class FlashMeter:
         self.now += 1
 
     def most_in_a_second(self):
-        """The most flashes, pairs of opposing changes, that fall into 60 pictures in a row."""
+        """Return the greatest number of flashes (pairs of opposing changes) within 60 successive pictures."""
         changes = [number for i, (number, way) in enumerate(self.turns) if i == 0 or way != self.turns[i - 1][1]]
         return max((sum(1 for each in changes if first <= each < first + 60) // 2 for first in changes), default=0)
 
@@ -95,7 +95,7 @@ def test_flashes_are_limited_whoever_asks():
 
 
 def lights_of(name, steps, accessibility, seed=1):
-    """The squares of each picture of a bot's run."""
+    """Return the FlashMeter that has seen each picture of a bot's run."""
     scene = Registry(SCENES).scene_class(name)(seed=seed)
     scene.set_accessibility(accessibility)
     source, inputs, picture, overlays = BotSource(), InputState(), Picture(pygame.Surface((480, 270))), Overlays(())

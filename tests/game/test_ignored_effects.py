@@ -69,7 +69,7 @@ def play_of(scene):
 
 
 def hud_of(play, size=(1440, 810)):
-    """All that stands on the picture of a Play, as one text."""
+    """Return all text on the picture of a Play, joined."""
     return " ".join(text for _, text in play.draw(Picture(pygame.Surface(size))).boxes)
 
 

@@ -34,7 +34,7 @@ IDS = tuple(each.id for each in all_invariants())
 
 
 def pile(boxes=3, **settings):
-    """A column that stands."""
+    """Return a world with a column of boxes at rest."""
     world = World(Effects.rigid_bodies().with_(sleeping=False), **settings)
     world.add_body(GROUND, kind="static", position=(0, 10))
     for k in range(boxes):
@@ -51,7 +51,7 @@ def floating(speed=40.0):
 
 
 def falling():
-    """One in free fall."""
+    """Return a world with one body in free fall."""
     world = World(Effects.rigid_bodies())
     world.add_body(BOX, velocity=(30.0, -50.0), angular_velocity=1.0)
     return world

@@ -53,7 +53,7 @@ class Workshop(Plain, Scene):
 
 
 def drawn(scene, palette="standard", size=(480 * SCALE, 270 * SCALE)):
-    """(pixels[x, y, rgb] of the picture, the layer)."""
+    """Return (pixels[x, y, rgb] of the picture, the layer)."""
     scene.set_accessibility(Accessibility(palette=palette))
     overlays = Overlays(["joints"])
     frame = Picture(pygame.Surface(size)).draw_scene(scene, overlays)
@@ -61,7 +61,7 @@ def drawn(scene, palette="standard", size=(480 * SCALE, 270 * SCALE)):
 
 
 def has(pixels, point, color, reach=1):
-    """Whether the colour is at a world point, or within `reach` frame pixels of it."""
+    """Return whether the colour is at a world point, or within `reach` frame pixels of it."""
     x, y = (round(SCALE * each) for each in point)
     part = pixels[x - reach : x + reach + 1, y - reach : y + reach + 1]
     return bool((part == np.array(color)).all(axis=-1).any())

@@ -30,7 +30,7 @@ NEAR = 0.71 + 0.01  # [px] greatest distance of an edge from the pixels': smooth
 
 
 def turned(points, pose):
-    """Points of the world seen from a body."""
+    """Return world points in body space."""
     x, y, angle = pose
     dx, dy = points[:, 0] - x, points[:, 1] - y
     return np.column_stack((cos(angle) * dx + sin(angle) * dy, cos(angle) * dy - sin(angle) * dx))
@@ -46,7 +46,7 @@ def is_solid(mask, points):
 
 
 def around(mask, points, reach):
-    """(any solid, all solid) of pixels within reach of each point: looked up there and in sixteen directions."""
+    """Return (any solid, all solid) of the pixels at each point and at the distance `reach` in sixteen directions."""
     looks = [is_solid(mask, points)]
     for k in range(16):
         looks.append(is_solid(mask, points + reach * np.array((cos(k * pi / 8), sin(k * pi / 8)))))

@@ -38,7 +38,7 @@ def lab(light):
 
 
 def nearest(palette):
-    """The least difference (CIE 1976) between two hues of the overlays, over all kinds of eyes."""
+    """Return the least difference (CIE 1976) between two hues of the overlays, over all kinds of colour blindness."""
     seen = [[lab(np.asarray(eye) @ linear(toned(color, palette))) for color in SERIES] for eye in EYES.values()]
     return min(np.linalg.norm(a - b) for hues in seen for a, b in combinations(hues, 2))
 

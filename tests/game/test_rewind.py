@@ -258,7 +258,7 @@ class Silent(Sounds):
 
 @pytest.fixture
 def play():
-    """A game played for 150 steps; `play.digests` by step."""
+    """Return a game that was played for 150 steps. `play.digests`: its digests by step."""
     play = Play(Arena(seed=3), DeviceSource(), Silent(), settings=Settings(hint_seen=True, window_scale=1))
     play.digests = [scene_digest(play.scene)]
     play.advance(0.0)

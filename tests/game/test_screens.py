@@ -72,7 +72,7 @@ def check(screen):
 
 
 def check_at_sizes(screen, sizes=SIZES):
-    """The same for one that draws at the window's resolution."""
+    """Draw a screen at window resolution and measure its text, at each of the sizes."""
     for size in sizes:
         with Reader() as reader:
             frame = screen.draw(Picture(pygame.Surface(size)))

@@ -18,7 +18,7 @@ FACTORS = {ast.Mult: ast.Div, ast.Div: ast.Mult}
 
 
 def is_number(node):
-    """True for a number written out, not for True and False."""
+    """Return True for a number written out, not for True and False."""
     return isinstance(node, ast.Constant) and isinstance(node.value, (int, float)) and not isinstance(node.value, bool)
 
 
@@ -70,7 +70,7 @@ class Change:
 
 
 def find_kernel(folder, name):
-    """(path, source, node) of the kernel of that name. Raises LookupError unless there is exactly one."""
+    """Return (path, source, node) of the kernel of that name. Raises LookupError unless there is exactly one."""
     found = []
     for path in sorted(folder.rglob("*.py")):
         source = path.read_text()
@@ -82,7 +82,7 @@ def find_kernel(folder, name):
 
 
 def is_kernel(node, name):
-    """True for the definition of a kernel of any kind of that name."""
+    """Return True for the definition of a kernel of any kind of that name."""
     marks = [each.id for each in getattr(node, "decorator_list", ()) if isinstance(each, ast.Name)]
     return isinstance(node, ast.FunctionDef) and node.name == name and bool(set(DECORATORS) & set(marks))
 

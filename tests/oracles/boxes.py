@@ -2,7 +2,7 @@
 
 
 def touching_pairs(lower, upper):
-    """[(a, b), ...] a < b, sorted, of boxes given by their corners; equal borders touch."""
+    """Return [(a, b), ...] a < b, sorted, of boxes given by their corners; equal borders touch."""
     found = []
     for a in range(len(lower)):
         for b in range(a + 1, len(lower)):

@@ -11,7 +11,7 @@ def turn(a, b, c):
 
 
 def fewest(corners):
-    """The least number of convex pieces that cuts between corners can reach, by trying all: up to ten corners."""
+    """Return the least number of convex pieces that cuts between corners reach, by trying all; at most ten corners."""
     corners = [tuple(each) for each in corners.tolist()]
     if not Polygon(corners).exterior.is_ccw:
         corners.reverse()
@@ -38,7 +38,7 @@ def fewest(corners):
 
 
 def hertel_mehlhorn(outer, holes=()):
-    """The number of pieces left when cuts of a constrained Delaunay triangulation go, as long as all stays convex."""
+    """Return the number of convex pieces after the removal of needless cuts of a constrained Delaunay triangulation."""
     triangles = shapely.constrained_delaunay_triangles(Polygon(outer, holes)).geoms
     pieces = [list(shapely.normalize(each).exterior.coords)[:-1] for each in triangles]
     pieces = [each if Polygon(each).exterior.is_ccw else each[::-1] for each in pieces]
@@ -73,7 +73,7 @@ def tangle(rng, count):
 
 
 def reflex_count(outer, holes=()):
-    """Corners at which the inside of a polygon with holes is more than a straight angle."""
+    """Return the number of corners at which the inside angle of a polygon with holes exceeds a straight angle."""
     found = 0
     for ring in (outer, *holes):
         ring = ring.tolist()

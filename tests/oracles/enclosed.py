@@ -13,7 +13,7 @@ HEIGHTS = {RISES: (0.0, 1.0), FALLS: (1.0, 0.0), HALF_RISES: (0.5, 1.0), HALF_FA
 
 
 def grid_of(cells, size):
-    """The TileGrid of an array of what its cells are."""
+    """Return the TileGrid with the given kinds of cells."""
     cells = np.asarray(cells)
     slopes = np.zeros((*cells.shape, 2))
     for kind, heights in HEIGHTS.items():
@@ -42,7 +42,7 @@ def area_of(pieces, pose=(0.0, 0.0, 0.0)):
 
 
 def loop_of(rng, links, size, concave):
-    """Corners of a simple loop, clockwise on the screen: a solid island; concave: one corner or more turns inwards."""
+    """Return the corners of a simple loop, clockwise on the screen. concave: with a corner that turns inwards."""
     while True:
         angles = np.sort(rng.uniform(0.0, 2.0 * np.pi, links))
         if np.diff(np.append(angles, angles[0] + 2.0 * np.pi)).max() > 3.0:
@@ -61,5 +61,5 @@ def island(points):
 
 
 def room(points):
-    """The same loop as the walls of a room: what is inside must stay there."""
+    """Return the same loop as a chain with the solid outside: a room."""
     return Chain([tuple(each) for each in points[::-1]], loop=True)

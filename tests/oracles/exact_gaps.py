@@ -1,4 +1,4 @@
-"""On which side of touching two convex outlines are, by arithmetic without rounding."""
+"""On which side of touching two convex outlines are, computed without rounding."""
 
 from fractions import Fraction
 

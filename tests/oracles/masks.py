@@ -2,7 +2,7 @@
 
 
 def shared_pixels(a, a_left, a_top, b, b_left, b_top):
-    """[(x, y), ...] in reading order, of the pixels that two bitmaps [row][col] drawn at whole places share."""
+    """Return [(x, y), ...] in reading order, of the pixels that two bitmaps [row][col] drawn at whole places share."""
     found = []
     for row in range(len(a)):
         for column in range(len(a[row])):
@@ -14,7 +14,7 @@ def shared_pixels(a, a_left, a_top, b, b_left, b_top):
 
 
 def bounds(a, left, top):
-    """(left, top, right, bottom) of the solid pixels, right and bottom exclusive; None when there is none."""
+    """Return (left, top, right, bottom) of the solid pixels, right and bottom exclusive; None when there is none."""
     solid = [(i + left, j + top) for j, row in enumerate(a) for i, pixel in enumerate(row) if pixel]
     if not solid:
         return None

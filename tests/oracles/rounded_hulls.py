@@ -21,7 +21,7 @@ class Hulls(NamedTuple):
         return Hulls(np.stack([x[:, None] + c * u - s * v, y[:, None] + s * u + c * v], axis=2), self.radii)
 
     def boxes(self):
-        """(lower, upper) corners (n, 2) of their AABBs."""
+        """Return (lower, upper) corners (n, 2) of their AABBs."""
         radius = self.radii[:, None]
         return self.corners.min(axis=1) - radius, self.corners.max(axis=1) + radius
 
@@ -34,7 +34,7 @@ class Bounds(NamedTuple):
 
 
 def gap_along(a, b, normal):
-    """(n,) gaps [px] between the shadows on one direction (n, 2) each, from A to B: none is more than the distance."""
+    """Return (n,) gaps [px] between the shadows on directions (n, 2) from A to B. No gap exceeds the distance."""
     shadow_a = np.einsum("nmk,nk->nm", a.corners, normal).max(axis=1)
     shadow_b = np.einsum("nmk,nk->nm", b.corners, normal).min(axis=1)
     return shadow_b - shadow_a - a.radii - b.radii
@@ -57,7 +57,7 @@ def bounds(a, b):
 
 
 def nearest_axis(a, b):
-    """(n, 2) unit vectors from the nearest point of A's outline to that of B's; NaN where they meet."""
+    """Return (n, 2) unit vectors from the nearest point of A's outline to that of B's; NaN where they meet."""
     of_b, on_a = _nearest(a.corners, b.corners)
     of_a, on_b = _nearest(b.corners, a.corners)
     first = np.hypot(*(of_b - on_a).T) <= np.hypot(*(of_a - on_b).T)
@@ -67,7 +67,7 @@ def nearest_axis(a, b):
 
 
 def distance_to_core(hulls, points):
-    """(n,) distances [px] of points (n, 2) from the edges of their hulls, roundings left out."""
+    """Return (n,) distances [px] of points (n, 2) from the edges of their hulls, roundings left out."""
     of, on = _nearest(hulls.corners, points[:, None])
     return np.hypot(*(of - on).T)
 

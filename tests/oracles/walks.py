@@ -2,7 +2,7 @@
 
 
 def inside_ground(solid, slopes, size, left, top, width, height):
-    """True when the box shares area with a solid tile, or one of its columns reaches below a slope's surface."""
+    """Return True when the box shares area with a solid tile, or one of its columns reaches below a slope's surface."""
     for j in range(len(solid)):
         for i in range(len(solid[j])):
             x, y = i * size, j * size

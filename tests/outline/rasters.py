@@ -28,7 +28,7 @@ def raster(rows):
 
 
 def hard():
-    """(name, solid) of the awkward ones."""
+    """Return (name, solid) of the difficult rasters."""
     found = {name: raster(rows) for name, rows in HARD.items()}
     found["checkerboard"] = np.indices((7, 6)).sum(axis=0) % 2 == 0
     found["diagonal"] = np.eye(9, dtype=bool)
@@ -51,7 +51,7 @@ def disc(radius, around=(0.0, 0.0)):
 
 
 def sprites():
-    """(name, solid) of some drawn sprites."""
+    """Yield (name, solid) of some drawn sprites."""
     for sheet, step in (("planes", 9), ("hero", 11), ("things", 7)):
         frames, _ = load(sheet)
         for name in sorted(frames)[::step]:
@@ -96,7 +96,10 @@ def lies_on_the_right_side(figure, solid, spare=0.0):
 
 
 def gaps(figure, solid):
-    """(largest distance of its boundary from the pixels' edges, of those from it), sampled every 0.05 px."""
+    """Return (greatest distance of the figure's boundary from the pixels' edges, and of these edges from the boundary).
+
+    The boundary and the edges are sampled every 0.05 px.
+    """
     mine, edges = shapely.boundary(figure), pixels(solid).boundary
     return tuple(
         float(shapely.distance(shapely.points(shapely.get_coordinates(shapely.segmentize(a, 0.05))), b).max())

@@ -16,7 +16,7 @@ MARGIN = 20  # [px] of the raster around a disc: from a radius of 45 px on outli
 
 
 def drawn(radius, center, hole=False):
-    """Pixels of a disc, or all others, and its centre: a pixel belongs to it if its own centre does."""
+    """Return the pixels with their centres in a disc, or all others for a hole, and the centre of the disc."""
     size = 2 * radius + 2 * MARGIN
     y, x = np.mgrid[:size, :size] + 0.5 - size / 2.0
     inside = (x - center[0]) ** 2 + (y - center[1]) ** 2 <= radius * radius

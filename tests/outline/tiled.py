@@ -12,7 +12,7 @@ TINY = 1e-7
 
 
 def windows(solid, size=SIZE):
-    """(row, column, window) of each tile."""
+    """Yield (row, column, window) of each tile."""
     rows, columns = (-(-side // size) for side in solid.shape)
     wide = np.zeros((rows * size + 2 * HALO, columns * size + 2 * HALO), bool)
     wide[HALO : HALO + solid.shape[0], HALO : HALO + solid.shape[1]] = solid
@@ -23,7 +23,7 @@ def windows(solid, size=SIZE):
 
 
 def parts_of(solid, smooth=0.5, size=SIZE):
-    """(row, column, corners, inner) of all parts of all tiles, in pixels of the mask."""
+    """Return (row, column, corners, inner) of all parts of all tiles, in pixels of the mask."""
     found = []
     for row, column, window in windows(solid, size):
         parts = tile_parts(window, smooth)

@@ -17,7 +17,7 @@ def is_kernel(function):
 
 
 def public_callables(node, owner=""):
-    """(name, FunctionDef) of functions, methods, setters and constructors that stand in the open and are no kernels."""
+    """Yield (name, FunctionDef) of the public functions, methods, setters and constructors that are no kernels."""
     for child in ast.iter_child_nodes(node):
         if isinstance(child, ast.ClassDef) and not child.name.startswith("_"):
             yield from public_callables(child, f"{child.name}.")

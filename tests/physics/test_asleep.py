@@ -13,7 +13,7 @@ def floor(world, kind="static", **arguments):
 
 
 def pile(high=3, **arguments):
-    """(world, ground, boxes) of a stack that has fallen asleep."""
+    """Return (world, ground, boxes) of a stack that has fallen asleep."""
     world = World(**arguments)
     ground = floor(world)
     boxes = [world.add_body(BOX, position=(0, -8 - 16 * k)) for k in range(high)]

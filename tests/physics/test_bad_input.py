@@ -91,7 +91,7 @@ def state(world):
 
 
 def refused(name, value, call):
-    """The call with the value raises ValueError or TypeError with the argument's name and the value."""
+    """Assert that the call raises ValueError or TypeError with the argument's name and the value."""
     with pytest.raises((ValueError, TypeError)) as caught:
         call(value)
     assert not isinstance(caught.value, UnicodeError)

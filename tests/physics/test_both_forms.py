@@ -37,7 +37,7 @@ def write_wrong(world, rng, walkers):
 
 
 def play_wrong(kind, solver, strategy, seed):
-    """A world in which numbers go wrong between its steps, asked before and after."""
+    """Step a world whose numbers are made wrong between steps, with queries before and after."""
     rng = random.Random(seed)
     walkers = seed % 2 == 0
     world = crowded(kind, strategy, solver, seed, walkers)

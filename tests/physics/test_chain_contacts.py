@@ -62,7 +62,7 @@ def test_nothing_is_felt_at_the_seams_of_a_flat_chain(name, depth):
 
 
 def mirrored_many(chain, at, shape, pose, margin=0.0):
-    """The manifold both ways round; a chain may have more than two points."""
+    """Return the manifold after a check that both orders agree; a chain may have more than two points."""
     one, two = collide(chain, at, shape, pose, margin), collide(shape, pose, chain, at, margin)
     assert one.points.tolist() == two.points.tolist() and one.separations.tolist() == two.separations.tolist()
     assert one.normal == (-two.normal[0] + 0.0, -two.normal[1] + 0.0)

@@ -19,7 +19,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def random_solids(rng, count=14):
-    """(shape, pose) of turned, round and thin things about the origin, none of them where a character starts."""
+    """Return (shape, pose) of turned, round and thin things about the origin, none of them where a character starts."""
     found = []
     while len(found) < count:
         pick = rng.integers(6)

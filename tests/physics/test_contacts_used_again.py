@@ -24,7 +24,7 @@ SHAPES = (
 
 
 def heap(effects, solver="soft_step", shapes=SHAPES, **arguments):
-    """(world, floor, the bodies of a heap that stands on it)."""
+    """Return (world, floor, the bodies of a heap that stands on it)."""
     world = World(effects, solver=solver, **arguments)
     floor = world.add_body(Polygon.box(400, 40), kind="static", position=(0, 20))
     bodies = [

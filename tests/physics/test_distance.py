@@ -34,7 +34,7 @@ def room_for(points):
 
 
 def gap_of(a, b, room=None, start=(0, 0)):
-    """(separation, normal, point on A, point on B) of two outlines, by the kernel."""
+    """Return (separation, normal, point on A, point on B) of two outlines, by the kernel."""
     room = new_gap_workspace() if room is None else room
     found = shape_separation(room_for(a), len(a), 0.0, room_for(b), len(b), 0.0, start, room)
     gap = room.gap

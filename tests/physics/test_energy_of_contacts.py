@@ -26,7 +26,10 @@ def energies(world, body, height, steps):
 
 
 def eccentric(offset, weight, tilt, **settings):
-    """A disc with a heavy one in it, on level ground; and the height of its centre of mass over the lowest place."""
+    """Return (world, body, height) of a disc with a heavy one in it, on level ground.
+
+    height(): height of its centre of mass over the lowest place [px].
+    """
     world = World(EFFECTS, **settings)
     rough = Material(friction=4.0)  # it rolls without slip
     world.add_body(Segment((-4000, 0), (4000, 0)), position=(0, 100), kind="static", material=rough)
@@ -37,7 +40,10 @@ def eccentric(offset, weight, tilt, **settings):
 
 
 def bowl(links, radius, start, **settings):
-    """A disc in a half circle of links without friction; and the height of its centre."""
+    """Return (world, body, height) of a disc in a half circle of links without friction.
+
+    height(): height of the disc's centre over its lowest place [px].
+    """
     world = World(EFFECTS, **settings)
     rim = [(400 * math.cos(a), 400 * math.sin(a)) for a in np.linspace(math.pi, 0, links + 1)]
     world.add_body(Chain(rim), kind="static", material=ICE)

@@ -33,7 +33,7 @@ def random_shape(kind, rng):
 
 
 def hull_of(shape, pose):
-    """(world corners of the core (n, 2), radius)."""
+    """Return (world corners of the core (n, 2), radius)."""
     x, y, angle = pose
     if isinstance(shape, Bounds):
         core, radius = hull_of(shape.shape, pose)

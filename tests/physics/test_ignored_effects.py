@@ -127,7 +127,7 @@ EVENTS = ("begin", "persist", "end", "hits", "sensor_begin", "sensor_end")
 
 
 def outcome(effects, solver, scene, much):
-    """(poses and velocities, flags and events) of every step."""
+    """Return (poses and velocities, flags and events) of every step."""
     world = World(
         effects,
         solver=solver,

@@ -43,7 +43,7 @@ class Joints:
                 self.motions[name][body] = value
 
     def add(self, a, b, rows, identity=None):
-        """rows: (Jacobian of A, of B, right-hand side, compliance) of each."""
+        """Add a joint. rows: (Jacobian of A, of B, right-hand side, compliance) of each of its rows."""
         self.ids.append(len(self.ids) if identity is None else identity)
         self.a.append(a)
         self.b.append(b)
@@ -151,7 +151,7 @@ def random_forest(seed, decades=0.0, soft=0.0):
 
 
 def system(joints):
-    """Jacobian (rows, motions · 3), right-hand side, compliances and inverse masses of the joints taken."""
+    """Return the Jacobian (rows, motions · 3), right-hand side, compliances and inverse masses of the taken joints."""
     motions = joints.motions
     columns = 3 * len(motions)
     jacobian, rhs, soft, places = [], [], [], []
@@ -209,7 +209,7 @@ def velocities(joints):
 
 
 def residuals(joints):
-    """Largest violation of a row, and largest velocity not explained by impulses: relative, in rational numbers."""
+    """Return (largest violation of a row, largest velocity that the impulses do not explain), relative and exact."""
     jacobian, rhs, soft, inverse, before, places = system(joints)
     after = [Fraction(x) for x in velocities(joints).tolist()]
     pushed, size = [Fraction(x) for x in before.tolist()], [abs(Fraction(x)) for x in before.tolist()]

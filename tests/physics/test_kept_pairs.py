@@ -22,7 +22,7 @@ def shapes():
 
 
 def asked(seed, count):
-    """Random pairs of shapes at random poses, each pair several times in no order."""
+    """Return random pairs of shapes at random poses, in which each pair of shapes occurs several times."""
     known, rng = shapes(), np.random.default_rng(seed)
     found = []
     for _ in range(count):

@@ -49,7 +49,7 @@ def drawings():
 
 
 def check(solid, smooth, origin=(0.0, 0.0)):
-    """A mask's outline, after all that is promised of it."""
+    """Return a mask's outline, after a check of all that its documentation promises."""
     mask = PixelMask.from_array(solid, origin, smooth=smooth)
     parts = [figure(each) for each in mask.outline]
     together = shapely.transform(shapely.union_all(parts), lambda points: points + np.array(origin))

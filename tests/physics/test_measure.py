@@ -19,7 +19,7 @@ def union(shapes):
 
 
 def second_moment(figure):
-    """About the centroid, by triangles."""
+    """Return the second moment of area of a figure about its centroid, by triangles."""
     total = 0.0
     center = np.array(figure.centroid.coords[0])
     for triangle in shapely.constrained_delaunay_triangles(figure).geoms:

@@ -87,7 +87,10 @@ def test_shapes_compare_by_value_and_stand_once_in_the_library():
 
 
 def by_slices(distance_inside, box, count=20000):
-    """(area, centre, second moment about it) of a convex region, sliced along x; distance_inside(x) -> (low, high)."""
+    """Return (area, centre, second moment about it) of a convex region, by slices along x.
+
+    distance_inside(x) returns the (low, high) y of the slice at x.
+    """
     left, right = box
     nodes, weights = np.polynomial.legendre.leggauss(40)
     edges = np.linspace(left, right, count // 40 + 1)

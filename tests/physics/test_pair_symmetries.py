@@ -22,7 +22,10 @@ pairs = pytest.mark.parametrize("a, b", [(a, b) for a in KINDS for b in KINDS])
 
 
 def poses(seed, count=15):
-    """(start of A, end of A, start of B, end of B): about half overlap at the start. Places are whole 2^-20 px."""
+    """Yield (start of A, end of A, start of B, end of B). About half overlap at the start.
+
+    Places are multiples of 2^-20 px.
+    """
     rng = np.random.default_rng(seed)
     for _ in range(count):
         x, y = rng.uniform(-40.0, 40.0, 2)

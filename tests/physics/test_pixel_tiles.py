@@ -43,7 +43,7 @@ def figures_of(solid):
 
 
 def rasters(random):
-    """(name, solid): full and empty tiles beside mixed ones, sizes that end within a tile."""
+    """Yield (name, solid): full and empty tiles beside mixed ones, sizes that end within a tile."""
     for height, width in ((64, 64), (128, 192), (65, 63), (130, 200)):
         yield "full", np.ones((height, width), bool)
         yield "empty", np.zeros((height, width), bool)

@@ -12,7 +12,7 @@ EDGE = 1.0 + 1e-12
 
 
 def outline_of_mask(mask):
-    """(corners, radius) of the parts of a mask's outline."""
+    """Return (corners, radius) of the parts of a mask's outline."""
     shapes = [part.shape for part in outline_of(mask)]
     return [((s.center,) if isinstance(s, Circle) else s.points, s.radius) for s in shapes]
 

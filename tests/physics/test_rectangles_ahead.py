@@ -16,7 +16,7 @@ def flock(strategy, rng, speed=90.0):
 
 
 def pairs_within(world, gap):
-    """{(id, id)} by every distance [px] between two surfaces, A before B."""
+    """Return the pairs {(id, id)}, A before B, whose surfaces are at most `gap` [px] apart, by a test of every pair."""
     ids, at = world.bodies["id"], np.stack([world.bodies["x"], world.bodies["y"]], axis=1)
     apart = ((at[:, None] - at[None]) ** 2).sum(axis=2)
     return {(int(ids[a]), int(ids[b])) for a, b in np.argwhere(np.triu(apart <= (2.0 * RADIUS + gap) ** 2, k=1))}

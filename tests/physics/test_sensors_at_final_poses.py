@@ -68,7 +68,7 @@ def roles_of(kind):
 
 
 def crowd(effects, solver, sensors, seed):
-    """Sensors, (kind, role) each, and one solid of every kind, kinematic and dynamic, thrown about in a room."""
+    """Return a room with sensors, (kind, role) each, and a moving solid of every kind, kinematic and dynamic."""
     rng = np.random.default_rng(seed)
     world = World(effects, solver=solver, gravity=(0.0, 300.0))
 
@@ -102,19 +102,19 @@ def senses(body, shape):
 
 
 def pose(body):
-    """(x, y, angle) of a body."""
+    """Return (x, y, angle) of a body."""
     return (*body.position, body.angle)
 
 
 def sides(world):
-    """{shape id: (body, shape)} of what stands in a world."""
+    """Return {shape id: (body, shape)} of all shapes of a world."""
     return {
         identity: (body, shape) for body in world for identity, shape in zip(body.shape_ids, body.shapes, strict=True)
     }
 
 
 def overlapping(world):
-    """Pairs of shape ids of which one is a sensor and that overlap now, by the function that knows no world."""
+    """Return the pairs of shape ids, one of them a sensor, that overlap now, by `collide`."""
     found = set()
     for (a, (body_a, shape_a)), (b, (body_b, shape_b)) in itertools.combinations(sides(world).items(), 2):
         if body_a == body_b or body_a.kind == body_b.kind == "static":

@@ -139,7 +139,7 @@ class Interruptions:
         self.rng, self.path, self.count = np.random.default_rng((seed, 7)), folder and folder / "kept.npz", 0
 
     def __call__(self, world, moment):
-        """The world to go on with."""
+        """Return the world with which the run continues."""
         if self.rng.random() > 0.25:
             return world
         self.count += 1

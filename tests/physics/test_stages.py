@@ -48,7 +48,7 @@ def frozen(value, seen=()):
 
 
 def photographed(state) -> dict:
-    """{field, or table.column: its frozen value} of everything a stage could touch, but the workspace."""
+    """Return {field, or table.column: its frozen value} of the whole state, except the workspace."""
     found = {}
     for name in STAGE_FIELDS:
         value = getattr(state, name)

@@ -210,7 +210,7 @@ def test_bounds_that_grow_as_they_turn():
 
 @kernel
 def sweep(sweep_inout):
-    """Row 0 against row 1."""
+    """Compute the time of impact of row 0 against row 1."""
     return sweep_rotational(0, 1, sweep_inout.slack, -1, sweep_inout)
 
 

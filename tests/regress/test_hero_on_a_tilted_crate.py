@@ -12,7 +12,7 @@ def hero(slope):
 
 
 def level(drop):
-    """One whose tiles lie so far [px] below his feet."""
+    """Return a replacement of the level whose tiles lie `drop` [px] below the hero's feet."""
     return SimpleNamespace(drop_to_ground=lambda x, bottom, most: min(drop, most))
 
 

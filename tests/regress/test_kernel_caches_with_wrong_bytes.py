@@ -37,7 +37,7 @@ print(totals.compiled)
 
 
 def ask(folder):
-    """(what the kernels found, how many kernels were compiled, what was said) by a process of its own."""
+    """Return (results of the kernels, number of compiled kernels, output) of a new process."""
     run = subprocess.run(
         [sys.executable, "-W", "always", "-c", ASK],
         cwd=folder,
@@ -63,7 +63,7 @@ def warm(tmp_path_factory):
 
 
 def flipped(content, places):
-    """The same length, one bit wrong at each of the places, which are shares 0..1 of the length."""
+    """Return the content with one bit changed at each of the places, which are shares 0..1 of the length."""
     wrong = bytearray(content)
     for share in places:
         wrong[int(share * (len(wrong) - 1))] ^= 0x10

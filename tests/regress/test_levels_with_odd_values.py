@@ -16,7 +16,7 @@ ODD = (None, True, -1, 0, 10**30, 0.5, float("nan"), "", "odd", [], [None], [[]]
 
 
 def places(value, place=()):
-    """Return the places of values in a nested structure: keys and numbers from the top."""
+    """Yield the places of values in a nested structure: keys and numbers from the top."""
     yield place
     inside = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
     for key, each in inside:

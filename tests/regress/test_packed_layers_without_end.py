@@ -20,7 +20,7 @@ MEMORY = 2_000_000  # bytes that reading may take beside the file's text
 
 
 def packed(raw, compression, more=b""):
-    """LEVEL with one layer of these bytes; more: what stands behind them in the file."""
+    """Return LEVEL with one layer of these bytes. more: bytes that follow them in the file."""
     level = copy.deepcopy(LEVEL)
     data = PACKERS[compression](raw) + more
     level["layers"][0] |= {"encoding": "base64", "compression": compression, "data": base64.b64encode(data).decode()}
@@ -28,7 +28,7 @@ def packed(raw, compression, more=b""):
 
 
 def peak_of(call):
-    """(what it raised or returned, most bytes taken meanwhile)."""
+    """Return (result or error of a call, greatest memory that it took [bytes])."""
     tracemalloc.start()
     try:
         try:

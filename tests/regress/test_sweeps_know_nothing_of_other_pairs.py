@@ -13,7 +13,7 @@ SLACK = 0.16  # [px]
 
 @kernel
 def sweep(count, other_count, half, slack, workspace):
-    """The sweep of sharp hulls that stand in the workspace."""
+    """Return the sweep of two sharp hulls that are stored in the workspace."""
     return sweep_hull(Mover(count, 0.0, half, slack), 0.0, other_count, 0.0, workspace)
 
 

@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def with_tile(number, listed):
-    """A level with tile `number` once in its solid layer; the tileset says something of the listed ones only."""
+    """Return a level with tile `number` once in its solid layer, and properties of the `listed` tiles only."""
     level = small()
     tileset = level["tilesets"][0] = dict(level["tilesets"][0])
     tileset["tiles"] = [tile for tile in tileset["tiles"] if tile["id"] in listed]

@@ -43,5 +43,5 @@ class Flight:
         self.put(pad.x, pad.y - 16.0 - high, velocity)
 
     def piece(self, number=0):
-        """(id, Cargo) of a piece of cargo."""
+        """Return (id, Cargo) of a piece of cargo."""
         return list(self.scene.yard.cargo.items())[number]

@@ -26,7 +26,7 @@ def write(path, data):
 
 
 def boss_stage(path, phases=(0, 1, 2), **changes):
-    """A stage that is nothing but its boss, with some of its phases, each with some fields changed."""
+    """Write a stage with nothing but its boss, with some of its phases and changed fields. Return its path."""
     data = own_stage()
     boss = copy.deepcopy(leader_of(data, "boss"))
     boss["at"] = 0.1
@@ -36,7 +36,7 @@ def boss_stage(path, phases=(0, 1, 2), **changes):
 
 
 def midboss_stage(path, **changes):
-    """A mid-boss, then the boss."""
+    """Write a stage with a mid-boss, then the boss. Return its path."""
     data = own_stage()
     midboss, boss = (copy.deepcopy(leader_of(data, kind)) for kind in ("midboss", "boss"))
     midboss["at"], boss["at"] = 0.1, 0.5
@@ -62,7 +62,7 @@ class Sky:
         self.step()
 
     def step(self, count=1, actions=(), changes=()):
-        """So many steps with actions held."""
+        """Make `count` steps with actions held."""
         for _ in range(count):
             self.inputs.set(InputFrame(frozenset(actions), changes=tuple(changes)))
             self.scene.step(self.inputs)

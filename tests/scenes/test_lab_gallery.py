@@ -210,7 +210,7 @@ def test_the_thousand_is_stepped_beside_the_game_and_reported_on_its_page():
 
 
 def words(scene, start):
-    """Texts of the picture that begin so."""
+    """Return the texts of the picture that begin with `start`."""
     canvas = Canvas()
     canvas.begin((0, 0, 0))
     scene.draw(canvas, 1.0)

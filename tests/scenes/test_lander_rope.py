@@ -63,7 +63,7 @@ def test_it_is_tied_at_every_angle_and_never_longer_than_it_was_tied(away, angle
 
 
 def crosses(rock, a, b, margin=2.0):
-    """Whether the line from a to b leads through a rock, deeper than the margin [px]."""
+    """Return whether the line from a to b leads through a rock, deeper than the margin [px]."""
     left, top, right, bottom = rock.bounds
     shares = [k / 60 for k in range(61)]
     points = [(a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])) for share in shares]

@@ -25,7 +25,7 @@ def middle(scene):
 
 
 def flat(scene, x=44 * 16, bottom=320):
-    """On the flat of the meadow, the enemies gone."""
+    """Place the hero on the flat of the meadow, and remove the enemies."""
     for enemy in list(scene.things.enemies.values()):
         scene.things.remove(enemy)
     scene.hero.place((x, bottom - HEIGHT / 2))

@@ -151,7 +151,7 @@ def test_the_narrow_phase_switches_mid_game(name):
 
 
 def worlds_differ(one, other, frames):
-    """True if within so many frames something in their worlds is not the same."""
+    """Return True if within so many frames something in their worlds is not the same."""
     for _ in range(frames):
         if [world.digest() for world in one.scene.worlds] != [world.digest() for world in other.scene.worlds]:
             return True

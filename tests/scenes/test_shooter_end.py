@@ -12,7 +12,7 @@ from tests.scenes.shooter_stages import Sky, boss_stage
 
 
 def lose_all(sky):
-    """Be hit until the countdown runs."""
+    """Lose all lives, until the countdown runs."""
 
     def step():
         scene = sky.scene

@@ -28,7 +28,7 @@ def picture(scene, alpha=1.0):
 
 
 def check_text(scene):
-    """No text leaves the picture or lies over other text."""
+    """Assert that no text leaves the picture or overlaps other text."""
     canvas = picture(scene)
     words = [text for _, text in canvas.boxes]
     for rect, text in canvas.boxes:

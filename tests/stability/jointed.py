@@ -34,7 +34,7 @@ def named(figure, solver):
 
 
 def energy(world, gravity=GRAVITY):
-    """Kinetic and potential energy [J] of all bodies; gravity: of the world [m/s²]."""
+    """Return the kinetic and potential energy of all bodies [J]. gravity: gravity of the world [m/s²]."""
     b = world.bodies[world.bodies["kind"] == 2]
     moving = 0.5 * (b["mass"] * (b["vx"] ** 2 + b["vy"] ** 2) + b["inertia"] * b["angular_velocity"] ** 2)
     return float((moving - b["mass"] * gravity * b["center_y"]).sum())
@@ -148,7 +148,10 @@ def ragdoll(world, x, y, turn, friction=0.05):
 
 
 def stairs(world, count, turn, friction=0.05):
-    """Eight steps and a floor, and so many ragdolls that are thrown at them; turn: of all [rad]. Returns the torsos."""
+    """Build eight steps and a floor, and `count` ragdolls that are thrown at them. Returns the torsos.
+
+    turn: angle of all ragdolls [rad].
+    """
     for k in range(8):
         world.add_body(Polygon.box(2.0, 0.6), position=(2.0 * k, 0.6 * k), kind="static")
     world.add_body(Polygon.box(120.0, 0.6), position=(20.0, 0.6 * 8), kind="static")

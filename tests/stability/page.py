@@ -34,7 +34,7 @@ HEADER = (
 
 
 def kept_figures():
-    """{settings: {row: {figure: value}}} as the last measured run left them."""
+    """Return {settings: {row: {figure: value}}} as the last measured run left them."""
     return json.loads(KEPT.read_text())
 
 

@@ -45,7 +45,7 @@ def floor(world, friction=0.6, restitution=0.0, width=200.0, y=0.0, x=0.0, angle
 
 
 def on_slope(angle, along, height):
-    """The point so far down a slope through the origin and so high above it."""
+    """Return the point at the distance `along` down a slope through the origin, and at `height` above it."""
     return (along * math.cos(angle) + height * math.sin(angle), along * math.sin(angle) - height * math.cos(angle))
 
 
@@ -74,8 +74,10 @@ def pyramid(world, base, size=1.0, friction=0.6, spread=1.1, x=0.0, y=0.0):
 
 
 def pyramid_and_load(world, density, height):
-    """A pyramid of ten rows on a floor without its top, and a box of a density let go so high above that place. Returns
-    (ids by row, lowest first, the load)."""
+    """Build a pyramid of ten rows without its top, and a box released at `height` above that place.
+
+    Returns (ids by row, lowest first, the box). density: that of the box.
+    """
     floor(world)
     rows = pyramid(world, 10, spread=1.01)
     world.remove_body(int(rows.pop()[0]))

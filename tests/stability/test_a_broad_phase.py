@@ -42,7 +42,7 @@ every_strategy = pytest.mark.parametrize("strategy", STRATEGIES)
 
 
 def box_sets():
-    """(name, lower, upper) of the boxes of A1."""
+    """Yield (name, lower, upper) of the boxes of A1."""
     rng = np.random.default_rng(1)
     for count in (0, 1, 2, 17, 256, 2000 if JIT else 300):
         lower = rng.uniform(-20.0, 20.0, (count, 2)) * math.sqrt(count)
@@ -112,7 +112,7 @@ def test_a3_stack_stands_on_a_huge_ground(measured, half, broadphase):
 
 
 def churn(broadphase, steps):
-    """Bytes that Python counts after every step of a world whose 60 bodies are never the same."""
+    """Return the bytes that Python counts after each step of a world whose 60 bodies are replaced all the time."""
     world = World(Effects(response=True), BROADPHASES[broadphase]())
     rng, alive, held = np.random.default_rng(4), [], []
     for _ in range(steps):

@@ -231,7 +231,7 @@ def test_b9_touching_is_a_contact_of_no_depth(measured, name):
 
 
 def needles(measured, count):
-    """100 px by 0.001 px, on a lattice on which every product is whole: no crossing is missed, none is made up."""
+    """Check needles of 100 px by 0.001 px on a lattice with exact products: all crossings are found, no other."""
     rng, unit = np.random.default_rng(1), 2.0**-20
     turns = np.radians(rng.choice([-1.0, 1.0], (2, count)) * 10.0 ** rng.uniform(-4.0, -2.0, (2, count)))
     middle = np.stack([rng.uniform(-100.0, 100.0, count), rng.uniform(-4e-3, 4e-3, count)], axis=1)
@@ -264,7 +264,7 @@ def test_b10_a_hundred_thousand_needles(measured):
 
 
 def squared_distance(a, b, c, d):
-    """Of two segments with whole ends, as a rational."""
+    """Return the squared distance of two segments with whole ends, as a rational number."""
 
     def to_segment(p, q, r):
         (ux, uy), (vx, vy) = (q[0] - p[0], q[1] - p[1]), (r[0] - p[0], r[1] - p[1])

@@ -38,7 +38,7 @@ def walls_of(kind, half_x, half_y):
 
 
 def add_room(world, rng, kind, moves):
-    """(the room's body, the pose of its middle in body space, half sizes [px])."""
+    """Return (the room's body, the pose of its middle in body space, half sizes [px])."""
     columns, rows = int(rng.integers(4, 9)), int(rng.integers(4, 9))
     half_x, half_y = columns * THICK / 2.0, rows * THICK / 2.0
     speed = rng.uniform(-400.0, 400.0, 2) * moves

@@ -29,7 +29,7 @@ def ground_of(world, kind, tiles=220, size=16.0):
 
 
 def slide(solver, ground, shape, speed, steps, continuous=True):
-    """(greatest relative loss of speed, steps without a contact, greatest height above rest [px])."""
+    """Return (greatest relative loss of speed, steps without a contact, greatest height above rest [px])."""
     world = pixels(pile_effects(continuous=continuous), solver=solver)
     ground_of(world, ground)
     what, half = SHAPES[shape]
@@ -170,7 +170,7 @@ def test_e5_capsule_driven_over_the_seam_of_two_chunks(measured, kind):
 
 
 def valley(kind, shape, dt=1 / 60, links=240, radius=10.0):
-    """Share of its height that a shape regains on the other side of a quarter circle of links or of slabs."""
+    """Return the share of its height that a shape regains after a quarter circle of links or of slabs."""
     world = metres(effects=pile_effects(continuous=True), dt=dt)
     angles = [math.pi * (0.75 - 0.5 * k / links) for k in range(-20, links + 21)]
     points = [(radius * math.cos(a), radius * math.sin(a)) for a in angles]

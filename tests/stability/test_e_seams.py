@@ -27,7 +27,7 @@ PLACES = tuple(-160 + 32 * k for k in range(10))
 
 
 def in_pieces(kind):
-    """(position, shapes) of the bodies of a floor at y = 0 with a seam at x = 0."""
+    """Return (position, shapes) of the bodies of a floor at y = 0 with a seam at x = 0."""
     return {
         "grids": [((-160, 0), (GRID,)), ((0, 0), (GRID,))],
         "chains": [((0, 0), (Chain([(x, 0), (x + 80, 0), (x + 160, 0)]),)) for x in (-160, 0)],

@@ -14,7 +14,7 @@ OFFSETS = ((0.0, 0.0), (7.0, -3.0), (300.0, 1e3))
 
 
 def forms(offset):
-    """(shape, mass, inertia about its own centre) of density 1, at an offset."""
+    """Yield (shape, mass, inertia about its own centre) of density 1, at an offset."""
     x, y = offset
     for radius in (1.0, 0.3):
         yield Circle(radius, offset), math.pi * radius**2, math.pi * radius**4 / 2.0

@@ -11,7 +11,7 @@ from tests.stability.piles import SOLVERS, floor, metres, needs_speed, pile_effe
 
 
 def settled_pyramid(x, y, solver):
-    """(step of falling asleep, poses as seen from a place) of a pyramid there."""
+    """Return (step at which a pyramid falls asleep, its poses relative to its place) for a pyramid at (x, y)."""
     world = metres(solver, effects=pile_effects(sleeping=True))
     floor(world, x=x, y=y)
     pyramid(world, 4, x=x, y=y, spread=1.25)

@@ -172,7 +172,7 @@ CALLED_FOR = ("gravity", "drag", "wind", "rotation", "friction", "restitution", 
 
 
 def play(effects):
-    """(poses, events) of a scene that calls for every effect of CALLED_FOR, after 2 s."""
+    """Return (poses, events) of a scene that calls for every effect of CALLED_FOR, after 2 s."""
     solver = "soft_step" if effects.stacking else None
     world = World(
         effects, solver=solver, drag=0.3 if effects.drag else 0.0, wind=(60.0, 0.0) if effects.wind else (0, 0)

@@ -55,7 +55,7 @@ def ragged(rng):
 
 
 def heap(count, seed, solver="soft_step", seconds=20.0, sprite=blob):
-    """(when the last met something for the first time [s], when all slept or None, the bodies) of sprites in a bin."""
+    """Drop sprites into a bin. Return (time of the last new contact [s], time at which all slept or None, bodies)."""
     rng = np.random.default_rng(seed)
     world = World(solver=solver)
     world.add_body(PixelMask(np.ones((20, 500), bool)), position=(0.0, 210.0), kind="static")

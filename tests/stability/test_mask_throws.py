@@ -53,7 +53,7 @@ def test_who_stands_deep_in_a_rim_is_led_back_out_of_all_of_its_parts(thickness,
 
 
 def fast(count, seed):
-    """Throws that move by more than the thrown and the wall are thick in a step."""
+    """Return throws that move in a step by more than the thickness of the thrown body and of the wall."""
     quick = (each for each in throws(50 * count, seed) if np.hypot(*each.velocity) > 60.0 * 44.0)
     return itertools.islice(quick, count)
 

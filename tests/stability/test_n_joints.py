@@ -157,7 +157,7 @@ def test_n6_a_chain_that_is_thrown_over_gains_no_energy(measured, ratio, solver)
 
 
 def cantilever(world, angle):
-    """Eight beams of 1 m, welded to the world at an angle; returns how far the tip is off in 5 s."""
+    """Weld eight beams of 1 m to the world at an angle. Return the greatest deviation of the tip in 5 s [m]."""
     before = None
     for k in range(8):
         beam = rod(world, along(k, angle), along(k + 1.0, angle), 0.25)
@@ -181,7 +181,7 @@ def test_n7_without_trees_it_sags(measured, solver):
 
 
 def catenary(length, slack):
-    """(a, half width / a, sag) of a catenary of a length whose ends are length / slack apart."""
+    """Return (a, half width / a, sag) of a catenary of a length whose ends are length / slack apart."""
     low, high = 1e-6, 50.0  # sinh(u) / u = slack
     for _ in range(200):
         u = 0.5 * (low + high)

@@ -146,7 +146,7 @@ def test_n11_a_scissor_lift_rises_as_its_foot_moves_in(measured, stages, tier, s
 
 
 def slide_force(world, slide):
-    """The force of a slider along x."""
+    """Return the force of a slider along x."""
     return float(world.joints["force_x"][world.joints["id"] == slide.id][0])
 
 
@@ -170,7 +170,7 @@ def length_of(one, two):
 
 
 def meet(center, radius, other, far, like):
-    """The point at two distances from two centres, on the same side of their line as in a triangle of the leg."""
+    """Return the point at two distances from two centres, on the same side of their line as in the leg's plan."""
     (ax, ay), (bx, by), apart = center, other, math.dist(center, other)
     u = (radius**2 - far**2 + apart**2) / (2.0 * apart)
     v = math.sqrt(radius**2 - u**2)

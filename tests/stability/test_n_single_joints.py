@@ -65,7 +65,7 @@ def test_n18_a_tank_keeps_its_circle_and_stops_in_its_way(measured, solver):
 
 
 def door(solver, hertz, damping, opened):
-    """A leaf of 1 m in a world without gravity, opened by an angle; returns (world, hinge)."""
+    """Return (world, hinge) of a door of 1 m in a world without gravity, opened by an angle."""
     world = jointed(solver, gravity=(0.0, 0.0))
     leaf = rod(world, (0.0, 0.0), (math.cos(opened), math.sin(opened)), 0.1)
     return world, world.add_joint(Revolute(None, leaf, at=(0.0, 0.0), spring=Spring(hertz, damping, target=-opened)))

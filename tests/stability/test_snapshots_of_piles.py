@@ -10,7 +10,7 @@ STEPS = 600 if JIT else 40
 
 
 def piles(substeps):
-    """Columns askew whose arms are frozen, a heavy box on a light one, and a ball on its way into them."""
+    """Return a world with a crooked column, a heavy box on a light one, and a ball that rolls into them."""
     world = metres(substeps=substeps)
     floor(world)
     rng = np.random.default_rng(7)

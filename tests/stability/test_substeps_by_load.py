@@ -15,7 +15,7 @@ MILLIMETRE = 0.001
 
 
 def heap(world, boxes, x=0.0, density=1.0, top=None):
-    """A column of unit boxes on the floor at x; top: the density of the last."""
+    """Add a column of unit boxes on the floor at x. top: density of the highest box."""
     return [
         world.add_body(
             Polygon.box(1, 1),

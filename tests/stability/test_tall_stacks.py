@@ -16,12 +16,12 @@ def crooked(count, seed):
 
 
 def leaning(count, by):
-    """Places [m] of boxes, each so much further than the one below."""
+    """Return the places [m] of boxes, each `by` further to the right than the one below."""
     return [by * k for k in range(count)]
 
 
 def column_at(places, seconds=20, substeps=8, **options):
-    """(the world, whether it stands after so long) of unit boxes at these x: none left its place by a quarter."""
+    """Step a column of unit boxes at these x. Return (world, whether no box left its place by a quarter)."""
     world = metres(substeps=substeps, **options)
     floor(world)
     boxes = [

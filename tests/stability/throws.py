@@ -111,7 +111,7 @@ def side_of(throw, x, y):
 
 
 def fly(throw, effects, solver=None, mode="auto"):
-    """(whether it has passed, whether any contact began) of a throw in a world of its own without gravity."""
+    """Make a throw in a world without gravity. Return (whether it has passed the wall, whether any contact began)."""
     world = World(effects, solver=solver, gravity=(0.0, 0.0))
     wall = world.add_body(throw.wall, angle=throw.wall_angle, kind="static")
     body = world.add_body(

@@ -170,7 +170,7 @@ def test_f9_saves_what_is_measured_as_csv(driver, tmp_path):
 
 
 def play_with_a_survey():
-    """The shooter with the plot open, and a result of every setting."""
+    """Return the shooter with the plot open, and with a result for every setting."""
     play = Play(Shooter(seed=1), DeviceSource(), Silent())
     for _ in range(3):
         play.step()

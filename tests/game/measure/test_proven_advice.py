@@ -27,7 +27,7 @@ SETTING = Setting("tree", True)
 
 
 def recorded(name, steps):
-    """(scene after so many steps of its bot, the recorder)."""
+    """Return (scene, recorder) after `steps` steps of the scene's bot."""
     scene = make_scene(name)
     recorder = Recorder(scene, bot=True)
     session = Session(scene, BotSource(), recorder)

@@ -24,7 +24,7 @@ def verdicts(shape, first, second):
 
 
 def places(half, turned, seed=1):
-    """Poses of pairs: the second anywhere in a square of offsets, each turned by chance or not."""
+    """Return poses of pairs, the second body anywhere in a square of offsets. turned: rotate both at random."""
     chance = np.random.default_rng(seed)
     first, second = np.zeros((COUNT, 3)), np.zeros((COUNT, 3))
     second[:, :2] = chance.uniform(-half, half, (COUNT, 2))

@@ -17,7 +17,7 @@ TREE, SWEEP, BRUTE = (HERE._replace(broadphase=name) for name in ("tree", "sweep
 
 
 def put(survey, setting, seconds, error=0.0, runs=RUNS, spread=0.02):
-    """A dot as it would have been measured."""
+    """Add a dot with these measured values to the survey."""
     dot = survey.dot(setting)
     dot.steps = 60
     for k in range(runs):

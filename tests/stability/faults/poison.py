@@ -99,7 +99,7 @@ class Scene:
         return heap
 
     def steps(self, count):
-        """So many steps, in each of which the characters walk a little."""
+        """Make `count` steps, in each of which the characters walk a little."""
         for _ in range(count):
             for hero in self.heroes:
                 hero.move(0.5, 1.0)
@@ -110,11 +110,11 @@ class Scene:
         return [self.heroes[0].body.id if field.table == "characters" else self.sick]
 
     def others(self):
-        """Rows of the bodies that are nowhere near the sick one."""
+        """Return the rows of the bodies that are not near the sick body."""
         return np.flatnonzero(self.world.bodies["x"] > 250.0)
 
     def row_of(self, table):
-        """The row of a table that is the sick one's."""
+        """Return the row of a table that belongs to the sick body."""
         world, sick = self.world, self.sick
         if table == "bodies":
             return int(world.rows([sick])[0])

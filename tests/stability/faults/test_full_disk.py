@@ -58,7 +58,7 @@ def full_disk(monkeypatch):
 
 
 def files():
-    """Names and contents of all that is kept for the player."""
+    """Return the names and contents of the player's files."""
     return {path: path.read_bytes() for path in sorted(data_folder().rglob("*")) if path.is_file()}
 
 

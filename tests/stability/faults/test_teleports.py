@@ -30,7 +30,7 @@ PUSH = 2 * 96.0  # [px/s] twice the speed of a push-out
 
 
 def scene(solver, case):
-    """A world after its first second, and the body that is to be put into what is there."""
+    """Return a world after its first second, and the body that is to be placed into another one."""
     world = World(Effects.rigid_bodies().with_(sleeping=False), solver=solver, substeps=4)
     world.add_body(Polygon.box(2000, 40), position=(0, 20), kind="static")
     shape, there, _ = CASES[case]

@@ -133,7 +133,7 @@ def takes_auto():
 
 
 def engines():
-    """{name: scene -> engine} of those that can be had here."""
+    """Return {name: scene -> engine} of the engines that are available here."""
     found = {"hb4": partial(Hitbox, substeps=4), "hb8": partial(Hitbox, substeps=8)}
     if takes_auto():
         found["auto"] = partial(Hitbox, substeps="auto")

@@ -20,44 +20,44 @@ def depths(run, first=1, every=5):
 
 
 def overlap_at_end(run):
-    """[mm] The deepest of the last tenth."""
+    """Return the deepest overlap in the last tenth of the run [mm]."""
     return MM * depths(run, first=len(run.poses) - max(1, len(run.poses) // 10)).max()
 
 
 def overlap_share(run, share):
-    """[mm] The percentile `share` of the deepest overlaps of the steps."""
+    """Return the percentile `share` of the deepest overlaps of the steps [mm]."""
     return MM * np.percentile(depths(run), share)
 
 
 def sway(run):
-    """[mm] The farthest that a body was sideways of its start, at any time."""
+    """Return the farthest horizontal distance of a body from its start, at any time [mm]."""
     return MM * np.nanmax(np.abs(run.moving[:, :, 0] - run.moving[0, :, 0]))
 
 
 def lean(run):
-    """[mm] The farthest that a body is sideways of its start at the end."""
+    """Return the farthest horizontal distance of a body from its start, at the end [mm]."""
     return MM * np.nanmax(np.abs(run.moving[-1, :, 0] - run.moving[0, :, 0]))
 
 
 def fall_over_theory(run, theory):
-    """Time until a body has turned by 0.1 rad, divided by that of the rigid upper part; inf if none has."""
+    """Return the time until a body has turned by 0.1 rad, divided by that of the rigid upper part; inf if none has."""
     return math.inf if run.fell is None else run.fell / theory
 
 
 def rise(run, index):
-    """[mm] How far above its start a body comes once the other is gone."""
+    """Return the greatest height of a body above its start after the other one is removed [mm]."""
     gone = run.scene.removals[0][0]
     return MM * -(run.poses[gone:, index, 1] - run.poses[0, index, 1]).min() if len(run.poses) > gone else math.nan
 
 
 def asleep_after(run):
-    """[s] From when on all sleep; inf: some are awake at the end."""
+    """Return the time from which on all bodies sleep [s]; inf if some are awake at the end."""
     awake = run.awake[:, run.scene.dynamic].any(axis=1)
     return math.inf if awake[-1] else (np.flatnonzero(awake)[-1] + 1) * STEP if awake.any() else 0.0
 
 
 def milliseconds(run):
-    """[ms] Median of a step in the later half."""
+    """Return the median time of a step in the later half of the run [ms]."""
     return 1e3 * float(np.median(run.times[len(run.times) // 2 :]))
 
 
@@ -76,13 +76,13 @@ def _angle_when(changed):
 
 
 def slips_late(run):
-    """[degrees] By how much later than atan(friction) the box begins to slide."""
+    """Return by how much later than atan(friction) the box begins to slide [degrees]."""
     along, _ = _on_plate(run)
     return _angle_when(np.abs(along - along[min(SETTLED, len(along) - 1)]) > SLIPPED)
 
 
 def tips_late(run):
-    """[degrees] By how much later than atan(width / height) the box begins to tip."""
+    """Return by how much later than atan(width / height) the box begins to tip [degrees]."""
     _, turn = _on_plate(run)
     return _angle_when(np.abs(turn - turn[min(SETTLED, len(turn) - 1)]) > TIPPED)
 
@@ -93,7 +93,7 @@ def _down(run, first):
 
 
 def slide_error(run, share):
-    """[%] The acceleration down the slope against g (sin - friction cos), after two seconds."""
+    """Return the error of the acceleration down the slope against g (sin - friction cos), after two seconds [%]."""
     speed, start = _down(run, 3), 120
     if len(speed) <= start + 1:
         return math.nan
@@ -102,7 +102,7 @@ def slide_error(run, share):
 
 
 def creep(run):
-    """[mm] How far the box comes down the slope after the first second."""
+    """Return the distance that the box moves down the slope after the first second [mm]."""
     way = _down(run, 0)
     return MM * (way[-1] - way[min(60, len(way) - 1)])
 
@@ -118,7 +118,10 @@ def apexes(heights):
 
 
 def bounce_error(run, restitution, count=17):
-    """[%] Worst of the first so many apexes against theirs, drop e^(2 k); of those that theory puts within the run."""
+    """Return the worst error of the first `count` apexes against theory, drop e^(2 k) [%].
+
+    Only the apexes that theory places within the run count.
+    """
     found = apexes((-run.poses[:, 1, 1] - BALL).tolist())
     fall, time, errors = math.sqrt(2.0 * DROP / GRAVITY), 0.0, []
     for k in range(1, count + 1):
@@ -152,13 +155,13 @@ def oblique_mean(run):
 
 
 def stop_error(run):
-    """[%] The way of the last body until it rests against v² / (2 friction g)."""
+    """Return the error of the distance at which the last body stops, against v² / (2 friction g) [%]."""
     found = run.poses[-1, -1, 0] - run.poses[0, -1, 0]
     return 100.0 * (found * 2.0 * SEAM_FRICTION * GRAVITY / run.poses[0, -1, 3] ** 2 - 1.0)
 
 
 def hop(run):
-    """[mm] The highest that the last body comes above its start."""
+    """Return the greatest height of the last body above its start [mm]."""
     return MM * max(0.0, -(run.poses[:, -1, 1] - run.poses[0, -1, 1]).min())
 
 
@@ -172,6 +175,6 @@ def out_of_room(run):
 
 
 def spin_error(run):
-    """[%] The turn of a free body against spin times time."""
+    """Return the error of the rotation of a free body against spin times time [%]."""
     time = (len(run.poses) - 1) * STEP
     return 100.0 * (run.poses[-1, 0, 2] / (SPIN * time) - 1.0)

@@ -19,7 +19,7 @@ ROOM, WALL = 10.0, 0.5  # [m] of the tumbler: between the middles of opposite wa
 
 
 def slope(share, seconds):
-    """A box on a slope of 30 degrees whose friction is this share of what holds it."""
+    """Return a scene with a box on a slope of 30 degrees. share: its friction over the least that holds it."""
     friction = share * math.tan(SLOPE)
     x, y = 0.5 * math.sin(SLOPE), -0.5 * math.cos(SLOPE)
     return Scene((floor(friction, angle=SLOPE), Solid(UNIT, x, y, angle=SLOPE, friction=friction)), seconds)
@@ -38,9 +38,9 @@ def bounce(restitution, seconds):
 
 
 def oblique_pairs():
-    """(offset in diameters, speed [m/s], distance it starts further away [m]) of 24 blows.
+    """Return (offset in diameters, speed [m/s], extra distance at the start [m]) of 24 glancing blows.
 
-    Eight offsets at each of three speeds, and where in a step they meet left to chance.
+    Eight offsets at each of three speeds. The extra distance is random, so that they meet at different times in a step.
     """
     chance = np.random.default_rng(5)
     return [

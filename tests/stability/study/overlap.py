@@ -28,7 +28,7 @@ class Overlaps:
         self.meet = np.triu(meet, 1)
 
     def deepest(self, poses):
-        """The deepest overlap [m], 0 when none; poses: (bodies, 3 or more), NaN for what is gone."""
+        """Return the deepest overlap [m]; 0 without one. poses: (bodies, 3 or more), NaN for removed bodies."""
         x, y, angle = (poses[self.body, k, None] for k in range(3))
         cosine, sine = np.cos(angle), np.sin(angle)
         px, py = self.points[:, :, 0], self.points[:, :, 1]

@@ -244,6 +244,6 @@ def _tumbler():
 
 @cache
 def table():
-    """{name: row}, in the order of the study."""
+    """Return {name: row}, in the order of the study."""
     groups = (_crooked, _towers, _ratios, _piles, _friction, _bounces, _tumbler)
     return {row.name: row for group in groups for row in group()}

@@ -27,7 +27,7 @@ def disc(radius):
 
 
 def polygon(points):
-    """(x, y) of its centroid and the polygon about it; points: corners in either order."""
+    """Return (x, y) of a polygon's centroid, and the polygon relative to it. points: corners in either order."""
     area = x = y = 0.0
     for (ax, ay), (bx, by) in zip(points, (*points[1:], points[0]), strict=True):
         cross = ax * by - bx * ay

@@ -50,17 +50,17 @@ def harmonic_places(count, share):
 
 
 def standing(places, seconds=20.0):
-    """A tower that ought to stand."""
+    """Return the scene of a tower that must stand."""
     return tower(places, seconds=seconds, fall=Fall())
 
 
 def turning(places, seconds):
-    """A tower that ought to fall: the scene ends when a box has turned by 0.1 rad."""
+    """Return the scene of a tower that must fall. It ends when a box has turned by 0.1 rad."""
     return tower(places, seconds=seconds, fall=TURNS)
 
 
 def heavy_on(count, ratio, seconds):
-    """A box of so many times the mass on top of a column of so many."""
+    """Return a column of `count` boxes with a box of `ratio` times the mass on top."""
     return tower([0.0] * (count + 1), [1.0] * count + [float(ratio)], seconds=seconds, fall=Fall())
 
 
@@ -70,7 +70,7 @@ def heavy_taken_away():
 
 
 def pyramid_solids(rows, spread=1.1):
-    """Boxes in rows, each one box shorter than the row below; spread: from middle to middle [m]."""
+    """Return boxes in rows, each one box shorter than the row below. spread: distance of neighbours [m]."""
     return [
         Solid(BOX, (column - 0.5 * (rows - 1 - row)) * spread, -0.5 - row)
         for row in range(rows)
@@ -83,6 +83,6 @@ def pyramid(rows, seconds=10.0, sleeping=False):
 
 
 def dropped_on_pyramid(ratio):
-    """A box of so many times the mass falls two metres, onto a pyramid of ten rows that lacks its top."""
+    """Return a pyramid of ten rows without its top, and a box of `ratio` times the mass that falls two metres."""
     solids = pyramid_solids(10, spread=1.01)
     return Scene((floor(), *solids[:-1], Solid(BOX, 0.0, -11.5, density=float(ratio))), 10.0, fall=Fall())

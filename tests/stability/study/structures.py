@@ -22,7 +22,7 @@ SCALE = 0.25
 
 
 def card_house(levels, half_thickness=0.02, half_height=1.0):
-    """Pairs of cards that lean on each other at 25 degrees from upright, a card lying on each two of them."""
+    """Return pairs of cards that lean on each other at 25 degrees from upright, with a card across every two pairs."""
     reach, rise = (
         half_thickness * math.cos(LEAN) + half_height * math.sin(LEAN),
         half_height * math.cos(LEAN) + half_thickness * math.sin(LEAN),

@@ -52,7 +52,7 @@ def pendulum(arm, height, inertia, turn, gravity=GRAVITY):
 
 
 def fall_time(places, turn=0.1, size=1.0):
-    """Seconds until the first of the upper parts that cannot stand has turned so far [rad]; inf when all stand."""
+    """Return the seconds until an upper part that cannot stand has turned by `turn` [rad]; inf if all stand."""
     least = math.inf
     for count, beyond, edge in overhangs(places, size):
         upper = places[len(places) - count :]

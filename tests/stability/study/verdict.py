@@ -47,12 +47,12 @@ def worst(values):
 
 
 def scenes_of(row, seeds=None):
-    """The scenes of a row's first so many seeds; None: all."""
+    """Return the scenes of the first `seeds` seeds of a row; None: of all seeds."""
     return [row.scene(seed) for seed in range(row.seeds if seeds is None else min(row.seeds, seeds))]
 
 
 def judge(row, played, seeds=None):
-    """The verdict on a row, of its first so many seeds (None: all)."""
+    """Return the Verdict on a row, by its first `seeds` seeds; None: all seeds."""
     runs = [played.run(scene) for scene in scenes_of(row, seeds)]
     fell = [run.fell for run in runs if row.stands and run.fell is not None]
     figure = math.nan if fell else worst(float(row.measure(run)) for run in runs)
