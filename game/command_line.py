@@ -106,7 +106,10 @@ def make_parser() -> Parser:
 
 
 def read_options(arguments: Sequence[str], registry: Registry) -> Options:
-    """Parse and check the arguments. Raises UsageError with one line that names the valid values."""
+    """Parse and check the arguments. Return the Options.
+
+    Raises UsageError with one line that names the valid values.
+    """
     given = vars(make_parser().parse_args(arguments))
     from physics import BROADPHASES, SOLVERS
 

@@ -213,7 +213,7 @@ class Scene:
         solver: SolverName | None = None,
         **settings: Any,
     ) -> WatchedWorld:
-        """Make a world with the scene's effects, broad phase, solver and seed, and append it to self.worlds.
+        """Make a world with the scene's effects, broad phase, solver and seed, and append it to self.worlds. Return it.
 
         settings: further arguments of World: gravity, drag, substeps, pixels_per_meter ... An argument gravity, drag or
         wind is ignored if the world does not have the effect of that name. So a scene can be measured without one of

@@ -38,7 +38,7 @@ def oklch_all(*values):
 
 
 def _encode(linear):
-    """Convert a linear light value 0..1 to 0..255 by the sRGB transfer curve."""
+    """Return a linear light value 0..1 as 0..255, by the sRGB transfer curve."""
     linear = min(1.0, max(0.0, linear))
     if linear <= 0.0031308:
         return round(255 * 12.92 * linear)

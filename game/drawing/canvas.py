@@ -22,7 +22,7 @@ TEXT, SMALL = "font5x7", "font3x5"
 
 
 def whole(value: float) -> int:
-    """Round a coordinate for drawing: floor(value + 0.5). All drawing uses this rule."""
+    """Return a coordinate rounded for drawing: floor(value + 0.5). All drawing uses this rule."""
     return floor(value + 0.5)
 
 

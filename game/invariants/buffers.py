@@ -15,7 +15,7 @@ class Caps(Invariant):
     id, word = "U11", "caps"
 
     def look(self, step: Step) -> Answer:
-        """Check the invariant for the last step."""
+        """Check the invariant for the last step. Return a Broken, or None if it holds."""
         world = step.world
         hits = world.profile.counters["cap_hits"]
         if not hits:

@@ -34,7 +34,7 @@ class OfTheAlone(Invariant):
         self.drift, self.room, self.steps = np.zeros(2), 0.0, 0
 
     def look(self, step: Step) -> Answer:
-        """Check the invariant for the last step."""
+        """Check the invariant for the last step. Return a Broken, a NotAsked, or None if it holds."""
         if step.outside:
             return NotAsked(step.outside)
         alone = step.alone
@@ -238,7 +238,7 @@ class Energy(Invariant):
         self.account: Account | None = None
 
     def look(self, step: Step) -> Answer:
-        """Check the invariant for the last step."""
+        """Check the invariant for the last step. Return a Broken, a NotAsked, or None if it holds."""
         world = step.world
         why = step.outside or driven(step)
         if why:

@@ -94,7 +94,7 @@ class Finite(Invariant):
     id, word = "U1", "finite"
 
     def look(self, step: Step) -> Answer:
-        """Check the invariant for the last step."""
+        """Check the invariant for the last step. Return a Broken, or None if it holds."""
         lost = step.world.events.quarantined
         if len(lost):
             return self.broken(step, lost["body"], float("nan"), 0.0, f"quarantined: {lost['reason'][0]}")
@@ -108,6 +108,6 @@ class Unit(Invariant):
     id, word = "U2", "normals"
 
     def look(self, step: Step) -> Answer:
-        """Check the invariant for the last step."""
+        """Check the invariant for the last step. Return a Broken, or None if it holds."""
         bad = not_unit(step.world)
         return None if bad is None else self.broken(step, bad[0], bad[1], UNIT, bad[2])

@@ -35,7 +35,7 @@ class Settled(Invariant):
         self.calm = np.zeros(0)  # [s] for which each body has been slow
 
     def look(self, step: Step) -> Answer:
-        """Check the invariant for the last step."""
+        """Check the invariant for the last step. Return a Broken, a NotAsked, or None if it holds."""
         world, now = step.world, step.now
         self._count_calm(step)
         if not world.stacks:

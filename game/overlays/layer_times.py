@@ -196,7 +196,7 @@ class Times(Layer):
 
 
 def _split(table, lines):
-    """Divide a table into tables of at most `lines` lines, each with the same heading."""
+    """Return a table as a list of tables of at most `lines` lines, each with the same heading."""
     rows = max(1, lines - 1)
     return [Table(table.head, table.rows[first : first + rows]) for first in range(0, max(len(table.rows), 1), rows)]
 

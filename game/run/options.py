@@ -69,7 +69,7 @@ def scene_class_of(options: Options, registry: Registry) -> type[Scene]:
 
 
 def make_scene(options: Options, registry: Registry) -> Scene:
-    """Build the scene that the options name. Raises FileError for an invalid level file."""
+    """Build and return the scene that the options name. Raises FileError for an invalid level file."""
     return scene_class_of(options, registry)(
         options.seed or 0, options.broadphase, options.solver, options.tier, options.level
     )

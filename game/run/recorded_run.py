@@ -169,9 +169,10 @@ def moment_of(scene: Scene) -> Moment:
 
 
 def look_over(run: RecordedRun) -> Overview:
-    """Play a run twice: first to find its busiest second, then to take snapshots and to count the encounters of bodies.
+    """Return the Overview of a run, which is played twice.
 
-    Raises ValueError for a run without steps.
+    The first time finds the busiest second; the second time takes snapshots and counts the encounters of bodies. Raises
+    ValueError for a run without steps.
     """
     if not run.steps:
         raise ValueError("a run must have a step at least (got none)")

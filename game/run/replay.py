@@ -167,7 +167,9 @@ class Replay:
 
 
 def load_replay(path: str | Path) -> Replay:
-    """Read a recording. Raises FileError, which names the file, the place in it, and the reason."""
+    """Read a recording, and return it as a Replay. Raises FileError, which names the file, the place, and the
+    reason.
+    """
     data = read_json(path)
     if isinstance(data, dict) and data.get("version") == 1:
         data = {**data, "level": None, "date": "", "result": None}

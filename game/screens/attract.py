@@ -84,7 +84,7 @@ class Attract(SceneScreen):
         self.demo = Demo(scene, self.accessibility)
 
     def draw(self, picture: Picture) -> Frame:
-        """Draw the scene, and a line of text that says it is a demonstration."""
+        """Draw the scene, and a line of text that says it is a demonstration. Return the frame."""
         if self.demo is None:
             return picture.presenter.frame
         frame = self.demo.draw(picture)

@@ -270,7 +270,7 @@ class Tour(SceneScreen):
         return what is not None
 
     def draw(self, picture: Picture) -> Frame:
-        """Draw the scene with this stop's layer, a ring around the example, and the card beside the ring."""
+        """Draw the scene with this stop's layer, a ring around the example, and the card. Return the frame."""
         layer = self.stops[self.at][1]
         demo = self.demo
         if layer == MISSES:

@@ -217,7 +217,7 @@ class Watch(SceneScreen):
         self.outcome = ("back",)
 
     def draw(self, picture: Picture) -> Frame:
-        """Draw the scene, its overlays and panel, and the controls."""
+        """Draw the scene, its overlays and panel, and the controls. Return the frame."""
         panel = self.panel if self.panel_open else None
         frame = picture.draw_scene(self.tape.scene, self.overlays, self.clock.alpha, panel, self._reserve)
         if self.shows_controls and not (panel and picture.presenter.crowded):

@@ -111,7 +111,9 @@ class CardHouse(Scene):
         )
 
     def _pair(self, x, floor, material):
-        """Add two cards that lean on each other. x: middle between them [px]; floor: y of their feet [px]."""
+        """Add two cards that lean on each other, and return them. x: middle between them [px]; floor: y of their feet
+        [px].
+        """
         shape = Capsule((-LENGTH / 2, 0), (LENGTH / 2, 0), RADIUS)
         cards = []
         for side in (-1, 1):

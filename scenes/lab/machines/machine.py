@@ -151,13 +151,16 @@ class Machine:
             self.fixed(Polygon.box(FLOOR_DEPTH, 3 * HIGH), side * (HALF + FLOOR_DEPTH / 2), -1.5 * HIGH + 20)
 
     def add(self, shape: Any, x: float, y: float, paint: str, **more: Any) -> Body:
-        """Add a body of a shape at (x, y) [px], painted in the colours `paint`. more: arguments of World.add_body."""
+        """Add a body of a shape at (x, y) [px], painted in the colours `paint`, and return it.
+
+        more: arguments of World.add_body.
+        """
         body = self.world.add_body(shape, position=(x, y), **more)
         self.paints[body.id] = paint
         return body
 
     def fixed(self, shape: Any, x: float, y: float, **more: Any) -> Body:
-        """Add a static body at (x, y) [px], which is drawn as earth with grass on it."""
+        """Add a static body at (x, y) [px], which is drawn as earth with grass on it, and return the body."""
         body = self.world.add_body(shape, position=(x, y), kind="static", **more)
         self.grounds.append(body.id)
         return body

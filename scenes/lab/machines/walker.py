@@ -95,7 +95,10 @@ class Walker(Machine):
             self.weak = [rods[0], rods[1], rods[2], hip, rods[3]]
 
     def _plate(self, corners, pose, paint):
-        """Add a triangular plate. corners: in the plan [units]; pose: (x, y, angle) of the plan [units, y up]."""
+        """Add a triangular plate, and return its body.
+
+        corners: corners in the plan [units]; pose: (x, y, angle) of the plate in the plan [units, y up].
+        """
         x, y = self.place(pose[:2])
         shape = Polygon([(UNIT * cx, -UNIT * cy) for cx, cy in corners])
         material = Material(density=0.4, friction=1.2)
