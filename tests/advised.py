@@ -1,7 +1,7 @@
-"""`python -m tests.advised [SCENE ...]`: asks for advice on every scene, twice each, and keeps it in docs/advice.json.
+"""`python -m tests.advised [SCENE ...]`: ask for advice on every scene, twice each, and store it in docs/advice.json.
 
-Only what both runs say counts. tests/scenes/test_advised.py holds the scenes against it: each takes what was found, or
-its `keeps` says why not.
+Only advice that both runs give counts. tests/scenes/test_advised.py compares the scenes with it: each scene follows the
+advice, or gives the reason in `keeps`.
 """
 
 import json

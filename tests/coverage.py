@@ -1,4 +1,4 @@
-"""Which lines of physics/ the tests run, kernels as Python; what none of them runs is explained, or is a hole.
+"""The lines of physics/ that the tests run, kernels as Python. Each other line has a reason, or is reported as a hole.
 
 In an environment without numba, where kernels are the Python that they are written in:
 

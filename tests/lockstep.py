@@ -1,10 +1,11 @@
 """Variants of one scene stepped side by side, their digests compared after every frame.
 
-Twice, drawn, under each broad phase, with the broad phase switched, compiled and plain: none of it may change what
-happens, and where it does the first frame that differs is named, and the part of the scene. Every change is tested with
-one run that asks all broad phases in each step (tests/all_broadphases.py); a run under each takes its turn at night.
+The variants are the scene twice, drawn, under each broad phase, with the broad phase switched, compiled and plain. None
+of these may change the result. If one does, the first frame that differs is reported, with the part of the scene. Every
+change is tested with one run that asks all broad phases in each step (tests/all_broadphases.py); the runs under each
+broad phase are nightly tests.
 
-`python -m tests.lockstep NAME FRAMES` plays a scene by its bot and prints its digests, one a line: that is how a
+`python -m tests.lockstep NAME FRAMES` plays a scene by its bot and prints its digests, one a line. This is how a
 process without compiled kernels takes part, and how two versions of the sources are compared (with `diff`).
 """
 

@@ -1,9 +1,10 @@
-"""`python -m tests.bench.frames [SCENE …] [--scale 2] [--seconds 20]`: what a frame takes, plot of costs shut and open.
+"""`python -m tests.bench.frames [SCENE …] [--scale 2] [--seconds 20]`: time of a frame, with the plot of costs and
+without.
 
-The whole program under the dummy driver, a step a frame, 60 frames a second: a scene played by its bot, and in the
-second run the plot opened after the first second, with the process that measures for it. Of each frame the milliseconds
-on the clock, without the wait for the next, and those that its thread worked: where others run too, the clock's say
-little.
+The whole program runs under the dummy driver, with one step per frame and 60 frames a second. A bot plays the scene. In
+the second run the plot is opened after the first second, and its measuring process runs, too. Two times of each frame
+are printed [ms]: the time on the clock without the wait for the next frame, and the processor time of the thread. If
+other programs run, only the second one is reliable.
 """
 
 import argparse

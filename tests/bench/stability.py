@@ -1,4 +1,4 @@
-"""The stability study: every row of tests/stability/study/rows.py on each engine that can be had here, in one run.
+"""The stability study: every row of tests/stability/study/rows.py on each engine that is available here, in one run.
 
 python -m tests.bench stability                                  all rows, all engines
 python -m tests.bench stability --list                           the rows' names and limits
@@ -6,10 +6,11 @@ python -m tests.bench stability --rows crooked_20,"offset_*"     some rows, as s
 python -m tests.bench stability --engines hb4,pymunk --quick     some engines; one seed instead of five
 python -m tests.bench stability --json FILE                      the figures as JSON, printed (-) or in a file
 
-A cell is the figure that the row's limit is about, "!" behind it where it is beyond; X and the second where something
-falls that ought to stand, and of how many seeds the others stood; "-" where it does not show. Hitbox is soft_step with
-4 and 8 substeps ("hb4", "hb8"), with the substeps that the world chooses ("auto"), and sequential_impulse; pymunk is
-made to take four steps of 1/240 s with 10 iterations. "quoted" is not measured here: figures of the study.
+A cell shows the figure to which the row's limit applies, with "!" if it is beyond the limit. If a pile falls that must
+stand, the cell shows X, the second of the fall, and for how many seeds the pile stood. "-" means that the run does not
+show the figure. Hitbox is soft_step with 4 and 8 substeps ("hb4", "hb8"), soft_step with the substeps that the world
+chooses ("auto"), and sequential_impulse. pymunk takes four steps of 1/240 s with 10 iterations. The column "quoted" is
+not measured here: it has figures of the study.
 """
 
 import argparse

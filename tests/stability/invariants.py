@@ -44,10 +44,10 @@ def pulling(world):
 class Watch:
     """Steps a world and asserts the invariants after every step.
 
-    passive: nothing adds energy from here on, whatever the tables prove of it (U5); isolated: nothing outside pushes,
-    so momentum stays (U3); depth: the deepest overlap allowed after every step [px]; capped: whether a cap may be hit
-    (U11), as under the default settings, where too few substeps are counted and no fault; without: invariants that this
-    world is there to break.
+    passive: nothing adds energy from here on, whatever the world's tables show (U5). isolated: nothing acts from
+    outside, so momentum stays (U3). depth: the deepest overlap allowed after every step [px]. capped: whether a cap may
+    be hit (U11); under the default settings, too few substeps are counted and are no fault. without: invariants that
+    this world breaks on purpose.
     """
 
     def __init__(self, world, passive=False, isolated=False, depth=math.inf, capped=False, without=()):

@@ -1,9 +1,9 @@
-"""The table of the study: what is played, what is read off it, and the limit that Hitbox is held to.
+"""The table of the study: for each row the scene, the figure that is read from it, and the limit for Hitbox.
 
-Two sources. ISSUE: the limits that the work on stability set itself. BEST: the design's rule that every row is at least
-the best peer's, where the issue names none: AVBD's quoted figure or what pymunk shows here. quoted: Box2D 3.2 (native
-C, 4 substeps), Rapier 0.21 and AVBD (10 iterations) as the study of 2026-11-22 measured them on scenes of the same
-kind; a dash where it did not.
+The limits have two sources. ISSUE: limits that the work on stability set itself. BEST: where the issue names none, the
+figure of the best peer, which is AVBD's quoted figure or that of pymunk here. quoted: Box2D 3.2 (native C, 4 substeps),
+Rapier 0.21 and AVBD (10 iterations) as the study of 2026-11-22 measured them on scenes of the same kind; a dash where
+it did not.
 """
 
 import math

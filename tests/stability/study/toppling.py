@@ -1,9 +1,9 @@
-"""When a tower of unit boxes must fall, and how long its rigid upper part takes about its edge.
+"""When a tower of unit boxes must fall, and how long its rigid upper part takes to turn about its edge.
 
-For the part above each interface: it stands while its centre of mass lies over what carries it, the stretch that the
-two boxes of the interface share (the floor's is the lowest box's foot). Beyond, it turns about that stretch's end as a
-rigid body. No engine, no small angles. Where several cannot stand, the first of them to turn tells: with contacts a
-hundred times as stiff for their load, soft_step falls within 2 % of that time.
+The part above each interface stands while its centre of mass lies over its support. The support is the stretch that the
+two boxes of the interface share; at the floor it is the foot of the lowest box. Beyond it, the part turns about the end
+of the stretch as a rigid body. No engine and no small angles are used. If several parts cannot stand, the first one to
+turn counts. With contacts a hundred times as stiff for their load, soft_step falls within 2 % of that time.
 """
 
 import math
