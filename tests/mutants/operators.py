@@ -6,6 +6,7 @@ in the order of the source. So it survives a kernel that moves to another file o
 
 import ast
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from random import Random
 
@@ -69,11 +70,22 @@ class Change:
     source: str
 
 
+@cache
+def sources_in(folder):
+    """Return the pairs (path, source) of all modules in a folder. A caller that changes one restores it."""
+    return [(path, path.read_text()) for path in sorted(folder.rglob("*.py"))]
+
+
 def find_kernel(folder, name):
-    """Return (path, source, node) of the kernel of that name. Raises LookupError unless there is exactly one."""
+    """Return (path, source, node) of the kernel `name`, or "module.name" if several modules have one of that name.
+
+    Raises LookupError unless there is exactly one.
+    """
     found = []
-    for path in sorted(folder.rglob("*.py")):
-        source = path.read_text()
+    module, _, name = name.rpartition(".")
+    for path, source in sources_in(folder):
+        if module not in ("", path.stem):
+            continue
         if f"def {name}(" in source:
             found += [(path, source, node) for node in ast.walk(ast.parse(source)) if is_kernel(node, name)]
     if len(found) != 1:

@@ -29,7 +29,7 @@ MUTANTS = (
     Mutant("overlaps", "edge", ("test_awkward_boxes_pair_as_the_double_loop_says",)),
     Mutant("may_meet", "both", ("test_box_on_a_slope_slides_at_g_sin_less_mu_cos",)),
     Mutant("sweep_intervals", "turn", ("test_random_boxes_pair_as_the_double_loop_says",)),
-    Mutant("rotate", "turn", ("test_tree_stays_low_through_sorted_insertions_and_removals",)),
+    Mutant("dynamic_tree.rotate", "turn", ("test_tree_stays_low_through_sorted_insertions_and_removals",)),
     Mutant("level_of", "turn", ("test_giant_ground_under_small_boxes_pairs_with_each",)),
     # testing pairs
     Mutant("collide_circles", "sign", ("test_circles_in_closed_form",)),
@@ -54,7 +54,7 @@ MUTANTS = (
     # motion, solvers
     Mutant("integrate_velocities", "sign", ("test_free_fall_without_stacking_is_its_own_recurrence",), seed=4),
     Mutant("integrate_velocities", "factor", ("test_drag_and_wind_follow_the_implicit_recurrence",), seed=2),
-    Mutant("effective_mass", "sign", ("test_oblique_equal_discs_leave_at_right_angles",)),
+    Mutant("write_masses", "sign", ("test_oblique_equal_discs_leave_at_right_angles",), seed=31),
     Mutant("warm_lanes", "sign", ("test_f9_pyramid_that_starts_a_quarter_inside_itself",), seed=2),
     Mutant("gather_motions", "factor", ("test_sliding_disc_rolls_after_two_thirds",)),
     Mutant("mixed", "factor", ("test_stopping_distance",)),

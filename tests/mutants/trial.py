@@ -7,6 +7,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from tests.mutants.operators import sources_in
+
 ROOT = Path(__file__).resolve().parents[2]
 COPIED = ("physics", "tests")  # the named tests need no more
 SECONDS = 300  # for tests that take less than 30 on an idle machine
@@ -25,7 +27,8 @@ def ids_of(names):
     found = []
     for name in names:
         definition = re.compile(rf"^def {name}\(", re.M)
-        holding = [path for path in sorted((ROOT / "tests").rglob("test_*.py")) if definition.search(path.read_text())]
+        holding = [path for path, source in sources_in(ROOT / "tests") if definition.search(source)]
+        holding = [path for path in holding if path.name.startswith("test_")]
         if not holding:
             raise LookupError(f"there is no test called {name}")
         found += [f"{path.relative_to(ROOT)}::{name}" for path in holding]
