@@ -422,6 +422,8 @@ def refresh_pose(world: WorldState, identity: int, at: int) -> int:
     """
     at = sleep.disturb_one(world, identity, at)
     write_center(world._bodies, at)
+    if world._bodies.columns["kind"][at] != STATIC:
+        return at  # each step compares the swept AABBs with the AABBs
     run = world._runs.columns
     if run["count"][at] == 1:
         slot = world._shapes.columns["proxy"][row_number(world._shapes, run["first"][at])]

@@ -15,7 +15,7 @@ from physics.tables.columns import BrokenRows, EventRows, HitRows, QuarantineRow
 from physics.tables.contact import CONTACT, EVENT, HIT, QUARANTINE
 from physics.tables.joint import BROKEN
 from physics.tables.step_state import CONTACTS, StepState, WorldTables, stage
-from physics.tables.table import joined, rows_of
+from physics.tables.table import joined, row_nearby, rows_of
 
 NOTHING, NO_ROWS = np.zeros(0, CONTACT), np.zeros(0, np.int64)
 NO_EVENTS, NO_HITS, UNBROKEN, NO_BROKEN = (cast(Any, np.zeros(0, each)) for each in (EVENT, HIT, QUARANTINE, BROKEN))
@@ -290,15 +290,41 @@ class Pairs:
         self.last.now[: self.count] = touching
 
 
+@kernel
+def collect_bodies(touching, shapes, pairs_out):
+    """Write the ids a < b of the two bodies of touching pairs. Return (number of pairs, whether they are sorted).
+
+    Pairs of shapes that were removed after the step are left out, and so are repetitions of the pair before. touching:
+    EVENT rows; pairs_out (touching, 2) int64. O(pairs) if no shape was ever removed, otherwise O(pairs log shapes).
+    """
+    found = 0
+    in_order = True
+    for i in range(len(touching)):
+        t = touching[i]
+        if row_nearby(shapes, t.shape_a) < 0 or row_nearby(shapes, t.shape_b) < 0:
+            continue
+        a, b = min(t.body_a, t.body_b), max(t.body_a, t.body_b)
+        if found > 0:
+            last_a, last_b = pairs_out[found - 1, 0], pairs_out[found - 1, 1]
+            if a == last_a and b == last_b:
+                continue
+            in_order = in_order and (a > last_a or (a == last_a and b > last_b))
+        pairs_out[found, 0], pairs_out[found, 1] = a, b
+        found += 1
+    return found, in_order
+
+
 def touching_bodies(world: WorldTables) -> np.ndarray:
     """Return the pairs of touching bodies, awake or asleep: (n, 2) int64 ids a < b, each pair once, sorted."""
     asleep = world.sleeping_set
     parts = [world.touching_pairs.rows, asleep.touching_pairs, *(each.touching for each in asleep.islands.values())]
-    rows = joined(parts)
-    for side in ("shape_a", "shape_b"):  # pairs of shapes that were removed after the step are left out
-        there = rows_of(world.shapes, rows[side]) >= 0
-        rows = rows if there.all() else rows[there]
-    pairs = np.sort(np.stack([rows["body_a"], rows["body_b"]], axis=1), axis=1)
+    parts = [each for each in parts if len(each)] or parts[:1]
+    touching = parts[0] if len(parts) == 1 else joined(parts)
+    pairs = np.empty((len(touching), 2), np.int64)
+    count, in_order = collect_bodies(touching, world.shapes, pairs)
+    pairs = pairs[:count]
+    if in_order:
+        return pairs
     pairs = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
     new = np.ones(len(pairs), bool)
     new[1:] = (pairs[1:] != pairs[:-1]).any(axis=1)

@@ -14,7 +14,7 @@ from physics.jit import kernel
 from physics.settings import POSITION_LIMIT
 from physics.solver.loads import blow_of, is_any_blow
 from physics.tables.body import DYNAMIC, SCATTERED, STATIC
-from physics.tables.table import joined, row_of
+from physics.tables.table import joined, row_nearby
 from physics.world_state import WorldState
 
 NOT_SET = np.zeros((1, 2))
@@ -63,9 +63,7 @@ def find_movable(ids, motions, limit, bodies, rows_out, dynamic_out, marks_inout
     known = 0
     sound = True
     for k in range(len(ids)):
-        row = ids[k] - bodies[0].id if len(bodies) > 0 else -1
-        if row < 0 or row >= len(bodies) or bodies[row].id != ids[k]:
-            row = row_of(bodies, ids[k])
+        row = row_nearby(bodies, ids[k])
         if row < 0 or marks_inout[row]:
             sound = False
             break
@@ -112,9 +110,9 @@ def place_bodies(rows, motions, runs, shapes, bodies_inout, proxies_inout):
             scattered += 1
         if run.count <= 0:
             continue
-        first = run.first - shapes[0].id
-        if first >= len(shapes) or shapes[first].id != run.first:
-            first = row_of(shapes, run.first)
+        if b.kind != STATIC:
+            continue  # each step compares the swept AABBs of other bodies with their AABBs
+        first = row_nearby(shapes, run.first)
         for at in range(first, first + run.count):
             if shapes[at].proxy >= 0:
                 proxies_inout[shapes[at].proxy].changed = True

@@ -437,8 +437,8 @@ class World(WorldState):
         pairs = touching_bodies(self)
         if not checks.flag("users", users):
             return pairs
-        user = self._users.get
-        return [(user(a), user(b)) for a, b in pairs.tolist()]
+        found = map(self._users.get, pairs.ravel().tolist())
+        return list(zip(found, found, strict=True))
 
     # --- digest, snapshot ------------------------------------------------------------------------------------
 

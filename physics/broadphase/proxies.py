@@ -349,7 +349,11 @@ def update_rectangles(rows, geometry, bodies, reach, shapes_inout, proxies_inout
             steps = ahead
             if fresh and ahead > 0.0:
                 steps = 1.0 + s.proxy % int(ahead)  # differs, else shapes added together are updated in the same step
-            ahead_x, ahead_y = min(max(steps * dx, -most), most), min(max(steps * dy, -most), most)
+            way_x, way_y = dx, dy
+            if ahead > 0.0 and b.vx == 0.0 and b.vy == 0.0:
+                # The caller may move the body in each step, and then probably goes on as in the last one.
+                way_x, way_y = b.x - b.previous_x, b.y - b.previous_y
+            ahead_x, ahead_y = min(max(steps * way_x, -most), most), min(max(steps * way_y, -most), most)
             # Rotation moves a point by at most its arc, or the diameter of its circle.
             arc = b.extent * min(abs(dt * b.angular_velocity), 2.0)
             if s.snap and s.role != PIXELS:
@@ -370,10 +374,11 @@ def update_rectangles(rows, geometry, bodies, reach, shapes_inout, proxies_inout
             # The swept AABB of an earlier, faster step would be far too large.
             slack = 4.0 * room + norm(upper_x - lower_x, upper_y - lower_y)
             fits = fits and norm(p.upper_x - p.lower_x, p.upper_y - p.lower_y) <= slack
-        else:
-            fits = (
-                fits and p.lower_x == lower_x and p.lower_y == lower_y and p.upper_x == upper_x and p.upper_y == upper_y
-            )
+            p.idle = 0
+        elif p.lower_x != lower_x or p.lower_y != lower_y or p.upper_x != upper_x or p.upper_y != upper_y:
+            # A sprite moved by whole pixels may stand still in every second step.
+            p.idle = min(p.idle + 1, int(ahead))
+            fits = fits and p.idle < int(ahead)
         if fresh or p.changed or not fits:
             p.lower_x = lower_x - fat + min(ahead_x, 0.0)
             p.lower_y = lower_y - fat + min(ahead_y, 0.0)

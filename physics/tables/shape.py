@@ -18,6 +18,7 @@ PROXY = np.dtype(
         ("awake", np.bool_),  # a step visits the body: two proxies that are not awake never pair
         ("still", np.bool_),  # static: two still proxies never pair
         ("changed", np.bool_),  # box, filter or existence changed since the last update
+        ("idle", np.int8),  # steps without motion for which the swept AABB was kept, see STEPS_AHEAD
         ("body", np.int64),  # id: two shapes of one body never pair
         ("membership", np.int64),
         ("mask", np.int64),

@@ -163,6 +163,13 @@ def row_of(table, identity):
     return low if low < len(table) and table[low].id == identity else -1
 
 
+@subkernel
+def row_nearby(table, identity):
+    """Return the same as row_of, in O(1) if no row was ever removed."""
+    row = identity - table[0].id if len(table) > 0 else -1
+    return row if 0 <= row < len(table) and table[row].id == identity else row_of(table, identity)
+
+
 @generic
 def find_rows(table, ids, rows_out):
     """Write the row number of each id in a table sorted by id, -1 for an absent id.

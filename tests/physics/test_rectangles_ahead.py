@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from physics import BROADPHASES, Circle, Effects, World
+from physics.settings import STEPS_AHEAD
 
 STEPS, COUNT, RADIUS, FIELD = 60, 120, 6.0, 260.0
 
@@ -56,11 +57,58 @@ def test_who_flies_on_is_looked_for_once_in_some_steps():
     assert max(tested) / COUNT**2 < 0.25
 
 
-def test_no_rectangle_is_left_behind_by_who_has_stopped():
+@pytest.mark.parametrize("one_by_one", [False, True])
+@pytest.mark.parametrize("kind", ["dynamic", "kinematic"])
+@pytest.mark.parametrize("strategy", sorted(BROADPHASES))
+def test_bodies_moved_by_the_caller_meet_whom_they_meet(strategy, kind, one_by_one):
+    """They walk, stand, turn and jump; the pairs are those of a test of every pair."""
+    rng = np.random.default_rng(5)
+    world = World(Effects(), BROADPHASES[strategy]())
+    places = rng.uniform(0.0, FIELD, (COUNT, 2))
+    ids = world.add_bodies(Circle(RADIUS), places, kind=kind)
+    paces = rng.uniform(-3.0, 3.0, (COUNT, 2))
+    for step in range(STEPS):
+        some = rng.random(COUNT) < 0.1
+        paces[some] = rng.uniform(-3.0, 3.0, (int(some.sum()), 2)) * rng.choice([0.0, 1.0])
+        places = places + paces * (step % 3 != 2)
+        if step % 7 == 3:
+            places[step] = rng.uniform(0.0, FIELD, 2)
+        if one_by_one:
+            for identity, place in zip(ids.tolist(), places.tolist(), strict=True):
+                world.body(identity).position = place
+        else:
+            world.move(ids, places)
+        world.step()
+        assert pairs_within(world, 0.0) <= told(world) <= pairs_within(world, world.tolerances.slop), step
+
+
+@pytest.mark.parametrize("often", [1, 2, 3])
+def test_who_is_moved_on_is_looked_for_once_in_some_steps(often):
+    """A sprite that moves by whole pixels stands still in some of the steps, which changes nothing."""
+    rng = np.random.default_rng(4)
+    world = World(Effects(), BROADPHASES["brute"]())
+    places, paces = rng.uniform(0.0, FIELD, (COUNT, 2)), rng.uniform(-0.3, 0.3, (COUNT, 2))
+    ids = world.add_bodies(Circle(RADIUS), places, kind="kinematic")
+    tested = []
+    for step in range(96):
+        places = places + paces * (step % often == 0)
+        world.move(ids, places)
+        world.step()
+        tested.append(world.profile.counters["pairs_tested"])
+    assert np.mean(tested[32:]) / COUNT**2 < 0.15
+
+
+@pytest.mark.parametrize("way", ["velocity", "move"])
+def test_no_rectangle_is_left_behind_by_who_has_stopped(way):
+    """Sixteen steps later: until then the stop may be one of those of a motion by whole pixels."""
     world = flock("hash", np.random.default_rng(4), speed=900.0)
     world.step()
+    if way == "move":
+        ids, at = world.bodies["id"], np.stack([world.bodies["x"], world.bodies["y"]], axis=1)
+        world.move(ids, at + world.dt * np.stack([world.bodies["vx"], world.bodies["vy"]], axis=1))
     world.bodies["vx"] = world.bodies["vy"] = 0.0
-    world.step()
+    for _ in range(int(STEPS_AHEAD) + 3):
+        world.step()
     low, high = (np.stack([world.shapes[f"{end}_{axis}"] for axis in "xy"], axis=1) for end in ("min", "max"))
     slack = 2.0 * world.tolerances.slop
     meet = (low[:, None] <= high[None] + slack).all(axis=2)

@@ -1,0 +1,260 @@
+"""Moving sprites for chart 14: pygame programs that find which of them share a pixel, and worlds that do the same.
+
+Every program plays the same frames: each sprite moves by whole pixels, there and back, because pygame compares whole
+pixels. A frame includes moving the sprites and finding all hits.
+"""
+
+from bisect import bisect_left
+from collections.abc import Callable, Iterator
+from itertools import cycle
+from typing import Any, NamedTuple
+
+import numpy as np
+import pygame
+
+from game.drawing.sprites import load_atlas
+from physics import DynamicTree, Effects, PixelMask, SpatialHashGrid, World
+from physics.annotations import TierName
+
+SPRITES = ("player", "saucer_0", "gunship_0")
+SPACING = 30.0  # [px] mean distance of sprites: about one overlap each
+FASTEST = 3  # [px] greatest motion of a sprite in a frame, on each axis
+WAY = 16  # frames in one direction
+FRAMES = 2 * WAY  # there and back
+DT = 1.0 / 60.0  # [s]
+
+Hits = set[tuple[int, int]]  # pairs of indices of sprites, the lower one first
+
+
+class Traffic:
+    """The same moving sprites for every program. count: number of sprites.
+
+    positions: FRAMES lists of the corners (x, y) of all sprites [px], one list for each frame. In frame 0 the sprites
+    are at the ends of their way; the path is closed.
+    """
+
+    def __init__(self, count: int) -> None:
+        atlas, chance = load_atlas("planes"), np.random.default_rng(6)
+        self.count, self.which = count, chance.integers(0, len(SPRITES), count).tolist()
+        starts = chance.integers(0, int(SPACING * count**0.5), (count, 2))
+        self.motions = chance.integers(-FASTEST, FASTEST + 1, (count, 2))
+        steps = [min(frame, FRAMES - frame) for frame in range(FRAMES)]
+        self.arrays = [(starts + step * self.motions).astype(float) for step in steps]
+        self.positions = [[(int(x), int(y)) for x, y in each] for each in self.arrays]
+        self.kinds = [PixelMask(atlas.mask(name).solid, origin=(0, 0)) for name in SPRITES]
+        masks = [_pygame_mask(kind) for kind in self.kinds]
+        self.masks = [masks[k] for k in self.which]
+
+    def truth(self, frame: int) -> Hits:
+        """Return the pairs that share a pixel in a frame. All pairs are tested, without rectangles."""
+        masks, at = self.masks, self.positions[frame]
+        return {
+            (k, j)
+            for k, (x, y) in enumerate(at)
+            for j in range(k + 1, self.count)
+            if masks[k].overlap(masks[j], (at[j][0] - x, at[j][1] - y))
+        }
+
+
+def _pygame_mask(mask):
+    made = pygame.Mask(mask.solid.shape[::-1])
+    for y, x in np.argwhere(mask.solid).tolist():
+        made.set_at((x, y))
+    return made
+
+
+# ---- programs --------------------------------------------------------------------------------------------------------
+
+
+class Program:
+    """A program that plays the frames of a Traffic, one per call of play(), and begins at frame 1.
+
+    hits: the pairs that share a pixel in the last frame, as the program keeps them; found(): the same as Hits.
+    """
+
+    def __init__(self, traffic: Traffic) -> None:
+        self.traffic, self.frames = traffic, cycle([*range(1, FRAMES), 0])
+        self.hits: Any = set()
+
+    def play(self) -> None:
+        """Move the sprites to their places in the next frame, and find the hits."""
+        raise NotImplementedError
+
+    def found(self) -> Hits:
+        """Return the hits of the last frame."""
+        return self.hits
+
+
+class Plain(Program):
+    """The usual exact pygame program: collidelistall of each rectangle, then Mask.overlap."""
+
+    def __init__(self, traffic: Traffic) -> None:
+        super().__init__(traffic)
+        self.rects = [
+            pygame.Rect(at, mask.get_size()) for at, mask in zip(traffic.positions[0], traffic.masks, strict=True)
+        ]
+
+    def play(self) -> None:
+        for rect, at in zip(self.rects, self.traffic.positions[next(self.frames)], strict=True):
+            rect.topleft = at
+        self.hits = self.test()
+
+    def test(self) -> Hits:
+        """Return the hits at the present rectangles."""
+        rects, masks, found = self.rects, self.traffic.masks, set()
+        for k, rect in enumerate(rects):
+            for j in rect.collidelistall(rects):
+                if j > k and masks[k].overlap(masks[j], (rects[j].x - rect.x, rects[j].y - rect.y)):
+                    found.add((k, j))
+        return found
+
+
+class RectsOnly(Plain):
+    """The first version of many games: rectangles that overlap are hits."""
+
+    def test(self) -> Hits:
+        rects = self.rects
+        return {(k, j) for k, rect in enumerate(rects) for j in rect.collidelistall(rects) if j > k}
+
+
+class Sorted(Plain):
+    """The best pygame program that we know: sorted along x, each sprite tested in the window that it can overlap.
+
+    Sweep and prune in Python: the window holds the sprites whose left edge lies between those of this sprite's sides.
+    Source of the method: Cohen et al., I-COLLIDE, 1995.
+    """
+
+    def test(self) -> Hits:
+        rects, masks, found = self.rects, self.traffic.masks, set()
+        order = sorted(range(len(rects)), key=[rect.left for rect in rects].__getitem__)
+        ranked = [rects[k] for k in order]
+        lefts = [rect.left for rect in ranked]
+        for place, k in enumerate(order, 1):
+            rect, mask = rects[k], masks[k]
+            end = bisect_left(lefts, rect.right, place)
+            if end == place:
+                continue
+            for hit in rect.collidelistall(ranked[place:end]):
+                j = order[place + hit]
+                other = rects[j]
+                if mask.overlap(masks[j], (other.x - rect.x, other.y - rect.y)):
+                    found.add((k, j) if k < j else (j, k))
+        return found
+
+
+class Sprite(pygame.sprite.Sprite):
+    """A sprite as pygame's collision functions expect it. place: its index."""
+
+    def __init__(self, place: int, mask: pygame.Mask, rect: pygame.Rect) -> None:
+        super().__init__()
+        self.place, self.mask, self.rect = place, mask, rect
+
+
+class GroupCollide(Plain):
+    """The program of tutorials: pygame.sprite.groupcollide with collide_mask."""
+
+    def __init__(self, traffic: Traffic) -> None:
+        super().__init__(traffic)
+        sprites: Any = [Sprite(k, *each) for k, each in enumerate(zip(traffic.masks, self.rects, strict=True))]
+        self.group = pygame.sprite.Group(*sprites)
+
+    def test(self) -> Hits:
+        collide: Any = pygame.sprite.collide_mask  # the stubs ask for a bool; it returns a point or None
+        hits: Any = pygame.sprite.groupcollide(self.group, self.group, False, False, collide)
+        return {(a.place, b.place) for a, others in hits.items() for b in others if a.place < b.place}
+
+
+# ---- worlds ----------------------------------------------------------------------------------------------------------
+
+
+class Stepped(Program):
+    """A world whose step moves the sprites by their velocities, and finds the hits as contacts, which nobody reads.
+
+    tested: pairs that its broad phase has tested so far.
+    """
+
+    def __init__(self, traffic: Traffic, strategy: Any, tier: TierName) -> None:
+        super().__init__(traffic)
+        self.tested = 0
+        self.world = World(Effects.detection(), strategy)
+        self.ids = np.array(
+            [
+                self.world.add_body(traffic.kinds[k], position=at, kind="kinematic", tier=tier).id
+                for k, at in zip(traffic.which, traffic.positions[0], strict=True)
+            ]
+        )
+
+    def play(self) -> None:
+        frame = next(self.frames)
+        if frame in (1, WAY + 1):  # the sprites turn
+            speeds = self.traffic.motions / DT * (1.0 if frame == 1 else -1.0)
+            self.world.bodies["vx"], self.world.bodies["vy"] = speeds.T
+        self.world.step(DT)
+        self.tested += self.world.profile.counters["pairs_tested"]
+
+    def found(self) -> Hits:
+        pairs = self.world.touching() - self.ids[0]
+        return set(map(tuple, np.sort(pairs, axis=1).tolist()))
+
+
+class Moved(Stepped):
+    """A world whose sprites the caller moves in one call with arrays; the hits are read as ids."""
+
+    def play(self) -> None:
+        self.world.move(self.ids, self.traffic.arrays[next(self.frames)])
+        self.world.step()
+        self.hits = self.world.touching()
+        self.tested += self.world.profile.counters["pairs_tested"]
+
+    def found(self) -> Hits:
+        return set(map(tuple, np.sort(self.hits - self.ids[0], axis=1).tolist()))
+
+
+class Recipe(Plain):
+    """The recipe of docs/physics_alone.md: sprites with a rectangle and a body, three lines a frame."""
+
+    def __init__(self, traffic: Traffic) -> None:
+        super().__init__(traffic)
+        self.world, self.tested = World(Effects.detection()), 0
+        self.bodies = [
+            self.world.add_body(traffic.kinds[kind], position=rect.topleft, user=k)
+            for k, (kind, rect) in enumerate(zip(traffic.which, self.rects, strict=True))
+        ]
+
+    def test(self) -> Hits:
+        self.world.move(self.bodies, [rect.topleft for rect in self.rects])
+        self.world.step()
+        found = set(self.world.touching(users=True))
+        self.tested += self.world.profile.counters["pairs_tested"]
+        return found
+
+
+class Way(NamedTuple):
+    """A way to find the hits. make(Traffic) returns its Program; most: greatest number of sprites it is measured on."""
+
+    make: Callable[[Traffic], Program]
+    most: int
+
+
+PLAIN, BEST = "pygame: Rect, then Mask", "pygame: sorted along x"
+STEP, MOVE, RECIPE = "ours: step", "ours: move, step, touching", "ours: the docs' recipe"
+MANY, FEW = 10**6, 300
+WAYS = {
+    "pygame: Rect": Way(RectsOnly, MANY),
+    PLAIN: Way(Plain, MANY),
+    BEST: Way(Sorted, MANY),
+    "pygame: groupcollide": Way(GroupCollide, FEW),  # a second a frame with 2,000 sprites
+    STEP: Way(lambda traffic: Stepped(traffic, SpatialHashGrid(), "pixels"), MANY),
+    MOVE: Way(lambda traffic: Moved(traffic, SpatialHashGrid(), "pixels"), MANY),
+    RECIPE: Way(Recipe, MANY),
+    "ours: step, boxes": Way(lambda traffic: Stepped(traffic, SpatialHashGrid(), "aabb"), MANY),
+    "ours: step, tree": Way(lambda traffic: Stepped(traffic, DynamicTree(), "pixels"), MANY),
+    "ours: step, outline": Way(lambda traffic: Stepped(traffic, SpatialHashGrid(), "outline"), MANY),
+}
+
+
+def programs(traffic: Traffic) -> Iterator[tuple[str, Program]]:
+    """Yield (name, new Program) for every way that is measured with this number of sprites."""
+    for name, way in WAYS.items():
+        if traffic.count <= way.most:
+            yield name, way.make(traffic)
