@@ -1,4 +1,4 @@
-"""Types of arguments: pairs, poses, rectangles and references to bodies, and the words that an argument may be.
+"""Types of arguments: pairs, poses, rectangles, references to bodies, and the strings that an argument allows.
 
 They are protocols and literals, so that pygame's vectors and rectangles are accepted without an import of pygame.
 """
@@ -9,7 +9,7 @@ from typing import Any, Literal, Protocol
 import numpy as np
 
 # ---- words -----------------------------------------------------------------------------------------------------------
-# The words of an argument. The tables and tuples of these words are made from the literals by get_args.
+# The strings that an argument allows. Tables and tuples of them are made from these literals by get_args.
 
 KindName = Literal["static", "kinematic", "dynamic"]
 ContinuousName = Literal["off", "ray", "swept", "auto", "toi"]
@@ -25,7 +25,7 @@ Number = float | np.floating[Any] | np.integer[Any]
 
 
 class Vector(Protocol):
-    """A vector of two numbers that is not a tuple, such as pygame.Vector2. A Rect or a Vector3 is none."""
+    """A vector of two numbers that is not a tuple, such as pygame.Vector2. A Rect or a Vector3 does not match."""
 
     def __iter__(self) -> Iterator[float]: ...
 
@@ -96,7 +96,7 @@ class WorldHandle(Protocol):
         ...
 
     def touch(self, ids: Any) -> None:
-        """Report written columns."""
+        """Report that table columns of bodies were written."""
         ...
 
 

@@ -344,7 +344,7 @@ class Body(Handle):
         edit.set_kind(self.world, self.id, checks.choice("kind", kind, KINDS))
 
     def restore(self) -> None:
-        """Put a quarantined body back into the simulation, at rest at its last finite pose."""
+        """Put a quarantined body back into the simulation, at rest at its last finite pose. Otherwise do nothing."""
         edit.restore(self.world, self.id)
 
     def remove(self) -> None:
@@ -525,7 +525,8 @@ class Body(Handle):
     def tier(self) -> TierName | None:
         """How the body's PixelMask is simplified: one of TIERS, such as "hull"; None if its given shapes are used.
 
-        Setting it replaces the shapes of the body by those of physics.fit for the mask.
+        Setting it replaces the shapes of the body by those of physics.fit for the mask. Raises ValueError for an
+        unknown tier, and for a body that was not made from one PixelMask.
         """
         self._must_exist()
         return self.world._tiers.get(self.id)

@@ -1,8 +1,8 @@
 """Templates: copies of the rows of an added body, reused for further bodies with the same shapes and values.
 
-add_rows of edit.py checks all arguments and computes the rows of a body: mass, geometry, planes of the broad phase. For
-a further body with equal arguments only pose and velocity differ. A template keeps the other values, so that only pose
-and velocity are checked and written. Unusual arguments go through add_rows, which raises the errors.
+add_rows of edit.py checks all arguments and computes the rows of a body: mass, geometry, proxies of the broad phase.
+For a further body with equal arguments only pose and velocity differ. A template keeps the other values, so that only
+pose and velocity are checked and written. Unusual arguments go through add_rows, which raises the errors.
 """
 
 from collections.abc import Sequence
@@ -57,7 +57,7 @@ class Template(NamedTuple):
     is_dynamic: bool
     body: np.void  # BODY row
     definition: np.void  # BODY_DEF row
-    shapes: list[tuple[np.void, int, dict[str, int]]]  # SHAPE row, index of the parent, values of the proxy; each shape
+    shapes: list[tuple[np.void, int, dict[str, int]]]  # each: SHAPE row, index of the parent, values of the proxy
 
 
 def key_of(

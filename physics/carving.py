@@ -26,9 +26,9 @@ class Carved(NamedTuple):
     crumbs: number of pixels of separated pieces that were too small and were removed.
     """
 
-    removed: int  # pixels that lay in the shape and were removed
-    fragments: tuple[Any, ...]  # Bodies of the separated pieces, by mask, and for each mask by their first pixels
-    crumbs: int  # pixels of separated pieces that were too small and were removed
+    removed: int
+    fragments: tuple[Any, ...]
+    crumbs: int
 
 
 def carve(world: WorldState, identity: int, shape: object, pose: object, crumb: object) -> Carved:

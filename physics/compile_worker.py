@@ -19,11 +19,9 @@ NICE = 10  # niceness from 0 to 19: the program has priority over this process
 
 
 def answer(order: tuple) -> Any:
-    """Carry out an order of the program that started this worker, and return the answer.
+    """Carry out an order of the program that started this worker, and return the answer. For both, see the module.
 
-    ("compile", spec, keys) compiles a kernel (see tiers.spec_of) for arguments of the types `keys` and stores it; the
-    answer is its name in the store. ("list", arguments of physics.warmup) finds the kernels of that warm-up that are
-    not in the store; the answer is a list of (name, spec, keys).
+    order: ("compile", spec, keys), see tiers.spec_of and kernels.key_of; or ("list", arguments of physics.warmup).
     """
     from physics.effects import Effects
     from physics.jit import compiling, tiers

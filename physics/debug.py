@@ -48,10 +48,10 @@ class Structure(NamedTuple):
     intervals: (k, 4): axis (0: x, 1: y), low, high [px], shape id.
     """
 
-    kind: str  # brute, sweep, hash, tree
-    rects: np.ndarray  # (m, 4) min_x, min_y, max_x, max_y [px]
-    depth: np.ndarray  # (m,) level of a grid cell, or depth of a tree node
-    intervals: np.ndarray  # (k, 4) axis, low, high, shape id
+    kind: str
+    rects: np.ndarray
+    depth: np.ndarray
+    intervals: np.ndarray
 
 
 EDGE = np.dtype(
@@ -344,10 +344,10 @@ class Drawn(NamedTuple):
     left, top: (n,) positions of the rasters in the world [px].
     """
 
-    solids: list  # bool arrays [row, column]
-    which: np.ndarray  # (n,) index in solids of the pixels of each mask
-    left: np.ndarray  # (n,) [px]
-    top: np.ndarray  # (n,) [px]
+    solids: list
+    which: np.ndarray
+    left: np.ndarray
+    top: np.ndarray
 
 
 def masks(world: World) -> list:
@@ -397,7 +397,7 @@ def mask_hits(world: World) -> list:
 
     world: a World.
 
-    shared are the pixels that both masks contain, as bools; left and top its position in the world [px].
+    shared: bools of the pixels that both masks contain; left, top: position of its first pixel in the world [px].
     """
     found = []
     rows = _candidate_rows(world)

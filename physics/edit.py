@@ -137,7 +137,7 @@ class Piece(NamedTuple):
     shape: Shape
     role: int  # WHOLE, PIXELS or PART
     inner: int  # see SHAPE
-    parent: int  # index of the piece of the whole mask; otherwise of this piece
+    parent: int  # index of the piece of the whole mask, or of this piece if it is not a PART
     tile: int  # see SHAPE
 
 
@@ -704,7 +704,7 @@ def write_material(rows: np.ndarray, material: Material) -> None:
 
 
 def set_kind(world: WorldState, identity: int, kind: KindName) -> None:
-    """Set the kind of a body. Raises ValueError for a dynamic TileGrid, or a character that is not kinematic."""
+    """Set the kind of a body. Raises ValueError for shapes or a character that a body of this kind cannot have."""
     world._unlocked()
     row = world._body_row(identity)
     if kind != "kinematic" and (world.characters.rows["body"] == identity).any():

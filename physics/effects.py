@@ -34,22 +34,22 @@ class Effects:
     """
 
     narrowphase: bool = True
-    response: bool = False  # overlaps are pushed apart
+    response: bool = False
     gravity: bool = False
     drag: bool = False
     wind: bool = False
-    rotation: bool = False  # angular velocity turns bodies, impulses spin them
+    rotation: bool = False
     friction: bool = False
     restitution: bool = False
-    stacking: bool = False  # stacks are stable: contacts are warm started
-    continuous: bool = False  # fast bodies stop at their first impact
-    sleeping: bool = False  # islands at rest cost nothing until they are disturbed
+    stacking: bool = False
+    continuous: bool = False
+    sleeping: bool = False
     sensors: bool = False
-    persist: bool = False  # the `persist` event: pairs that continue to touch
-    one_way: bool = False  # one-way platforms
-    conveyor: bool = False  # conveyor belts: Material.surface_speed
-    joints: bool = False  # World.add_joint
-    carving: bool = False  # masks can be carved: Body.carve
+    persist: bool = False
+    one_way: bool = False
+    conveyor: bool = False
+    joints: bool = False
+    carving: bool = False
 
     def __post_init__(self):
         for field in fields(self):
@@ -133,7 +133,7 @@ class Effects:
     def and_needed(self, name: str) -> "Effects":
         """Return a copy in which all effects that an effect needs are on. The effect itself is unchanged.
 
-        name: the effect.
+        name: the effect; an unknown one needs no other.
         """
         return self.with_(**dict.fromkeys(NEEDS.get(name, ()), True))
 

@@ -18,7 +18,7 @@ from physics.world_state import Handle, WorldState
 def gear_rows(
     world: WorldState, kind: Any, sides_a: list[tuple[bool, int]], sides_b: list[tuple[bool, int]]
 ) -> np.ndarray:
-    """Return JOINT rows (n,) of gears without ids, for joints.add to append. See report_gears for their phases.
+    """Return JOINT rows (n,) of gears without ids, for joint.add_gears to append. See report_gears for their phases.
 
     kind: a Gear with the settings of all gears; sides_a, sides_b (n): (True, id of a joint) or (False, id of a body).
     Raises ValueError for a joint that neither turns nor slides, for two equal sides, for a gear without a dynamic body,

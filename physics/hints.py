@@ -181,7 +181,10 @@ def unexpected(name: str, names: Sequence[str], given: Mapping[str, Any]) -> Typ
 
 
 def argument_names(function: Callable[..., Any]) -> tuple[str, ...]:
-    """Return the names of a function's arguments without self and cls. Those of any number have a star: *shapes."""
+    """Return the names of a function's arguments without self and cls.
+
+    An argument for any number of values has a star: *shapes.
+    """
     found = [each for each in signature(function).parameters.values() if each.name not in ("self", "cls")]
     stars = {Parameter.VAR_POSITIONAL: "*"}
     return tuple(stars.get(each.kind, "") + each.name for each in found if each.kind != Parameter.VAR_KEYWORD)

@@ -44,9 +44,9 @@ def add(
 ) -> np.ndarray:
     """Append joints of one kind to a world, and return their ids (n,).
 
-    kind: a Kind with the settings of all joints; bodies_a, bodies_b: ids (n,) int64, WORLD for the world; columns: by
-    argument name, anchors (n, 2) [px] and axes (n, 2). Raises TypeError or ValueError for invalid arguments, KeyError
-    for an unknown body; the world is then unchanged.
+    kind: a Kind with the settings of all joints; bodies_a, bodies_b: ids (n,) int64, WORLD for the world; columns:
+    anchors (n, 2) [px] and axes (n, 2), by argument name. Raises TypeError or ValueError for invalid arguments,
+    KeyError for an unknown body; the world is then unchanged.
     """
     n = len(bodies_a)
     check_bodies(world, bodies_a, bodies_b)
@@ -325,7 +325,7 @@ def set_apart(world: WorldState, ids: Iterable[int]) -> None:
 
 
 def keep_apart(world: WorldState) -> None:
-    """Tell the broad phase which pairs of bodies never collide because a joint forbids contacts between them.
+    """Set the pairs of bodies that the broad phase leaves out, because a joint forbids contacts between them.
 
     A step calls this function first if joints have changed. If the pairs changed, the pairs of the bodies of changed
     joints are searched again. O(joints log joints).
@@ -639,7 +639,8 @@ class Joint:
     def limits(self) -> tuple[float, float] | None:
         """The limits (low, high) of the joint's angle, translation or length; None: no limits.
 
-        A value is -inf or inf where only the other side is limited.
+        A value is -inf or inf where only the other side is limited. Setting them raises as for motor, and for a
+        Ratchet.
         """
         row = self._row
         lower, upper = row["lower"].item(), row["upper"].item()

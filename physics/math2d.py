@@ -193,7 +193,7 @@ class Vec2(NamedTuple):
 
 
 def _refuse_change(vector, name, value):
-    """Raise AttributeError for a coordinate that was set, and name the assignment of the whole pair."""
+    """Raise AttributeError for a coordinate that was set. The message shows how to set the whole pair."""
     if name not in ("x", "y"):
         raise AttributeError(f"Vec2 has no attribute {name}, and cannot be changed")
     x, y = (value, vector[1]) if name == "x" else (vector[0], value)

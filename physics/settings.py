@@ -13,7 +13,7 @@ STANDARD_GRAVITY = 9.8  # [m/s2]
 LINEAR_SLOP = 0.005  # [m] overlap or gap at which a contact persists. Larger: visible sinking. Smaller: flicker
 AABB_MARGIN = 0.05  # [m] margin of a fat AABB of the tree (Box2D v3), at most …
 AABB_MARGIN_FRACTION = 0.125  # … this share of the box, so that small bodies stay tight
-STEPS_AHEAD = 16.0  # steps of motion that the swept AABB of a flying body covers; it is searched once in so many; …
+STEPS_AHEAD = 16.0  # steps of motion that the swept AABB of a flying body covers before it is updated again; …
 AHEAD_FRACTION = 0.375  # … at most this share of its box. Larger: more candidates. Smaller: more searches
 RESTITUTION_SPEED = 1.0  # [m/s] slower impacts do not bounce; otherwise a resting body would tremble for ever
 HIT_SPEED = 1.0  # [m/s] slower contacts are not reported as hits: a resting crate makes no sound
@@ -25,22 +25,21 @@ SPECULATIVE_DISTANCE = (
 RECYCLE_DISTANCE = (
     0.25 * LINEAR_SLOP
 )  # [m] a manifold is recycled while its points moved less. Larger: ghost collisions at corners
-RECYCLE_MOVE = 4.0  # factor on it for two faces, …
+RECYCLE_MOVE = 4.0  # factor on RECYCLE_DISTANCE for two faces, …
 RECYCLE_SHARE = (
     0.02  # … at most this share of the distance of the points. Both larger: a sliding body leaves an edge late
 )
 RECYCLE_WANDER = (
     2.0**-7
 )  # precision of reported depths, in RECYCLE_DISTANCE. Larger: coarser. Smaller: fewer are recycled
-STICKING_TURN = (
-    0.01  # [rad] sticking faces keep moment arms and normal while neither body rotated more. Larger: boxes tip
-)
-# late (Box2D has no bound, and a box tips at 35 degrees instead of 27). Smaller: columns buckle like springs
+STICKING_TURN = 0.01  # [rad] sticking faces keep moment arms and normal while neither body rotated more, …
+# With a larger STICKING_TURN boxes tip late (Box2D has no bound, and a box tips at 35 degrees instead of 27), with a
+# smaller one columns buckle like springs.
 STICKING_SHARE = 0.5  # … and while their relative motion is below this share of SPECULATIVE_DISTANCE
 CONTACT_HERTZ = 60.0  # [1/s] stiffness of a contact where the number of substeps is given
-AUTO_SUBSTEPS = (4, 8, 16, 32, 64, 128)  # numbers of substeps of an island under "auto", which follow from …
-LOAD_SUBSTEPS = 32  # greatest number for a load alone: stiffer springs ring after an impact
-ACCURACY = 0.001  # [m] … the greatest sag of its contacts under their loads. Smaller: stiffer piles at a higher cost
+AUTO_SUBSTEPS = (4, 8, 16, 32, 64, 128)  # numbers of substeps of an island under "auto", chosen by ACCURACY
+LOAD_SUBSTEPS = 32  # greatest of these numbers for a load alone: stiffer springs ring after an impact
+ACCURACY = 0.001  # [m] greatest sag of a contact under its load with "auto". Smaller: stiffer piles at a higher cost
 EASE_TIME = 0.25  # [s] for which fewer substeps must have been enough before an island takes fewer
 LEAN = 20.0  # greatest divisor of the allowed sag where one end of a face carries more load than the other
 HERTZ_SHARE = 0.125  # greatest contact frequency as a share of the substeps per second: stiffer springs ring
@@ -92,11 +91,11 @@ class Limits(NamedTuple):
     """The thresholds at which a contact counts as resting, sticking or approaching."""
 
     calm_speed: float  # [px/s] slower approach speeds count as 0
-    sticking: float  # [px] see rows.sticks
-    slop: float  # [px] see rows.touches_slowly
+    sticking: float  # [px] see lanes.sticks
+    slop: float  # [px] see lanes.touches_slowly
     impact_speed: float  # [px/s] slower approaches are no impacts
     push_speed: float  # [px/s]
-    deep: float  # [px] overlap with a body of infinite mass from which a body may be without room
+    deep: float  # [px] an island may be without room if its overlap is deeper, see energy.find_squeezed
     rocking_range: float  # [px] see ROCKING_RANGE
     rocking_resistance: float  # [px]
 

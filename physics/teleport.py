@@ -196,10 +196,10 @@ def _move(world, ids, rows, dynamic, motions):
 
 
 def _contacts_at(world, keys):
-    """Return the CONTACT rows of awake bodies, and those that some sleeping islands keep.
+    """Return the CONTACT rows of awake bodies and of some sleeping islands.
 
-    These are the islands `keys`, and the sleeping islands that touch their bodies. Contacts of awake bodies are those
-    of the last step.
+    The islands are those with the keys `keys`, and those that touch bodies of these islands. Contacts of awake bodies
+    are those of the last step.
     """
     sleeping_set = world.sleeping_set
     keys = set(keys)

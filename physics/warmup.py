@@ -50,7 +50,7 @@ def warmup(
 ) -> None:
     """Compile the kernels of a world with these effects on all cores, or load them from the cache.
 
-    effects: the Effects of the world; None: Effects.rigid_bodies().
+    effects: the Effects of the world; None: Effects().
     broadphase: "brute", "sweep", "hash", "tree" or "all".
     solver: one of SOLVERS; None: the default of the effects.
     progress: function (done, total, name), called before each small world, for each kernel, and at the end; `total`
@@ -59,7 +59,7 @@ def warmup(
         of other pieces are compiled at their first call.
 
     The kernels are found by running small worlds. Without numba these run, but nothing is compiled. Raises KeyError for
-    an unknown broad phase or piece.
+    an unknown broad phase or piece, ValueError for an unknown solver.
     """
     runs = _runs(effects, broadphase, solver, pieces)
 

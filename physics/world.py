@@ -503,7 +503,7 @@ class World(WorldState):
         return name
 
     def set_narrowphase(self, on: bool) -> None:
-        """From the next step on, use the narrow phase, or only AABBs.
+        """Use the narrow phase, or only AABBs, from the next step on.
 
         on: True for the narrow phase.
 
@@ -598,9 +598,9 @@ class World(WorldState):
         """The solver of joints. It can be set between steps; a change wakes all bodies.
 
         "iterative": converges from substep to substep. "direct": solves each tree of joints exactly, with its loops,
-        limits and motors, at about three times the cost. "auto": likewise, except for meshes with too many loops to
-        solve them exactly, which are solved iteratively. Beyond 96 rows of loops, limits and motors or 16 motors of a
-        tree these are solved iteratively, which counts in `cap_hits`.
+        limits and motors, at about three times the cost. "auto": as "direct", except for meshes with too many loops to
+        solve exactly, which are solved iteratively. In a tree with more than 96 rows of loops, limits and motors, or
+        more than 16 motors, these are solved iteratively, which counts in `cap_hits`.
         """
         return self._joint_solver
 
@@ -681,7 +681,8 @@ class World(WorldState):
         sensors: whether sensors can also be hit.
 
         Inside a shape the fraction is 0, and the normal is opposite to the ray. Equally near hits are in the order of
-        shape ids. Raises TypeError for values of other types, ValueError for numbers that are not finite or too large.
+        shape ids. Raises TypeError for values of other types, ValueError for numbers that are not finite, or for an
+        origin too far away.
         """
         hits = casts.ray_cast_all(self, origin, translation, filter, sensors, first=True)
         return hits[0] if hits else None

@@ -24,9 +24,6 @@ WIDTH = 2  # boxes of a node. Four, tested together, made a step at most 4 % fas
 
 # ---- tree nodes ------------------------------------------------------------------------------------------------------
 # Nodes of a bounding volume hierarchy (BVH) with AVL balance: insert, remove, rotate, improve.
-#
-# Children have no order, so a single rotation always restores the balance. Source: Catto, Dynamic Bounding Volume
-# Hierarchies, GDC 2019; Adelson-Velsky and Landis 1962.
 
 NODE = np.dtype(
     [

@@ -1,4 +1,4 @@
-"""One search for the overlapping pairs of given boxes, by a new broad phase: BruteForce().find_pairs and its like."""
+"""The method find_pairs of all broad phases: one search for the overlapping pairs of given boxes."""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,8 +10,8 @@ from physics.tables.shape import PROXY
 def find_pairs(strategy: Strategy, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
     """Return the pairs of n closed boxes that touch, found by a new broad phase: (m, 2) int32, a < b, sorted.
 
-    strategy: a broad phase without proxies; lower, upper: corners of the boxes (n, 2) [px]. Raises as
-        Strategy.find_pairs.
+    strategy: a broad phase without proxies; lower, upper: corners of the boxes (n, 2) [px]. Errors: see
+    Strategy.find_pairs.
     """
     lower, upper = _corners("lower", lower), _corners("upper", upper)
     if len(lower) != len(upper):

@@ -147,7 +147,7 @@ class Strategy(Protocol):
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
         """Find the proxies whose boxes overlap a box, or are near it. Write their slots, and return their number.
 
-        proxies: PROXY table; box: lower x, y, upper x, y [px]; slots: written, as many as proxies; work: counters.
+        proxies: PROXY table; box: lower x, y, upper x, y [px]; slots: result, as long as proxies; work: counters.
         """
         ...
 
@@ -348,7 +348,7 @@ def update_rectangles(rows, geometry, bodies, reach, shapes_inout, proxies_inout
             most = AHEAD_FRACTION * size
             steps = ahead
             if fresh and ahead > 0.0:
-                steps = 1.0 + s.proxy % int(ahead)  # differs, else shapes added together are updated in the same step
+                steps = 1.0 + s.proxy % int(ahead)  # else shapes added together are always updated in the same step
             way_x, way_y = dx, dy
             if ahead > 0.0 and b.vx == 0.0 and b.vy == 0.0:
                 # The caller may move the body in each step, and then probably goes on as in the last one.
@@ -480,9 +480,9 @@ NOBODY_COUNTS = np.zeros(len(COUNTERS), np.int64)
 class PairList:
     """The proxies of the shapes of a world, and the sorted list of their overlapping pairs, the candidates.
 
-    `rows` (n, 2): row numbers in SHAPE of the candidates of this step. sleeping: new proxies are asleep until they are
-    set awake, and pairs without an awake proxy are not kept. Shapes of quarantined bodies have slot -1, which all
-    methods skip.
+    `rows` (n, 2): row numbers in SHAPE of the candidates of this step. sleeping: whether new proxies are asleep until
+    they are set awake; pairs without an awake proxy are then not kept. Shapes of quarantined bodies have slot -1, which
+    all methods skip.
     """
 
     def __init__(self, sleeping: bool = False) -> None:
@@ -528,7 +528,7 @@ class PairList:
         shapes: the SHAPE table to which the candidates refer; not read if `name` was called since the last update.
         """
         if self.known_ids is None:
-            owners = np.sort(self.name(shapes), axis=1)  # rows of new parts of a mask follow the rows of later shapes
+            owners = np.sort(self.name(shapes), axis=1)  # new parts of a mask have rows after those of later shapes
             keys = np.unique(owners[:, 0] << 32 | owners[:, 1])  # each pair once, ordered by both ids
             self.known_ids = np.stack([keys >> 32, keys & 0xFFFFFFFF], axis=1)
         return self.known_ids

@@ -73,10 +73,10 @@ def has_closed_form(mover, other, mode):
 
 @subkernel
 def sweep_disc(x, y, radius, move, outline, slack):
-    """Return the first impact (fraction of the move, nx, ny) of a moving disc with a Hull at rest; MISS without one.
+    """Return the first impact (fraction of the move, nx, ny) of a moving disc with a Hull at rest.
 
     x, y, radius [px]: centre and radius of the disc; move: (dx, dy) [px]; outline: the Hull; the normal points from it
-    to the disc. The result is also MISS if the overlap at the start is deeper than slack [px].
+    to the disc. The fraction is MISS without an impact, and if the overlap at the start is deeper than slack [px].
     """
     corners, count, _, edges = outline
     fraction, nx, ny = sweep_circle_polygon(corners, count, edges, x, y, move[0], move[1], radius)
@@ -89,10 +89,10 @@ def sweep_disc(x, y, radius, move, outline, slack):
 
 @subkernel
 def sweep_pair(row, other, dt, sweep, scratch):
-    """Return the first impact (fraction of dt, nx, ny) of two shapes within dt [s]; MISS without one.
+    """Return the first impact (fraction of dt, nx, ny) of two shapes within dt [s].
 
-    The normal points from `other` to `row`. row, other: row numbers in SHAPE; both bodies move at their velocities
-    without rotation. scratch: a Workspace; sweep: see Sweep.
+    The fraction is MISS without an impact. The normal points from `other` to `row`. row, other: row numbers in SHAPE;
+    both bodies move at their velocities without rotation. scratch: a Workspace; sweep: see Sweep.
     """
     geometry, bodies, shapes, slack = sweep.geometry, sweep.bodies, sweep.shapes, sweep.slack
     s, o = shapes[row], shapes[other]
@@ -274,7 +274,7 @@ def stands_still(bodies, paths, row):
 
 @subkernel
 def rest_where_it_is(bodies, row, paths_inout, fast_inout):
-    """If a body is not active, write a path without motion for it, and clear its fast flag.
+    """Write a path without motion for a body that is not active, and clear its fast flag.
 
     row: row number in BODY; paths_inout: see Sweep.paths; fast_inout: see Sweep.fast.
     """
@@ -448,8 +448,8 @@ def move_back(rows, paths, gravity_x, gravity_y, dt, bodies_inout):
 def is_ray(body, other):
     """Return whether the sweep of a body against another body uses a ray from its centre instead of its outline.
 
-    It does for a body in mode "ray" that is not static, unless the other body is in mode "swept" or "toi". body, other:
-    BODY rows.
+    This is so for a body in mode "ray" that is not static, unless the other body is in mode "swept" or "toi". body,
+    other: BODY rows.
     """
     return body.continuous == RAY and body.kind != STATIC and other.continuous != SWEPT and other.continuous != TOI
 

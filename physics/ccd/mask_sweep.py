@@ -1,8 +1,8 @@
 """Sweep of masks by their pixels, for worlds without contact response and for sensors: the time of the first overlap.
 
 A mask is the union of its solid pixel squares at the exact pose, even if it is drawn on whole pixels (snap=True). The
-pixels are grouped into rectangles. If a motion leads no deeper than the overlap at the start, it is not an impact. This
-is the rule of rotational.py, but without a slop. So grazing contacts and seams between two rectangles are not impacts.
+pixels are grouped into rectangles. Only a motion that leads deeper than the overlap at the start has an impact, as in
+rotational.py, but here without a slop. So grazing contacts and seams between two rectangles are not impacts.
 """
 
 import math

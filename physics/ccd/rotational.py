@@ -493,10 +493,11 @@ def shrink_to_middle(count, mover_inout):
 
 @subkernel
 def sweep_hull(mover, core_b, n, radius_b, workspace):
-    """Return the first impact (fraction of the motion, nx, ny) of the mover with another hull; MISS without one.
+    """Return the first impact (fraction of the motion, nx, ny) of the mover with another hull.
 
-    The obstacle is in workspace.advance.local_b, with n corners and the rounding radius radius_b [px]. The normal
-    points from it to the mover. core_b [px]: radius of the obstacle's core circle; 0: none.
+    The fraction is MISS without an impact. The obstacle is in workspace.advance.local_b, with n corners and the
+    rounding radius radius_b [px]. The normal points from it to the mover. core_b [px]: radius of the obstacle's core
+    circle; 0: none.
     """
     depth = depth_at_start(mover, n, radius_b, workspace)
     fraction, core = sweep_part(mover, n, radius_b, depth, workspace)

@@ -61,7 +61,7 @@ def sweep_circles(x, y, dx, dy, radius):
 
 @subkernel
 def cast_on_polygon(corners, count, edges, x, y, dx, dy):
-    """Return where a ray enters a convex polygon: (fraction of the ray or MISS, nx, ny). It must start outside.
+    """Return where a ray enters a convex polygon: (fraction of the ray or MISS, nx, ny). The ray must start outside.
 
     x, y [px]: start of the ray; dx, dy [px]: vector from its start to its end; edges: bit k is set if edge k may be
     hit. The ray is clipped by the half plane of each edge, so that it cannot pass between two edges (Cyrus and Beck
@@ -128,13 +128,12 @@ def sweep_circle_polygon(corners, count, edges, x, y, dx, dy, radius):
 
 @subkernel
 def half_planes(a, a_count, b, b_count, side, move, slack, clip):
-    """Clip the time interval in which two moving polygons overlap by the faces of the polygon in b.
+    """Return the time interval in which two moving polygons may overlap, clipped by the faces of the polygon in b.
 
     a, b (16, 2) [px]: corners; side: 1.0 if `a` holds polygon A and `b` holds B, -1.0 if `a` holds B and `b` holds A.
-    move: motion (x, y) [px] of polygon A. slack [px]: faces are moved inwards by this much. clip is the interval before
-    the call. The result is the interval after it, in the same form: (fraction at which the overlap begins or MISS,
-    fraction at which it ends, face entered last, nx, ny). The face is k for face k of B, -1 - k for face k of A; the
-    normal points from B to A.
+    move: motion (x, y) [px] of polygon A. slack [px]: faces are moved inwards by this much. clip: the interval before
+    the call, in the form of the result: (fraction at which the overlap begins or MISS, fraction at which it ends, face
+    entered last, nx, ny). The face is k for face k of B, -1 - k for face k of A; the normal points from B to A.
     """
     enter, leave, entering, nx, ny = clip
     for k in range(b_count):
@@ -371,8 +370,9 @@ def touching_span(corners, count, nx, ny, side, band):
 def approach_at(a_count, b_count, fraction, band, workspace):
     """Return the greatest approach speed [px per motion] along the normal of two touching hulls.
 
-    Of two faces that touch, within `band` [px], the ends of the common part decide: one of them is fastest. a_count,
-    b_count: numbers of corners. workspace: with the normal and corners at `fraction` that separate_at has written.
+    If two faces touch, within `band` [px], the speed is greatest at an end of their common part, so only the ends are
+    tested. a_count, b_count: numbers of corners. workspace: holds the normal and corners at `fraction`, written by
+    separate_at.
     """
     nx, ny = workspace.gap.gap[NX], workspace.gap.gap[NY]
     a_low, a_high = touching_span(workspace.a, a_count, nx, ny, 1.0, band)

@@ -56,7 +56,7 @@ def motion_of(b):
 
 @kernel
 def find_stirred(bodies, shapes, characters, pairs, count, stirred_out):
-    """Flag the characters that a step may move: riders, users of conveyors, and those that may touch a moving body.
+    """Flag the characters that a step may move: riders, those on conveyors, and those near a body that is not static.
 
     Return the greatest distance [px] that any point of the ridden or touched bodies moved in the step. pairs (count,
     2): row numbers in SHAPE from the broad phase; stirred_out (characters,): the flags. O(pairs · log characters).
@@ -81,8 +81,8 @@ def find_stirred(bodies, shapes, characters, pairs, count, stirred_out):
 def near_characters(state: StepState) -> tuple[np.ndarray, np.ndarray]:
     """Return (near, spans) for a Walk: rows of the shapes that may carry, push or stop each character in this step.
 
-    near: SHAPE rows, character after character; spans (characters, 2): first index in `near` and number of rows of
-    each.
+    near: row numbers in SHAPE, character after character; spans (characters, 2): first index in `near` and number of
+    rows of each.
     """
     rows, pairs = state.characters, state.pairs.rows
     dirty = np.zeros(len(rows), bool)
@@ -114,8 +114,8 @@ def near_characters(state: StepState) -> tuple[np.ndarray, np.ndarray]:
 def shift_aside(me, without, pixels, walk_inout, rows_out):
     """Move a character along x by up to `pixels` (negative: left). Return how many of these pixels were blocked.
 
-    The character also moves up and down walkable slopes. me: CHARACTER row; without: body row to ignore, or -1;
-    rows_out: scratch array for the nearby solids. walk_inout: see solids.Walk.
+    The character also moves up and down walkable slopes. me: row number in CHARACTER; without: body row to ignore, or
+    -1; rows_out: scratch array for the nearby solids. walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     reach = 2.0 + abs(pixels)
@@ -141,8 +141,8 @@ def shift_aside(me, without, pixels, walk_inout, rows_out):
 def shift_along_y(me, without, pixels, walk_inout, rows_out):
     """Move a character along y by up to `pixels` (negative: up). Return how many of these pixels were blocked.
 
-    me: CHARACTER row; without: body row to ignore, or -1; rows_out: scratch array for the nearby solids. walk_inout:
-    see solids.Walk.
+    me: row number in CHARACTER; without: body row to ignore, or -1; rows_out: scratch array for the nearby solids.
+    walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     reach = 2.0 + abs(pixels)
@@ -161,8 +161,8 @@ def shift(me, without, pixels, along_x, walk_inout, rows_out):
     """Move a character and its body by up to `pixels` along one axis. Return how many of these pixels were blocked.
 
     along_x: 1 for the x axis, along which the character also moves up and down walkable slopes, 0 for the y axis. me:
-    CHARACTER row; without: body row to ignore, or -1; rows_out: scratch array for the nearby solids. walk_inout: see
-    solids.Walk.
+    row number in CHARACTER; without: body row to ignore, or -1; rows_out: scratch array for the nearby solids.
+    walk_inout: see solids.Walk.
     """
     if along_x == 1:
         stopped = shift_aside(me, without, pixels, walk_inout, rows_out)
@@ -211,7 +211,7 @@ def carry_riders(along_x, walk_inout):
 def loose_under(walk, me):
     """Return the row of the loose shape (solids.is_loose) on which a character stands; -1 if there is none.
 
-    Such a shape carries the character by the motion of its point under the feet. me: CHARACTER row; walk: see
+    Such a shape carries the character by the motion of its point under the feet. me: row number in CHARACTER; walk: see
     solids.Walk.
     """
     c = walk.characters[me]
@@ -267,8 +267,8 @@ def motion_under(c, body):
 def pixels_carried(me, row, along_x, walk_inout):
     """Return the whole pixels by which the ground and its conveyor carry a character along an axis.
 
-    me: CHARACTER row; row: shape row of the ground, -1 if its motion does not carry the character; along_x: 1 for the x
-    axis, 0 for the y axis. The fractions are kept for the next step. walk_inout: see solids.Walk.
+    me: row number in CHARACTER; row: shape row of the ground, -1 if its motion does not carry the character; along_x: 1
+    for the x axis, 0 for the y axis. The fractions are kept for the next step. walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     way = 0
@@ -295,9 +295,9 @@ def pixels_carried(me, row, along_x, walk_inout):
 
 @subkernel
 def step_down(me, walk_inout):
-    """Move a character down to its ground if the ground has sunk by no more than a walk of one pixel may drop.
+    """Move a character down to its ground if it has sunk no further than walking by one pixel may lead down.
 
-    me: CHARACTER row. walk_inout: see solids.Walk.
+    me: row number in CHARACTER. walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     gather(walk_inout, me, -1, 1.0, 1.0, 3.0 + c.climb, walk_inout.found)

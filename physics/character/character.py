@@ -220,7 +220,7 @@ class Character:
     def _walk(self, me, dx, dy):
         """Return the Walk for a move by (dx, dy) [px], with the shapes near the character's path.
 
-        me: its CHARACTER row.
+        me: its row number in CHARACTER.
         """
         world = self.world
         rows = world.characters.rows

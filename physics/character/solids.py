@@ -90,8 +90,8 @@ def allowed_depth(c, loose, nx, ny, give, slop):
 def deepest_of(b, slop, dt):
     """Return the greatest depth [px] to which a character can have entered an outline of body b since it was free.
 
-    It is a pixel plus the motion of the body in dt [s]. If the overlap behind an edge of a part is deeper, a
-    neighbouring part has the nearer surface, see hulls.collide_hulls.
+    It is a pixel and two slops [px]; for a body that is not static also GIVE, and its motion in dt [s]. If the overlap
+    behind an edge of a part is deeper, a neighbouring part has the nearer surface, see hulls.collide_hulls.
     """
     if b.kind == STATIC:
         return 1.0 + 2.0 * slop
@@ -120,7 +120,7 @@ def judge(c, kind, beyond, nx, ny, way_x, way_y):
 def place_outline(walk, me, left, top):
     """Write the corners [px] and normals of a character's outline, with its box at pixel (left, top), to scratch.mine.
 
-    me: CHARACTER row. Return (number of corners, rounding radius [px]). walk: see Walk.
+    me: row number in CHARACTER. Return (number of corners, rounding radius [px]). walk: see Walk.
     """
     c = walk.characters[me]
     radius = 0.0
@@ -169,8 +169,8 @@ def meet_hull(scratch, count, radius, corners, rounded, edges, deepest):
     """Return the overlap (depth, nx, ny, x, y) [px] of a character's outline with the hull in scratch.theirs, see meet.
 
     count, radius: result of place_outline, which writes the outline; corners, rounded: number of corners and rounding
-    radius [px] of the hull; edges, deepest: see hulls.collide_hulls. scratch.points[0] is COVERED_OVERLAP if a
-    neighbouring part reports the contact.
+    radius [px] of the hull; edges: see hulls.Hull; deepest: see hulls.collide_hulls. scratch.points[0] is
+    COVERED_OVERLAP if a neighbouring part reports the contact.
     """
     mine = scratch.mine
     theirs = Hull(scratch.theirs, corners, rounded, edges)
@@ -270,7 +270,7 @@ def is_across(walk, me, row, left, top):
         return False
     b = walk.bodies[s.body_row]
     count, radius = place_outline(walk, me, left, top)
-    # It was free before it moved into a static shape: a deeper overlap has another cause, such as a drop.
+    # The character was free before it moved into a static shape: a deeper overlap has another cause, such as a drop.
     most = walk.settings.slop
     if b.kind == KINEMATIC:
         most = deepest_on(walk, b)
@@ -362,7 +362,7 @@ def is_falling(c, way_x, way_y):
 def slope_tile_verdict(c, slope, depth):
     """Return ON_SLOPE, STEEP or BLOCKED for a character that is `depth` [px] below the surface of a slope tile."""
     if depth > pixels_along(slope):
-        return BLOCKED  # its side, or from inside
+        return BLOCKED  # at its side, or inside
     return ON_SLOPE if abs(slope) <= c.climb + EVEN else STEEP
 
 
@@ -412,7 +412,7 @@ def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
     """Return (depth [px], nx, ny) of the overlap of a character's outline with the tile in scratch.theirs.
 
     nx, ny: unit normal from the character; count, radius: result of place_outline; corners: number of corners of the
-    tile; edges, deepest: see hulls.collide_hulls; is_slope: whether the tile is a slope.
+    tile; edges: see hulls.Hull; deepest: see hulls.collide_hulls; is_slope: whether the tile is a slope.
     """
     mine = scratch.mine
     tile = Hull(scratch.theirs, corners, 0.0, edges)
@@ -568,7 +568,7 @@ def character_of(characters, body):
 
 @kernel
 def can_walk(me, characters):
-    """Return whether a character can be moved: all its numbers are finite and in range. me: its CHARACTER row."""
+    """Return whether a character can move: its numbers are finite and in range. me: its row number in CHARACTER."""
     return is_finite_character(characters[me])
 
 
@@ -591,7 +591,7 @@ def place_body(c, body_inout):
 
 @subkernel
 def settle(me, walk_inout):
-    """Move the body of a character to where its pixel box is. me: CHARACTER row. walk_inout: see Walk."""
+    """Move the body of a character to where its pixel box is. me: row number in CHARACTER. walk_inout: see Walk."""
     c = walk_inout.characters[me]
     place_body(c, walk_inout.bodies[c.body_row])
 
@@ -687,8 +687,9 @@ def in_hull(walk, me, row, left, top, way_x, way_y, give):
 def in_shape(walk, me, row, left, top, way_x, way_y, give):
     """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) for a character at a position, as if there were only one shape.
 
-    me, row: CHARACTER and SHAPE rows. left, top: pixel of the character's box. way_x, way_y: pixels that it moved to
-    get there. give [px]: depth that is allowed in a loose shape. slope: rise of the surface per px to the right.
+    me, row: row numbers in CHARACTER and SHAPE. left, top: pixel of the character's box. way_x, way_y: pixels that it
+    moved to get there. give [px]: depth that is allowed in a loose shape. slope: rise of the surface per px to the
+    right; walk: see Walk.
     """
     c = walk.characters[me]
     s = walk.shapes[row]
@@ -754,9 +755,9 @@ def gather(walk, me, without, reach_x, reach_up, reach_down, rows_out):
 def blocked_at(walk, me, rows, left, top, way_x, way_y, give):
     """Return (FREE, STEEP, ON_SLOPE or BLOCKED; shape row or -1; slope) for a character at a position, for all shapes.
 
-    rows: see gather; other arguments: see in_shape. It is the result of the shape (row) with the greatest value;
-    BLOCKED ends the search. If all parts of a static mask leave the contact to a neighbour, the position is deep in it,
-    and BLOCKED.
+    rows: see gather; other arguments: see in_shape. Of the results of all shapes, the one with the greatest first value
+    is returned; BLOCKED ends the search. If all parts of a static mask leave the contact to a neighbour, the position
+    is deep in it, and BLOCKED.
     """
     result = FREE
     by = -1

@@ -35,9 +35,9 @@ from physics.tables.table import row_of
 def rise_onto(walk, me, rows, direction, slope):
     """Return how many pixels a character must rise to step one pixel aside onto walkable ground; -1 if it cannot.
 
-    me: CHARACTER row; rows: nearby solids, see solids.gather; direction: -1 left, 1 right; slope: rise of this ground
-    per px. The rise may exceed the slope by half a pixel, because of corners of outlines on steps of pixels. Ground
-    that is too steep to walk on does not count, even if it holds the character.
+    me: row number in CHARACTER; rows: nearby solids, see solids.gather; direction: -1 left, 1 right; slope: rise of
+    this ground per px. The rise may exceed the slope by half a pixel, because of corners of outlines on steps of
+    pixels. Ground that is too steep to walk on does not count, even if it holds the character.
     """
     c = walk.characters[me]
     most = pixels_along(abs(slope) + 0.5)
@@ -59,8 +59,8 @@ def rise_onto(walk, me, rows, direction, slope):
 def way_aside(walk, me, rows, direction):
     """Return (pixels up, blocking shape row or -1, slope of the ground) for a character's move by one pixel to a side.
 
-    Pixels up: 0 on level ground, -1 if the move is blocked. me: CHARACTER row; rows: nearby solids, see solids.gather;
-    direction: -1 left, 1 right; walk: see solids.Walk.
+    Pixels up: 0 on level ground, -1 if the move is blocked. me: row number in CHARACTER; rows: nearby solids, see
+    solids.gather; direction: -1 left, 1 right; walk: see solids.Walk.
     """
     c = walk.characters[me]
     what, by, slope = blocked_at(walk, me, rows, c.left + direction, c.top, direction, 0, 0.0)
@@ -73,11 +73,11 @@ def way_aside(walk, me, rows, direction):
 
 @subkernel
 def drop_onto(walk, me, rows, left, onto):
-    """Return (pixels down to ground on which a character can walk, slope of this ground); 0 without such ground.
+    """Return (pixels down to walkable ground, slope of this ground), or (0, 0) without such ground.
 
-    me: CHARACTER row; rows: nearby solids, see solids.gather; left: pixel column of the character; onto: slope of the
-    ground that the character leaves. If `onto` is 0, that ground is flat and only slopes are found. Otherwise flat
-    ground is also found, down to one pixel plus the rise of `onto`.
+    me: row number in CHARACTER; rows: nearby solids, see solids.gather; left: pixel column of the character; onto:
+    slope of the ground that the character leaves. If `onto` is 0, that ground is flat and only slopes are found.
+    Otherwise flat ground is also found, down to one pixel plus the rise of `onto`.
     """
     c = walk.characters[me]
     for drop in range(pixels_along(c.climb) + 1):
@@ -86,7 +86,7 @@ def drop_onto(walk, me, rows, left, onto):
             continue
         most = max(pixels_along(slope), pixels_along(onto))
         if what == ON_SLOPE and walk.bodies[walk.shapes[by].body_row].kind != STATIC:
-            most += 1  # the feet, on the nearest pixel, may be half a pixel in moving ground before and above it now
+            most += 1  # rounded feet may have been half a pixel inside moving ground, and half a pixel above it now
         if what == ON_SLOPE and drop <= most:
             return drop, slope
         if what == BLOCKED and onto != 0.0 and drop <= pixels_along(onto):
@@ -99,7 +99,8 @@ def drop_onto(walk, me, rows, left, onto):
 def is_wedged(walk, me, rows, slope):
     """Return whether a solid at the foot of a slope stops a character that slides down the slope.
 
-    me: CHARACTER row; rows: nearby solids, see solids.gather; slope: rise per px to the right; walk: see solids.Walk.
+    me: row number in CHARACTER; rows: nearby solids, see solids.gather; slope: rise per px to the right; walk: see
+    solids.Walk.
     """
     c = walk.characters[me]
     side = -1 if slope > 0.0 else 1
@@ -111,8 +112,8 @@ def is_wedged(walk, me, rows, slope):
 def steep_below(walk, me, rows, slope):
     """Return the slope of the ground just below a sliding character if it is too steep to walk on, else 0.
 
-    The search goes down by the drop of `slope` over one pixel along x. me: CHARACTER row; rows: nearby solids, see
-    solids.gather.
+    The search goes down by the drop of `slope` over one pixel along x. me: row number in CHARACTER; rows: nearby
+    solids, see solids.gather.
     """
     c = walk.characters[me]
     for drop in range(1, pixels_along(slope) + 1):
@@ -137,8 +138,9 @@ def slide_of(slope):
 def slide_gently(me, rows, pixels, slope, walk_inout):
     """Slide down ground that is too steep to walk on but flatter than 45 degrees, in place of a fall of `pixels`.
 
-    The character moves pixel by pixel along x. me: CHARACTER row; rows: nearby solids, see solids.gather; slope: rise
-    of the ground per px to the right. Return True if nothing stopped the character. walk_inout: see solids.Walk.
+    The character moves pixel by pixel along x. me: row number in CHARACTER; rows: nearby solids, see solids.gather;
+    slope: rise of the ground per px to the right. Return True if nothing stopped the character. walk_inout: see
+    solids.Walk.
     """
     c = walk_inout.characters[me]
     aside, down = slide_of(slope)
@@ -185,7 +187,7 @@ def tile_slope(walk, row, x, y):
 def slope_under_box(walk, me, row):
     """Return the slope of the tile under the middle of a box's feet or, if that is 0, under an end of the feet.
 
-    me: CHARACTER row of the box; row: row number of the tile grid in SHAPE; walk: see solids.Walk.
+    me: row number of the box in CHARACTER; row: row number of the tile grid in SHAPE; walk: see solids.Walk.
     """
     c = walk.characters[me]
     bottom = c.top + c.height + 0.5
@@ -228,7 +230,7 @@ def speed_under(walk, row, x, y):
 def feel_ground(me, walk_inout):
     """Write whether a character is grounded, the body that supports it, and the slope and surface speed of its ground.
 
-    me: CHARACTER row; walk_inout.found: the nearby shapes.
+    me: row number in CHARACTER; walk_inout.found: the nearby shapes.
     """
     c = walk_inout.characters[me]
     what, by, slope = blocked_at(walk_inout, me, walk_inout.found, c.left, c.top + 1, 0, 1, 0.0)
@@ -259,7 +261,7 @@ def feel_ground(me, walk_inout):
 def feel(me, walk_inout):
     """Write the ground and the wall that a character touches, from the nearby shapes in walk_inout.found.
 
-    me: CHARACTER row.
+    me: row number in CHARACTER.
     """
     c = walk_inout.characters[me]
     feel_ground(me, walk_inout)
@@ -278,7 +280,8 @@ def feel(me, walk_inout):
 def depth_in(me, row, walk_inout):
     """Return (depth [px], nx, ny) of the overlap of a character with a loose shape (solids.is_loose).
 
-    nx, ny: unit normal from the character; me: CHARACTER row; row: row number in SHAPE. walk_inout: see solids.Walk.
+    nx, ny: unit normal from the character; me: row number in CHARACTER; row: row number in SHAPE. walk_inout: see
+    solids.Walk.
     """
     c = walk_inout.characters[me]
     if walk_inout.shapes[row].kind == CHAIN:
@@ -309,8 +312,8 @@ def is_in_drawn(me, row, walk_inout):
 def is_crushed(me, all_kinds, walk_inout):
     """Return whether a moving solid overlaps a character; if the solid is loose, by more than GIVE. O(nearby solids).
 
-    me: CHARACTER row; all_kinds: True to test dynamic bodies too, False for kinematic bodies only. walk_inout: see
-    solids.Walk.
+    me: row number in CHARACTER; all_kinds: True to test dynamic bodies too, False for kinematic bodies only.
+    walk_inout: see solids.Walk.
     """
     gather(walk_inout, me, -1, 0.0, 0.0, 0.0, walk_inout.found)
     for k in range(1, walk_inout.found[0] + 1):
@@ -357,7 +360,7 @@ def keep_still(walk, rows_inout):
 def is_inside(me, walk_inout):
     """Return whether a character overlaps a static solid. walk_inout.found: the nearby solids. O(nearby solids).
 
-    Shapes of other bodies are removed from this list. me: CHARACTER row.
+    Shapes of other bodies are removed from this list. me: row number in CHARACTER.
     """
     c = walk_inout.characters[me]
     keep_still(walk_inout, walk_inout.found)
@@ -370,8 +373,8 @@ def lead_out(me, reach, walk_inout, moved_inout):
     """Move a character out of a static solid towards the nearest free position, by up to PACE pixels.
 
     Of equally near positions, up comes before sideways, and sideways before down. The character does not move if there
-    is no free position within `reach` [px]. me: CHARACTER row; moved_inout: the pixels moved are added, see walk.
-    O(reach · nearby solids). walk_inout: see solids.Walk.
+    is no free position within `reach` [px]. me: row number in CHARACTER; moved_inout: the pixels moved are added, see
+    walk. O(reach · nearby solids). walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     rows = walk_inout.found
@@ -441,7 +444,7 @@ def push_body(me, row, direction, speed, left, walk_inout):
 def shove(me, direction, speed, walk_inout):
     """Push the bodies next to a character until they have the speed [px/s] of its move, as far as its strength allows.
 
-    The push is a force over the coming step, so sufficient friction holds a body in place. me: CHARACTER row;
+    The push is a force over the coming step, so sufficient friction holds a body in place. me: row number in CHARACTER;
     direction: -1 left, 1 right. walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
@@ -583,8 +586,8 @@ def way_for_pushed(by, direction, walk_inout):
 def step_sideways(me, direction, follow, walk_inout):
     """Move a character one pixel along x, and push a pushable character in front of it. Return whether it moved.
 
-    The character also moves up a slope, and if `follow` is 1 down a slope. me: CHARACTER row; direction: -1 left, 1
-    right. walk_inout: see solids.Walk.
+    The character also moves up a slope, and if `follow` is 1 down a slope. me: row number in CHARACTER; direction: -1
+    left, 1 right. walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     rows = walk_inout.found
@@ -617,8 +620,8 @@ def step_sideways(me, direction, follow, walk_inout):
 def walk_along(me, dx, follow, walk_inout, moved_out):
     """Move a character along x by dx [px], pixel by pixel, and push bodies in front of it by impulses.
 
-    me: CHARACTER row; follow: 1 to stay on ground that goes down; walk_inout: see solids.Walk. moved_out (4,): result
-    of walk; element 2 is set to 1 if the character was stopped.
+    me: row number in CHARACTER; follow: 1 to stay on ground that goes down; walk_inout: see solids.Walk. moved_out
+    (4,): result of walk; element 2 is set to 1 if the character was stopped.
     """
     c = walk_inout.characters[me]
     c.remainder_x += dx
@@ -640,8 +643,8 @@ def walk_along(me, dx, follow, walk_inout, moved_out):
 def slide_pixel(me, slope, walk_inout):
     """Move a character one pixel sideways, down a slope that is too steep to walk on.
 
-    me: CHARACTER row; slope: rise of the ground per px to the right. Return whether the pixel was free. walk_inout: see
-    solids.Walk.
+    me: row number in CHARACTER; slope: rise of the ground per px to the right. Return whether the pixel was free.
+    walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     side = -1 if slope > 0.0 else 1
@@ -655,8 +658,9 @@ def slide_pixel(me, slope, walk_inout):
 def fall_or_rise(me, dy, walk_inout, moved_out):
     """Move a character along y by dy [px], pixel by pixel, with impacts on bodies that it hits.
 
-    On ground too steep to walk on the character slides down, by the component of dy along the slope. me: CHARACTER row;
-    walk_inout: see solids.Walk. moved_out (4,): result of walk; element 3 is set to 1 if the character was stopped.
+    On ground too steep to walk on the character slides down, by the component of dy along the slope. me: row number in
+    CHARACTER; walk_inout: see solids.Walk. moved_out (4,): result of walk; element 3 is set to 1 if the character was
+    stopped.
     """
     c = walk_inout.characters[me]
     rows = walk_inout.found
@@ -708,8 +712,9 @@ def fall_or_rise(me, dy, walk_inout, moved_out):
 def walk(me, dx, dy, walk_inout, moved_out):
     """Move a character by (dx, dy) [px], x first, and write its contacts. Return whether it overlaps a static solid.
 
-    In that case the caller must lead it out, see lead_out. me: CHARACTER row. moved_out (4,): pixels moved along x,
-    along y; 1 if the character was stopped along x, along y. O(pixels · nearby solids). walk_inout: see solids.Walk.
+    In that case the caller must lead it out, see lead_out. me: row number in CHARACTER. moved_out (4,): pixels moved
+    along x, along y; 1 if the character was stopped along x, along y. O(pixels · nearby solids). walk_inout: see
+    solids.Walk.
     """
     c = walk_inout.characters[me]
     reach = 3.0 + abs(dx) + abs(dy)
@@ -732,9 +737,9 @@ def walk(me, dx, dy, walk_inout, moved_out):
 
 @kernel
 def is_stopped(me, along_x, along_y, walk_inout):
-    """Return whether a character could not move by (along_x, along_y) pixels, each -1, 0 or 1. It stays in place.
+    """Return whether a character could not move by (along_x, along_y) pixels, each -1, 0 or 1. It is not moved.
 
-    me: CHARACTER row. walk_inout: see solids.Walk.
+    me: row number in CHARACTER. walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     gather(walk_inout, me, -1, 3.0, 3.0 + STEEPEST_CLIMB, 3.0, walk_inout.found)

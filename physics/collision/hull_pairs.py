@@ -184,7 +184,7 @@ def copy_corners(hull, corners_out):
 
 @subkernel
 def advance_to_contact(margin, lookahead, p, q, a, b, corners_out):
-    """Write the corners and normals of Hull B at its predicted contact with Hull A, where the pair is fast.
+    """Write the corners and normals of Hull B at its predicted contact with Hull A, if the pair is fast.
 
     a, b: the Hulls; p, q: BODY rows of A and B; margin [px]: gap at the predicted contact; lookahead [s]: greatest
     time. Return (time, vx, vy, reach). time [s]: time of the contact, NEVER, or 0 if B need not be moved; then

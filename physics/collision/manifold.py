@@ -286,8 +286,8 @@ def hull_of(geometry, bodies, shapes, row, corners_out):
 def hull_in(batch, row, workspace):
     """Return the Hull of a shape in the world, which is placed once in a pass for all of its pairs.
 
-    The shape has two or more corners. row: row number in SHAPE. Shapes share the places in workspace.hulls, so that a
-    Hull is valid until a shape of the same place is asked for. batch: see Batch.
+    The shape has two or more corners. row: row number in SHAPE. Two shapes may share a place in workspace.hulls: the
+    Hull of one is valid until that of the other is placed. batch: see Batch.
     """
     place = row & (len(workspace.hull_rows) - 1)
     corners = workspace.hulls[16 * place : 16 * place + 16]

@@ -92,9 +92,9 @@ def run_at(geometry, grid, x, y, row, column, under, corners_out):
     """Write the world corners [px] of the run of solid or one-way cells that contains the cell (row, column).
 
     The run is one rectangle, without seams between its cells. Return (number of corners, bits of touchable edges and
-    corners, see tile_at). The top (bottom) edge is touchable if some cell of the run, within the columns `under`, has
-    no neighbour above (below) that covers the edge. grid: row number in GRID; x, y [px]: the grid's origin; under:
-    first and last column under the other shape. corners_out (16, 2): the result.
+    corners); for the bits see tile_at. The top (bottom) edge is touchable if some cell of the run, within the columns
+    `under`, has no neighbour above (below) that covers the edge. grid: row number in GRID; x, y [px]: the grid's
+    origin; under: first and last column under the other shape. corners_out (16, 2): the result.
     """
     grids, cells = geometry.grids, geometry.cells
     low, high = under
@@ -219,7 +219,7 @@ def pushing_edges_on_tile(corners, count, tile_edges):
 
 
 # ---- tile pairs ------------------------------------------------------------------------------------------------------
-# The pass over the candidate pairs with a tile grid. Equal adjacent cells in a row (a run) are tested as one rectangle.
+# The pass over the candidate pairs with a tile grid.
 
 
 @subkernel

@@ -124,9 +124,9 @@ def match_contacts(geometry, bodies, shapes, previous, stale, found, contacts_ou
     """Merge contacts kept from the last step and newly detected ones into contacts_out. Return their number.
 
     previous: CONTACT rows of the last step. stale: int32 rows of `previous` that are not recycled (kept without a new
-    narrow phase), ascending; all other rows of `previous` are kept. found: CONTACT rows of this step. If `previous` of
-    such a row is -1, it is new, and takes the forces of old points with the same feature id. Otherwise it is recycled
-    and keeps its cache. All three tables are in the order of the candidate pairs. O(previous + found).
+    narrow phase), ascending; all other rows of `previous` are kept. found: CONTACT rows of this step. A row of `found`
+    whose field `previous` is -1 is new, and takes the forces of old points with the same feature id. Any other row is
+    recycled and keeps its cache. All three tables are in the order of the candidate pairs. O(previous + found).
     """
     count = 0
     kept = 0
@@ -157,13 +157,13 @@ def match_contacts(geometry, bodies, shapes, previous, stale, found, contacts_ou
 
 @kernel
 def replace_contacts(geometry, bodies, shapes, stale, found_inout, previous_inout):
-    """Replace the stale contacts by the detected ones, if each pair has as many new as old ones. Return whether so.
+    """Replace the stale contacts by the detected ones and return True, if each pair has as many new as old ones.
 
-    Nothing else is copied, unlike in match_contacts: O(found). A step with 4 substeps takes 0.82 to 0.99 of the time in
-    pyramids of 2,485 and 5,050 boxes that settle; with substeps by load the gain is within the noise.
-    stale: int32 rows of `previous_inout` that must not be kept without a new narrow phase, ascending; found_inout:
-    CONTACT rows of this step, in the order of the candidate pairs, used as scratch; previous_inout: CONTACT rows of the
-    last step.
+    Nothing else is copied, unlike in match_contacts: O(found). In settling pyramids of 2,485 and 5,050 boxes, a step
+    with 4 substeps takes 0.82 to 0.99 times as long as with match_contacts; with substeps by load the gain is within
+    the noise. stale: int32 rows of `previous_inout` that must not be kept without a new narrow phase, ascending;
+    found_inout: CONTACT rows of this step, in the order of the candidate pairs, used as scratch; previous_inout:
+    CONTACT rows of the last step.
     """
     found, previous = found_inout, previous_inout
     if len(found) != len(stale):
@@ -322,8 +322,7 @@ class ContactCache:
 
         Return the new contacts and the stale rows of `previous` (those not kept), or None if all contacts are kept and
         no pair is left to test. batch: candidate pairs; previous: CONTACT rows of the last step, of which kept rows are
-        updated in place; distance [px]: see recycle_contacts; work: counters of work done, indexed by constants as
-        NARROW_TESTS.
+        updated in place; distance [px]: see recycle_contacts; work: counters of work done, see COUNTERS.
         """
         if len(self.stale) < len(previous):
             self.stale = np.zeros(2 * len(previous), np.int32)

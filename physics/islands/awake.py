@@ -285,7 +285,7 @@ class Groups(NamedTuple):
     blocked: np.ndarray  # bool the surfaces that the group presses on leave no direction free
     faces: np.ndarray  # bool, for each body: two loaded points of one contact keep the body from rotating
     masses: np.ndarray
-    ax: np.ndarray  # [px/s2] acceleration, times mass during the summation; at the end along the surface
+    ax: np.ndarray  # [px/s2] acceleration; times mass while it is summed, at the end only along the surface
     ay: np.ndarray
     press: np.ndarray  # [px/s2] acceleration into the surface that the group presses on most; 0: no surface
     nx: np.ndarray  # normal of that surface, towards the group

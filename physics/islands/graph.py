@@ -54,8 +54,8 @@ def new_edges(room: int) -> Edges:
 def write_pair(edge, kind, row, node_a, node_b, edges_out):
     """Write a constraint between two nodes as one edge of the graph.
 
-    edge: index of the edge; kind: CONTACT_EDGE or JOINT_EDGE; row: CONTACT or JOINT row; node_b: NO_NODE if the
-    constraint acts on node_a only. edges_out: see Edges.
+    edge: index of the edge; kind: CONTACT_EDGE or JOINT_EDGE; row: row number in CONTACT or JOINT; node_b: NO_NODE if
+    the constraint acts on node_a only. edges_out: see Edges.
     """
     edges_out.kinds[edge] = kind
     edges_out.rows[edge] = row

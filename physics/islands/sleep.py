@@ -168,8 +168,8 @@ def in_order(manifolds: np.ndarray) -> np.ndarray:
 def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
     """Wake the islands of bodies, and the islands that touch them, before the bodies are moved, edited or removed.
 
-    ids: ids of the bodies. The next step visits these bodies, and their sleep time is reset to 0. No effect without
-    sleeping. tables: a World or StepState.
+    ids: ids of the bodies; bodies that joints link to them are included. The next step visits these bodies, and their
+    sleep time is reset to 0. No effect without sleeping. tables: a World or StepState.
     """
     if not tables.awake.sleeping:
         return
@@ -185,9 +185,9 @@ def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
 def disturb_one(world: Any, identity: int, row: int) -> int:
     """Wake the island of one body, as `disturb` does, but faster and only between steps.
 
-    identity, row: id and row of the body. The row may change, because the call may drop rows of removed bodies, which
-    stay in the tables until then. So only single numbers are read, unless an island wakes or the world has joints.
-    world: a World, annotated Any because its module imports this one. Return the body's row afterwards.
+    identity, row: id and row number of the body. If an island wakes or the world has joints, the call drops the rows of
+    bodies that were removed before, and the row number may change. Otherwise it reads only single numbers. world: a
+    World, annotated Any because its module imports this one. Return the body's row number afterwards.
     """
     awake, sleeping_set = world.awake, world.sleeping_set
     if not awake.sleeping:
@@ -216,7 +216,7 @@ def with_partners(joints: np.ndarray, ids: list[int]) -> list[int]:
 
 
 def stir(tables: WorldTables, ids: list[int], rows: np.ndarray) -> None:
-    """Have the next step visit bodies (ids, and their BODY rows), and reset their sleep time."""
+    """Have the next step visit bodies, given by ids and row numbers in BODY, and reset their sleep time."""
     tables.sleeping_set.return_reported(tables, ids)
     tables.awake.mark_dirty(ids)
     tables.bodies["sleep_time"][rows] = 0.0
@@ -225,7 +225,8 @@ def stir(tables: WorldTables, ids: list[int], rows: np.ndarray) -> None:
 def islands_at(tables: WorldTables, ids: list[int], rows: np.ndarray) -> set[int]:
     """Return the keys of the sleeping islands that contain or touch the given bodies.
 
-    ids: ids of the bodies; rows: their BODY rows, -1 for a body that does not exist; tables: a World or StepState.
+    ids: ids of the bodies; rows: their row numbers in BODY, -1 for a body that does not exist; tables: a World or
+    StepState.
     """
     islands, links, keys = tables.sleeping_set.islands, tables.sleeping_set.links, set()
     if not islands:
@@ -441,7 +442,7 @@ def wake_disturbed(state: StepState) -> None:
 # Falling asleep: which islands have stayed in place for long enough, and which contacts move to the sleeping set.
 #
 # The criterion is the distance that a body has moved, not its speed: in a heap some bodies tremble without moving away.
-# Source: Jolt Physics, Body::UpdateSleepStateInternal, tests whether three points of a body stay within spheres. Here
+# Source: Jolt Physics, Body::UpdateSleepStateInternal, where three points of a body must stay within spheres. Here
 # the displacement of the furthest point since the start of the sleep time is bounded. Speed and time: Box2D v3.2,
 # solver.c. If no friction holds a body, its predicted motion in a minute must also be small: see awake.py.
 
@@ -733,7 +734,8 @@ def rest(state: StepState) -> None:
 def _park(state, slept):
     """Move the islands of bodies that fell asleep, and their touching contacts, to the sleeping set.
 
-    slept: BODY rows. Return (CONTACT rows that were moved, in the order of shape ids; key of the island of each).
+    slept: row numbers in BODY. Return (CONTACT rows that were moved, in the order of shape ids; key of the island of
+    each).
     """
     bodies, m = state.bodies, state.contact_rows
     still = (bodies["kind"][m["body_row_a"]] != DYNAMIC) | ~bodies["awake"][m["body_row_a"]]

@@ -17,7 +17,7 @@ from physics.tables.step_state import StepState
 class Islands(NamedTuple):
     """The bodies of the awake islands, and the numbers of substeps from which each island may choose."""
 
-    members: np.ndarray  # int32 rows of MOTION
+    members: np.ndarray  # int32 indices of MOTION rows
     rate: float  # see estimate_rate
     choices: np.ndarray  # int64 numbers of substeps, ascending
     by_load: int  # index in `choices` of the greatest number of substeps for a load alone
@@ -74,7 +74,7 @@ def expect_impacts(edges, count, motions, rate, choices, classes_inout):
 
     More substeps are needed for a greater ratio of the masses, because a light body has to transmit the momentum of a
     heavy one. count: number of contacts, the first entries of `edges`; motions: MOTION rows; rate: result of
-    estimate_rate; choices: numbers of substeps, ascending; classes_inout: see class_motions.
+    estimate_rate; choices: numbers of substeps, ascending; classes_inout: substep classes, see class_motions.
     """
     for i in range(count):
         speed = edges.impact_speeds[i]
@@ -105,7 +105,7 @@ def expect_columns(edges, count, motions, degrees, most, classes_inout):
 
     How far a column leans is unknown until the load has reached its foot, and a lean does not stop by itself. count:
     number of contacts, the first entries of `edges`; motions: MOTION rows; degrees: number of contacts of each body;
-    most: index of the greatest number of substeps in the choices; classes_inout: see class_motions.
+    most: index of the greatest number of substeps in the choices; classes_inout: substep classes, see class_motions.
     """
     for i in range(count):
         if not edges.resting[i]:
@@ -166,8 +166,8 @@ def choose_substeps(members, degrees, substeps, rules, motions_inout):
     """Write the number of substeps that each body of a group needs in the next step. O(members).
 
     Return whether every body needs the same number as in this step. Then the caller need not determine the islands.
-    members: MOTION rows of the group; degrees: number of contacts of each body; substeps: number in this step; rules:
-    see LoadRules.
+    members: indices of the MOTION rows of the group; degrees: number of contacts of each body; substeps: number in this
+    step; rules: see LoadRules.
     """
     content = True
     for k in range(len(members)):
@@ -202,8 +202,8 @@ def share_substeps(members, parents, substeps, most_by_load, motions_inout):
 
     Return the number of capped islands: they would need more substeps than they may take. An island in which a body has
     more than two contacts is a heap. A heap takes at most most_by_load substeps, because some body of a heap always
-    leans. members: MOTION rows; parents (motions,) int32: the lowest row of the island of each body; substeps: number
-    of substeps in this step.
+    leans. members: indices of MOTION rows; parents (motions,) int32: the lowest row of the island of each body;
+    substeps: number of substeps in this step.
     """
     for k in range(len(members)):
         m = motions_inout[members[k]]

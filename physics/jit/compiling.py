@@ -409,7 +409,7 @@ def _tuple_types() -> Any:  # whose members numba does not declare
 
 @contextmanager
 def stable_symbols() -> Iterator[None]:
-    """While the context is open, have numba name compiled functions by content, not by a counter of the process."""
+    """Have numba name compiled functions by content, not by a counter of the process, while the context is open."""
     identity: Any = bytecode.FunctionIdentity
     counted = identity.__dict__["from_function"]
 

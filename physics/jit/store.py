@@ -270,7 +270,7 @@ def _no_link(path, flags):
 
 
 def _sweep_temporary():
-    """Remove temporary folders that killed runs of this user have left. They are known by their free locks."""
+    """Remove temporary folders that killed runs of this user have left. A free lock marks such a folder."""
     if fcntl is None:
         return
     for folder in Path(tempfile.gettempdir()).glob(f"{TEMPORARY}*"):

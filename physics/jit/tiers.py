@@ -24,7 +24,7 @@ from physics.jit.plain import compiler, globals_of, view_of
 background = False  # whether this program has opted in to tiers
 wanted: dict[tuple[Kernel, Keys], None] = {}  # kernels that have run plain, in the order of their first calls
 arrived: deque[tuple[Kernel, Keys, Form]] = deque()  # compiled forms to be installed after the step
-asked: Callable[[], object] | None = None  # called when a kernel is wanted
+asked: Callable[[], object] | None = None  # called when a kernel is added to `wanted`
 load: Callable[[Kernel, Keys], Form | None] | None = None  # compiling.load, once the compiler is imported
 _collected: dict[tuple[Kernel, Keys], None] | None = None
 _recording = False
@@ -76,7 +76,7 @@ def collecting(all_calls: bool = False) -> Iterator[dict[tuple[Kernel, Keys], No
 
 
 def start(when_asked: Callable[[], object]) -> None:
-    """From now on, run each kernel without a compiled form as plain Python, and call when_asked() once for each."""
+    """Run kernels without a compiled form as plain Python from now on, and call when_asked() once for each of them."""
     global background, asked
     background, asked = True, when_asked
 

@@ -77,11 +77,12 @@ IMPORTED_FROM = Path(__file__).resolve().parents[__name__.count(".")]  # the fol
 
 
 def start_module(module: str, **environment: str) -> "subprocess.Popen[str]":
-    """Start `python -m module` at low priority, with pipes for lines of text. It ignores Ctrl-C in the terminal.
+    """Start `python -m module` at low priority, with pipes for lines of text. Return the process.
 
-    module: full name of the module, as in f"{__package__}.worker". The child imports from the same folders as this
-    program, and not from the current folder, where a `physics.py` or `numpy.py` belongs to the user. environment:
-    additional environment variables. Raises OSError or ValueError if no process can be started.
+    The process ignores Ctrl-C in the terminal. module: full name of the module, as in f"{__package__}.worker". The
+    child imports from the same folders as this program, and not from the current folder, where a `physics.py` or
+    `numpy.py` belongs to the user. environment: additional environment variables. Raises OSError or ValueError if no
+    process can be started.
     """
     # A process group, not a session: Linux divides processor time between sessions, whatever the priority of their
     # processes (autogroups, man 7 sched). A session of its own would take as much time as the program.
@@ -102,7 +103,7 @@ def start_module(module: str, **environment: str) -> "subprocess.Popen[str]":
 def search_path() -> dict[str, str]:
     """Return the environment variable {"PYTHONPATH": …} with which a child process imports this same package.
 
-    The dict is empty if the child does so without it.
+    The dict is empty if the child imports it without this variable.
     """
     if IMPORTED_FROM in {Path(each).resolve() for each in (*site.getsitepackages(), site.getusersitepackages())}:
         return {}  # if named again, site-packages would come before the standard library
@@ -133,7 +134,7 @@ MOST = 8  # processes: each takes 150 MB
 HUNG = 300.0  # [s] a worker that gives no answer for this time hangs
 ATTEMPTS = 2  # most attempts at a task
 MARK = "hitbox "  # first word of an answer: libraries may print other lines
-DEATHS = 4  # processes that may die one after the other without an answer before no more are started
+DEATHS = 4  # after this many deaths in a row without an answer, no more processes are started
 
 
 def cores_here() -> int:

@@ -385,7 +385,7 @@ class Angle(Kind):
     limits: least and greatest value of the angle (low, high) [rad], None on a side: no limit there; None: no limits.
     motor: a Drive that drives the angle; None: no motor; spring: a Spring on the angle; None: no spring.
     breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
-    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    contacts: whether A and B may touch each other; local: without effect, because there are no anchors.
     user: any value of the game, kept as joint.user.
 
     The angle is 0 when the joint is made. The arguments are checked by World.add_joint, which raises TypeError or
@@ -502,8 +502,8 @@ class NoContact(Kind):
     """A joint without forces, which only prevents contacts between two bodies.
 
     a, b: Bodies or ids; None for one of them: the world.
-    breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
-    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    breaks: without effect, because there is no force.
+    contacts: True lets A and B touch each other after all; local: without effect, because there are no anchors.
     user: any value of the game, kept as joint.user.
 
     The arguments are checked by World.add_joint, which raises TypeError or ValueError.
@@ -526,7 +526,7 @@ class Gear(Kind):
     ratio: any number but 0: teeth of B over teeth of A. If positive, the sides turn in opposite directions.
     phase: the sum that is held; None: the present sum.
     breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
-    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    contacts: whether A and B may touch each other; local: without effect, because there are no anchors.
     user: any value of the game, kept as joint.user.
 
     Two hinges are a pair of gears, a hinge and a slider are a rack and pinion. The force and torque of the gear act on
@@ -614,7 +614,7 @@ class Ratchet(Kind):
     ratchet: angle from tooth to tooth [rad], other than 0; B may turn on in the direction of its sign. It must be
         given.
     breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
-    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    contacts: whether A and B may touch each other; local: without effect, because there are no anchors.
     user: any value of the game, kept as joint.user.
 
     Its coordinate is the angle, 0 when the joint is made; `limits` of the Joint is the present tooth. Raises ValueError
@@ -650,7 +650,7 @@ def checked_ratio(value: Any, name: str = "ratio") -> float:
 
 
 def tooth_at(angle: float, phase: float, ratchet: float) -> dict[str, float]:
-    """Return the JOINT columns of the limits of a ratchet whose last tooth is that at `angle` [rad], or before it.
+    """Return the JOINT columns of the limits of a ratchet, from its last tooth at or before `angle` [rad].
 
     phase, ratchet: see Ratchet.
     """

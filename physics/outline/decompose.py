@@ -64,7 +64,7 @@ class Walls:
 
 
 class Ring(Walls):
-    """A closed ring of corners (n, 2) [px], clockwise on the screen. It can tell which directions lead inside."""
+    """A closed ring of corners (n, 2) [px], clockwise on the screen, with tests of which directions lead inside."""
 
     def __init__(self, corners: np.ndarray, flat: float) -> None:
         super().__init__(corners, np.roll(corners, -1, axis=0), flat)
@@ -377,7 +377,7 @@ def _cross(a, b):
 
 
 class _End(NamedTuple):
-    """A best convex piece beside line (i, k). first: its first corner after i; last: its last corner before k.
+    """One of the best convex pieces beside line (i, k). first: first corner after i; last: last corner before k.
 
     grown: the smaller piece that it extends; None: line (i, last) is a cut or a side.
     """

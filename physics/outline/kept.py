@@ -49,7 +49,7 @@ def forget() -> None:
 def fitted(name: str, pixels: np.ndarray, smooth: float, fit: Callable[[], Parts]) -> Parts:
     """Return the stored convex parts for these pixels, or the result of fit() if none are stored.
 
-    name: method by which fit() computes the parts, which is part of the key; pixels[row, col] bool; smooth [px]: see
+    name: method by which fit() computes the parts; it is part of the key; pixels[row, col] bool; smooth [px]: see
     contour.outline.
     """
     key = _key(name, pixels, smooth)

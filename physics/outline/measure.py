@@ -508,7 +508,7 @@ def _cut_by_lines(stretch, cells):
 # ---- measure ---------------------------------------------------------------------------------------------------------
 # Accuracy of hulls that replace pixels: excess and missing area, and moments.
 #
-# Measured are the union of the hulls and the union of the pixels' squares. All areas and moments are integrals along
+# The union of the hulls is compared with the union of the pixels' squares. All areas and moments are integrals along
 # the boundary of the union of the hulls by Gaussian quadrature, exact up to rounding; for the shared area see "cells"
 # above.
 

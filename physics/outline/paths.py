@@ -278,7 +278,7 @@ def put_run(n, run, start, end, offset, places_inout):
     """Append up to three candidate corners (PLACE rows) inside a run. Return the number of places.
 
     n: number of places before. Only places between `start` and `end`, in pixel edges along the path, are added. offset:
-    is added to their positions along the path, for the second turn around a loop.
+    number added to their positions along the path, for the second turn around a loop.
     """
     for step in range(3):
         if step != 1 and run.length == 1:
@@ -295,8 +295,8 @@ def put_run(n, run, start, end, offset, places_inout):
 def put_loop(runs, count, cracks, places_out):
     """Write the candidate corners (PLACE rows) of two turns around a loop, then the first one once more.
 
-    Return (number of places of one turn, row of the first fixed corner, -1 for none). No line may pass a fixed corner.
-    runs: RUN rows, of which the first `count` are the loop; cracks: number of pixel edges of the loop.
+    Return (number of places of one turn, row of the first fixed corner or -1). No line may pass a fixed corner. runs:
+    RUN rows, of which the first `count` are the loop; cracks: number of pixel edges of the loop.
     """
     n = 0
     around = 0
@@ -383,11 +383,11 @@ def try_lines(start, last, reach, prices, places_inout):
 
 @subkernel
 def cheapest(first, last, reach, prices, places_inout, chain_out):
-    """Find the lines of least total cost from place `first` to place `last`.
+    """Find the lines of least total cost from place `first` to place `last`. Return the number of places at their ends.
 
-    The result is 0 if no lines reach the last place. chain_out: indices of these places, from last to first; reach
-    [px]: largest distance of a line from the pixel edges; prices: Prices; places_inout: PLACE rows. O(places * places
-    of a line). Return the number of places where lines end.
+    The result is 0 if no lines reach the last place. chain_out: indices of the places, from last to first; reach [px]:
+    largest distance of a line from the pixel edges; prices: Prices; places_inout: PLACE rows. O(places * places of a
+    line).
     """
     for k in range(first, last + 1):
         places_inout[k].cost = math.inf

@@ -1,4 +1,4 @@
-"""Which corners and sides of a tile's convex parts are not on the outline of the mask, because other parts adjoin them.
+"""Corners and sides of a tile's convex parts that are not on the outline of the mask, because other parts adjoin them.
 
 Sides shared by two parts are inner: they are not on the outline. If the angles of all parts at a corner sum to half a
 turn or more, the outline has no convex corner there. The corner is then covered. Otherwise the corner belongs to the

@@ -285,8 +285,8 @@ def crossing(window, runs, count, at, after):
 
     The result is (position along the path, offset x, offset y from the path) [px]. runs: RUN rows, of which the first
     `count` are the path, with SEEN edges on either side of the corner; at: number of pixel edges before the corner.
-    after: used only at a corner of the tile, whether the crossing moves along the run after the path's corner or before
-    it; window: see paths.Window.
+    after: used only at a corner of the tile: True to move the crossing along the run after the path's corner, False
+    along the run before it; window: see paths.Window.
     """
     k = 0
     while k + 1 < count and runs[k + 1].at <= at:

@@ -100,8 +100,8 @@ class MaskOutlines(NamedTuple):
 def is_admitted(shape, point, admitted):
     """Return whether a query admits a SHAPE row.
 
-    point: whether a point is asked for, which is tested against the pixels of masks, as rays are against outlines;
-    admitted: an Admitted.
+    point: True for a point, which is tested against the pixels of masks, False for a ray, which is tested against their
+    outlines; admitted: an Admitted.
     """
     return (
         shape.role != (PART if point else PIXELS)
@@ -197,7 +197,7 @@ SEARCHES = {  # by name of the broad phase
 
 @subkernel
 def cast_on_outline(outlines, mask, body, ray, corners_inout):
-    """Return (fraction or MISS, normal) of a ray (x, y, dx, dy) [px] that is cast at the outline of a mask.
+    """Return (fraction or MISS, nx, ny) of a ray (x, y, dx, dy) [px] that is cast at the outline of a mask.
 
     outlines: a MaskOutlines; mask: geometry row of the mask; body: BODY row; corners_inout (16, 2): scratch. O(parts).
     """
@@ -226,7 +226,7 @@ def cast_on_outline(outlines, mask, body, ray, corners_inout):
 
 @subkernel
 def write_hit(row, hit, place, hits_out):
-    """Write a hit to row `place` of hits_out. row: SHAPE row that was hit; hit: (fraction, normal x, y)."""
+    """Write a hit to row `place` of hits_out. row: row number in SHAPE; hit: (fraction, normal x, y)."""
     hits_out[place, ROW] = float(row)
     hits_out[place, FRACTION] = hit[0]
     hits_out[place, HIT_NX] = hit[1]
@@ -249,9 +249,9 @@ def cast_candidates(
     """Cast rays at the candidates in `workspace`, and write (row, fraction or MISS, normal) of each hit.
 
     targets: a Targets; outlines: a MaskOutlines with all masks that a ray of some length may hit; rays (n, 4): start
-    and vector (x, y, dx, dy) [px]; nearest: 1 if hits_out (n, 4) has only the nearest hit of each ray, of equal ones
-    that of the lowest row, with row -1 for none; 0 if hits_out (candidates, 4) has one row for each candidate.
-    workspace: a Workspace. work_inout: counters, see COUNTERS. O(candidates).
+    and vector (x, y, dx, dy) [px]; nearest: 1 to write only the nearest hit of each ray to hits_out (n, 4), with row -1
+    if there is none, and with the lowest row if several are equally near; 0 to write one row for each candidate to
+    hits_out (candidates, 4). workspace: a Workspace. work_inout: counters, see COUNTERS. O(candidates).
     """
     rows = workspace.rows
     for i in range(len(rays)):
@@ -286,7 +286,7 @@ class OutlineStore:
         self.outlines = MaskOutlines(np.zeros(0, np.int64), np.zeros(0, np.int64), parts_of([]))
 
     def with_all(self, library: Any, rows: list[int]) -> MaskOutlines:
-        """Return the outlines, those of the geometry rows `rows` included. library: the Library of the world."""
+        """Return the outlines, including those of the geometry rows `rows`. library: the Library of the world."""
         masks = library.masks
         if all(self.masks.get(row) is masks[row] for row in rows):
             return self.outlines

@@ -298,8 +298,9 @@ def shape_cast(
 def _sweep(world, shape, probe, rows, motion, feet) -> np.ndarray:
     """Return an array (n, 4) of the shapes that a cast shape hits: (row, fraction, normal towards the cast shape).
 
-    A mask with several rows is hit once, in its first row. probe: Parts of the cast shape; rows: SHAPE rows to test;
-    motion: (start x, y, translation x, y) [px]; feet: y [px] of the lowest point of the cast shape at its start.
+    A mask with several rows is hit once, in its first row. probe: Parts of the cast shape; rows: indices of the SHAPE
+    rows to test; motion: (start x, y, translation x, y) [px]; feet: y [px] of the lowest point of the cast shape at its
+    start.
     """
     x, y, dx, dy = motion
     workspace, hits, found, work = new_rotational_workspace(), np.zeros((len(rows), 4)), 0, world.queries.work
@@ -332,8 +333,8 @@ def _sweep(world, shape, probe, rows, motion, feet) -> np.ndarray:
 def _outline_at(world, rows, x, y, probe, way, feet) -> Parts:
     """Return the convex parts of one shape that a cast shape may hit during its motion, relative to (x, y) [px].
 
-    rows: SHAPE rows of this one shape; probe: Parts of the cast shape; way: translation of the cast shape [px]; feet: y
-    [px] of the lowest point of the cast shape.
+    rows: indices of the SHAPE rows of this one shape; probe: Parts of the cast shape; way: translation of the cast
+    shape [px]; feet: y [px] of the lowest point of the cast shape.
     """
     every = [_swept_parts(world, row, x, y, feet) for row in rows.tolist()]
     parts = Parts(*(np.concatenate(columns) for columns in zip(*every, strict=True)))

@@ -60,8 +60,8 @@ def find_loose(rows, bodies, shapes, proxies, known, row_of_slot_inout, loose_ou
 
     The broad phase finds a shape if its AABB lies within the box of its proxy. Then the shape's row is written to
     row_of_slot_inout, at the slot of its proxy. Otherwise -1 is written there, and the row is listed in loose_out.
-    Shapes of bodies that queries cannot find (see is_found) are in neither. rows: SHAPE rows to examine; known: 0 if
-    the broad phase has no data yet; proxies: PROXY table.
+    Shapes of bodies that queries cannot find (see is_found) are in neither. rows: indices of the SHAPE rows to examine;
+    known: 0 if the broad phase has no data yet; proxies: PROXY table.
     """
     found = 0
     for n in range(len(rows)):
@@ -100,8 +100,8 @@ def meets_aabb(shape, box):
 def rows_meeting(shapes, row_of_slot, slots, loose, box, rows_out, work_inout):
     """List the shape rows whose AABBs meet a closed box (lower x, y, upper x, y) [px]. Return their number.
 
-    slots: slots of proxies that the broad phase found; row_of_slot: SHAPE row of each slot, or -1; loose: further SHAPE
-    rows to test; rows_out: the result. work_inout: counters, see COUNTERS.
+    slots: slots of proxies that the broad phase found; row_of_slot: index of the SHAPE row of each slot, or -1; loose:
+    indices of further SHAPE rows to test; rows_out: the result. work_inout: counters, see COUNTERS.
     """
     found = 0
     for k in range(len(slots) + len(loose)):
@@ -285,10 +285,10 @@ class Visited(NamedTuple):
     met: (m,) bool, whether the compared box meets the searched box.
     """
 
-    kind: str  # brute, sweep, hash, tree
-    asked: np.ndarray  # (k, 4) min_x min_y max_x max_y
-    rects: np.ndarray  # (m, 4) nodes of the tree, cells of the hash, boxes that were compared
-    met: np.ndarray  # (m,) whether the compared box meets the searched box
+    kind: str
+    asked: np.ndarray
+    rects: np.ndarray
+    met: np.ndarray
 
 
 def visited(world: IndexedWorld) -> Visited:

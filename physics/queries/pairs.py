@@ -567,7 +567,7 @@ def _gap_at(parts_a, parts_b):
 
 
 def _advance_boxes(a, move_a, b, move_b):
-    """Return (fraction or MISS, normal) of the first impact of two shapes, one of which is a Bounds that changes size.
+    """Return (fraction or MISS, nx, ny) of the first impact of two shapes, one of which is a Bounds that changes size.
 
     A Bounds changes size when its shape rotates. The method is conservative advancement with a bound of the speed.
     move_a, move_b: (start pose, end pose) of each shape.

@@ -1,6 +1,7 @@
 """Casts of a ray at every kind of shape: circles, hulls, lines, chains, tiles and pixels.
 
-A cast returns the fraction of the ray's vector before the hit. MISS, a number greater than 1, means no hit.
+A cast returns (fraction, nx, ny): the fraction of the ray's vector before the hit, and the unit normal of the surface
+that was hit. The fraction MISS, a number greater than 1, means no hit.
 """
 
 import math
@@ -47,9 +48,10 @@ def cast_on_line(ax, ay, bx, by, x, y, dx, dy):
 
 @subkernel
 def cast_on_segment(corners, x, y, dx, dy):
-    """Return (fraction or MISS, normal towards the start of the ray) of a ray that is cast at a two-sided segment.
+    """Return (fraction or MISS, nx, ny) of a ray that is cast at a two-sided segment.
 
-    corners: its first two rows are the ends [px]; x, y, dx, dy [px]: start and vector of the ray.
+    The normal points towards the start of the ray. corners: its first two rows are the ends [px]; x, y, dx, dy [px]:
+    start and vector of the ray.
     """
     back_x, back_y = unit(-dx, -dy, 0.0, -1.0)
     if distance_to_edge(corners[0, 0], corners[0, 1], corners[1, 0], corners[1, 1], x, y) == 0.0:
@@ -64,7 +66,7 @@ def cast_on_segment(corners, x, y, dx, dy):
 
 @subkernel
 def cast_on_disc(x, y, dx, dy, radius):
-    """Return (fraction or MISS, normal) of a ray from (x, y) by (dx, dy) [px] that is cast at a disc around (0, 0).
+    """Return (fraction or MISS, nx, ny) of a ray from (x, y) by (dx, dy) [px] that is cast at a disc around (0, 0).
 
     A ray that starts inside hits at 0, with the normal against the ray.
     """
@@ -76,7 +78,7 @@ def cast_on_disc(x, y, dx, dy, radius):
 
 @subkernel
 def cast_on_hull(corners, count, radius, x, y, dx, dy):
-    """Return (fraction or MISS, normal) of a ray that is cast at a rounded hull of two or more corners.
+    """Return (fraction or MISS, nx, ny) of a ray that is cast at a rounded hull of two or more corners.
 
     radius [px]: rounding radius; x, y, dx, dy [px]: start and vector of the ray. A ray that starts inside hits at 0,
     with the normal against the ray. A ray of zero length tests whether its start is inside.
@@ -142,7 +144,7 @@ def crosses_box(x, y, dx, dy, min_x, min_y, max_x, max_y):
 
 @subkernel
 def cast_on_chain(geometry, chain, body, ray):
-    """Return (fraction or MISS, normal) of a ray (x, y, dx, dy) [px] that is cast at the fronts of a chain's links.
+    """Return (fraction or MISS, nx, ny) of a ray (x, y, dx, dy) [px] that is cast at the fronts of a chain's links.
 
     A ray of zero length tests whether its start is on a link. chain: row of geometry.chains; body: BODY row. O(blocks +
     links near the ray).
@@ -235,7 +237,7 @@ def start_cell(position, step, size, count):
 
 @subkernel
 def cast_on_cell(geometry, grid, row, column, ray, corners_inout):
-    """Return (fraction or MISS, normal) of a ray that is cast at one cell of a tile grid.
+    """Return (fraction or MISS, nx, ny) of a ray that is cast at one cell of a tile grid.
 
     A one-way cell is hit only from above. grid: row of geometry.grids; ray: (x, y, dx, dy) [px] relative to the grid's
     origin; corners_inout (16, 2): scratch.
@@ -253,7 +255,7 @@ def cast_on_cell(geometry, grid, row, column, ray, corners_inout):
 
 @subkernel
 def cast_on_tiles(geometry, grid, ray, corners_inout):
-    """Return (fraction or MISS, normal) of a ray that is cast at the tiles of a grid. O(cells on the ray).
+    """Return (fraction or MISS, nx, ny) of a ray that is cast at the tiles of a grid. O(cells on the ray).
 
     A ray along a border hits the tiles on both sides, and a ray through a corner hits all four tiles. So the neighbours
     of each cell are also tested. grid: row of geometry.grids; ray: (x, y, dx, dy) [px] relative to the grid's origin;
@@ -358,7 +360,7 @@ def point_in_tiles(geometry, grid, x, y, corners_inout):
 
 @subkernel
 def cast_on_shape(geometry, bodies, shapes, row, ray, corners_inout):
-    """Return (fraction or MISS, normal) of a ray (x, y, dx, dy) [px] that is cast at SHAPE row `row`.
+    """Return (fraction or MISS, nx, ny) of a ray (x, y, dx, dy) [px] that is cast at SHAPE row `row`.
 
     A ray of zero length tests whether its start is inside. For a mask only the start of the ray is tested, against its
     pixels; longer rays are cast at mask outlines by other functions. corners_inout (16, 2): scratch.

@@ -211,8 +211,8 @@ def label_pieces(nodes, starts, columns, labels_out):
 def measure_pieces(nodes, labels, width, counts_inout, firsts_inout):
     """Count the pixels of each piece, and find its first pixel in reading order. O(nodes).
 
-    nodes: NODE rows; labels (nodes,): piece of each node; width [px]: width of the raster; counts_inout (pieces,): to
-    which the numbers of pixels are added; firsts_inout (pieces,): lowered to row * width + column of the first pixel.
+    nodes: NODE rows; labels (nodes,): piece of each node; width [px]: width of the raster; counts_inout (pieces,): the
+    numbers of pixels are added to it; firsts_inout (pieces,): it is lowered to row * width + column of the first pixel.
     """
     within = TILE - 1  # mask of a column within its tile
     for k in range(len(nodes)):

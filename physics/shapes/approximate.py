@@ -46,7 +46,7 @@ def hull(points: Points) -> Polygon:
 
 
 def decompose(points: Points, holes: Sequence[Points] = (), tolerance: float = 0.0) -> tuple[Polygon, ...]:
-    """Divide a simple polygon into convex polygons of 3 to 16 corners.
+    """Divide a simple polygon into convex polygons of 3 to 16 corners, and return them.
 
     points: corners (n, 2) [px], in either winding.
     holes: polygons (n, 2) inside it that are cut out [px]; they may touch at corners.

@@ -116,7 +116,7 @@ def checked_shapes(name: str, values: Iterable[Any]) -> tuple[Shape, ...]:
 
 
 def checked_shape(name: str, value: Any) -> Shape:
-    """Return a shape unchanged. Raises TypeError for anything else. name: of the argument, for messages."""
+    """Return a shape unchanged. Raises TypeError for anything else. name: name of the argument, for messages."""
     if not isinstance(value, tuple(SHAPES)):
         hint = hints.in_place_of_shape(value)
         raise TypeError(f"{name} must be a shape such as Circle(8) (got {checks.shown(value)}){hint}")

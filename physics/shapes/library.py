@@ -178,8 +178,8 @@ class Library:
     def _add_known_hulls(self, library, rows):
         """Copy convex shapes from another library in one pass. Return their new geometry rows.
 
-        rows: their geometry rows in `library`. A shape that `library.add` would find again is also found again by this
-        library.
+        rows: their geometry rows in `library`. A shape that `library.add` would not store again is not stored again by
+        this library either.
         """
         new = self._add_hulls([library.outlines[row] for row in rows.tolist()])
         place = dict(zip(rows.tolist(), new.tolist(), strict=True))
@@ -254,7 +254,7 @@ class Library:
     def add_parts(self, shapes: Sequence[Shape]) -> np.ndarray:
         """Add shapes, such as the parts of a mask's outline, without a search for equal ones. Return an array (n, 3).
 
-        Each row of the result is a result of `add`. It is faster than `add`, but stores convex shapes again that are
+        Each row of the result is a result of `add`. This is faster than `add`, but stores convex shapes again that are
         already present.
         """
         kinds = [shape._kind for shape in shapes]

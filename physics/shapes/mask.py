@@ -173,7 +173,7 @@ class PixelMask(Shape):
         smooth: float = SMOOTH,
         one_way: bool = False,
     ) -> PixelMask:
-        """Return a mask of an array, as PixelMask itself.
+        """Return a mask of an array, as the constructor does.
 
         solid: solid pixels, bool [row, col]; an array of pygame.surfarray is [x, y], and needs .T.
         origin: origin of body space in the image (x, y) [px], None: its centre.
@@ -203,7 +203,8 @@ class PixelMask(Shape):
         snap: True: tested as drawn, False: at the exact pose; smooth: distance of the outline [px], >= 0.
         one_way: whether bodies pass through the mask from below.
 
-        Raises TypeError if surface is not a pygame.Surface, ValueError for a threshold out of range, both as PixelMask.
+        Raises TypeError if surface is not a pygame.Surface, ValueError for a threshold out of range, and the errors of
+        PixelMask.
         """
         import pygame  # pygame is needed only for this import of sprites
 
@@ -232,7 +233,7 @@ class PixelMask(Shape):
         snap: True: tested as drawn, False: at the exact pose; smooth: distance of the outline [px], >= 0.
         one_way: whether bodies pass through the mask from below.
 
-        Raises TypeError if mask is not a pygame.Mask, TypeError or ValueError as PixelMask.
+        Raises TypeError if mask is not a pygame.Mask, and the errors of PixelMask.
         """
         import pygame
 
@@ -273,7 +274,7 @@ class PixelMask(Shape):
         return PixelMask(self.solid[np.ix_(rows, columns)], origin, self.snap, self.smooth).with_values_of(self)
 
     def turned(self, angle: float = 0.0) -> Turned:
-        """Return the rotated pixels as a Turned. They are what is tested by pixels if snap=True.
+        """Return the rotated pixels as a Turned. With snap=True, tests by pixels use them.
 
         angle: [rad], rounded to the nearest of 128 angles.
 
@@ -455,7 +456,7 @@ class PixelMask(Shape):
 def _nearest(size: int, factor: float) -> np.ndarray:
     """Return, for each column of a scaled mask, the column of the source that contains its centre: (n,) int64.
 
-    It does the same for rows. size: number of columns of the source; factor: scale.
+    The same function serves for rows. size: number of columns of the source; factor: scale.
     """
     wanted = max(1, math.floor(size * factor + 0.5)) if size else 0
     return np.minimum(((np.arange(wanted) + 0.5) / factor).astype(np.int64), size - 1)

@@ -113,7 +113,7 @@ class TiledParts(NamedTuple):
 def is_tiled(mask: Sprite) -> bool:
     """Return whether the outline of a mask is stored in tiles.
 
-    It is if a side of the mask exceeds LARGE_MASK px and not all of its pixels are solid.
+    This is so if a side of the mask exceeds LARGE_MASK px and not all of its pixels are solid.
     """
     width, height = mask.size
     return max(width, height) > LARGE_MASK and mask.area < width * height

@@ -22,8 +22,8 @@ from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PIXELS, P
 def exact_aabb(rasters, corners, raster, x, y, angle):
     """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a mask's solid pixels at an exact pose of its body.
 
-    The AABB of an empty mask is the point (x, y). rasters, corners: tables of the geometry; raster: RASTER row of the
-    mask at the angle 0; x, y, angle [px, px, rad]: the pose. O(corners of the mask's hull).
+    The AABB of an empty mask is the point (x, y). rasters, corners: tables of the geometry; raster: RASTER row number
+    of the mask at the angle 0; x, y, angle [px, px, rad]: the pose. O(corners of the mask's hull).
     """
     r = rasters[raster]
     if r.hull_count == 0:
@@ -297,7 +297,7 @@ def aabb_at(geometry, shapes, row, x, y, angle):
     """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a shape with its body at a pose. O(corners).
 
     The AABB of a mask is that of its solid pixels. They are on whole pixels if the mask has snap=True and its role is
-    not PIXELS, otherwise at the exact pose. The AABB of an empty mask is the point (x, y). row: SHAPE row.
+    not PIXELS, otherwise at the exact pose. The AABB of an empty mask is the point (x, y). row: row number in SHAPE.
     """
     s = shapes[row]
     kind = s.kind
@@ -327,7 +327,7 @@ def hull_at(geometry, shapes, row, x, y, angle, corners_out):
     """Write the world corners [px] of a hull at a pose to corners_out (16, 2). Return their number.
 
     The corners are clockwise on the screen. A circle has one corner, its centre; its radius is the result of
-    `rounding`. row: SHAPE row; x, y, angle [px, px, rad]: pose of its body.
+    `rounding`. row: row number in SHAPE; x, y, angle [px, px, rad]: pose of its body.
     """
     s = shapes[row]
     if s.kind == CIRCLE:
@@ -342,8 +342,8 @@ def hull_at(geometry, shapes, row, x, y, angle, corners_out):
 def corners_at(geometry, shapes, row, x, y, angle, corners_out):
     """Write the world corners [px] of a POLYGON, CAPSULE, SEGMENT or BOUNDS at a pose. Return their number.
 
-    Corners are clockwise on the screen; those of a BOUNDS are the corners of its AABB. row: SHAPE row; x, y, angle [px,
-    px, rad]: pose of its body; corners_out (16, 2).
+    Corners are clockwise on the screen; those of a BOUNDS are the corners of its AABB. row: row number in SHAPE; x, y,
+    angle [px, px, rad]: pose of its body; corners_out (16, 2).
     """
     if shapes[row].kind != BOUNDS:
         cosine, sine = rotation_of(angle)
@@ -475,7 +475,10 @@ def refresh_aabbs(rows, geometry, bodies, shapes_inout):
 
 
 def add_missing_rasters(library: Any, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray, dt: float) -> None:
-    """Add the rasters that masks with snap=True need at their angles now and after dt [s]. rows: SHAPE rows."""
+    """Add the rasters that masks with snap=True need at their angles now and after dt [s].
+
+    rows: indices of SHAPE rows.
+    """
     if not library.masks:
         return
     missing = np.zeros((2 * len(rows), 2), np.int64)

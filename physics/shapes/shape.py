@@ -75,9 +75,10 @@ class Material:
     """Density and surface of a shape.
 
     density: mass per area [per px²], > 0.
-    friction: >= 0; a contact has the geometric mean of its two.
-    restitution: share of the approach speed after an impact, >= 0; a contact has the greater of its two.
-    rolling_resistance: >= 0; the torque against rolling is at most rolling_resistance · radius · load; the greater.
+    friction: coefficient, >= 0; a contact has the geometric mean of both materials.
+    restitution: share of the approach speed after an impact, >= 0; a contact has the greater of both.
+    rolling_resistance: >= 0; a contact has the greater of both, and a torque against rolling of at most
+        rolling_resistance · radius · load.
     surface_speed: speed of the surface along its tangent [px/s], as on a conveyor belt.
 
     A value counts only with the effect of its name, surface_speed with conveyor, rolling_resistance with friction.

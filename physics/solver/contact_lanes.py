@@ -134,9 +134,9 @@ class Group(NamedTuple):
     edges: int  # number of contacts of all groups together
     count: int  # number of contacts of the group …
     uncolored: int  # … and number of these without a colour
-    members: np.ndarray  # int32 MOTION rows of the island bodies
+    members: np.ndarray  # int32 indices of the MOTION rows of the island bodies
     starts: np.ndarray  # int64 first contact of each colour, contacts without a colour first; then the end of the group
-    joints: np.ndarray  # int32 JOINT rows
+    joints: np.ndarray  # int32 indices of JOINT rows
 
 
 # ---- graph edges -----------------------------------------------------------------------------------------------------
@@ -154,8 +154,8 @@ def credit_overlap(overlap, motion, balance_inout):
         balance_inout.reserve += overlap * norm(m.acceleration_x, m.acceleration_y) / m.inverse_mass
 
 
-# Cosine of the angle to the first normal within which no two normals can be as far apart as energy.FACING: half of that
-# angle, less a margin for rounding.
+# If all normals are within the angle of this cosine from the first normal, no two of them are as far apart as
+# energy.FACING: the angle is half of that of FACING, less a margin for rounding.
 ALIKE = math.sqrt(0.5 + 0.5 * FACING) + 1e-6
 
 
@@ -163,8 +163,8 @@ ALIKE = math.sqrt(0.5 + 0.5 * FACING) + 1e-6
 def traits_of(row_a, row_b, lists):
     """Return the traits of two bodies on which the colour of their contact depends, as the bits of one number.
 
-    The traits of a body are its rank and whether it has finite mass, see graph.color_edges. row_a, row_b: MOTION rows;
-    lists: MotionLists.
+    The traits of a body are its rank and whether it has finite mass, see graph.color_edges. row_a, row_b: indices of
+    MOTION rows; lists: MotionLists.
     """
     a = lists.rank[row_a] << 1 | int(lists.has_finite_mass[row_a])
     b = lists.rank[row_b] << 1 | int(lists.has_finite_mass[row_b])
@@ -316,10 +316,10 @@ def list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, pla
 
 @subkernel
 def order_joints(joints, classes, starts_out, rows_out):
-    """Write the JOINT rows sorted by class, the index of their number of substeps (stable). O(classes · joints).
+    """Write the indices of JOINT rows sorted by class, the index of their number of substeps (stable).
 
-    joints: result of joint_rows.list_joints; classes (motions,): class of each MOTION row; starts_out: index of the
-    first joint of each class, then the number of joints; rows_out: the sorted JOINT rows.
+    O(classes · joints). joints: result of joint_rows.list_joints; classes (motions,): class of each MOTION row;
+    starts_out: index of the first joint of each class, then the number of joints; rows_out: the sorted indices.
     """
     found = 0
     for group in range(len(starts_out) - 1):
@@ -438,7 +438,7 @@ def add_estimates(blocks, count, substeps, rules, motions_inout):
     """
     reach = max(substeps, rules.most_by_load)
     reach_squared = float(reach * reach)
-    # An estimate of half the square keeps an island at most_by_load, and lets an island with twice as many come down.
+    # This estimate keeps an island with most_by_load substeps there, and lets an island with twice as many come down.
     by_load = 0.5 * float(rules.most_by_load * rules.most_by_load)
     for block in range(count):
         c = blocks.lines[block * at.SIZE : (block + 1) * at.SIZE]

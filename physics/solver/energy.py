@@ -23,7 +23,7 @@ from physics.tables.table import join_trees, root_of
 PARALLEL = 1e-9  # sine of the angle between normals up to which they count as one direction
 FACES = 0.05  # sine of the angle between normals up to which faces count as parallel or perpendicular
 FORGETTING = 0.1  # [1/s] rate at which the reserve of a body decays
-QUICK_LIFT = 0.02  # [slops] a gain of the energy of this lift needs no check of the whole island
+QUICK_LIFT = 0.02  # [slops] a gain of at most the energy of this lift needs no check of the whole island
 SHARE_BACK = 1e-3  # fraction of its energy that a set of bodies may take back from the reserve in a step
 
 # ---- work ------------------------------------------------------------------------------------------------------------

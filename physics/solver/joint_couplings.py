@@ -34,8 +34,8 @@ from physics.tables.table import row_of
 def list_couplings(rows, joints, couplings_out):
     """List the gears, pulleys and ratchets of a group in the order of ids. Return their number. O(rows).
 
-    rows: JOINT rows of the group; joints: all JOINT rows; couplings_out (rows,): COUPLING rows, of which `joint` is
-    written.
+    rows: indices of the JOINT rows of the group; joints: all JOINT rows; couplings_out (rows,): COUPLING rows, of which
+    `joint` is written.
     """
     found = 0
     for k in range(len(rows)):
@@ -57,7 +57,7 @@ def follow_teeth(joint_inout):
         return
     tooth = j.phase + (j.start_angle - j.phase) // j.ratchet * j.ratchet
     if tooth - tooth != 0.0:
-        tooth = j.start_angle  # the teeth are too fine for a number of them
+        tooth = j.start_angle  # the teeth are too fine to be numbered
     if j.ratchet > 0.0:
         j.lower = max(j.lower, tooth)
     else:
@@ -125,8 +125,8 @@ def begin_couplings(bodies, h, couplings_inout, joints_inout):
 def side_value(row, start, motion, joints):
     """Return the coordinate of a side of a gear at the present poses [rad or px].
 
-    row: JOINT row of the side, NO_JOINT for a body, whose angle was `start` [rad] at the start of the step; motion:
-    MOTION row of the body; joints: all JOINT rows.
+    row: index of the JOINT row of the side; NO_JOINT for a body, whose angle was `start` [rad] at the start of the
+    step; motion: MOTION row of the body; joints: all JOINT rows.
     """
     if row < 0:
         return start + motion.turn
@@ -459,9 +459,10 @@ def sum_couplings(couplings_inout, joints_inout):
 
 @inlined
 def arm_of_side(row, joints, motion):
-    """Return the lever [px] by which an error of a side of a gear shows: the radius of gyration, 1 for a slide.
+    """Return the arm [px] that turns an error of a side of a gear into a length: the radius of gyration; 1 for a slide.
 
-    row: JOINT row of the side, NO_JOINT for a body; joints: all JOINT rows; motion: MOTION row of the side.
+    row: index of the JOINT row of the side, NO_JOINT for a body; joints: all JOINT rows; motion: MOTION row of the
+    side.
     """
     if row >= 0 and not turns(joints[row]):
         return 1.0
@@ -472,8 +473,9 @@ def arm_of_side(row, joints, motion):
 def estimate_couplings(couplings, joints, rate, motions_inout):
     """Raise MOTION.estimate to the square of the number of substeps that gears and pulleys need. O(couplings).
 
-    The sum of a gear or pulley sags as a joint of the iterative tier does; a gear on the side where the sag shows
-    less. couplings: COUPLING rows of the step; joints: all JOINT rows; rate: see substeps.estimate_rate.
+    The sum of a gear or pulley sags as a joint of the iterative tier does. The sag of a gear is measured as a length,
+    on the side where it is shorter. couplings: COUPLING rows of the step; joints: all JOINT rows; rate: see
+    substeps.estimate_rate.
     """
     for k in range(len(couplings)):
         c = couplings[k]

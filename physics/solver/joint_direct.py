@@ -63,8 +63,9 @@ from physics.tables.joint import ANGLE, COUPLING, PINNED
 from physics.tables.table import root_of, zeros_in_lines
 
 FADING = 0.25  # [s] for which a tension counts
-# How fast bend() fades to 0: per growth of an inertia by tension, and per square of a turn in a substep [1/rad²]. In a
-# closed mechanism it fades early: in a singular pose the corrections of different joints contradict one another.
+# Rates at which bend() fades to 0: with the growth of an inertia by tension, and with the square of the rotation in a
+# substep [1/rad²]. In a closed mechanism it fades early: in a singular pose the corrections of different joints
+# contradict one another.
 FADE_BY_GROWTH, FADE_BY_TURN = 20.0, 100.0
 OPEN_FADE_BY_GROWTH, OPEN_FADE_BY_TURN = 1.0, 2.0  # in an open tree
 
@@ -75,9 +76,9 @@ OPEN_FADE_BY_GROWTH, OPEN_FADE_BY_TURN = 1.0, 2.0  # in an open tree
 def list_tree_joints(rows, joints, order_out, counts_out, motion_a_out, motion_b_out):
     """List the joints of a group that a tree can solve at least in part. Return their number. O(rows).
 
-    rows: JOINT rows of the group, in the order of ids; joints: all JOINT rows; order_out: indices into `rows` of the
-    listed joints. counts_out receives the number of tree rows, 0 to 3, of every joint of `rows`; motion_a_out and
-    motion_b_out receive the MOTION rows of its two bodies.
+    rows: indices of the JOINT rows of the group, in the order of ids; joints: all JOINT rows; order_out: indices into
+    `rows` of the listed joints. counts_out receives the number of tree rows, 0 to 3, of every joint of `rows`;
+    motion_a_out and motion_b_out receive the MOTION rows of its two bodies.
     """
     found = 0
     for k in range(len(rows)):
@@ -123,7 +124,7 @@ def drop_meshes(order, row_counts, motion_a, motion_b, taken, parents_inout, sum
         joint = order[k]
         # Row 0 and each kinematic body are separate components. The component of the other body counts.
         root = max(root_of(motion_a[joint], parents_inout), root_of(motion_b[joint], parents_inout))
-        loops, bodies = sums_out[root, 2] // 2, sums_out[root, 0] + 1  # at most so many bodies
+        loops, bodies = sums_out[root, 2] // 2, sums_out[root, 0] + 1  # an upper bound of the number of bodies
         is_exact = loops <= MOST_SCHUR and loops * bodies <= MOST_WORK
         if is_exact or 4 * sums_out[root, 1] <= sums_out[root, 0]:
             order_inout[left] = joint
@@ -362,9 +363,9 @@ class JointSet(NamedTuple):
     """The joints of a group of islands, with the trees among them."""
 
     table: np.ndarray  # all JOINT rows
-    rows: np.ndarray  # int32 JOINT rows of the group, in the order of ids
+    rows: np.ndarray  # int32 indices of the JOINT rows of the group, in the order of ids
     springs: int  # number of joints with a spring on their coordinate
-    couplings: np.ndarray  # COUPLING those of gears, pulleys and ratchets
+    couplings: np.ndarray  # COUPLING rows of the gears, pulleys and ratchets
     order: np.ndarray  # int64 indices into `rows` of the joints with parts for a tree
     counts: np.ndarray  # int32 number of tree rows of each joint of `rows`
     tree_rows: np.ndarray  # JOINT_ROW, MOST_ROWS for each joint of `rows`
@@ -420,7 +421,7 @@ def solve_once(biased, context, joints_inout, motions_inout):
     """Solve all joints of a JointSet once. The trees come last, so that their joints are exact at the end.
 
     biased: True to also remove errors of position; context: see StepContext; motions_inout: MOTION rows. joints_inout:
-    JOINT rows.
+    JointSet.
     """
     s = joints_inout
     solve_joints(s.rows, biased, context, s.table, motions_inout)
@@ -480,8 +481,9 @@ class Trees:
     def build(self, rows: np.ndarray, joints: np.ndarray, motions: np.ndarray, tier: str) -> JointSet:
         """Find the trees among the joints of a group, and return the JointSet.
 
-        rows: JOINT rows of the group, in the order of ids; joints: all JOINT rows; motions: MOTION rows. tier:
-        "iterative" builds no trees, "direct" builds all, and "auto" builds trees except in meshes, see drop_meshes.
+        rows: indices of the JOINT rows of the group, in the order of ids; joints: all JOINT rows; motions: MOTION rows.
+        tier: "iterative" builds no trees, "direct" builds all, and "auto" builds trees except in meshes, see
+        drop_meshes.
         """
         n = len(rows)
         if len(self.taken) < n:

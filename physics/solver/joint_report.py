@@ -29,7 +29,7 @@ def side_after_step(identity, body_row, bodies, joints):
     """Return (coordinate, its rate, speed [px/s]) of a side of a gear at the present poses.
 
     The speed is that of the furthest point of the body, for a side that turns. identity: id of the joint, NO_JOINT for
-    a body; body_row: BODY row of the side; joints: JOINT rows, reported up to this joint.
+    a body; body_row: row number in BODY of the side; joints: JOINT rows, reported up to this joint.
     """
     row = row_of(joints, identity)
     extent = bodies[body_row].extent if body_row >= 0 else 0.0
@@ -65,8 +65,8 @@ def report_gear(bodies, joints, joint_inout):
 def rope_after_step(body_row, x, y, ground_x, ground_y, bodies):
     """Return (length [px], its rate [px/s]) of the rope from a pulley to the anchor of a body.
 
-    body_row: BODY row, WORLD for the world; x, y [px]: the anchor in the space of the body; ground_x, ground_y [px]:
-    the pulley.
+    body_row: row number in BODY, WORLD for the world; x, y [px]: the anchor in the space of the body; ground_x,
+    ground_y [px]: the pulley.
     """
     vx, vy = 0.0, 0.0
     if body_row >= 0:

@@ -15,7 +15,7 @@ from physics.tables.joint import ANGLE, FREE, GEARED, LENGTH, NO_COORDINATE, NO_
 from physics.tables.step_state import JOINTS_SOLVED
 from physics.tables.table import row_of
 
-LEAST_INVERSE = 1e-9  # least share of an inverse inertia that an arm leaves of it: beyond, rounding decides
+LEAST_INVERSE = 1e-9  # least share of an inverse inertia that remains after a hold of the anchors: less is rounding
 RESOLVED = 0.5  # [rad] phase of a spring in a substep up to which an undamped spring keeps its energy
 LIMIT_SHARE = 0.25  # fraction of the error of a limit that a substep removes, for a joint that a tree solves
 
@@ -35,8 +35,8 @@ def is_idle(joint):
 def side_of_gear(identity, body_row, motion_of, motions, joints):
     """Return (BODY row of a side of a gear, whether the side acts).
 
-    The BODY row is that of a dynamic body of the joint, if it has one: the edge of the gear in the graph then links
-    all bodies that the gear moves, because the joint itself links its two bodies. A removed or disabled joint does not
+    The BODY row is that of a dynamic body of the joint, if it has one. The edge of the gear in the graph then links all
+    bodies that the gear moves, because the edge of the joint links its two bodies. A removed or disabled joint does not
     act. identity: id of the joint, NO_JOINT for a gear of bodies; body_row: present BODY row of the side; motion_of,
     motions: see list_joints; joints: all JOINT rows.
     """
@@ -281,10 +281,10 @@ def coordinate_inverse_mass(joint, a, b):
 def spring_inverse_mass(joint, a, b):
     """Return the inverse effective mass that the spring on a joint's coordinate moves if the joint's holds are rigid.
 
-    The frequency and the damping ratio of the spring refer to it: a door on a spring swings about its hinge, with the
-    inertia that it has there, and a slider does not rotate. (Box2D v3 takes the moments of inertia about the centres: a
-    door of twice that inertia then swings slower, and overshoots when critically damped.) The axis of a Wheel and a
-    Distance count with coordinate_inverse_mass. joint: JOINT row; a, b: MOTION rows.
+    The frequency and the damping ratio of the spring refer to this mass. A door on a spring swings with its inertia
+    about the hinge, and a slider does not rotate. Box2D v3 takes the moments of inertia about the centres instead: a
+    door then swings slower, and overshoots when critically damped. For the axis of a Wheel and for a Distance the
+    result is coordinate_inverse_mass. joint: JOINT row; a, b: MOTION rows.
     """
     j = joint
     if j.hold == ON_AXIS and j.coordinate == TRANSLATION and j.locks_angle:
@@ -336,7 +336,7 @@ def spring_of(hertz, damping, h):
 
 @subkernel
 def aim_springs(rows, h, motions, joints_inout):
-    """Write the velocities for which springs on coordinates aim in a substep, before other impulses act. O(rows).
+    """Write the target velocities of springs on coordinates for a substep, before other impulses act. O(rows).
 
     rows: indices of JOINT rows; h [s]: length of the substep; motions: MOTION rows. joints_inout: JOINT rows.
     """
@@ -638,9 +638,9 @@ def impulse_of(joint):
 def warm_joints(rows, first, joints_inout, motions_inout):
     """Apply the impulses of the last substep (warm start). O(rows).
 
-    rows: indices of JOINT rows; first: whether this is the first substep, for which the geometry of the joints is
-    computed. After it, the last pass of the last substep has computed the geometry, and the impulses are added to the
-    totals of the step. motions_inout: MOTION rows.
+    rows: indices of JOINT rows; first: whether this is the first substep; motions_inout: MOTION rows. In the first
+    substep, the geometry of the joints is computed. In a later one, it is known from the end of the substep before, and
+    the impulses of that substep are added to the totals of the step.
     """
     for k in range(len(rows)):
         j = joints_inout[rows[k]]

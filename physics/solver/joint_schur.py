@@ -43,7 +43,7 @@ DEPENDENT = 1e-11  # relative to the pivot without other joints; up to this valu
 LOCAL_CHANGES = 4.0  # see bound_motor
 ROUNDING = 1e-12  # relative error of a velocity that counts as rounding
 PATIENCE = 3  # rounds of pivoting without progress, after which only one row changes its state in a round
-LEAST_ROUNDS = 20  # greatest number of rounds of pivoting, beside two for each row
+LEAST_ROUNDS = 20  # rounds of pivoting that are allowed in addition to two for each row
 
 # ---- tables ----------------------------------------------------------------------------------------------------------
 
@@ -169,11 +169,12 @@ def count_schur(
 ):
     """Count the rows beside the trees, and write where the rows of each tree begin. O(MOTION rows + joints).
 
-    Return the number of rows. A tree with a gear or pulley has no rows for limits and motors. JOINT.in_open_tree is
-    set for the joints of trees without loops that hold to bodies of infinite mass by one joint at most.
+    Return the number of rows. A tree with a gear or pulley has no rows for limits and motors. JOINT.in_open_tree is set
+    for the joints of trees without loops, with at most one joint to a body of infinite mass.
 
-    rows: JOINT rows of the group; motions: MOTION rows; forest: result of build_forest; row_counts, taken: for each
-    joint of `rows` its number of tree rows, and whether it is in the forest. joints_inout: all JOINT rows.
+    rows: indices of the JOINT rows of the group; motions: MOTION rows; forest: result of build_forest; row_counts,
+    taken: for each joint of `rows` its number of tree rows, and whether it is in the forest. joints_inout: all JOINT
+    rows.
     """
     f, s = forest, schur_out
     for i in range(len(motions)):
@@ -238,7 +239,7 @@ def place_blocks(size, schur_inout):
 
 @subkernel
 def add_part(index, part, joint, schur_inout):
-    """Append a row to the rows of the tree of a joint. index: of the joint in JointSet.rows; joint: JOINT row."""
+    """Append a row to the rows of the tree of a joint. index: index of the joint in JointSet.rows; joint: JOINT row."""
     s = schur_inout
     a, b = s.slot_of[joint.motion_a], s.slot_of[joint.motion_b]
     t = s.trees[s.tree_of[a if a >= 0 else b]]
@@ -288,8 +289,8 @@ def list_schur(rows, motions, forest, row_counts, taken, joints_inout, schur_ino
 def begin_schur(rows, joints, tree_rows, motions, schur_inout):
     """Write the Jacobians of the rows beside the trees at the present poses. The columns of S become unknown. O(rows).
 
-    rows: JOINT rows of the group; joints: all JOINT rows, placed by place_joint; tree_rows: JOINT_ROW rows of the
-    joints of `rows`; motions: MOTION rows.
+    rows: indices of the JOINT rows of the group; joints: all JOINT rows, placed by place_joint; tree_rows: JOINT_ROW
+    rows of the joints of `rows`; motions: MOTION rows.
     """
     s = schur_inout
     for i in range(s.counts[0]):
@@ -329,7 +330,7 @@ def aim_schur(rows, biased, context, joints, tree_rows_inout, schur_inout):
     """Write the wanted velocities of the rows beside the trees, and the bounds of the changes of their impulses.
 
     Arguments: see begin_schur; biased: True to also remove errors of position; context: see StepContext.
-    tree_rows_inout: with their targets; the impulses of joints that close loops become 0. O(rows).
+    tree_rows_inout: JOINT_ROW rows with their targets; the impulses of joints that close loops become 0. O(rows).
     """
     s = schur_inout
     for i in range(s.counts[0]):
@@ -565,8 +566,9 @@ def change_states(only_last, tree, schur_inout):
 def pivot_rows(tree, motions, forest_inout, schur_inout):
     """Find the changes of the impulses of the rows of a tree by block principal pivoting. Return 1 if it was stopped.
 
-    All rows that are in a wrong state change it at once, as long as their number decreases, and otherwise only the last
-    of them, which always ends (Murty, 1974). tree: SCHUR_TREE row, after begin_states; motions: MOTION rows.
+    All rows in a wrong state change their states at once, as long as the number of such rows decreases. Otherwise only
+    the last of them changes, which always terminates (Murty, 1974). tree: SCHUR_TREE row, after begin_states; motions:
+    MOTION rows.
     """
     s = schur_inout
     fewest, patience, wrong = tree.count + 1, PATIENCE, 1
@@ -656,9 +658,9 @@ def solve_tree_again(tree, slots, forest_inout, tree_rows_inout, motions_inout):
 def solve_schur(rows, forest_inout, schur_inout, joints_inout, tree_rows_inout, motions_inout):
     """Solve the rows beside the trees together with the trees, after a solve of the trees alone.
 
-    rows: JOINT rows of the group; forest_inout: after solve_trees; schur_inout: after aim_schur; joints_inout: all
-    JOINT rows, of which the impulses of limits and motors change; tree_rows_inout: JOINT_ROW rows of the joints of
-    `rows`; motions_inout: MOTION rows.
+    rows: indices of the JOINT rows of the group; forest_inout: after solve_trees; schur_inout: after aim_schur;
+    joints_inout: all JOINT rows, of which the impulses of limits and motors change; tree_rows_inout: JOINT_ROW rows of
+    the joints of `rows`; motions_inout: MOTION rows.
     """
     f, s = forest_inout, schur_inout
     for root in range(f.sizes[0]):

@@ -43,9 +43,9 @@ def forget_below(rows, size, bodies, blow, stamp, lists_inout, contacts_inout):
     An outer body is affected if bodies of a group press on it with a force per mass of more than `blow` [px/s2]. Then
     all its contacts lose their cached forces, and so do all contacts of the dynamic bodies connected to it by contacts.
 
-    Return the greatest stamp used. stamp: a number not less than any mark in lists_inout (see Lists); rows: BODY rows
-    of the groups, `size` rows per group; bodies: all BODY rows. O(contacts of the groups and of the connected bodies).
-    contacts_inout: CONTACT rows.
+    Return the greatest stamp used. stamp: a number not less than any mark in lists_inout (see Lists); rows: row numbers
+    in BODY of the groups, `size` per group; bodies: all BODY rows. O(contacts of the groups and of the connected
+    bodies). contacts_inout: CONTACT rows.
     """
     heads, nexts = lists_inout.heads, lists_inout.nexts
     marks, reached = lists_inout.marks, lists_inout.reached
@@ -123,10 +123,10 @@ class ContactLists:
     def forget_loads(self, world: Any, rows: np.ndarray, together: bool = False) -> None:
         """Clear the cached forces under bodies that are about to be removed or have been moved, see forget_below.
 
-        world: a World, annotated Any because its module imports this one. rows: int64 BODY rows. together: True makes
-        all rows one group, False makes each row a group of its own. Rows that were removed since the last step stay in
-        the tables, see World._row_at. O(contacts of these bodies); the first call after a step also costs O(bodies +
-        contacts).
+        world: a World, annotated Any because its module imports this one. rows: int64 row numbers in BODY. together:
+        True makes all rows one group, False makes each row a group of its own. Rows that were removed since the last
+        step stay in the tables, see World._row_at. O(contacts of these bodies); the first call after a step also costs
+        O(bodies + contacts).
         """
         contacts, bodies = world._contact_rows, world._bodies.rows
         if not len(contacts) or not world.stacks or not len(rows):

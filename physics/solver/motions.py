@@ -166,10 +166,10 @@ def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
     def integrate_substep_velocities(members, h, drag_rate, motions_inout):
         """Integrate the velocities of island bodies over a substep of h [s], and warm start their contacts. O(members).
 
-        members: MOTION rows. Accelerations come first, with only half of the acceleration for bodies with MOTION.halves
-        (see accelerate_again). Then drag_rate [1/s] is applied implicitly, which is stable at any rate. The warm start
-        repeats the velocity change by contact impulses in the last substep, v - free_v. As impulses and moment arms are
-        unchanged, no contact has to be read.
+        members: indices of MOTION rows. Accelerations come first, with only half of the acceleration for bodies with
+        MOTION.halves (see accelerate_again). Then drag_rate [1/s] is applied implicitly, which is stable at any rate.
+        The warm start repeats the velocity change by contact impulses in the last substep, v - free_v. As impulses and
+        moment arms are unchanged, no contact has to be read.
         """
         keep = 1.0 / (1.0 + drag_rate * h)
         for i in range(len(members)):
@@ -215,9 +215,9 @@ def change_velocity(vx, vy, w, motion_inout):
 def accelerate_again(members, h, motions_inout):
     """Add the second half of a substep's acceleration to bodies with MOTION.halves. O(members).
 
-    members: MOTION rows; h [s]: length of the substep. Bodies with MOTION.halves have rigid joints and no contacts.
-    Half of their acceleration acts before the positions are integrated, half afterwards. So errors of energy are of
-    second order in h: Verlet integration with constraints (RATTLE, Andersen 1983).
+    members: indices of MOTION rows; h [s]: length of the substep. Bodies with MOTION.halves have rigid joints and no
+    contacts. Half of their acceleration acts before the positions are integrated, half afterwards. So errors of energy
+    are of second order in h: Verlet integration with constraints (RATTLE, Andersen 1983).
     """
     for i in range(len(members)):
         m = motions_inout[members[i]]
@@ -233,9 +233,9 @@ def make_substep_positions(rotation: bool) -> Callable:
     def integrate_substep_positions(members, h, push_speed, motions_inout):
         """Move island bodies by their velocity and pseudo-velocity over a substep of h [s]. O(members).
 
-        members: MOTION rows. The pseudo-velocity is limited to push_speed [px/s], and then reset. Bodies in contact
-        move by the velocity at the end of the substep, which keeps stacks stable. Bodies without contact follow the
-        exact parabola: otherwise a bouncing ball would lose h times its speed in height with each flight.
+        members: indices of MOTION rows. The pseudo-velocity is limited to push_speed [px/s], and then reset. Bodies in
+        contact move by the velocity at the end of the substep, which keeps stacks stable. Bodies without contact follow
+        the exact parabola: otherwise a bouncing ball would lose h times its speed in height with each flight.
         """
         for i in range(len(members)):
             m = motions_inout[members[i]]
@@ -262,7 +262,7 @@ def make_substep_positions(rotation: bool) -> Callable:
 
 @subkernel
 def move_kinematic(kinematic, time, motions_inout):
-    """Move kinematic bodies (MOTION rows) to their poses at a time [s] after the start of the step.
+    """Move kinematic bodies (indices of MOTION rows) to their poses at a time [s] after the start of the step.
 
     The poses depend on the time alone, so they are the same for every group of islands.
     """

@@ -131,7 +131,7 @@ def is_against_static(blocks, impact):
 
 @subkernel
 def mover_of(blocks, impact, motions):
-    """Return (MOTION row of the body of finite mass, 1.0 if it is B, else -1.0) for an impact on a static body."""
+    """Return (index of the MOTION row of finite mass, 1.0 if it is B or -1.0) for an impact on a static body."""
     row = blocks.motion_b[impact.block, impact.lane]
     if motions[row].inverse_mass > 0.0:
         return row, 1.0
@@ -231,7 +231,7 @@ def strike(blocks, impact, second, sign, impulse, mover, change_inout):
 
 @subkernel
 def soonest_impact(blocks, impacts, last, motions):
-    """Return (time [s] to the next hit of a body, its approach speed [px/s], 0 for no hit). last: see link_impacts."""
+    """Return (time [s] to the next hit of a body, its approach speed [px/s] or 0 for none). last: see link_impacts."""
     soonest = math.inf
     hit_speed = 0.0
     k = last
@@ -520,7 +520,7 @@ def solve_simultaneous(contacts, count, dt, impacts_inout, motions_inout, blocks
             left, settled = simulate_impacts(blocks_inout, i + 1, dt, contacts, motions_inout, impacts_inout)
             work_inout[CAP_HITS] += int(not settled)
             apply_simulated(i + 1, greatest_speed(impacts_inout, i + 1), impacts_inout, motions_inout, blocks_inout)
-            # The step of the body ends at its last hit: with the acceleration of the rest it would lose energy.
+            # The body is not accelerated after its last hit: acceleration in the rest of the step would cost energy.
             m = motions_inout[row]
             half = 0.5 * (dt - left) * (dt - left)
             m.dx = impacts_inout[i].x + half * m.acceleration_x

@@ -4,8 +4,8 @@ Unlike in `soft_step`, bodies move once, after all passes, and contacts are rigi
 slop. Unloaded contacts separate by a pseudo-velocity (split impulses). The loads determine the number of substeps that
 soft_step would take, and this solver takes ITERATIONS_PER_SUBSTEP passes for each of them.
 
-The energy bound of energy.py holds here too: without it, discs pressed together without room between a block and a wall
-gained the energy of 1,160 px/s in one step after the block had stopped.
+The energy bound of energy.py holds here too. Without it, discs that a block pressed against a wall reached 1,160 px/s
+in one step after the block had stopped.
 
 Each pass transmits a load by one or two rows of a stack. With ten passes for all islands, a pyramid of 45 rows moves at
 8 to 60 px/s for over a minute. A plank with a hundredth of the mass of its load creeps by 0.4 to 5 m in that time. With
@@ -334,8 +334,8 @@ def turns_any(count, blocks):
 def foresee_turns(members, kinematic, time, count, motions_inout, blocks_inout):
     """Write normals and moment arms of round contacts at the poses predicted for `time` [s] later. O(members + lanes).
 
-    members, kinematic: MOTION rows; count: number of blocks. For this the bodies are moved to the predicted poses, and
-    then back to the poses at the start of the step. blocks_inout: the contacts, see lanes.Blocks.
+    members, kinematic: indices of MOTION rows; count: number of blocks. The bodies are moved to the predicted poses,
+    and then back to the poses at the start of the step. blocks_inout: the contacts, see lanes.Blocks.
     """
     for k in range(len(members)):
         m = motions_inout[members[k]]
@@ -376,8 +376,8 @@ def make_passes(drag: bool, rotation: bool, friction: bool, joints: bool) -> Cal
     ):
         """Advance island bodies and kinematic bodies by one step. O(members + passes · constraints).
 
-        members, kinematic: MOTION rows; count: number of blocks; context: see StepContext; passes: see Passes;
-        joints_inout: a JointSet, or 0 in a world without joints; blocks_inout: the contacts.
+        members, kinematic: indices of MOTION rows; count: number of blocks; context: see StepContext; passes: see
+        Passes; joints_inout: a JointSet, or 0 in a world without joints; blocks_inout: the contacts.
         """
         if not passes.warm:
             clear_impulses(members, count, motions_inout, blocks_inout)

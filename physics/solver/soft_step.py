@@ -215,7 +215,7 @@ def make_warm_lanes(rotation: bool) -> Callable:
 def clear_impulses(members, count, motions_inout, blocks_inout):
     """Clear the impulses from which a substep would start, to measure the effect of warm starting. O(members + count).
 
-    members: MOTION rows; count: number of blocks. blocks_inout: the contacts, see lanes.Blocks.
+    members: indices of MOTION rows; count: number of blocks. blocks_inout: the contacts, see lanes.Blocks.
     """
     for i in range(len(members)):
         m = motions_inout[members[i]]
@@ -587,9 +587,9 @@ def make_substeps(
     ):
         """Advance island bodies and kinematic bodies by all substeps of a step. O(substeps · (members + constraints)).
 
-        members, kinematic: MOTION rows; count: number of blocks; context: see StepContext; joints_inout: a JointSet, or
-        0 in a world without joints. All substeps are in one kernel: with ten boxes, calls from Python took five sixths
-        of the time of a substep. blocks_inout: the contacts, see lanes.Blocks.
+        members, kinematic: indices of MOTION rows; count: number of blocks; context: see StepContext; joints_inout: a
+        JointSet, or 0 in a world without joints. All substeps are in one kernel: with ten boxes, calls from Python took
+        five sixths of the time of a substep. blocks_inout: the contacts, see lanes.Blocks.
         """
         h = context.h
         if joints:

@@ -70,7 +70,7 @@ BODY = in_lines(
         ("rocking_time", np.float64),  # [s] time spent around that reference pose
         ("island", np.int64),  # lowest body id of its island; -1: none
         ("reserve", np.float64),  # energy that its contacts have removed recently; see solver/energy.py
-        ("cooldown", np.float64),  # [s] > 0: fewer substeps have been enough for so long; < 0: the most were too few
+        ("cooldown", np.float64),  # [s] > 0: time in which fewer substeps sufficed; < 0: in which the most did not
         ("substeps", np.int64),  # adaptive substeps of its island in the next step; 0: not known yet
     ]
 )

@@ -71,7 +71,7 @@ QUARANTINE = np.dtype(
         Quarantined,
         [
             ("body", np.int64),  # id
-            ("reason", "U96"),  # the rule that a number of it, of its shapes or of its character breaks
+            ("reason", "U96"),  # the rule that is broken by a number of the body, of its shapes or of its character
         ],
     )
 )
@@ -199,9 +199,9 @@ MOTION = in_lines(
         ("is_dynamic", np.bool_),  # integrated, with drag and acceleration
         ("in_contact", np.bool_),  # a contact acts on it in this substep, or supports it: it is not in free flight
         ("is_character", np.bool_),  # the ground supports it, and it does not hold the ground down
-        ("jointed", np.bool_),  # a joint acts on it …
+        ("jointed", np.bool_),  # a joint acts on it
         ("driven", np.bool_),  # a joint with a motor, a spring or a kinematic body acts on it
-        ("halves", np.bool_),  # … that is rigid, and no contact: half of its acceleration acts after it has moved
+        ("halves", np.bool_),  # it has rigid joints and no contact: half of its acceleration acts after it has moved
         ("inverse_mass", np.float64),
         ("inverse_inertia", np.float64),  # 0: infinite in this step
         ("own_inverse_inertia", np.float64),  # inverse inertia without the inertia that tension adds
@@ -220,7 +220,7 @@ MOTION = in_lines(
         ("pseudo_vy", np.float64),
         ("pseudo_w", np.float64),
         ("estimate", np.float64),  # square of the number of substeps that keeps contacts within the accuracy
-        ("cooldown", np.float64),  # [s] > 0: fewer substeps have been enough for so long; < 0: the most were too few
+        ("cooldown", np.float64),  # [s] > 0: time in which fewer substeps sufficed; < 0: in which the most did not
         ("substeps", np.int64),  # number of substeps of this step; the solver writes the number of the next step
         ("last_impact", np.int64),  # see restitution.link_impacts
         ("branching", np.bool_),  # the body, or at the root a body of the island, has more than two contacts
@@ -251,12 +251,12 @@ BALANCE = in_lines(
         ("along", np.float64),  # kinetic energy along the only normal of the contacts
         ("normal_x", np.float64),  # the first normal of the contacts of the body
         ("normal_y", np.float64),
-        ("in_all", np.bool_),  # … or they act in all
+        ("in_all", np.bool_),  # the contacts of the body act in all directions
         ("anchored", np.bool_),  # a contact acts on a body of infinite mass
         ("suspect", np.bool_),  # its energy is compared with that of the bodies that it exchanged impulses with
         ("jointed", np.bool_),  # joints act on these bodies, …
         ("driven", np.bool_),  # … with motors, springs or kinematic bodies, which may give them energy
-        ("face_x", np.float64),  # the first normal; …
+        ("face_x", np.float64),  # the first normal of a contact of the set, see energy.note_face
         ("face_y", np.float64),
         ("oblique", np.bool_),  # see energy.note_face
         ("pushed", np.bool_),  # a contact of the set is with a moving kinematic body

@@ -62,12 +62,12 @@ STATE = (  # fields on which the next step depends
     # State after the last step.
     ("angle", np.float64),  # [rad] angle of B relative to A, 0 when the joint was made
     ("translation", np.float64),  # [px] translation along the axis, distance of the anchors, or sum of a gear or pulley
-    ("speed", np.float64),  # rate of change of the coordinate [px/s or rad/s]; without a coordinate of the angle
+    ("speed", np.float64),  # rate of change of the coordinate [px/s or rad/s], or of the angle if there is none
     ("separation", np.float64),  # [px] error: distance of held anchors, distance from the axis, or excess over limits
     ("force_x", np.float64),  # [mass px/s2] force on B at its anchor: impulse of the step per second
     ("force_y", np.float64),
-    ("torque", np.float64),  # [mass px2/s2] on B, beside that force
-    ("strain", np.float64),  # [mass px/s2] greatest force of late that held the anchors, see joint_direct.add_inertia
+    ("torque", np.float64),  # [mass px2/s2] torque on B, in addition to the force at its anchor
+    ("strain", np.float64),  # [mass px/s2] greatest recent force that held the anchors, see joint_direct.add_inertia
     # Impulses per second with which the next step starts.
     ("point_force_x", np.float64),  # impulse per second that holds the anchors
     ("point_force_y", np.float64),  # likewise; ON_AXIS: across the axis; SLUNG: forces that stop A, B at their pulleys
@@ -168,7 +168,7 @@ BROKEN = np.dtype(
             ("body_b", np.int64),
             ("force", np.float64),  # [mass px/s2] magnitude of its force in the last step
             ("torque", np.float64),  # [mass px2/s2] its torque in the last step
-            ("reason", "U8"),  # "force", "torque": it broke by it; "removed": with a body or joint
+            ("reason", "U8"),  # "force" or "torque" that broke it; "removed": lost with a body or joint
         ],
     )
 )

@@ -201,7 +201,7 @@ def row_number(table: Table, identity: int) -> int:
 def rows_in(table: Table, ids: np.ndarray) -> np.ndarray:
     """Return the row numbers (n) of ids (n) int64, -1 for an absent id.
 
-    It is faster than rows_of if no row of the table was ever removed.
+    This is faster than rows_of if no row of the table was ever removed.
     """
     if table.count and len(ids):
         known = table.rows["id"]
@@ -214,7 +214,7 @@ def rows_in(table: Table, ids: np.ndarray) -> np.ndarray:
 def distinct(rows: np.ndarray, count: int) -> np.ndarray:
     """Return the distinct numbers among the row numbers `rows` (n), ascending. O(n + count).
 
-    count: number of rows of the table. It takes a tenth of the time of np.unique for 4,500 row numbers of 1,500 rows.
+    count: number of rows of the table. This takes a tenth of the time of np.unique for 4,500 row numbers of 1,500 rows.
     """
     marks = np.zeros(count, np.bool_)
     marks[rows] = True
@@ -224,7 +224,7 @@ def distinct(rows: np.ndarray, count: int) -> np.ndarray:
 def without(rows: np.ndarray, others: np.ndarray, count: int) -> np.ndarray:
     """Return the row numbers of `rows` (n) that are not in `others` (m), in their order. O(n + m + count).
 
-    count: number of rows of the table. It takes a tenth of the time of np.setdiff1d for 1,500 row numbers of each.
+    count: number of rows of the table. For n = m = 1,500 this function takes a tenth of the time of np.setdiff1d.
     """
     marks = np.ones(count, np.bool_)
     marks[others] = False
@@ -232,7 +232,7 @@ def without(rows: np.ndarray, others: np.ndarray, count: int) -> np.ndarray:
 
 
 def numbers_after(keep: np.ndarray) -> np.ndarray:
-    """Return the new number (int64) of each row after the rows with a False in `keep` are removed, -1 for these."""
+    """Return the new number (int64) of each row after a removal, -1 for a removed row. keep: False for these rows."""
     return np.where(keep, np.cumsum(keep) - 1, -1)
 
 
