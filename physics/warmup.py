@@ -50,7 +50,7 @@ def warmup(
 ) -> None:
     """Compile the kernels of a world with these effects on all cores, or load them from the cache.
 
-    effects: the Effects of the world; None: Effects().
+    effects: the Effects of the world; None: Effects.rigid_bodies(), as of World().
     broadphase: "brute", "sweep", "hash", "tree" or "all".
     solver: one of SOLVERS; None: the default of the effects.
     progress: function (done, total, name), called before each small world, for each kernel, and at the end; `total`
@@ -89,7 +89,7 @@ def run_warmup(
 
 def _runs(effects, broadphase, solver, pieces):
     """Return the small worlds to run as [(name, function)]. Raises KeyError for an unknown broad phase or piece."""
-    effects = Effects() if effects is None else effects
+    effects = Effects.rigid_bodies() if effects is None else effects
     names = list(STRATEGIES) if broadphase == "all" else [broadphase]
     runs: list[tuple[str, Callable[[], None]]] = [
         (

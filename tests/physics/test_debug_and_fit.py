@@ -19,6 +19,7 @@ from physics import (
     fit,
     warmup,
 )
+from physics.warmup import _runs
 
 
 def ragged(seed, shape=(19, 27)):
@@ -142,3 +143,8 @@ def test_warm_up_reports_each_piece_and_the_end(effects):
     )
     with pytest.raises(KeyError):
         warmup(effects, "quadtree")
+
+
+def test_warm_up_without_effects_is_that_of_a_world_without_arguments():
+    names = [[name for name, _ in _runs(effects, "hash", None, None)] for effects in (None, World().effects)]
+    assert names[0] == names[1] and "rest" in names[0]
