@@ -295,12 +295,12 @@ def compile_ahead(found: Iterable[tuple[Kernel, Keys]], progress: Progress | Non
     from physics.jit import compiling
 
     names = {compiling.name_of(kernel, keys): (kernel, keys) for kernel, keys in order}
-    told: list[str] = []
+    reported: list[str] = []
 
     def tell(name):
-        if progress and name not in told:
-            progress(len(told), len(names), name.partition("(")[0])
-        told.append(name)
+        if progress and name not in reported:
+            progress(len(reported), len(names), name.partition("(")[0])
+        reported.append(name)
 
     workers = Workers(WORKER)
     if workers.count > 1 and len(names) > FEW:
@@ -312,7 +312,7 @@ def compile_ahead(found: Iterable[tuple[Kernel, Keys]], progress: Progress | Non
         finally:
             workers.stop()
     for name, (kernel, keys) in names.items():
-        if name not in told:
+        if name not in reported:
             tell(name)
         kernel.install(keys, compiling.load_or_compile(kernel, keys))
 

@@ -303,10 +303,10 @@ class Body(Handle):
         They are contacts of the last step, and contacts of sleeping bodies.
         """
         world, row = self.world, self._row
-        told = world.contacts
-        told = told[(told["body_a"] == self.id) | (told["body_b"] == self.id)]
+        points = world.contacts
+        points = points[(points["body_a"] == self.id) | (points["body_b"] == self.id)]
         asleep = contacts_of(with_areas(world, world.sleeping_set.naming(self.id, int(row["island"]))))
-        both = np.concatenate([told, asleep])
+        both = np.concatenate([points, asleep])
         return both[np.lexsort((both["shape_b"], both["shape_a"]))].view(CONTACT_POINT)  # pyright: ignore[reportReturnType]
 
     def carve(self, shape: Shape, pose: Pose, crumb: int = 4) -> Carved:

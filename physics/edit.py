@@ -295,12 +295,12 @@ def _wake_at_cells(world, at, rows):
     dynamic = bodies["kind"] == DYNAMIC
     sleep.wake(world, bodies["island"][dynamic & ~bodies["awake"]].tolist())
     others = bodies["id"][~dynamic]
-    told = [
+    met_pairs = [
         table[["body_a", "body_b"]] for table in (world.sleeping_set.touching_pairs, world.sleeping_set.sensing_pairs)
     ]
     mine = world.bodies["id"][at]
-    met = [np.where(each["body_a"] == mine, each["body_b"], -1) for each in told]
-    met += [np.where(each["body_b"] == mine, each["body_a"], -1) for each in told]
+    met = [np.where(each["body_a"] == mine, each["body_b"], -1) for each in met_pairs]
+    met += [np.where(each["body_b"] == mine, each["body_a"], -1) for each in met_pairs]
     touched = others[np.isin(others, np.concatenate(met)) | (bodies["kind"][~dynamic] == KINEMATIC)]
     sleep.disturb(world, touched.tolist())
 
@@ -369,7 +369,7 @@ def _rejoin(world, at, touched):
         # Bodies that are not awake get no swept AABB in the next step, so they get one here; so do bodies that the last
         # step visited only because they were edited or moved before it.
         count = write_rectangles(world, touched)
-        world.pairs.can_recycle.append(world.pairs.changed[:count].copy())
+        world.pairs.search_again.append(world.pairs.changed[:count].copy())
     world.queries.seen = ()
     world.contact_rows = without_removed(world.bodies, world.shapes, world.contact_rows)
 

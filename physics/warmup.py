@@ -63,7 +63,7 @@ def warmup(
     """
     runs = _runs(effects, broadphase, solver, pieces)
 
-    def tell(done, total, name):
+    def report(done, total, name):
         if progress:
             progress(len(runs) + done, len(runs) + total, name)
 
@@ -72,8 +72,8 @@ def warmup(
             if progress:
                 progress(number, len(runs), name)
             run()
-    compile_ahead(found, tell)
-    tell(len(found), len(found), "ready")
+    compile_ahead(found, report)
+    report(len(found), len(found), "ready")
 
 
 def run_warmup(

@@ -59,10 +59,10 @@ class Profile:
     @property
     def stages(self) -> dict[str, float]:
         """Seconds of each stage of the last step, {name: seconds} in order; 0.0 for a stage that has not run."""
-        told = dict.fromkeys(self._names, 0.0)
+        found = dict.fromkeys(self._names, 0.0)
         for name, seconds in zip(self._names, self._spent, strict=False):
-            told[name] += seconds
-        return told
+            found[name] += seconds
+        return found
 
     @property
     def counters(self) -> dict[str, int]:
@@ -312,7 +312,7 @@ class WorldState:
         self.pairs.add_proxies(self.shapes, rows, self.bodies["kind"][self.shapes["body_row"][rows]] == STATIC)
         # Bodies that are not awake get no swept AABB in the next step, so they get one here.
         changed = write_rectangles(self, rows)
-        self.pairs.can_recycle.append(self.pairs.changed[:changed].copy())
+        self.pairs.search_again.append(self.pairs.changed[:changed].copy())
 
     @property
     def sleeps(self) -> bool:

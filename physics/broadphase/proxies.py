@@ -160,7 +160,7 @@ class Strategy(Protocol):
 
 
 @kernel
-def tell_rows(shapes, proxies_inout):
+def write_row_numbers(shapes, proxies_inout):
     """Write the SHAPE row number of each shape to its proxy, after rows have moved. O(shapes).
 
     Shapes without a proxy, or whose proxy has no swept AABB yet, are skipped. proxies_inout: PROXY table.
@@ -497,7 +497,7 @@ class PairList:
         self.rows = self.candidates[:0]
         self.known_ids = self.owners = self.candidates[:0]  # None until they are read; owners: parent ids of SHAPE
         self.everything = False  # the strategy is new: pass it all proxies
-        self.can_recycle = []  # slots whose pairs must be searched again, in addition to slots with changed boxes
+        self.search_again = []  # slots whose pairs must be searched again, in addition to slots with changed boxes
         self.sensors = 0  # number of sensor proxies
         self.apart = np.zeros(0, np.int64)  # pairs of bodies that never pair, see keep_apart
         self.moved = False  # whether shape rows have moved since the last update
@@ -611,7 +611,7 @@ class PairList:
         if awake:
             known = slots[self.proxies["row"][slots] >= 0]  # a new proxy is listed when its swept AABB is written
             self.proxies["changed"][known] = True
-            self.can_recycle.append(known)
+            self.search_again.append(known)
         else:
             self.resting = True
 
@@ -626,7 +626,7 @@ class PairList:
 
         The next update also corrects the row numbers of the candidates.
         """
-        tell_rows(shapes, self.proxies)
+        write_row_numbers(shapes, self.proxies)
         self.moved = True
 
     def widen(self, shapes: np.ndarray, margin: float) -> int:
@@ -696,7 +696,7 @@ class PairList:
 
         strategy: the broad phase that finds the pairs; shapes: SHAPE table; work: counters, see COUNTERS.
         """
-        news = changed_count or self.freed or self.can_recycle or self.everything or self.moved or self.resting
+        news = changed_count or self.freed or self.search_again or self.everything or self.moved or self.resting
         if news or not strategy.incremental:
             self._take_in(strategy, shapes, changed_count, work)
         work[CANDIDATES] = self.count
@@ -715,9 +715,9 @@ class PairList:
             self.rows = self.known_ids = self.owners = self.candidates[:0]
         else:
             arena.changed = self.changed[:changed_count]
-            if len(freed) or self.can_recycle:
-                arena.changed = distinct(np.concatenate([arena.changed, freed, *self.can_recycle]), len(self.proxies))
-        self.can_recycle = []
+            if len(freed) or self.search_again:
+                arena.changed = distinct(np.concatenate([arena.changed, freed, *self.search_again]), len(self.proxies))
+        self.search_again = []
         if len(arena.changed) or (self.resting and self.count):
             if len(arena.changed):
                 strategy.update(arena)

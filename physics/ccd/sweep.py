@@ -414,7 +414,7 @@ def sweep_piles(state: StepState) -> None:
         move_back(stopped, paths, *gravity, state.dt, bodies)
         push_stopped(state, stopped)
         place_shapes(state)
-    _tell(state, met)
+    _report(state, met)
 
 
 def _cover(state):
@@ -507,7 +507,7 @@ def shift_freely(state: StepState, rows: np.ndarray, moves: np.ndarray, arrived:
     bodies["fraction"][rows] = fractions
 
 
-def _tell(state, met):
+def _report(state, met):
     """Add the impacts `met` (n, 8) to the contacts of the step, and those of sensors to state.swept_sensors.
 
     An added contact begins in this step, but its impulse follows in the next step.

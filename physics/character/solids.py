@@ -764,7 +764,7 @@ def blocked_at(walk, me, rows, left, top, way_x, way_y, give):
     slope = 0.0
     owner = -1
     left_by = -1  # a part of this mask that left the contact to its neighbours, if none of them has reported it
-    told = False
+    meets = False
     for k in range(1, rows[0] + 1):
         row = rows[k] if rows[k] >= 0 else -1 - rows[k]
         s = walk.shapes[row]
@@ -772,7 +772,7 @@ def blocked_at(walk, me, rows, left, top, way_x, way_y, give):
             if left_by >= 0:
                 return BLOCKED, left_by, 0.0
             owner = s.parent
-            told = False
+            meets = False
         walk.scratch.points[0] = 0.0
         what, rise = in_shape(walk, me, row, left, top, way_x, way_y, give)
         if what == BLOCKED:
@@ -781,10 +781,10 @@ def blocked_at(walk, me, rows, left, top, way_x, way_y, give):
             result = what
             by = row
             slope = rise
-        told = told or walk.scratch.points[0] > 0.0
+        meets = meets or walk.scratch.points[0] > 0.0
         if s.inner != 0 and walk.scratch.points[0] == COVERED_OVERLAP and walk.bodies[s.body_row].kind == STATIC:
             left_by = row
-        if told:
+        if meets:
             left_by = -1
     if left_by >= 0:
         return BLOCKED, left_by, 0.0

@@ -106,7 +106,7 @@ def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:
     if not tables.library.masks or not len(whole):
         return whole
     if not tables.effects.response:
-        return _told_in_full(tables, whole) if tables.effects.narrowphase else whole
+        return _in_full(tables, whole) if tables.effects.narrowphase else whole
     row_a, row_b = rows_of(shapes, whole["parent_a"]), rows_of(shapes, whole["parent_b"])
     masked = ((shapes["role"][row_a] == PIXELS) | (shapes["role"][row_b] == PIXELS)) & (row_a >= 0) & (row_b >= 0)
     some = whole[masked]
@@ -134,7 +134,7 @@ def put_back(full, places, manifolds_out):
         copy_manifold(full, i, places[full[i].candidate], manifolds_out)
 
 
-def _told_in_full(tables, manifolds):
+def _in_full(tables, manifolds):
     """Return the CONTACT rows, with point, normal and depth computed for each pair of masks that still overlaps."""
     shapes = tables.shapes
     row_a, row_b = (_rows(shapes, manifolds, side) for side in "ab")

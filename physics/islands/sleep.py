@@ -94,9 +94,9 @@ class SleepingSet:
             island = self.take(key)
             m, t = island.contacts, island.touching
             goes = (m["body_a"] == identity) | (m["body_b"] == identity)
-            told = (t["body_a"] == identity) | (t["body_b"] == identity)
-            found.append((m[goes], t[told]))
-            self.put(key, Island(island.bodies, m[~goes], t[~told]))
+            named = (t["body_a"] == identity) | (t["body_b"] == identity)
+            found.append((m[goes], t[named]))
+            self.put(key, Island(island.bodies, m[~goes], t[~named]))
         return found
 
     def keep_touching(self, rows: np.ndarray, fell_asleep: np.ndarray, keys: np.ndarray) -> None:
@@ -285,22 +285,22 @@ def wake(tables: WorldTables, keys: Iterable[int]) -> None:
     keys = [key for key in sorted(keys) if key in sleeping_set.islands]
     if not keys:
         return
-    bodies, parts, told = tables.bodies, [], []
+    bodies, parts, pairs = tables.bodies, [], []
     woken = [sleeping_set.take(key) for key in keys]
     ids = np.concatenate([island.bodies for island in woken])
     for island in woken:
         parts.append(island.contacts)
-        told.append(island.touching)
+        pairs.append(island.touching)
     for identity in sorted(set(ids.tolist()) & sleeping_set.links.keys()):
         for contacts, touching in sleeping_set.take_naming(identity):
             parts.append(contacts)
-            told.append(touching)
+            pairs.append(touching)
     rows = rows_of(bodies, ids)
     rows = rows[rows >= 0]
     bodies["awake"][rows] = True
     bodies["sleep_time"][rows] = 0.0
     bodies["island"][rows] = -1
-    tables.touching_pairs.give_back(joined(told))
+    tables.touching_pairs.give_back(joined(pairs))
     sleeping_set.return_reported(tables, ids)
     tables.awake.include(tables, rows)
     _bring_back(tables, joined(parts))

@@ -113,15 +113,15 @@ def _open_store():
         return Store(home)
     beside = home.with_name(f"{home.name}-private")
     if not make_private(beside):
-        _tell(f"in {beside}: {problem}")
+        _warn(f"in {beside}: {problem}")
         return Store(beside)
     made = Store(Path(tempfile.mkdtemp(prefix=TEMPORARY)))
     _remove_at_exit(made.folder)
-    _tell(f"for this run only: {problem}")
+    _warn(f"for this run only: {problem}")
     return made
 
 
-def _tell(where):
+def _warn(where):
     if sys.stderr is not None:
         sys.stderr.write(f"hitbox: compiled kernels are kept {where}\n")
 
