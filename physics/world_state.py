@@ -189,7 +189,7 @@ class WorldState:
     _tiers: dict[int, TierName]
     _sources: dict[int, tuple[Shape, ...]]
     _broadphase: Strategy
-    _told: tuple[np.ndarray, np.ndarray | None]
+    _reported: tuple[np.ndarray, np.ndarray | None]
     _contacts: np.ndarray | None
 
     def __repr__(self) -> str:

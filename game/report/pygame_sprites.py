@@ -4,6 +4,7 @@ Every program plays the same frames: each sprite moves by whole pixels, there an
 pixels. A frame includes moving the sprites and finding all hits.
 """
 
+from abc import ABC, abstractmethod
 from bisect import bisect_left
 from collections.abc import Callable, Iterator
 from itertools import cycle
@@ -66,7 +67,7 @@ def _pygame_mask(mask):
 # ---- programs --------------------------------------------------------------------------------------------------------
 
 
-class Program:
+class Program(ABC):
     """A program that plays the frames of a Traffic, one per call of play(), and begins at frame 1.
 
     hits: the pairs that share a pixel in the last frame, as the program keeps them; found(): the same as Hits.
@@ -76,9 +77,9 @@ class Program:
         self.traffic, self.frames = traffic, cycle([*range(1, FRAMES), 0])
         self.hits: Any = set()
 
+    @abstractmethod
     def play(self) -> None:
         """Move the sprites to their places in the next frame, and find the hits."""
-        raise NotImplementedError
 
     def found(self) -> Hits:
         """Return the hits of the last frame."""
@@ -168,7 +169,7 @@ class GroupCollide(Plain):
 
 
 class Stepped(Program):
-    """A world whose step moves the sprites by their velocities, and finds the hits as contacts, which nobody reads.
+    """A world whose step moves the sprites by their velocities, and finds the hits as contacts, which are not read.
 
     tested: pairs that its broad phase has tested so far.
     """

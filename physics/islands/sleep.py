@@ -762,9 +762,9 @@ def _park(state, slept):
     own = fell_asleep[by_key]
     cuts = np.searchsorted(keys[by_key], names)
     ends = [*cuts[1:].tolist(), len(own)]
-    untold = np.zeros(0, EVENT)
+    no_events = np.zeros(0, EVENT)
     disable_body = [
-        Island(ids, own[start:end], untold) for ids, start, end in zip(members, cuts.tolist(), ends, strict=True)
+        Island(ids, own[start:end], no_events) for ids, start, end in zip(members, cuts.tolist(), ends, strict=True)
     ]
     foreign = [(sides[k] != keys, fell_asleep[name]) for k, name in enumerate(("body_a", "body_b"))]
     named = np.concatenate([ids[outside] for outside, ids in foreign]).tolist()
