@@ -15,7 +15,7 @@ from physics.character.character import Character
 from physics.collision.manifold import contacts_of
 from physics.effects import Effects
 from physics.jit import tiers
-from physics.joints.kinds import Gear, Pulley, Revolute, Target, Weld
+from physics.joints.kinds import Gear, Prismatic, Pulley, Revolute, Target, Weld
 from physics.settings import LARGE_MASK, MASK_TILE, SLEEP_TIME
 from physics.shapes.kinds import Bounds
 from physics.shapes.mask import PixelMask
@@ -225,7 +225,10 @@ def _rest(effects, solver):
 
 
 def _joints(effects, solver):
-    """Step a world with a tree of joints, a pulley and a gear under each solver of joints. One joint breaks."""
+    """Step a world with a tree of joints, a slider with limits, a pulley and a gear under each solver of joints.
+
+    One joint breaks.
+    """
     world = World(effects, solver=solver)
     if not world.stacks:
         return  # the solver does not solve joints
@@ -241,6 +244,8 @@ def _joints(effects, solver):
         "ground_b": (21.0, -90.0),
     }
     world.add_joint(Pulley(bodies[2], bodies[3], **over))
+    ball = world.add_body(Circle(4), position=(40.0, 0.0))
+    world.add_joint(Prismatic(None, ball, at=ball.position, axis=(1.0, 0.0), limits=(-9.0, 9.0)))
     drag = world.add_joint(Target(bodies[3], at=bodies[3].position))
     for name in ("iterative", "direct", "auto"):
         world.joint_solver = name

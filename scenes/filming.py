@@ -58,7 +58,7 @@ SHOTS = {
     "shooter": Shot(Moment("the boss", leader("boss_a_0", 85)), 130, 20),
     "platformer": Shot(Moment("keep", done("lift with an enemy", 40)), 130, 80),
     "lander": Shot(Moment("the canyon", landing("canyon", 60.0)), 90, 40),
-    "lab/gallery": Shot(45, 160, 52, 1),
+    "lab/gallery": Shot(38, 160, 52, 1),
     "lab/effects": Shot(410, 200, 150, 1),
     "lab/queries": Shot(101, 4, 18, 1),
     "lab/sleeping": Shot(330, 40, 118, 1),

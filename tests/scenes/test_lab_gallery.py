@@ -27,7 +27,7 @@ from scenes.lab.gallery.scene import NAMES, PLOT, TOURED, VIEWS, Gallery, amount
 from tests.game.reading import assert_text_is_apart
 
 HEAVY = {"column", "struck", "point", "crowd", "far", "asleep", "cards", "squares", "wall", "rods", "bullets", "beam"}
-HEAVY |= {"gate", "bowl", "wheel", "seams"}
+HEAVY |= {"gate", "bowl", "wheel", "seams", "chain", "cantilever", "stairs", "bridge"}
 needs_speed = pytest.mark.skipif(not physics.JIT, reason="hundreds of steps of many bodies")
 BY_WEIGHT = [pytest.param(page, id=page.name, marks=needs_speed if page.name in HEAVY else ()) for page in PAGES]
 

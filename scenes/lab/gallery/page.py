@@ -10,6 +10,7 @@ from typing import Any
 
 from game.measure.measured_runs import RunFigures
 from physics import Effects, Polygon, World
+from physics.annotations import JointSolverName
 
 METER = 32.0  # [px]
 MM = 1000.0 / METER  # [mm/px]
@@ -23,7 +24,8 @@ class Way:
     """The setup of one of a page's two worlds.
 
     world: keyword arguments of World; bodies: keyword arguments for the page's own functions; without: names of effects
-    that are off; step: function that steps the Side in place of World.step(), for methods that the engine lacks.
+    that are off; step: function that steps the Side in place of World.step(), for methods that the engine lacks;
+    joint_solver: of the world.
     """
 
     name: str
@@ -31,6 +33,7 @@ class Way:
     bodies: Mapping[str, Any] = field(default_factory=dict)
     without: tuple[str, ...] = ()
     step: Callable[["Side"], None] | None = None
+    joint_solver: JointSolverName = "auto"
 
 
 def auto(accuracy):
@@ -86,7 +89,7 @@ class Page:
     act: Callable[["Side"], None] | None = None  # before each step
     judged: str = WORST
     alike: bool = False
-    glance: int = 24  # frames of the bot's first look
+    glance: int = 20  # frames of the bot's first look
     larger: Larger | None = None
     also: Callable[["Side"], str] | None = None  # a second figure, as text
 
@@ -109,6 +112,7 @@ class Side:
     def begin(self, other: "Side"):
         """Add the page's bodies to the world. other: Side of the page's other world."""
         self.other = other
+        self.world.joint_solver = self.way.joint_solver
         self.page.build(self)
 
     def step(self):

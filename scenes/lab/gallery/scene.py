@@ -3,9 +3,9 @@
 In short: left fails, right holds. Below each side: its error, the limit of the page, and the time of a step.
 
 What to see: two worlds with the same bodies. The left world uses a simple method: tests at the poses only, a fixed
-number of substeps, no sleep, hulls, or a simple solver of the page itself. The right world uses the full method. Below
-each are its error, the limit of the page, and the time of a step. On some pages both sides should be alike: a thousand
-bodies at one point, ten million pixels from the origin.
+number of substeps, iterative joints, no sleep, hulls, or a simple solver of the page itself. The right world uses the
+full method. Below each are its error, the limit of the page, and the time of a step. On some pages both sides should be
+alike: a thousand bodies at one point, ten million pixels from the origin.
 
 Why it matters: An engine is chosen for its worst case, not for its demo; each case is shown both ways here.
 
@@ -54,7 +54,7 @@ class Gallery(Scene):
     title = "Gallery"
     question = STANDS
     about = (
-        "Twenty-five hard cases, the naive way and ours side by side: what goes wrong, by how much, and what it costs."
+        "Twenty-nine hard cases, the naive way and ours side by side: what goes wrong, by how much, and what it costs."
     )
     effects = Effects(
         response=True,
@@ -66,9 +66,10 @@ class Gallery(Scene):
         continuous=True,
         sleeping=True,
         sensors=True,
+        joints=True,
     )
     features = (
-        "tunnelling, columns, mass ratios, bounces, gates, seams, pixels",
+        "tunnelling, columns, mass ratios, gates, joints, seams, pixels",
         "error against a limit, and microseconds, of both ways",
         "a thousand bodies at one point, 10^7 px from the origin",
     )

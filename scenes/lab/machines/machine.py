@@ -135,6 +135,10 @@ class Machine:
         """Make one step, and measure it."""
         self.control()
         self.world.step()
+        self.note()
+
+    def note(self) -> None:
+        """Measure the last step. A caller that steps the world itself calls control() before, and this after it."""
         self.steps += 1
         self.broken += len(self.world.events.broken)
         self.recent = separation(self.world)
