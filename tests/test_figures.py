@@ -14,6 +14,7 @@ import pytest
 from scenes import SCENES
 from scenes.lab.gallery.pages import PAGES
 from tests import coverage
+from tests.accuracy.page import total_seconds
 
 ROOT = Path(__file__).resolve().parents[1]
 KEPT = ROOT / "docs"
@@ -134,7 +135,7 @@ def all_checks_take():
 
 def reports_take():
     return [
-        f'tables and raw data (`pip install -e ".[bench]"`): {kept("accuracy.json")["seconds"] / 60:.0f} minutes',
+        f'tables and raw data (`pip install -e ".[bench]"`): {total_seconds(kept("accuracy.json")) / 60:.0f} minutes',
         f"makes the report smaller and less certain: {kept('minutes.json')['quick report']:.1f} minutes",
     ]
 

@@ -20,7 +20,7 @@ HEADLINE = "tiers"  # key of the chart whose first panel follows the answer
 # The questions of the report, and the keys of the charts that answer them; other charts follow the last question.
 QUESTIONS = (
     ("Which hits are fair?", ("tiers", "contacts", "fit", "continuous", "continuous-time")),
-    ("What stands?", ("solvers", "integration", "far", "chaos")),
+    ("What stands?", ("solvers", "integration", "joints", "far", "chaos")),
     ("What is fast?", ("broadphases", "latency")),
     ("What does a scene need?", ("effects", "scenes")),
     ("How do others do?", ("peers", "papers")),

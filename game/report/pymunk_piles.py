@@ -12,15 +12,21 @@ SLOP = 0.1  # [px] pymunk's default overlap of bodies
 ITERATIONS = 10  # pymunk's default
 
 
+def library() -> Any:
+    """Return the module pymunk. Raises ModuleNotFoundError, which names the extra that installs it."""
+    try:
+        import pymunk
+    except ModuleNotFoundError as error:
+        raise ModuleNotFoundError(f"pymunk is not installed; it comes with: {startup.install('bench')}") from error
+    return pymunk
+
+
 def space_of(pile: Pile, iterations: int = ITERATIONS) -> Any:
     """Return a pymunk space with the pile's boxes, all of one density, on wide ground.
 
     iterations: number of iterations of pymunk's solver.
     """
-    try:
-        import pymunk
-    except ModuleNotFoundError as error:
-        raise ModuleNotFoundError(f"pymunk is not installed; it comes with: {startup.install('bench')}") from error
+    pymunk = library()
     space = pymunk.Space()
     space.gravity, space.iterations, space.collision_slop = (0.0, GRAVITY), iterations, SLOP
     width = max(abs(x) for x, _ in pile.places) + 20.0 * BOX

@@ -1,11 +1,16 @@
-"""python -m tests.accuracy DIR: docs/accuracy.json, docs/accuracy.md and its twelve plots from a full report in DIR."""
+"""python -m tests.accuracy DIR: docs/accuracy.json, docs/accuracy.md and its thirteen plots from a full report in DIR.
+
+python -m tests.accuracy DIR CHART replaces one chart by that of a report of this chart alone (--only CHART). The page
+then says that it was measured apart, and where, until a full report replaces all.
+"""
 
 import json
 import sys
 from pathlib import Path
 
+from game.report.chart import Chart
 from game.report.plots import draw
-from tests.accuracy.page import KEPT, PAGE, PLOTS, charts, panel_of, rounded, rows_of, text
+from tests.accuracy.page import KEPT, PAGE, PLOTS, charts, panel_of, read, rounded, rows_of, text
 
 STYLE = """<style>
 :root { --ink: #1b2230; --paper: #ffffff; --faint: #b4bccb; }
@@ -14,8 +19,11 @@ text { font-family: sans-serif; }
 </style>"""
 
 
-def main(folder: Path) -> None:
-    """Write docs/accuracy.json, docs/accuracy.md and the plots from the finished report in a folder."""
+def main(folder: Path, only: str = "") -> None:
+    """Write docs/accuracy.json, docs/accuracy.md and the plots from the finished report in a folder.
+
+    only: key of the chart to replace; "": all.
+    """
     manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
     if manifest["quick"]:
         raise SystemExit(f"{folder} holds a quick report; the page is made from a full one")
@@ -23,13 +31,30 @@ def main(folder: Path) -> None:
     failed = [found["name"] for found in results if "failed" in found]
     if failed:
         raise SystemExit(f"{folder}: {len(failed)} jobs failed: {', '.join(failed)}")
-    rows = {chart.key: json.loads((folder / "data" / f"{chart.key}.json").read_text()) for chart in charts()}
-    kept = {
-        "version": manifest["version"],
-        "machine": manifest["machine"],
-        "seconds": round(sum(found["spent"] for found in results)),
-        "rows": rounded({chart.key: rows[chart.key] for chart in charts() if not chart.of}),
+    chosen = [chart for chart in charts() if only in ("", chart.key)]
+    if not chosen:
+        raise SystemExit(f"no chart {only!r}; there are {', '.join(chart.key for chart in charts())}")
+    rows = {
+        chart.key: rounded(json.loads((folder / "data" / f"{chart.key}.json").read_text()))
+        for chart in chosen
+        if not chart.of
     }
+    seconds = round(sum(found["spent"] for found in results if only in ("", found["name"].split("/")[0])))
+    if only:
+        kept = replaced(read(), rows, {"seconds": seconds, "machine": manifest["machine"]})
+    else:
+        kept = {"version": manifest["version"], "machine": manifest["machine"], "seconds": seconds, "rows": rows}
+    write(kept, chosen)
+
+
+def replaced(kept: dict, rows: dict, apart: dict) -> dict:
+    """Return the stored report with the rows of some charts, which were measured apart: duration [s] and machine."""
+    mine = {**kept.get("apart", {}), **dict.fromkeys(rows, apart)}
+    return {**kept, "apart": mine, "rows": {**kept["rows"], **rows}}
+
+
+def write(kept: dict, drawn: list[Chart]) -> None:
+    """Write the rows, the plots of some charts, and the page."""
     lines = ",\n".join(f" {json.dumps(key)}: {json.dumps(each)}" for key, each in kept.items() if key != "rows")
     tables = ",\n".join(
         f"  {json.dumps(key)}: [\n" + ",\n".join("   " + json.dumps(row) for row in each) + "\n  ]"
@@ -37,7 +62,7 @@ def main(folder: Path) -> None:
     )
     KEPT.write_text(f'{{\n{lines},\n "rows": {{\n{tables}\n }}\n}}\n', encoding="utf-8")
     PLOTS.mkdir(exist_ok=True)
-    for chart in charts():
+    for chart in drawn:
         svg, _ = draw(panel_of(chart, rows_of(kept, chart)), rows_of(kept, chart), chart.key)
         head, _, rest = svg.partition(">")
         (PLOTS / f"{chart.key}.svg").write_text(f"{head}>\n{STYLE}{rest}", encoding="utf-8")
@@ -45,4 +70,4 @@ def main(folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]))
+    main(Path(sys.argv[1]), *sys.argv[2:3])

@@ -1,4 +1,4 @@
-"""docs/accuracy.md: the story of a full report in twelve plots, from the rows kept in docs/accuracy.json."""
+"""docs/accuracy.md: the story of a full report in thirteen plots, from the rows kept in docs/accuracy.json."""
 
 import json
 from pathlib import Path
@@ -25,6 +25,7 @@ STORY = {  # by chart: the panel that tells the most
     "effects": "declared: taken out",
     "chaos": "when",
     "latency": "time",
+    "joints": "ball of 1000 rods on a chain",
 }
 INTRODUCTION = """# What accuracy costs in time
 
@@ -70,9 +71,19 @@ def charts() -> list[Chart]:
     return [chart for chart in CHARTS if chart.key in STORY]
 
 
+def facts_of(machine: dict) -> str:
+    """Return the facts of a machine as text."""
+    return ", ".join(f"{name} {value}" for name, value in machine.items())
+
+
+def total_seconds(kept: dict) -> float:
+    """Return the duration of a report with all charts [s], those that were measured apart included."""
+    return kept["seconds"] + sum(each["seconds"] for each in kept.get("apart", {}).values())
+
+
 def text(kept: dict) -> str:
     """Return the text of the page."""
-    facts = ", ".join(f"{name} {value}" for name, value in kept["machine"].items())
+    facts = facts_of(kept["machine"])
     version = f"Hitbox {kept['version']}"
     parts = [INTRODUCTION.format(version=version, machine=facts, seconds=kept["seconds"])]
     for chart in charts():
@@ -83,11 +94,14 @@ def text(kept: dict) -> str:
         lines = [f"| {claim.text} | {claim.figure} | {claim.verdict} | {claim.source} |" for claim in told[:MOST]]
         table = "\n".join(["| claim | measured | verdict | whose |", "|---|---|---|---|", *lines]) if lines else ""
         more = f"\nAnd {len(claims) - MOST} more, in the report." if len(claims) > MOST else ""
+        apart = kept.get("apart", {}).get(chart.key)
+        where = f"Measured apart, in {apart['seconds']} s ({facts_of(apart['machine'])})." if apart else ""
         parts += [
             f"## {chart.number}. {chart.title}",
             chart.question,
             f"![{STORY[chart.key]}](accuracy/{chart.key}.svg)",
             f"Truth: {chart.truth}. `python main.py --report DIR --only {chart.of or chart.key}`",
+            where,
             f"{table}\n{more}",
         ]
     return "\n\n".join(part.strip() for part in parts if part.strip()) + "\n"

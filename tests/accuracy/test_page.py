@@ -6,7 +6,8 @@ import xml.etree.ElementTree as ElementTree
 import pytest
 
 from game.report.claim import FAILS, HOLDS, TIE
-from tests.accuracy.page import DOCS, PAGE, PLOTS, STORY, charts, dots, read, text
+from tests.accuracy.__main__ import replaced
+from tests.accuracy.page import DOCS, PAGE, PLOTS, STORY, charts, dots, read, text, total_seconds
 
 
 @pytest.fixture(scope="module")
@@ -28,9 +29,18 @@ def test_each_plot_shows_every_dot(kept, chart):
     assert "var(--ink)" in path.read_text(encoding="utf-8")
 
 
-def test_there_are_twelve_and_each_claims_something(kept):
-    assert len(STORY) == 12 == len(charts())
-    assert len(re.findall(r"!\[", PAGE.read_text(encoding="utf-8"))) == 12
+def test_a_chart_that_is_measured_apart_names_its_machine(kept):
+    machine = {"cpu": "of another kind"}
+    one = replaced(kept, {"far": kept["rows"]["far"][:1]}, {"seconds": 7, "machine": machine})
+    assert one["rows"].keys() == kept["rows"].keys() and len(one["rows"]["far"]) == 1
+    assert one["rows"]["tiers"] is kept["rows"]["tiers"] and one["machine"] == kept["machine"]
+    assert text(one).count("Measured apart, in 7 s (cpu of another kind).") == 1
+    assert total_seconds(one) == total_seconds(kept) + 7
+
+
+def test_there_are_thirteen_and_each_claims_something(kept):
+    assert len(STORY) == 13 == len(charts())
+    assert len(re.findall(r"!\[", PAGE.read_text(encoding="utf-8"))) == 13
     verdicts = {claim.verdict for chart in charts() for claim in chart.claims(kept["rows"][chart.of or chart.key])}
     assert verdicts == {HOLDS, FAILS, TIE}, "what does not hold is told too"
 

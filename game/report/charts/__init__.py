@@ -8,6 +8,7 @@ from game.report.charts import (
     effects,
     far,
     integration,
+    joints,
     latency,
     papers,
     peers,
@@ -32,4 +33,5 @@ CHARTS = (
     scenes.CHART,
     peers.CHART,
     papers.CHART,
+    joints.CHART,
 )

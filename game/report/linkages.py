@@ -1,0 +1,148 @@
+"""Rods on joints under load, in this project's worlds: chains, a bridge, an arm of welds, and the gaps of their joints.
+
+Lengths are in pixels, 32 to the metre. A linkage hangs on a base, a body that stays in place and may turn at a constant
+speed. Its bodies pass through each other.
+"""
+
+from collections.abc import Sequence
+from math import atan2, cos, dist, radians, sin
+from typing import NamedTuple
+
+import numpy as np
+
+from game.report.piles import GRAVITY
+from physics import Circle, Effects, Filter, Polygon, Revolute, Weld, World
+from physics.annotations import JointSolverName, Substeps
+
+METER = 32.0  # [px]
+THICK = METER / 4  # of a rod
+RADIUS = METER / 2  # of a ball
+BASE = 0  # index of the base among the bodies
+EFFECTS = Effects(response=True, gravity=True, rotation=True, stacking=True, joints=True)
+ALONE = Filter(1, 0)
+SPIN = 0.5  # [rad/s] of the arm of welds
+FASTEST = 4.0 * METER  # [px/s] of the ball of a bridge
+
+Pair = tuple[float, float]
+
+
+class Pin(NamedTuple):
+    """Two bodies, by their index, and the place (x, y) [px] at the start at which they are held together."""
+
+    a: int
+    b: int
+    at: Pair
+
+
+class Linkage(NamedTuple):
+    """Rods and balls, and the joints between them. The bodies are the base, the rods, and the balls, in this order.
+
+    rods: start and end of each [px]; balls: (middle [px], mass [rods], speed to the right [px/s]) of each; judged: pins
+    whose gap is the error.
+    """
+
+    rods: Sequence[tuple[Pair, Pair]]
+    balls: Sequence[tuple[Pair, float, float]]
+    joints: Sequence[Pin]
+    judged: Sequence[Pin]
+    welded: bool = False  # joints that keep the angle, too
+    spin: float = 0.0  # [rad/s] of the base
+
+
+def along(distance: float, angle: float, start: Pair = (0.0, 0.0)) -> Pair:
+    """Return the point at a distance [px] from `start`, at an angle clockwise from the right."""
+    return start[0] + distance * cos(angle), start[1] + distance * sin(angle)
+
+
+def _row_of_rods(places: Sequence[Pair]) -> tuple[list[tuple[Pair, Pair]], list[Pin]]:
+    """Return the rods between neighbouring places, and their joints, of which the first holds the base."""
+    rods = list(zip(places, places[1:], strict=False))
+    return rods, [Pin(k, k + 1, at) for k, (at, _) in enumerate(rods)]
+
+
+def chain(ratio: float, share: float, count: int = 20) -> Linkage:
+    """Return a chain of rods, let go straight, with a ball of `ratio` rods at its end.
+
+    share: 0 .. 1, which of the cases: the angle at the start, level to 50 degrees down.
+    """
+    angle = radians(50.0 * share)
+    rods, joints = _row_of_rods([along(METER * k, angle) for k in range(count + 1)])
+    joints.append(Pin(count, count + 1, along(METER * count, angle)))
+    return Linkage(rods, [(along(METER * (count + 0.5), angle), ratio, 0.0)], joints, joints)
+
+
+def bridge(ratio: float, share: float, count: int = 20) -> Linkage:
+    """Return a bridge of rods, let go as a V, with a ball of `ratio` rods in its middle.
+
+    share: 0 .. 1, which of the cases: the speed of the ball to the side at the start, none to FASTEST.
+    """
+    turn, places = radians(20.0), [(0.0, 0.0)]
+    for k in range(count):
+        places.append(along(METER, turn if k < count / 2 else -turn, places[-1]))
+    rods, joints = _row_of_rods(places)
+    middle = count // 2
+    joints += [Pin(BASE, count, places[-1]), Pin(middle + 1, count + 1, places[middle])]
+    return Linkage(rods, [(places[middle], ratio, FASTEST * share)], joints, joints)
+
+
+def arm(share: float, count: int = 8) -> Linkage:
+    """Return an arm of welded rods on a base that turns; its error is the distance of the tip from its place.
+
+    share: 0 .. 1, which of the cases: the angle at the start, level to nearly a whole turn.
+    """
+    angle = radians(320.0 * share)
+    rods, joints = _row_of_rods([along(METER * k, angle) for k in range(count + 1)])
+    return Linkage(rods, [], joints, [Pin(BASE, count, along(METER * count, angle))], welded=True, spin=SPIN)
+
+
+def world_of(linkage: Linkage, tier: JointSolverName, substeps: Substeps) -> World:
+    """Return a world with the linkage. tier: its solver of joints."""
+    world = World(EFFECTS, gravity=(0.0, GRAVITY), substeps=substeps)
+    world.joint_solver = tier
+    base = world.add_body(Circle(RADIUS), kind="kinematic", angular_velocity=linkage.spin, filter=ALONE)
+    bodies = [base]
+    for start, end in linkage.rods:
+        shape = Polygon.box(dist(start, end), THICK)
+        bodies.append(world.add_body(shape, position=middle(start, end), angle=turn_of(start, end), filter=ALONE))
+    for place, ratio, speed in linkage.balls:
+        mass = ratio * bodies[1].mass
+        bodies.append(world.add_body(Circle(RADIUS), position=place, mass=mass, velocity=(speed, 0.0), filter=ALONE))
+    kind = Weld if linkage.welded else Revolute
+    for a, b, at in linkage.joints:
+        world.add_joint(kind(bodies[a], bodies[b], at=at))
+    return world
+
+
+def middle(start: Pair, end: Pair) -> Pair:
+    """Return the point halfway between two points."""
+    return (start[0] + end[0]) / 2.0, (start[1] + end[1]) / 2.0
+
+
+def turn_of(start: Pair, end: Pair) -> float:
+    """Return the angle of the way from one point to another [rad]."""
+    return atan2(end[1] - start[1], end[0] - start[0])
+
+
+def poses_in(world: World) -> np.ndarray:
+    """Return x [px], y [px] and angle [rad] of all bodies, an array of shape (3, bodies)."""
+    return np.array([world.bodies[name] for name in ("x", "y", "angle")])
+
+
+class Gaps:
+    """The widest gap of the judged pins of a linkage, from poses of its bodies in any engine."""
+
+    def __init__(self, linkage: Linkage, poses: np.ndarray) -> None:
+        """poses: of the start, as of poses_in()."""
+        pins = linkage.judged
+        self.rows = np.array([pin.a for pin in pins] + [pin.b for pin in pins])
+        x, y, angle = poses[:, self.rows]
+        u, v = np.array([pin.at for pin in pins] * 2).T - (x, y)
+        self.local = np.cos(angle) * u + np.sin(angle) * v, np.cos(angle) * v - np.sin(angle) * u
+
+    def widest(self, poses: np.ndarray) -> float:
+        """Return the widest gap [px] at these poses."""
+        x, y, angle = poses[:, self.rows]
+        u, v = self.local
+        x, y = x + np.cos(angle) * u - np.sin(angle) * v, y + np.sin(angle) * u + np.cos(angle) * v
+        half = len(self.rows) // 2
+        return float(np.hypot(x[half:] - x[:half], y[half:] - y[:half]).max())
