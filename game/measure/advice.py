@@ -117,10 +117,13 @@ def settings_within(survey: Survey, error: float) -> list[Setting]:
 
     error: in pixels; for collision tiers (kinds of collision shape of the sprites), in wrong answers per 100
     encounters. The interval of the error counts: its upper end for another tier, its lower end for the present tier. So
-    a few encounters neither recommend a tier nor condemn the present one.
+    a few encounters neither recommend a tier nor condemn the present one. Settings with another solver of joints are
+    left out: no scene can be changed to one.
     """
     found = {}
     for setting, dot in survey.dots.items():
+        if setting.joint_solver != survey.first.joint_solver:
+            continue
         errors = [survey.error(setting, kind) for kind in survey.kinds]
         if dot.cost is not None and all(
             e is not None and is_sound(e) and e.interval[_end(survey, setting, e)] <= error for e in errors

@@ -1,9 +1,11 @@
 """The errors of a setting, measured in runs from a snapshot ("moment"), against reference runs and exact tests.
 
-There are three kinds of error. `way` [px]: distance of the bodies from their positions in a reference run. `overlap`
-[px]: how deep rigid bodies overlap, which is 0 in an exact solution. `verdict`: wrong answers (false hits and missed
-hits) per 100 encounters. An encounter is a pair of bodies that the setting or the exact test reports as touching, see
-exact_tier. A pair counts once, no matter how long it touches, so that encounters are independent.
+There are four kinds of error. `way` [px]: distance of the bodies from their positions in a reference run. `overlap`
+[px]: how deep rigid bodies overlap, which is 0 in an exact solution. `joints` [px]: the widest gap between the anchors
+of a joint, which is 0 likewise; in the second half of the run, since gaps at its start are those of the setting under
+which the scene ran. `verdict`: wrong answers (false hits and missed hits) per 100 encounters. An encounter is a pair of
+bodies that the setting or the exact test reports as touching, see exact_tier. A pair counts once, no matter how long it
+touches, so that encounters are independent.
 
 The reference run of `way` has 64 times the 4 substeps of a plain run, and the contact stiffness of runs with a fixed
 number of substeps. Erez, Tassa and Todorov (ICRA 2015) compare engines with themselves at smaller steps in this way.
@@ -128,7 +130,9 @@ class References:
     @property
     def kinds(self) -> tuple[str, ...]:
         """The kinds of error that are measured from this snapshot, the most important first."""
-        return ("overlap", "way") if self.moment.effects.response else ("verdict",)
+        if not self.moment.effects.response:
+            return ("verdict",)
+        return ("overlap", "way") if self.moment.here.joint_solver is None else ("overlap", "way", "joints")
 
     @cached_property
     def reference(self) -> Reference:
@@ -150,10 +154,12 @@ class References:
         if not self.moment.effects.response:
             return {"verdict": self._verdict(setting)}
         (fine, last, floor), way = self.reference, self.moment.way(setting)
-        return {
+        found = {
             "overlap": Error(float(np.median(way.overlap)), 0.0, STEPS, way.failures),
             "way": Error(float(way.apart(fine)[last - 1]), floor, last, way.failures),
+            "joints": Error(float(way.gaps[len(way.gaps) // 2 :].max()), 0.0, STEPS, way.failures),
         }
+        return {kind: found[kind] for kind in self.kinds}
 
     def _verdict(self, setting) -> Error:
         """Return the "verdict" error of a setting: wrong answers per 100 encounters.

@@ -14,7 +14,10 @@ from game.measure.staged import seconds_of_stage
 from game.measure.timing import seconds_a_step
 from game.measurement_requests import STEPS, Act
 from physics import BROADPHASES, DYNAMIC, Effects, Snapshot, World
-from physics.annotations import SolverName, Substeps, TierName
+from physics.annotations import JointSolverName, SolverName, Substeps, TierName
+
+PINNED, ON_AXIS, FREE, LENGTH = 1, 2, 0, 3  # values of the columns hold and coordinate, see physics.debug.joints
+HOLDS = (PINNED, ON_AXIS)
 
 
 class Moment:
@@ -29,7 +32,9 @@ class Moment:
         self.effects = Effects.named(facts["effects"])
         self.tiered = tuple(identity for identity, _, _ in facts["tiers"])
         tier = facts["tiers"][0][1] if facts["tiers"] else None
-        self.here = setting_of(self.effects, broadphase, facts["solver"], facts["substeps"], tier)
+        self.here = setting_of(
+            self.effects, broadphase, facts["solver"], facts["substeps"], tier, facts["joint_solver"]
+        )
 
     def world(self, setting: Setting) -> World:
         """Return a new world in the state of the snapshot, with the given setting."""
@@ -42,6 +47,8 @@ class Moment:
             world.solver = setting.solver
         if setting.substeps is not None and setting.substeps != world.substeps:
             world.substeps = setting.substeps
+        if setting.joint_solver is not None and setting.joint_solver != world.joint_solver:
+            world.joint_solver = setting.joint_solver
         if setting.tier is not None and setting.tier != self.here.tier:
             for identity in self.tiered:
                 world.body(identity).tier = setting.tier
@@ -78,11 +85,12 @@ class Moment:
 
 
 class Way(NamedTuple):
-    """Motion of the bodies in a run: positions and the deepest overlap after each step, and counts of failures."""
+    """Motion of the bodies in a run: positions, deepest overlap and widest gap after each step, counts of failures."""
 
     places: np.ndarray  # (steps, bodies, 2) centres of mass [px], in the order of ids
     moves: np.ndarray  # (bodies,) bool: dynamic
     overlap: np.ndarray  # (steps,) the deepest overlap of the contacts [px]
+    gaps: np.ndarray  # (steps,) the widest gap of a joint [px]
     failures: dict[str, int]  # cap hits, quarantined bodies, steps with a non-finite position
 
     def apart(self, other: "Way") -> np.ndarray:
@@ -98,7 +106,7 @@ def follow(world: World, steps: int, divided: int = 1) -> Way:
 
     divided: number of shorter steps that replace each step.
     """
-    places, overlap = [], []
+    places, overlap, gaps = [], [], []
     failures = Counter()
     dt = world.dt / divided
     for _ in range(steps):
@@ -113,8 +121,9 @@ def follow(world: World, steps: int, divided: int = 1) -> Way:
         places.append(place)
         separations = world.contacts["separation"]
         overlap.append(max(0.0, -float(separations.min())) if len(separations) else 0.0)
+        gaps.append(widest_gap(world))
     moves = (world.bodies["kind"] == DYNAMIC)[np.argsort(world.bodies["id"])]
-    return Way(np.array(places), moves, np.array(overlap), failures)
+    return Way(np.array(places), moves, np.array(overlap), np.array(gaps), failures)
 
 
 def failures_of(world: World) -> Counter[str]:
@@ -124,15 +133,32 @@ def failures_of(world: World) -> Counter[str]:
 
 def here_of(world: World, tier: TierName | None) -> Setting:
     """Return the Setting of a running world. tier: collision tier of its sprites, None if there are none."""
-    return setting_of(world.effects, world.broadphase.name, world.solver, world.substeps, tier)
+    return setting_of(world.effects, world.broadphase.name, world.solver, world.substeps, tier, world.joint_solver)
 
 
 def setting_of(
-    effects: Effects, broadphase: str, solver: SolverName, substeps: Substeps, tier: TierName | None
+    effects: Effects,
+    broadphase: str,
+    solver: SolverName,
+    substeps: Substeps,
+    tier: TierName | None,
+    joint_solver: JointSolverName,
 ) -> Setting:
     """Return the Setting of a world with these values. tier: collision tier of its sprites, None if there are none.
 
-    The fields `solver` and `substeps` are None if the effects do not use them.
+    The fields `solver`, `substeps` and `joint_solver` are None if the effects do not use them.
     """
     used = solver if effects.response else None
-    return Setting(broadphase, effects.narrowphase, used, substeps if used in SUBSTEPPED else None, tier)
+    joints = joint_solver if effects.joints and used in SUBSTEPPED else None
+    return Setting(broadphase, effects.narrowphase, used, substeps if used in SUBSTEPPED else None, tier, joints)
+
+
+def widest_gap(world: World) -> float:
+    """Return the widest gap of a joint that holds anchors together [px]; 0 without such joints.
+
+    A Target does not count: it is the joint of a mouse drag, and its separation is the distance to the pointer.
+    """
+    rows = world.joints
+    held = rows["separation"][np.isin(rows["hold"], HOLDS) & (rows["point_hertz"] == 0.0) & rows["enabled"]]
+    lengths = rows["separation"][(rows["coordinate"] == LENGTH) & (rows["hold"] == FREE)]
+    return float(max(held.max(initial=0.0), lengths.max(initial=0.0)))

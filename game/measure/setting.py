@@ -6,9 +6,10 @@ from typing import NamedTuple
 from game.drawing.number_text import count_text, plain_name
 from game.scene import SOLVERS_OF_JOINTS, SUBSTEPS
 from physics import BROADPHASES, SOLVERS, TIERS, Effects
-from physics.annotations import SolverName, Substeps, TierName
+from physics.annotations import JointSolverName, SolverName, Substeps, TierName
 
 SUBSTEPPED = ("soft_step", "sequential_impulse")  # solvers that use substeps, or passes in their place
+JOINT_TIERS: tuple[JointSolverName, ...] = ("iterative", "direct")  # that are compared
 
 
 class Setting(NamedTuple):
@@ -19,6 +20,7 @@ class Setting(NamedTuple):
     solver: SolverName | None = None
     substeps: Substeps | None = None
     tier: TierName | None = None
+    joint_solver: JointSolverName | None = None
 
     def differs(self, other: "Setting") -> tuple[str, ...]:
         """Return the names of the fields whose values differ from those of another setting."""
@@ -40,16 +42,24 @@ _WORDS = {
     "solver": plain_name,
     "substeps": lambda count: "substeps by load" if count == "auto" else count_text(count, "substep"),
     "tier": lambda name: f"as {name}",
+    "joint_solver": lambda name: f"{name} joints",
 }
 
 
 def settings_around(here: Setting, effects: Effects) -> list[Setting]:
     """Return the settings to measure: `here`, then all that differ from it by one change.
 
-    A change is another broad phase, narrow phase or collision tier, or another solver with each number of substeps. The
-    kinds of change take turns in the list. effects: effects of the world, which decide what can be changed.
+    A change is another broad phase, narrow phase or collision tier, or another solver, or solver of joints, with each
+    number of substeps. The kinds of change take turns in the list. effects: effects of the world, which decide what can
+    be changed.
     """
-    rows = [list(_solvers(here, effects)), list(_tiers(here)), list(_broadphases(here)), list(_narrow(here))]
+    rows = [
+        list(_solvers(here, effects)),
+        list(_joint_solvers(here)),
+        list(_tiers(here)),
+        list(_broadphases(here)),
+        list(_narrow(here)),
+    ]
     found = [here]
     while any(rows):
         for row in rows:
@@ -70,6 +80,13 @@ def _narrow(here) -> Iterator[Setting]:
 def _tiers(here) -> Iterator[Setting]:
     for name in TIERS if here.tier is not None and here.narrowphase else ():
         yield here._replace(tier=name)
+
+
+def _joint_solvers(here) -> Iterator[Setting]:
+    for substeps in SUBSTEPS if here.joint_solver is not None else ():
+        for name in JOINT_TIERS:
+            if here.solver == "soft_step" or substeps != "auto":
+                yield here._replace(joint_solver=name, substeps=substeps)
 
 
 def _solvers(here, effects) -> Iterator[Setting]:

@@ -9,8 +9,9 @@ from game.measure.survey import Survey
 from game.startup import start_line
 
 COLUMNS = (
-    "scene, broadphase, narrowphase, solver, substeps, tier, moments, runs, us_least, us_median, us_upper, error_kind, "
-    "error, error_low, error_high, floor, false_hits, reported_hits, missed_hits, true_hits, failures, command, machine"
+    "scene, broadphase, narrowphase, solver, substeps, tier, joint_solver, moments, runs, us_least, us_median, "
+    "us_upper, error_kind, error, error_low, error_high, floor, false_hits, reported_hits, missed_hits, true_hits, "
+    "failures, command, machine"
 ).split(", ")
 
 

@@ -16,7 +16,7 @@ from game.files.leftovers import remove_leftovers
 from game.measure.machine import machine
 
 MANIFEST, RESULTS, DATA = "manifest.json", "results", "data"
-FORMAT = 2  # version of the rows: incremented whenever a chart changes its rows
+FORMAT = 3  # version of the rows: incremented whenever a chart changes its rows
 
 
 class Store:

@@ -126,6 +126,8 @@ def _change(scene, name, value):
         return [("slider:solver", slider.low + slider.choices.index(value))]
     if name == "tier" and value not in scene.tiers:
         return f"this scene does not play with the tier {value}: it is only measured"
+    if name == "joint_solver":
+        return f"this scene chooses how its joints are solved: {value} is only measured"
     if name == "substeps" and value not in SUBSTEPS:
         return f"{value} substeps are those that the scene began with: restart it"
     return [(name, value)]

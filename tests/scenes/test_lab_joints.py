@@ -11,6 +11,7 @@ from game.drawing.canvas import SMALL
 from game.drawing.font import load_font
 from game.input.inputs import InputFrame, InputState
 from game.measure.measured_runs import RunFigures
+from game.measure.moment import widest_gap
 from game.measure.timing import RUNS, Cost
 from game.overlays.stack import Overlays
 from game.run.digest import scene_digest
@@ -22,7 +23,7 @@ from scenes.lab.joints import BOXES, NAMES, RUN_AFTER, TIERS, TURN, Joints, gap_
 from scenes.lab.machines import walker
 from scenes.lab.machines.gears import RADII, Gears, count_of
 from scenes.lab.machines.kinds import MACHINES
-from scenes.lab.machines.machine import HALF, separation
+from scenes.lab.machines.machine import HALF
 
 needs_speed = pytest.mark.skipif(not physics.JIT, reason="thousands of steps")
 EXACT = {"bridge": 0.2, "doll": 0.2, "car": 0.5, "crane": 0.2, "gears": 0.01, "walker": 1.0}  # [px] widest gap
@@ -174,11 +175,11 @@ def test_the_gap_is_that_of_the_joints_that_hold_and_not_of_the_mouse():
     world.add_joint(Distance(a, b, at_a=(0, 0), at_b=(40, 0)))
     world.add_joint(Target(b, at=(40, 0), point=(400, 300)))
     world.joints["separation"][:] = 0.25, 0.75, 500.0
-    assert separation(world) == 0.75
+    assert widest_gap(world) == 0.75
     world.joints["enabled"][0] = world.joints["enabled"][1] = True
     world.joints["separation"][:] = 1.5, 0.75, 500.0
-    assert separation(world) == 1.5
-    assert separation(World(Joints.effects)) == 0.0
+    assert widest_gap(world) == 1.5
+    assert widest_gap(World(Joints.effects)) == 0.0
 
 
 @pytest.mark.parametrize("phase", [k * pi / 6 for k in range(12)])
@@ -205,7 +206,7 @@ def test_the_legs_of_the_walker_are_built_without_gaps(side, phase):
 def test_the_walker_starts_without_a_gap():
     world = World(Joints.effects)
     walker.Walker(world)
-    assert separation(world) < 1e-9 and len(world.joints) == 31
+    assert widest_gap(world) < 1e-9 and len(world.joints) == 31
 
 
 @pytest.mark.parametrize("turn", [0.0, 0.3, 1.1, -2.0])

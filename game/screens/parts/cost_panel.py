@@ -5,7 +5,22 @@ from collections.abc import Callable
 import pygame
 
 from game.drawing.canvas import TEXT, shorten, small_font, wrap
-from game.drawing.colors import DUSK, FOG, GOLD, GREEN, NIGHT, ORANGE, PAPER, RED, SKY, SLATE, YELLOW, Color, faded
+from game.drawing.colors import (
+    DUSK,
+    FOG,
+    GOLD,
+    GREEN,
+    NIGHT,
+    ORANGE,
+    PAPER,
+    PINK,
+    RED,
+    SKY,
+    SLATE,
+    YELLOW,
+    Color,
+    faded,
+)
 from game.drawing.number_text import count_text
 from game.drawing.plot import Axis, LogPlot, number
 from game.drawing.presenter import Frame
@@ -22,12 +37,14 @@ TITLES = {
     "verdict": "wrong answers of 100 hits",
     "overlap": "deepest overlap of bodies [px]",
     "way": "bodies astray from a reference run [px]",
+    "joints": "widest joint gap [px]",
 }
 # Changed part of a setting -> (name, colour, form) of its dot; forms differ, so that colour is not needed. If a setting
 # differs in several parts, the first one here counts.
 LOOKS: dict[str, tuple[str, Color, str]] = {
     "tier": ("tier", SKY, "square"),
     "broadphase": ("broad phase", GREEN, "diamond"),
+    "joint_solver": ("joints", PINK, "wedge"),
     "solver": ("solver", YELLOW, "triangle"),
     "substeps": ("substeps", ORANGE, "circle"),
     "narrowphase": ("narrow phase", RED, "cross"),
@@ -351,7 +368,7 @@ def look_of(setting: Setting, base: Setting) -> tuple[Color, str]:
 def draw_form(
     surface: pygame.Surface, form: str, place: tuple[float, float], size: float, color: Color, full: bool
 ) -> None:
-    """Draw a dot of a setting at a place [frame px]. form: circle, square, diamond, triangle, or else a cross.
+    """Draw a dot of a setting at a place [frame px]. form: circle, square, diamond, triangle, wedge, or else a cross.
 
     full: whether it is filled. A hollow dot means that the error is only an upper bound.
     """
@@ -367,6 +384,9 @@ def draw_form(
     elif form == "triangle":
         r = 1.2 * size
         pygame.draw.polygon(surface, color, [(x, y - r), (x + r, y + size), (x - r, y + size)], width)
+    elif form == "wedge":
+        r = 1.2 * size
+        pygame.draw.polygon(surface, color, [(x, y + r), (x + r, y - size), (x - r, y - size)], width)
     else:
         thick = max(1, round(size / 2))
         pygame.draw.line(surface, color, (x - size, y - size), (x + size, y + size), thick)

@@ -8,10 +8,10 @@ from math import atan2, cos, degrees, dist, hypot, sin
 
 import numpy as np
 
+from game.measure.moment import widest_gap
 from physics import Circle, Effects, Filter, Polygon, Revolute, Weld
 from scenes.lab.gallery.page import METER, MM, Page, Way
 from scenes.lab.machines.doll import Doll
-from scenes.lab.machines.machine import separation
 
 SUBSTEPS = {"substeps": 4}
 ITERATIVE = Way('joint_solver="iterative"', SUBSTEPS, joint_solver="iterative")
@@ -64,7 +64,7 @@ def build_chain(side, angle=0.0, ratio=RATIO):
 
 def gap(side):
     """Return the widest gap between the two anchors of a joint [mm]. side: see page.Side."""
-    return MM * separation(side.world)
+    return MM * widest_gap(side.world)
 
 
 def build_cantilever(side, angle=0.0):

@@ -14,6 +14,7 @@ from game.drawing.camera import Camera
 from game.drawing.canvas import Canvas
 from game.drawing.colors import GOLD, INK, PAPER, RED
 from game.drawing.presenter import Frame, Lens
+from game.measure.moment import FREE, LENGTH, PINNED, widest_gap
 from physics import Body, Joint, Material, Polygon, World, debug
 
 METER = 32.0  # [px]
@@ -141,7 +142,7 @@ class Machine:
         """Measure the last step. A caller that steps the world itself calls control() before, and this after it."""
         self.steps += 1
         self.broken += len(self.world.events.broken)
-        self.recent = separation(self.world)
+        self.recent = widest_gap(self.world)
         if not self.disturbed and not self.broken:
             self.worst = max(self.worst, self.recent)
         self.measure()
@@ -168,18 +169,3 @@ class Machine:
         body = self.world.add_body(shape, position=(x, y), kind="static", **more)
         self.grounds.append(body.id)
         return body
-
-
-def separation(world: World) -> float:
-    """Return the greatest separation of a joint that holds anchors together [px]; 0 without such joints.
-
-    A Target does not count: it is the joint of a mouse drag, and its separation is the distance to the pointer.
-    """
-    rows = world.joints
-    held = rows["separation"][np.isin(rows["hold"], HOLDS) & (rows["point_hertz"] == 0.0) & rows["enabled"]]
-    lengths = rows["separation"][(rows["coordinate"] == LENGTH) & (rows["hold"] == FREE)]
-    return float(max(held.max(initial=0.0), lengths.max(initial=0.0)))
-
-
-PINNED, ON_AXIS, FREE, LENGTH = 1, 2, 0, 3  # values of the columns hold and coordinate, see physics.debug.joints
-HOLDS = (PINNED, ON_AXIS)

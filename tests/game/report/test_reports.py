@@ -196,7 +196,7 @@ def test_folders_that_cannot_be_used(charts, tmp_path, monkeypatch):
         Store(tmp_path / "r", False)
     with monkeypatch.context() as older:
         older.setattr("game.report.store.FORMAT", 1)
-        with pytest.raises(UsageError, match="of format 2, this is 1; name another folder"):
+        with pytest.raises(UsageError, match="of format 3, this is 1; name another folder"):
             Store(tmp_path / "r", True)
     monkeypatch.setattr("game.report.store.VERSION", "9.9")
     with pytest.raises(UsageError, match="of version .*, this is 9.9"):
