@@ -27,18 +27,7 @@ from physics.tables.contact import CONTACT_POINT
 from physics.world_state import Handle
 
 
-def _set_known(body: Any, name: str, value: Any) -> None:
-    """Set an attribute. Raises AttributeError for an unknown or a read-only name, and suggests what to write."""
-    try:
-        object.__setattr__(body, name, value)
-    except AttributeError:
-        if not hasattr(type(body), name):
-            checks.known_attribute(body, name, value, strict=True)
-        checks.settable_attribute(body, name, value)
-        raise
-
-
-@checks.setting_by(_set_known)
+@checks.setting_by(checks.set_known)
 class Body(Handle):
     """A handle on one body of a world. Positions in px, angles in rad clockwise on the screen, velocities per second.
 

@@ -2,15 +2,15 @@
 
 import math
 import numbers
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, TypeVar
 
 import numpy as np
 
 from physics import hints
-from physics.hints import near, shown
+from physics.hints import brief, near, shown
 from physics.math2d import NO_PAIRS, Vec2
-from physics.settings import POSITION_LIMIT
+from physics.settings import MILLISECONDS, POSITION_LIMIT
 
 PLAIN_PAIRS, PLAIN = (tuple, Vec2, list), (float, int)  # types that need no further checks
 EXACT = 2**53  # all whole numbers below it have an exact float
@@ -49,16 +49,32 @@ def number(
     return value
 
 
+def seconds(name: str, value: Any, low: float | None = None, above: float | None = None) -> float:
+    """Return a length of time [s] as a finite float that is >= low and > above.
+
+    A whole number that is not a float, such as the 16 of pygame's Clock.tick(), is refused from MILLISECONDS on. name:
+    the argument's name for messages. Raises TypeError for a value that is not a number, and ValueError otherwise.
+    """
+    found = number(name, value, low, above)
+    if isinstance(value, numbers.Integral) and found >= MILLISECONDS:
+        raise ValueError(
+            f"{name} must be in seconds, a float from {MILLISECONDS} s on (got {shown(value)}): write {value} / 1000 "
+            f"for milliseconds, 1 / {value} for steps per second, {found} for seconds"
+        )
+    return found
+
+
 def known_attribute(thing: Any, name: str, value: Any, strict: bool) -> None:
     """Raise AttributeError if the missing attribute `name` resembles an existing one, and suggest that one.
 
     thing: the object; value: the value to set; strict: raise the error also if no existing name is similar, and suggest
-    what hints.ASSIGNED has for the name.
+    what hints.ASSIGNED has for the name, or for a name there that resembles it more than the existing ones.
     """
-    public = [each for each in {*dir(type(thing)), *getattr(thing, "__dict__", ())} if not each.startswith("_")]
-    similar = near(name, sorted(public))
-    hint = hints.in_place_of_attribute(thing, name, value) if strict else ""
+    public = {each for each in {*dir(type(thing)), *getattr(thing, "__dict__", ())} if not each.startswith("_")}
+    foreign = hints.assigned_to(thing) if strict else {}
+    similar = name if name in foreign else near(name, sorted(public | foreign.keys()))
     if similar or strict:
+        hint = "" if similar in public else hints.in_place_of_attribute(thing, similar, value)
         hint = hint or (f": did you mean {similar}?" if similar else "")
         raise AttributeError(f"{type(thing).__name__} has no attribute {name}{hint}")
 
@@ -72,6 +88,20 @@ def settable_attribute(thing: Any, name: str, value: Any) -> None:
     if isinstance(found, property) and found.fset is None:
         hint = hints.in_place_of_attribute(thing, name, value)
         raise AttributeError(f"{type(thing).__name__}.{name} cannot be set{hint}") from None
+
+
+def set_known(thing: Any, name: str, value: Any) -> None:
+    """Set an attribute of an object with slots.
+
+    Raises AttributeError for an unknown or a read-only name, and suggests what to write.
+    """
+    try:
+        object.__setattr__(thing, name, value)
+    except AttributeError:
+        if not hasattr(type(thing), name):
+            known_attribute(thing, name, value, strict=True)
+        settable_attribute(thing, name, value)
+        raise
 
 
 Word = TypeVar("Word", bound=str)
@@ -216,6 +246,22 @@ def columns(name: str, value: Any, count: int | None = None, width: int = 2, lik
         row = int(np.argwhere(bad)[0][0])
         raise ValueError(f"{name}[{row}] must be finite (got {array[row]!r})")
     return array
+
+
+def users(value: Any, count: int) -> Iterable[Any]:
+    """Return the `user` values of `count` bodies or joints that are added at once.
+
+    A list or a one-dimensional array has a value for each; any other value is that of all. Raises ValueError for a list
+    or array of another length.
+    """
+    if not isinstance(value, list) and not (isinstance(value, np.ndarray) and value.ndim == 1):
+        return [value] * count
+    if len(value) != count:
+        raise ValueError(
+            f"user must be one value, or a list of {count}, one for each (got {len(value)} in {shown(value)}): "
+            f"write [{brief(value)}] * {count} for the same list in all"
+        )
+    return value
 
 
 def positions(name: str, value: Any) -> np.ndarray:

@@ -633,6 +633,7 @@ def add_rows(
     check_ids(world, len(positions), used)
     mass = weigh(used, material.density, own_mass)
     n = len(positions)
+    users = checks.users(wanted.user, n)
     ids = np.arange(world._next_body, world._next_body + n, dtype=np.int64)
     if n == 0:
         return ids
@@ -661,10 +662,10 @@ def add_rows(
     runs, each = world._runs.append(n), (world._next_shape - first) // n
     runs["first"], runs["count"] = np.arange(first, world._next_shape, each) if each else 0, each
     source = tuple(shapes)  # one tuple shared by all bodies, to save memory
-    for identity in ids.tolist():
+    for identity, user in zip(ids.tolist(), users, strict=True):
         world._shapes_of[identity] = used
-        if wanted.user is not None:
-            world._users[identity] = wanted.user
+        if user is not None:
+            world._users[identity] = user
         if wanted.tier is not None:
             world._tiers[identity], world._sources[identity] = wanted.tier, source
     return ids

@@ -113,8 +113,8 @@ def report_gears(world: WorldState, kind: Any, count: int) -> None:
 def hang(kind: Any, columns: dict[str, Any], anchors: list[np.ndarray], rows: np.ndarray) -> None:
     """Write the pulleys, and the length of the rope, to JOINT rows (n,).
 
-    kind: the Pulley from which the rows were made; columns: see joint.add; anchors: world positions [px] of the anchors
-    of A and of B, two arrays (n, 2). Raises ValueError for an anchor at its pulley.
+    kind: the Pulley from which the rows were made; columns: see add_joints.add; anchors: world positions [px] of the
+    anchors of A and of B, two arrays (n, 2). Raises ValueError for an anchor at its pulley.
     """
     lengths = []
     for side, name, points in zip("ab", kind.GROUND, anchors, strict=True):

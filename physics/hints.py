@@ -121,6 +121,19 @@ ASSIGNED: dict[str, dict[str, str]] = {
         **dict.fromkeys(("user_data", "data", "tag", "name", "image", "sprite", "collision_type"), "body.user = {}"),
         **dict.fromkeys(("layer", "category", "group"), "body.filter = Filter(membership=…, mask=…)"),
     },
+    "Joint": {
+        **dict.fromkeys(("stiffness", "frequency", "hertz", "damping"), "joint.spring = Spring(hertz=…, damping=…)"),
+        **dict.fromkeys(("rate", "motor_speed"), "joint.motor = Drive(speed={}, max=…)"),
+        **dict.fromkeys(("max_torque", "max_motor_torque"), "joint.motor = Drive(speed=…, max={})"),
+        **dict.fromkeys(("lower", "upper", "min", "max"), "joint.limits = (low, high)"),
+        **dict.fromkeys(("max_force", "break_force"), "joint.breaks = ({}, None)"),
+        **dict.fromkeys(("collide_bodies", "collide_connected"), "joint.contacts = {}"),
+        "target": "joint.point = (x, y)",
+        **dict.fromkeys(
+            ("body_a", "body_b", "a", "b", "anchor_a", "anchor_b", "at", "axis", "kind"),
+            "joint.remove(), and world.add_joint(…) for another one",
+        ),
+    },
     "World": {
         "effects": "world.set_effects({})",
         "bodies": "world.add_body(…)",
@@ -419,12 +432,15 @@ def in_place_of_effects(value: Any) -> str:
     return ": write Effects.rigid_bodies(), or Effects(gravity=True, …)"
 
 
+def assigned_to(thing: Any) -> dict[str, str]:
+    """Return the entry of ASSIGNED for an object, {attribute: expression}; {} if there is none."""
+    return next((ASSIGNED[each.__name__] for each in type(thing).__mro__ if each.__name__ in ASSIGNED), {})
+
+
 def in_place_of_attribute(thing: Any, name: str, value: Any) -> str:
-    """Return the hint for an attribute of a Body or World that cannot be set to a value, or "" if there is none."""
-    for each in type(thing).__mro__:
-        if name in ASSIGNED.get(each.__name__, ()):
-            return f": write {ASSIGNED[each.__name__][name].replace('{}', brief(value))}"
-    return ""
+    """Return the hint for an attribute of an object that cannot be set to a value; "" if there is none."""
+    expression = assigned_to(thing).get(name)
+    return f": write {expression.replace('{}', brief(value))}" if expression else ""
 
 
 def unchangeable(expression: str) -> Callable[[Made], Made]:

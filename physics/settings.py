@@ -83,6 +83,8 @@ MASK_TILE = 64  # [px] side of the tiles of a large mask's outline; carving rebu
 LARGE_MASK = 128  # [px] masks wider or higher than this are tiled; smaller ones are rebuilt as a whole as fast
 PROJECTION_PASSES = 4  # passes over all contacts; a crate between two walls needs two
 SPEED_LIMIT = 1e9  # [m/s] above it a double does not resolve a slop per step: the body is quarantined
+MILLISECONDS = 4  # a length of time that is a whole number from here on is refused: clocks return milliseconds as ints
+LONG_STEP = 100.0  # steps of more than this many world.dt, and of MILLISECONDS seconds and more, give a warning
 SHORTEST_STEP = 1e-30  # [s] shorter steps count as 0: no clock resolves them, and powers of 1/dt overflow
 POSITION_LIMIT = 2.0**52  # [px], [rad] above it a double does not resolve 1: bodies there are quarantined
 

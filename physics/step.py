@@ -1,5 +1,6 @@
 """The step: its stages in order, the targets of kinematic bodies, and a step that can be paused between stages."""
 
+import warnings
 from collections.abc import Generator
 from time import perf_counter
 from typing import NamedTuple, get_args
@@ -28,7 +29,7 @@ from physics.islands import sleep
 from physics.islands.awake import list_awake
 from physics.islands.sleep import IslandWorkspace, rest, wake_disturbed
 from physics.joint import NO_JOINTS, break_joints, keep_apart
-from physics.settings import SHORTEST_STEP, STALL
+from physics.settings import LONG_STEP, MILLISECONDS, SHORTEST_STEP, STALL
 from physics.solver.blocking import IGNORED as IGNORED_BY_BLOCKING
 from physics.solver.blocking import blocking
 from physics.solver.contact_lanes import ContactLanes
@@ -285,9 +286,13 @@ def next_span(span: float, dt: float, usual: float) -> float:
 def step_length(world: WorldState, dt: float | None) -> float:
     """Return the length [s] of a step: world.dt for None, 0 for dt < SHORTEST_STEP.
 
-    Raises TypeError if dt is not a number, ValueError if dt is negative or not finite.
+    Warns of a step that looks like milliseconds. Raises TypeError if dt is not a number, ValueError if dt is negative,
+    not finite, or a whole number from MILLISECONDS on.
     """
-    dt = world.dt if dt is None else checks.number("dt", dt, low=0.0)
+    dt = world.dt if dt is None else checks.seconds("dt", dt, low=0.0)
+    if dt >= max(MILLISECONDS, LONG_STEP * world.dt):
+        text = f"World.step: dt is in seconds (got {dt:g}): write {dt:g} / 1000 if they are milliseconds"
+        warnings.warn(text, stacklevel=3)
     return 0.0 if dt < SHORTEST_STEP else dt
 
 

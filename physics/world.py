@@ -10,7 +10,7 @@ from typing import Any, Literal, Never, Unpack, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from physics import body_templates, checks, edit, hints, joint, snapshot, teleport
+from physics import add_joints, body_templates, checks, edit, hints, joint, snapshot, teleport
 from physics.annotations import (
     BodyRef,
     BodyRefs,
@@ -132,7 +132,7 @@ class World(WorldState):
     ) -> None:
         effects = Effects.rigid_bodies() if effects is None else checked_effects(effects)
         self.tolerances = tolerances(checks.number("pixels_per_meter", pixels_per_meter, above=0.0))
-        self._dt = checks.number("dt", dt, above=0.0)
+        self._dt = checks.seconds("dt", dt, above=0.0)
         self._drag = checks.number("drag", drag, low=0.0)
         self._gravity = (
             Vec2(0.0, STANDARD_GRAVITY * self.tolerances.pixels_per_meter)
@@ -186,7 +186,8 @@ class World(WorldState):
         dt: length of the step [s], >= 0 (pygame's Clock.tick() / 1000); None: world.dt. A step below 1e-30 s counts
             as 0: it moves nothing, and keeps forces and targets for the next step.
 
-        Raises TypeError if dt is not a number, ValueError if it is negative or not finite, RuntimeError during a step.
+        Raises TypeError if dt is not a number; ValueError if it is negative, not finite, or an int from 4 on, which
+        are milliseconds; RuntimeError during a step.
         """
         self._unlocked()
         if tiers.arrived:
@@ -288,8 +289,8 @@ class World(WorldState):
         positions: origins of the bodies, (n, 2) [px].
         velocities: (n, 2) [px/s]; None: 0.
         angles: (n,) [rad]; None: 0.
-        **definition: the other arguments of add_body, one value for all bodies, also user; world.body(id).user sets
-            that of one.
+        **definition: the other arguments of add_body, one value for all bodies. A list (or 1-D array) as user has one
+            value for each body; any other user, such as a tuple or a dict, is that of all bodies.
 
         Raises TypeError or ValueError naming the argument, RuntimeError during a step. The world is then unchanged.
         """
@@ -371,7 +372,7 @@ class World(WorldState):
         body, or for the body of a character; KeyError for an unknown body or joint; RuntimeError during a step. The
         world is then unchanged.
         """
-        return joint.add_one(self, joint_of)
+        return add_joints.add_one(self, joint_of)
 
     def add_joints(
         self,
@@ -386,11 +387,11 @@ class World(WorldState):
         bodies_a, bodies_b: n Bodies or ids; an entry None, or None in place of all entries, means the world. For a
             Gear: the joints that it couples, as Joints, ids of joints, or Bodies.
         **settings: the other arguments of the kind, one value for all joints. Anchors (at, or at_a and at_b) and
-            pulleys (ground_a, ground_b) are arrays (n, 2) [px]; an axis may be an array (n, 2).
+            pulleys (ground_a, ground_b) are arrays (n, 2) [px]; an axis may be an array (n, 2), user a list of n.
 
         Raises TypeError, ValueError, KeyError and RuntimeError as add_joint does.
         """
-        return joint.add_many(self, kind, bodies_a, bodies_b, settings)
+        return add_joints.add_many(self, kind, bodies_a, bodies_b, settings)
 
     def joint(self, identity: Joint | int | np.integer[Any]) -> Joint:
         """Return the Joint with this id.

@@ -367,7 +367,7 @@ class WorldState:
     @dt.setter
     def dt(self, value: float) -> None:
         self._unlocked()
-        self._dt = checks.number("dt", value, above=0.0)
+        self._dt = checks.seconds("dt", value, above=0.0)
 
     @property
     def drag(self) -> float:

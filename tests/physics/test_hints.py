@@ -24,6 +24,7 @@ from physics import (
     Drive,
     Effects,
     Filter,
+    Gear,
     Material,
     Motor,
     NoContact,
@@ -496,6 +497,19 @@ WORLD_ATTRIBUTES = [
     ("iterations", 5, "substeps = 5"),
     ("bodies", [], "add_body(…)"),
 ]
+JOINT_ATTRIBUTES = [
+    ("stifness", 1, "spring = Spring(hertz=…"),
+    ("stiffness", 1, "spring = Spring(hertz=…"),
+    ("motor_sped", 3, "motor = Drive(speed=3, max=…)"),
+    ("rate", 3, "motor = Drive(speed=3, max=…)"),
+    ("motr", None, "did you mean motor?"),
+    ("enabld", False, "did you mean enabled?"),
+    ("limit", (0, 1), "did you mean limits?"),
+    ("upper", 1, "limits = (low, high)"),
+    ("max_force", 1e6, "breaks = (1000000.0, None)"),
+    ("body_b", 1, "remove(), and world.add_joint(…)"),
+    ("colour", "red", "has no attribute colour"),
+]
 
 
 @pytest.mark.parametrize(("name", "value", "hint"), ATTRIBUTES, ids=[name for name, _, _ in ATTRIBUTES])
@@ -516,6 +530,19 @@ def test_an_attribute_that_a_world_cannot_have_gets_the_right_one(name, value, h
         setattr(world, name, value)
     assert hint in str(caught.value), str(caught.value)
     assert state(world) == before
+
+
+@pytest.mark.parametrize(("name", "value", "hint"), JOINT_ATTRIBUTES, ids=[name for name, _, _ in JOINT_ATTRIBUTES])
+def test_an_attribute_that_a_joint_cannot_have_gets_the_right_one(name, value, hint):
+    world = World(Effects.rigid_bodies().with_(joints=True))
+    hinge = world.add_joint(Revolute(None, world.add_body(BALL), at=(0, 0)))
+    before = world.digest(), world.joints.tobytes()
+    with pytest.raises(AttributeError, match=f"Joint has no attribute {name}|Joint.{name} cannot be set") as caught:
+        setattr(hinge, name, value)
+    assert hint in str(caught.value), str(caught.value)
+    assert (world.digest(), world.joints.tobytes()) == before
+    hinge.user = "still settable"
+    assert hinge.user == "still settable"
 
 
 UNCHANGEABLE = [
@@ -647,3 +674,84 @@ def test_a_hint_repeats_no_long_value(value):
     with pytest.raises(TypeError) as caught:
         World(value)
     assert str(caught.value).startswith("effects must be an Effects") and len(str(caught.value)) < 1000
+
+
+# ---- seconds, and values for many ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("call", "hints"), [
+    (lambda w: w.step(16), ["16 / 1000", "16.0 for seconds"]),
+    (lambda w: w.step(dt=np.int64(17)), ["17 / 1000"]),
+    (lambda w: w.step(pygame.time.Clock().tick(60) + 16), [" / 1000"]),
+    (lambda w: World(dt=16), ["16 / 1000"]),
+    (lambda w: setattr(w, "dt", 60), ["1 / 60 for steps per second"]),
+])  # fmt: skip
+def test_milliseconds_are_refused_with_the_seconds(call, hints):
+    world = make_world()
+    before = state(world)
+    with pytest.raises(ValueError, match=r"dt must be in seconds.*got .*\d+") as caught:
+        call(world)
+    assert all(hint in str(caught.value) for hint in hints), str(caught.value)
+    assert state(world) == before
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("dt", [1 / 20, 1 / 3, 0, 1, 2, 3, 3.5, np.float32(0.5), np.int64(1)])
+def test_steps_of_seconds_run_without_a_warning(dt):
+    world = World(Effects.detection())
+    world.step(dt)
+    assert world.time == pytest.approx(float(dt)) and World(dt=dt or 1).dt == pytest.approx(float(dt) or 1.0)
+
+
+@pytest.mark.parametrize(("usual", "dt", "warns"), [
+    (1 / 60, 1000 / 60, True), (1 / 60, 16.0, True), (1 / 60, 3.9, False), (1.0, 16.0, False), (3600.0, 7200.0, False),
+])  # fmt: skip
+def test_a_float_that_looks_like_milliseconds_runs_with_a_warning(usual, dt, warns, recwarn):
+    """A float may be a real pause of the program, which must not stop a game."""
+    world = World(Effects.detection(), dt=usual)
+    world.step(dt)
+    assert world.time == dt and len(recwarn) == warns
+    assert not warns or (f"write {dt:g} / 1000" in str(recwarn[0].message) and recwarn[0].filename == __file__)
+
+
+@pytest.mark.parametrize(("user", "users"), [
+    (["a", None, 3], ["a", None, 3]),
+    (np.array([7, 8, 9]), [7, 8, 9]),
+    ([["x"]] * 3, [["x"]] * 3),
+    (("a", "b", "c"), [("a", "b", "c")] * 3),
+    ({"hp": 3}, [{"hp": 3}] * 3),
+    ("abc", ["abc"] * 3),
+    (None, [None] * 3),
+])  # fmt: skip
+def test_a_list_of_users_has_one_for_each(user, users):
+    """Any other value, a tuple too, is that of all bodies or joints."""
+    world = World(Effects.rigid_bodies().with_(joints=True))
+    ids = world.add_bodies(BALL, [(0, 0), (20, 0), (40, 0)], user=user)
+    assert [world.body(k).user for k in ids] == users
+    pins = world.add_joints(Revolute, None, ids, at=[(0, 0), (20, 0), (40, 0)], user=user)
+    assert [world.joint(k).user for k in pins] == users
+    gears = world.add_joints(Gear, pins[:1].tolist() * 2, pins[1:].tolist(), user=["one", "two"])
+    assert [world.joint(k).user for k in gears] == ["one", "two"]
+
+
+def test_one_body_or_joint_keeps_a_list_as_it_is():
+    world = World(Effects.rigid_bodies().with_(joints=True))
+    items = ["sword", "rope"]
+    body = world.add_body(BALL, user=items)
+    assert body.user is items and world.add_joint(Revolute(None, body, at=(0, 0), user=items)).user is items
+    ids = world.add_bodies(BALL, [(0, 0), (1, 0)], user=[items] * 2)
+    assert all(world.body(k).user is items for k in ids)
+
+
+@pytest.mark.parametrize("count", [0, 1, 3])
+def test_a_list_of_users_of_another_length_is_refused(count):
+    world = World(Effects.rigid_bodies().with_(joints=True))
+    ids = world.add_bodies(BALL, [(0, 0), (20, 0)])
+    before = world.digest(), len(world), len(world.joints)
+    for call in (
+        lambda: world.add_bodies(BALL, [(0, 9), (20, 9)], user=["a"] * count),
+        lambda: world.add_joints(Revolute, None, ids, at=[(0, 0), (20, 0)], user=["a"] * count),
+    ):
+        with pytest.raises(ValueError, match=f"user must be one value, or a list of 2, .*got {count} in"):
+            call()
+    assert (world.digest(), len(world), len(world.joints)) == before
