@@ -69,6 +69,23 @@ def test_there_are_fragments_in_most_rows():
     assert len(fragments()) > 200
 
 
+LEAST_ROWS = {"From pymunk": 70, "From Box2D": 80, "From pygame": 30}
+LOOKED_FOR = {
+    "From pymunk": "add_collision_handler ShapeFilter cpBodySleep collision_type segment_query_first damping",
+    "From Box2D": "b2World_CastRayClosest b2ContactBeginTouchEvent b2ContactHitEvent b2MouseJoint groupIndex",
+    "From pygame": "collide_mask overlap( collidelist( groupcollide kill() from_surface clock.tick Vector2",
+}
+
+
+@pytest.mark.parametrize("heading", LEAST_ROWS)
+def test_what_is_looked_for_has_a_row(heading):
+    table = rows(heading)
+    names = [row[0] for row in table]
+    missing = [word for word in LOOKED_FOR[heading].split() if not any(word in name for name in names)]
+    assert len(table) >= LEAST_ROWS[heading] and not missing, (len(table), missing)
+    assert len(set(names)) == len(names), "a name has two rows"
+
+
 def counts_in(pattern):
     """Return the numbers of a sentence of the page."""
     match = re.search(pattern, TEXT)
