@@ -31,11 +31,20 @@ from physics.world_state import Handle
 class Body(Handle):
     """A handle on one body of a world. Positions in px, angles in rad clockwise on the screen, velocities per second.
 
+    World.add_body returns it.
+
     world: the World of the body; identity: the id of the body.
 
     A Body equals another handle on the same body. A setter raises TypeError or ValueError, naming the argument, for a
     value that is not allowed. A property, setter or method raises KeyError for a removed body and, if it changes the
     simulation, RuntimeError during a step. A setter that raises leaves the world unchanged.
+
+    >>> ball.velocity = (60, -200)
+    >>> world.step()
+    >>> ball.position.x > 200, ball.awake, [shape.radius for shape in ball.shapes]
+    (True, True, [10.0])
+    >>> Body(world, 1) == ball == world.body(1)
+    True
     """
 
     __slots__ = ()

@@ -15,7 +15,9 @@ NEEDS |= {name: ("response", "stacking") for name in ("sleeping", "joints")}
 @hints.unchangeable("world.set_effects(world.effects.with_({name}={value}))")
 @dataclass(frozen=True, repr=False)
 class Effects:
-    """The features of the physics that a scene declares. All are off by default except `narrowphase`.
+    """The features of the physics that a world declares. All are off by default except `narrowphase`.
+
+    World() has those of Effects.rigid_bodies(); with_ changes some of them.
 
     narrowphase: shapes are tested exactly; without it collision stops at AABBs.
     response: overlaps are pushed apart. Without it contacts are only found and reported.
@@ -31,6 +33,10 @@ class Effects:
 
     Raises TypeError for a value that is not a bool, and ValueError if an effect is on and an effect that it needs is
     off.
+
+    >>> Effects(response=True, gravity=True)
+    Effects(response=True, gravity=True)
+    >>> world = World(Effects.rigid_bodies().with_(joints=True, sleeping=False))
     """
 
     narrowphase: bool = True

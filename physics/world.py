@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
 from time import perf_counter
 from typing import Any, Literal, Never, Unpack, overload
 
@@ -45,7 +44,7 @@ from physics.math2d import Vec2
 from physics.queries import batches, casts
 from physics.queries.casts import RayHit
 from physics.queries.index import QueryIndex
-from physics.settings import ACCURACY, PIXELS_PER_METER, POSITION_LIMIT, STANDARD_GRAVITY, tolerances
+from physics.settings import PIXELS_PER_METER, POSITION_LIMIT, STANDARD_GRAVITY, tolerances
 from physics.shapes.kinds import checked_shape
 from physics.shapes.library import Library
 from physics.shapes.shape import Filter, Material, Shape
@@ -79,6 +78,8 @@ def _set_known(world: Any, name: str, value: Any) -> None:
 class World(WorldState):
     """A simulation: its bodies, the declared effects, and the stages of a step that these effects need.
 
+    Add bodies with add_body, call step with the same length each time, and read positions, contacts and events.
+
     effects: the declared Effects; None: Effects.rigid_bodies().
     broadphase: "brute", "sweep", "hash" or "tree", or an instance of a strategy; None: SpatialHashGrid().
     solver: one of SOLVERS; None: "soft_step" with the effect `stacking`, "projection" without it.
@@ -103,16 +104,18 @@ class World(WorldState):
     steps: number of steps so far; time: their total length [s]; tolerances: the Tolerances of this world.
 
     Raises TypeError or ValueError naming the argument.
+
+    >>> world = World(gravity=(0, 500))
+    >>> floor = world.add_body(Polygon.box(400, 20), position=(200, 300), kind="static")
+    >>> ball = world.add_body(Circle(10), position=(200, 100), material=Material(restitution=0.5))
+    >>> for _ in range(300):
+    ...     world.step()
+    >>> round(ball.position.y), world.touching().tolist()
+    (280, [[0, 1]])
     """
 
     _solver: SolverName
     _joint_solver: JointSolverName
-    _substeps: Substeps
-    _accuracy: float | None
-    _gravity: Vec2
-    _drag: float
-    _wind: Vec2
-    _dt: float
 
     @hints.explained
     def __init__(
@@ -181,13 +184,20 @@ class World(WorldState):
     # --- the step ------------------------------------------------------------------------------------------------
 
     def step(self, dt: float | None = None) -> None:
-        """Advance the simulation by one step.
+        """Advance the simulation by one step. Afterwards events, contacts and bodies are those of this step.
 
         dt: length of the step [s], >= 0 (pygame's Clock.tick() / 1000); None: world.dt. A step below 1e-30 s counts
             as 0: it moves nothing, and keeps forces and targets for the next step.
 
         Raises TypeError if dt is not a number; ValueError if it is negative, not finite, or an int from 4 on, which
         are milliseconds; RuntimeError during a step.
+
+        >>> ball.velocity = (0, -100)
+        >>> for _ in range(60):
+        ...     world.step()
+        ...     for hit in world.events.hits:
+        ...         print(f"{world.time:.2f} s: {hit['body_a']} and {hit['body_b']} at {hit['speed']:.0f} px/s")
+        0.65 s: 0 and 1 at 99 px/s
         """
         self._unlocked()
         if tiers.arrived:
@@ -242,20 +252,25 @@ class World(WorldState):
         velocity: velocity (x, y) of the centre of mass [px/s]; must be (0, 0) for a static body.
         angular_velocity: [rad/s]. Other than 0 it needs the effect `rotation`, and a body that is not static.
         mass: mass, > 0, in place of density · area of the shapes [density px²]; None: that mass.
-        material: the Material of the shapes without a material of their own.
-        filter: the Filter of the shapes without a filter of their own.
+        material: the Material (density, friction, restitution, …) of the shapes without a material of their own.
+        filter: the Filter (which shapes they meet) of the shapes without a filter of their own.
         sensor: whether the shapes without a sensor value of their own are sensors, which report overlaps and do not
             push. True needs the effect `sensors`.
         bullet: whether the body is also swept against other dynamic bodies. True needs the effect `continuous`.
-        continuous: "off" | "ray" | "swept" | "toi" | "auto", see Body.continuous. "ray", "swept" and "toi" need the
-            effect.
+        continuous: "off" | "ray" | "swept" | "toi" | "auto": how a fast body is stopped at its first impact, see
+            Body.continuous. "ray", "swept" and "toi" need the effect.
         fixed_rotation: whether contacts and impulses leave the rotation unchanged.
-        gravity_scale: factor on world.gravity.
+        gravity_scale: factor on world.gravity; 0: it does not fall.
         allow_sleep: False keeps the island of a dynamic body awake.
         tier: one of TIERS, which replaces a PixelMask by simpler shapes, see fit; None: the shapes as given.
         user: any value of the game, such as its sprite, kept as body.user.
 
         Raises TypeError or ValueError naming the argument, RuntimeError during a step. The world is then unchanged.
+
+        >>> ice = Material(friction=0.02, density=0.5)
+        >>> crate = world.add_body(Polygon.box(20, 10), position=(150, 100), angle=0.5, material=ice, user="crate")
+        >>> crate.mass, crate.user
+        (100.0, 'crate')
         """
         if others:
             raise hints.unexpected("World.add_body", hints.argument_names(self.add_body), others)
@@ -293,6 +308,12 @@ class World(WorldState):
             value for each body; any other user, such as a tuple or a dict, is that of all bodies.
 
         Raises TypeError or ValueError naming the argument, RuntimeError during a step. The world is then unchanged.
+
+        >>> ids = world.add_bodies(Circle(3), [(0, 0), (20, 0), (40, 0)], [(10, 0)] * 3, user=["a", "b", "c"])
+        >>> ids, world.body(ids[1]).user
+        (array([3, 4, 5]), 'b')
+        >>> world.bodies["vx"][world.rows(ids)]
+        array([10., 10., 10.])
         """
         if wrong := {name: value for name, value in definition.items() if name not in edit.BodyDef._fields}:
             names = ("shape", "positions", "velocities", "angles", *edit.BodyDef._fields)
@@ -371,6 +392,11 @@ class World(WorldState):
         Raises TypeError for anything else; ValueError without the effect `joints`, for equal bodies, without a dynamic
         body, or for the body of a character; KeyError for an unknown body or joint; RuntimeError during a step. The
         world is then unchanged.
+
+        >>> door = world.add_joint(Revolute(None, box, at=(230, 280), limits=(-1.5, 1.5)))
+        >>> door.motor = Drive(speed=2.0, max=1e7)
+        >>> door
+        Joint(1, Revolute, world, body 2)
         """
         return add_joints.add_one(self, joint_of)
 
@@ -434,6 +460,14 @@ class World(WorldState):
         the effect `response`, masks touch if they share pixels, other shapes if separation <= 0. With it, a pair
         begins to touch by separation <= 0, an impulse or a hit of the sweep; it ends beyond the slop without an
         impulse. Overlaps of sensors are not included. Raises TypeError if users is not a bool.
+
+        >>> world.step()
+        >>> world.touching()
+        array([[0, 1],
+               [0, 2]])
+        >>> floor.user, ball.user, box.user = "floor", "ball", "box"
+        >>> world.touching(users=True)
+        [('floor', 'ball'), ('floor', 'box')]
         """
         pairs = touching_bodies(self)
         if not checks.flag("users", users):
@@ -558,43 +592,6 @@ class World(WorldState):
         self.sleeping_set.return_all(self)
 
     @property
-    def substeps(self) -> Substeps:
-        """Number of substeps of the stacking solvers, 1 to 1000, or "auto": see World. It can be set between steps."""
-        return self._substeps
-
-    @substeps.setter
-    def substeps(self, value: Substeps) -> None:
-        self._unlocked()
-        self._substeps = checked_substeps(value)
-
-    @property
-    def accuracy(self) -> float:
-        """Greatest sag [px] of a contact under its load that substeps="auto" allows.
-
-        With 32 substeps it may be exceeded. It can be set between steps; None sets 1 mm.
-        """
-        return ACCURACY * self.tolerances.pixels_per_meter if self._accuracy is None else self._accuracy
-
-    @accuracy.setter
-    def accuracy(self, value: float | None) -> None:
-        self._unlocked()
-        self._accuracy = checked_accuracy(value)
-
-    @property
-    def broadphase(self) -> Strategy:
-        """The broad phase, which finds the candidate pairs.
-
-        It can be set between steps, also to a name in BROADPHASES, and does not change results.
-        """
-        return self._broadphase
-
-    @broadphase.setter
-    def broadphase(self, strategy: Strategy | BroadphaseName) -> None:
-        self._unlocked()
-        self._broadphase = checked_broadphase(strategy)
-        self.pairs.start_over()
-
-    @property
     def joint_solver(self) -> JointSolverName:
         """The solver of joints. It can be set between steps; a change wakes all bodies.
 
@@ -612,23 +609,6 @@ class World(WorldState):
         if name != self._joint_solver:
             self._joint_solver = name
             sleep.wake_all(self)
-
-    @property
-    def restitution_speed(self) -> float:
-        """Speed [px/s] above which an impact bounces. It can be set between steps; None sets 1 m/s."""
-        return self.tolerances.restitution_speed
-
-    @restitution_speed.setter
-    def restitution_speed(self, value: float | None) -> None:
-        self._unlocked()
-        self._set_restitution_speed(value)
-
-    def _set_restitution_speed(self, value: float | None) -> None:
-        if value is None:
-            speed = tolerances(self.tolerances.pixels_per_meter).restitution_speed
-        else:
-            speed = checks.number("restitution_speed", value, low=0.0)
-        self.tolerances = replace(self.tolerances, restitution_speed=speed)
 
     # --- queries: see queries/casts.py for details -------------------------------------------------------------------
 
@@ -681,9 +661,15 @@ class World(WorldState):
         filter: the Filter of the ray, which hits the shapes that a shape with this Filter collides with.
         sensors: whether sensors can also be hit.
 
-        Inside a shape the fraction is 0, and the normal is opposite to the ray. Equally near hits are in the order of
-        shape ids. Raises TypeError for values of other types, ValueError for numbers that are not finite, or for an
-        origin too far away.
+        RayHit has body, shape, point, normal and fraction. Inside a shape the fraction is 0, and the normal is opposite
+        to the ray. Equally near hits are in the order of shape ids. Raises TypeError for values of other types,
+        ValueError for numbers that are not finite, or for an origin too far away.
+
+        >>> hit = world.ray_cast((200, 0), (0, 400), filter=Filter(mask=1))
+        >>> hit.body, hit.point, hit.fraction
+        (Body(1, dynamic, position=(200, 280), velocity=(0, 0)), Vec2(x=200.0, y=270.0), 0.675)
+        >>> world.ray_cast((200, 0), (0, 100)) is None
+        True
         """
         hits = casts.ray_cast_all(self, origin, translation, filter, sensors, first=True)
         return hits[0] if hits else None

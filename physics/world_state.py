@@ -1,13 +1,15 @@
 """WorldState: the tables and settings that a world keeps from step to step, and the times of its stages."""
 
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from physics import checks, hints
-from physics.annotations import JointSolverName, Pair, SolverName, Substeps, TierName
+from physics.annotations import BroadphaseName, JointSolverName, Pair, SolverName, Substeps, TierName
+from physics.broadphase import checked_broadphase
 from physics.broadphase.proxies import PairList, Strategy, write_rectangles
 from physics.collision.areas import with_areas
 from physics.collision.manifold import contacts_of
@@ -19,7 +21,7 @@ from physics.islands.awake import Awake
 from physics.islands.sleep import SleepingSet
 from physics.math2d import Vec2
 from physics.queries.index import QueryIndex
-from physics.settings import Tolerances
+from physics.settings import ACCURACY, Tolerances, tolerances
 from physics.shapes.library import Library
 from physics.shapes.shape import Shape
 from physics.solver.loads import ContactLists
@@ -155,15 +157,14 @@ class WorldState:
     # Properties of World.
     joint_solver: JointSolverName
     solver: SolverName
-    substeps: Substeps
-    accuracy: float
-    broadphase: Strategy
     stacks: bool
 
     _gravity: Vec2
     _drag: float
     _wind: Vec2
     _dt: float
+    _substeps: Substeps
+    _accuracy: float | None
     _effects: Effects
     _plans: tuple[Any, Any]  # Plans of step.py: for a world without characters, with characters
     _stepping: bool
@@ -392,6 +393,60 @@ class WorldState:
         wind = checks.vector("wind", value)
         self._needs_fields(wind=wind)
         self._wind = self._felt(self._wind, wind, self._effects.wind)
+
+    @property
+    def substeps(self) -> Substeps:
+        """Number of substeps of the stacking solvers, 1 to 1000, or "auto": see World. It can be set between steps."""
+        return self._substeps
+
+    @substeps.setter
+    def substeps(self, value: Substeps) -> None:
+        self._unlocked()
+        self._substeps = checked_substeps(value)
+
+    @property
+    def accuracy(self) -> float:
+        """Greatest sag [px] of a contact under its load that substeps="auto" allows.
+
+        With 32 substeps it may be exceeded. It can be set between steps; None sets 1 mm.
+        """
+        return ACCURACY * self.tolerances.pixels_per_meter if self._accuracy is None else self._accuracy
+
+    @accuracy.setter
+    def accuracy(self, value: float | None) -> None:
+        self._unlocked()
+        self._accuracy = checked_accuracy(value)
+
+    @property
+    def restitution_speed(self) -> float:
+        """Speed [px/s] above which an impact bounces. It can be set between steps; None sets 1 m/s."""
+        return self.tolerances.restitution_speed
+
+    @restitution_speed.setter
+    def restitution_speed(self, value: float | None) -> None:
+        self._unlocked()
+        self._set_restitution_speed(value)
+
+    def _set_restitution_speed(self, value: float | None) -> None:
+        if value is None:
+            speed = tolerances(self.tolerances.pixels_per_meter).restitution_speed
+        else:
+            speed = checks.number("restitution_speed", value, low=0.0)
+        self.tolerances = replace(self.tolerances, restitution_speed=speed)
+
+    @property
+    def broadphase(self) -> Strategy:
+        """The broad phase, which finds the candidate pairs.
+
+        It can be set between steps, also to a name in BROADPHASES, and does not change results.
+        """
+        return self._broadphase
+
+    @broadphase.setter
+    def broadphase(self, strategy: Strategy | BroadphaseName) -> None:
+        self._unlocked()
+        self._broadphase = checked_broadphase(strategy)
+        self.pairs.start_over()
 
     # --- for World, Body and edit -----------------------------------------------------------------------------------
 

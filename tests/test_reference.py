@@ -6,6 +6,7 @@ tables with their columns, and the errors that wrong arguments raise with the er
 
 import inspect
 import math
+import pydoc
 import re
 import sys
 from pathlib import Path
@@ -17,6 +18,7 @@ import pytest
 import physics
 from physics import Circle, Effects, SpatialHashGrid, World, debug
 from physics.broadphase.proxies import Strategy
+from physics.joints.kinds import KINDS
 from physics.shapes.shape import Shape
 from physics.tables.step_state import COUNTERS
 from tests.reference import examples as shown
@@ -165,6 +167,19 @@ def test_every_callable_has_an_example():
     wanted = {each.name for each in CALLABLES if not each.repeats} - EXTENSIONS
     classes = {each.name for each in items().values() if each.kind == "class"} & EXAMPLES.keys()
     assert wanted <= EXAMPLES.keys() <= wanted | classes
+
+
+FIRST_MET = [
+    "World", "World.step", "World.add_body", "World.add_bodies", "World.add_joint", "World.touching", "World.ray_cast",
+    "Body", "PixelMask", "Polygon.box", "Circle", "Effects", *(each.__name__ for each in KINDS),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("name", FIRST_MET)
+def test_help_shows_an_example_of_the_names_that_are_met_first(name):
+    text = pydoc.render_doc(items()[name].member, renderer=pydoc.plaintext)
+    for line in EXAMPLES[name].rstrip().split("\n"):
+        assert line in text, f"help({name}) does not show {line!r}"
 
 
 @pytest.mark.parametrize("name", EXAMPLES)

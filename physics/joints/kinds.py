@@ -219,7 +219,11 @@ class Revolute(Kind):
     contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
     user: any value of the game, kept as joint.user.
 
-    The arguments are checked by World.add_joint, which raises TypeError or ValueError.
+    The world needs the effect `joints`. World.add_joint checks the arguments, and raises TypeError or ValueError.
+
+    >>> motor = world.add_joint(Revolute(floor, ball, at=(200, 290), motor=Drive(3.0, max=1e7)))
+    >>> motor
+    Joint(1, Revolute, body 0, body 1)
     """
 
     PARTS = {"hold": PINNED, "coordinate": ANGLE}
@@ -247,8 +251,12 @@ class Prismatic(Kind):
     contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
     user: any value of the game, kept as joint.user.
 
-    The translation is 0 when the joint is made. The arguments are checked by World.add_joint, which raises TypeError or
-    ValueError.
+    The translation is 0 when the joint is made. The world needs the effect `joints`. World.add_joint checks the
+    arguments, and raises TypeError or ValueError.
+
+    >>> lift = world.add_joint(Prismatic(None, ball, at=(200, 280), axis=(0, 1), limits=(-50, 0)))
+    >>> lift.limits, lift.translation
+    ((-50.0, 0.0), 0.0)
     """
 
     PARTS = {"hold": ON_AXIS, "coordinate": TRANSLATION}
@@ -281,7 +289,10 @@ class Wheel(Kind):
     contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
     user: any value of the game, kept as joint.user.
 
-    The arguments are checked by World.add_joint, which raises TypeError or ValueError.
+    The world needs the effect `joints`. World.add_joint checks the arguments, and raises TypeError or ValueError.
+
+    >>> front = world.add_joint(Wheel(box, ball, at=(200, 280), spring=Spring(4.0, 0.7)))
+    >>> front.motor = Drive(speed=20.0, max=1e7)
     """
 
     PARTS = {"hold": ON_AXIS, "coordinate": TRANSLATION, "turns_motor": True}
@@ -312,7 +323,12 @@ class Distance(Kind):
     user: any value of the game, kept as joint.user.
 
     Without limits, motor and spring the joint is a rigid rod. With limits and nothing else it is a rope: the distance
-    is free between the limits. The arguments are checked by World.add_joint, which raises TypeError or ValueError.
+    is free between the limits. The world needs the effect `joints`. World.add_joint checks the arguments, and raises
+    TypeError or ValueError.
+
+    >>> rope = world.add_joint(Distance(None, ball, (200, 200), (200, 280), limits=(0, 90)))
+    >>> rope.limits
+    (0.0, 90.0)
     """
 
     PARTS = {"coordinate": LENGTH}
@@ -355,7 +371,10 @@ class Weld(Kind):
     contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
     user: any value of the game, kept as joint.user.
 
-    The arguments are checked by World.add_joint, which raises TypeError or ValueError.
+    The world needs the effect `joints`. World.add_joint checks the arguments, and raises TypeError or ValueError.
+
+    >>> world.add_joint(Weld(box, ball, at=(220, 280), breaks=(1e7, None)))
+    Joint(1, Weld, body 2, body 1)
     """
 
     PARTS = {"hold": PINNED, "locks_angle": True}
@@ -388,8 +407,11 @@ class Angle(Kind):
     contacts: whether A and B may touch each other; local: without effect, because there are no anchors.
     user: any value of the game, kept as joint.user.
 
-    The angle is 0 when the joint is made. The arguments are checked by World.add_joint, which raises TypeError or
-    ValueError.
+    The angle is 0 when the joint is made. The world needs the effect `joints`. World.add_joint checks the arguments,
+    and raises TypeError or ValueError.
+
+    >>> world.add_joint(Angle(box, ball, spring=Spring(1.0)))
+    Joint(1, Angle, body 2, body 1)
     """
 
     PARTS = {"coordinate": ANGLE}
@@ -418,8 +440,11 @@ class Motor(Kind):
     contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
     user: any value of the game, kept as joint.user.
 
-    Raises ValueError if max_force or max_torque is missing. The arguments are checked by World.add_joint, which raises
-    TypeError or ValueError.
+    Raises ValueError if max_force or max_torque is missing. The world needs the effect `joints`. World.add_joint checks
+    the arguments, and raises TypeError or ValueError.
+
+    >>> world.add_joint(Motor(floor, ball, max_force=1e5, max_torque=1e6))
+    Joint(1, Motor, body 0, body 1)
     """
 
     PARTS = {"hold": PINNED, "locks_angle": True, "axis_x": 1.0}
@@ -469,7 +494,10 @@ class Target(Kind):
     contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
     user: any value of the game, kept as joint.user.
 
-    The arguments are checked by World.add_joint, which raises TypeError or ValueError.
+    The world needs the effect `joints`. World.add_joint checks the arguments, and raises TypeError or ValueError.
+
+    >>> drag = world.add_joint(Target(ball, at=(200, 280), max_force=1e6))
+    >>> drag.point = (230, 250)
     """
 
     PARTS = {"hold": PINNED}
@@ -506,7 +534,10 @@ class NoContact(Kind):
     contacts: True lets A and B touch each other after all; local: without effect, because there are no anchors.
     user: any value of the game, kept as joint.user.
 
-    The arguments are checked by World.add_joint, which raises TypeError or ValueError.
+    The world needs the effect `joints`. World.add_joint checks the arguments, and raises TypeError or ValueError.
+
+    >>> world.add_joint(NoContact(floor, ball))
+    Joint(1, NoContact, body 0, body 1)
     """
 
     POINTS = ()
@@ -530,8 +561,12 @@ class Gear(Kind):
     user: any value of the game, kept as joint.user.
 
     Two hinges are a pair of gears, a hinge and a slider are a rack and pinion. The force and torque of the gear act on
-    B. A gear is removed with each of its joints. The arguments are checked by World.add_joint, which raises TypeError,
-    ValueError or KeyError.
+    B. A gear is removed with each of its joints. The world needs the effect `joints`. World.add_joint checks the
+    arguments, and raises TypeError, ValueError or KeyError.
+
+    >>> other = world.add_joint(Revolute(None, ball, at=(200, 280)))
+    >>> world.add_joint(Gear(hinge, other, ratio=2.0))
+    Joint(2, Gear, body 2, body 1)
     """
 
     PARTS = {"hold": GEARED, "point_max": 0.0}
@@ -569,7 +604,11 @@ class Pulley(Kind):
     contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
     user: any value of the game, kept as joint.user.
 
-    An anchor stops at its pulley. The arguments are checked by World.add_joint, which raises TypeError or ValueError.
+    An anchor stops at its pulley. The world needs the effect `joints`. World.add_joint checks the arguments, and raises
+    TypeError or ValueError.
+
+    >>> world.add_joint(Pulley(ball, box, (200, 280), (240, 280), (200, 100), (240, 100)))
+    Joint(1, Pulley, body 1, body 2)
     """
 
     PARTS = {"hold": SLUNG, "point_max": 0.0}
@@ -618,7 +657,11 @@ class Ratchet(Kind):
     user: any value of the game, kept as joint.user.
 
     Its coordinate is the angle, 0 when the joint is made; `limits` of the Joint is the present tooth. Raises ValueError
-    if ratchet is missing. The arguments are checked by World.add_joint, which raises TypeError or ValueError.
+    if ratchet is missing. The world needs the effect `joints`. World.add_joint checks the arguments, and raises
+    TypeError or ValueError.
+
+    >>> world.add_joint(Ratchet(None, ball, ratchet=math.radians(15)))
+    Joint(1, Ratchet, world, body 1)
     """
 
     PARTS = {"hold": TOOTHED, "point_max": 0.0, "coordinate": ANGLE}

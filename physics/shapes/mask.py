@@ -34,6 +34,8 @@ TURNED_KEPT = 1 << 20  # [px] of rotated copies that a mask caches: 5 MB, all an
 class PixelMask(Shape):
     """The solid pixels of a sprite as a shape: pixel (i, j) is the square [i, i+1) x [j, j+1), minus the origin.
 
+    PixelMask.from_surface and from_mask make one of a pygame picture.
+
     solid: solid pixels, bool [row, col].
     origin: origin of body space in the image (x, y) [px]; None: the centre of the image.
     snap: True: tested as it is drawn, at a whole pixel and at the nearest of 128 angles, by AND of packed 64-bit words.
@@ -49,6 +51,11 @@ class PixelMask(Shape):
     that come from below or from a side, or overlap the mask, pass. As with one-way tiles, there is no response without
     the effect `one_way`. Tests by pixels are unaffected. Raises TypeError or ValueError if solid is not a grid of
     bools, if smooth is not a number >= 0, if origin is not a finite point, and if snap or one_way is not a bool.
+
+    >>> ship = PixelMask([[0, 1], [1, 1]], origin=(0, 0))
+    >>> ship.area, ship.size
+    (3, (2, 2))
+    >>> rock = world.add_body(PixelMask.from_surface(pygame.Surface((32, 16))), position=(100, 100))
     """
 
     _kind, _has_mass = MASK, True

@@ -96,9 +96,12 @@ class Circle(Convex):
     """A disc.
 
     radius: [px], > 0.
-    center: (x, y) in body space [px].
+    center: (x, y) in body space [px]; (0, 0) is the body's position.
 
     Raises TypeError or ValueError for a radius that is not a number > 0, or a center that is not a finite point.
+
+    >>> Circle(10, center=(5, 0)).bounds
+    (-5.0, -10.0, 15.0, 10.0)
     """
 
     radius: float = field()
@@ -207,6 +210,9 @@ class Polygon(Convex):
         angle: its rotation about this centre [rad].
 
         Raises TypeError for arguments of other types, ValueError for values out of range.
+
+        >>> Polygon.box(40, 20).points
+        (Vec2(x=-20.0, y=-10.0), Vec2(x=20.0, y=-10.0), Vec2(x=20.0, y=10.0), Vec2(x=-20.0, y=10.0))
         """
         half_width = checks.number("width", width, above=0.0) / 2.0
         half_height = checks.number("height", height, above=0.0) / 2.0

@@ -79,6 +79,15 @@ def described(documentation: str | None, known: set[str]) -> Described:
     return Described("\n\n".join(kept), arguments, faults)
 
 
+def split_example(text: str | None) -> tuple[str | None, str]:
+    """Return (a docstring without its doctest, the doctest, "" if there is none)."""
+    paragraphs = (text or "").split("\n\n")
+    shown = [each for each in paragraphs if each.startswith(">>> ")]
+    if not shown:
+        return text, ""
+    return "\n\n".join(each for each in paragraphs if each not in shown), "\n".join(shown).rstrip() + "\n"
+
+
 def errors_in(text: str | None) -> set[str]:
     """Return the names of the errors that a text names."""
     return set(RAISED.findall(text or ""))

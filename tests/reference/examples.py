@@ -1,4 +1,8 @@
-"""The examples of docs/reference.md: examples.txt holds a doctest for each callable, run after the lines of BEFORE."""
+"""The examples of docs/reference.md: a doctest for each callable, run after the lines of BEFORE.
+
+Those of the names that a newcomer meets first are in their docstrings, where help() shows them; examples.txt has the
+others.
+"""
 
 import doctest
 import re
@@ -7,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from tests.installed_names import as_in_a_checkout
+from tests.reference.surface import items
 
 PLACE = Path(__file__).with_name("examples.txt")
 BEFORE = """\
@@ -27,7 +32,7 @@ OPTIONS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
 @cache
 def examples() -> dict[str, str]:
     """Return the text of each example by the name that it shows. Raises ValueError for a name that is listed twice."""
-    found: dict[str, str] = {}
+    found = {name: each.example for name, each in items().items() if each.example and not each.repeats}
     for name, text in re.findall(r"^== (\S+)\n(.*?)(?=^== |\Z)", PLACE.read_text(encoding="utf-8"), re.S | re.M):
         if name in found:
             raise ValueError(f"{name} has two examples")

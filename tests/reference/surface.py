@@ -21,7 +21,7 @@ from physics.settings import Tolerances
 from physics.shapes.shape import EqualByValue, Shape
 from physics.shapes.values import Convex
 from physics.world_state import Handle, Profile, WorldState
-from tests.reference.docstrings import annotations, definition, described, documentation, parameters
+from tests.reference.docstrings import annotations, definition, described, documentation, parameters, split_example
 
 # Classes that physics does not export, but whose values it returns or takes.
 RETURNED = {
@@ -110,7 +110,12 @@ class Item(NamedTuple):
         if self.kind == "attribute":
             assert self.owner is not None
             return described_class(self.owner).get(self.name.rsplit(".", 1)[1])
-        return documentation(self.member) if self.kind != "constant" else None
+        return split_example(documentation(self.member))[0] if self.kind != "constant" else None
+
+    @property
+    def example(self) -> str:
+        """Return the doctest in its docstring, "" if it has none."""
+        return split_example(documentation(self.member))[1] if self.kind not in ("constant", "attribute") else ""
 
     @property
     def annotations(self) -> dict[str, str]:
@@ -127,7 +132,7 @@ def takes_arguments(item: Item) -> bool:
 def described_class(kind: type) -> dict[str, str]:
     """Return the arguments and attributes that the docstring of a class explains."""
     known = {*attributes(kind), *(parameters(kind) if kind is not Strategy else ())}
-    return described(documentation(kind), known).arguments
+    return described(split_example(documentation(kind))[0], known).arguments
 
 
 @functools.cache
