@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from game.invariants.watch import all_invariants
+from physics.joints.kinds import KINDS
 from scenes import SCENES
 from scenes.lab.gallery.pages import PAGES
 from tests import coverage
@@ -20,8 +22,16 @@ ROOT = Path(__file__).resolve().parents[1]
 KEPT = ROOT / "docs"
 # A number with a unit of measure, or so many times as much.
 FIGURE = re.compile(r"\b\d[\d.,]*\s?(?:ms|us|µs|ns|MB|kB|%|min|minutes|times|mm|s)\b")
-# As counted.
-NUMBERS = {3: "three", 22: "twenty-two", 24: "twenty-four", 25: "twenty-five", 26: "twenty-six", 29: "twenty-nine"}
+NUMBERS = {
+    3: "three",
+    11: "eleven",
+    12: "twelve",
+    22: "twenty-two",
+    24: "twenty-four",
+    25: "twenty-five",
+    26: "twenty-six",
+    29: "twenty-nine",
+}  # as counted
 # Figures that are chosen, not measured: (page, words that hold them).
 CHOSEN = (
     ("docs/manual.md", "without window, sound and waiting: N steps of 1/60 s"),
@@ -158,7 +168,20 @@ def tasks():
     return f"{NUMBERS[count]} tasks with their code"
 
 
+def of_this_version():
+    """The counts of the changelog."""
+    labs, joints = sum(name.startswith("lab/") for name in SCENES), (KEPT / "stability.md").read_text()
+    return [
+        f"{NUMBERS[labs].capitalize()} labs",
+        f"`lab/gallery` shows {NUMBERS[len(PAGES)]} hard cases",
+        f"Joints of {NUMBERS[len(KINDS)]} kinds",
+        f"{NUMBERS[len(all_invariants())].capitalize()} invariants",
+        f"{len(re.findall(r'^[|] N[0-9]+ [|]', joints, re.M))} scenes of them",
+    ]
+
+
 SENTENCES = {
+    "CHANGELOG.md": (of_this_version,),
     "README.md": (
         pyramids,
         moving,

@@ -71,6 +71,17 @@ def test_the_licence_is_there():
     assert "Copyright (c) 2026 the Hitbox authors" in text
 
 
+def test_an_index_can_show_and_find_the_project():
+    project = SETTINGS["project"]
+    assert project["readme"] == "README.md" and 20 < len(project["description"]) < 120 and project["authors"]
+    assert len(project["keywords"]) == len(set(project["keywords"])) > 4
+    classifiers = project["classifiers"]
+    oldest = project["requires-python"].removeprefix(">=")
+    assert f"Programming Language :: Python :: {oldest}" in classifiers and classifiers == sorted(set(classifiers))
+    assert "Typing :: Typed" in classifiers and not any(each.startswith("License") for each in classifiers)
+    assert "urls" not in project, "there is no public page yet; name it here when there is one"
+
+
 def test_each_hook_runs_a_tool_of_an_extra():
     hooks = (ROOT / ".pre-commit-config.yaml").read_text(encoding="utf-8")
     extras = SETTINGS["project"]["optional-dependencies"]
@@ -150,7 +161,11 @@ def test_the_wheel_takes_one_name(made, user):
     with zipfile.ZipFile(made.wheel) as archive:
         names = archive.namelist()
         points = archive.read(f"hitbox-{VERSION}.dist-info/entry_points.txt").decode()
+        metadata = archive.read(f"hitbox-{VERSION}.dist-info/METADATA").decode()
     assert {name.split("/")[0] for name in names} == {"hitbox", f"hitbox-{VERSION}.dist-info"}
+    for name in ("Summary", "Author", "Keywords", "License-Expression", "License-File", "Requires-Python"):
+        assert re.search(rf"^{name}: .", metadata, re.M), f"the wheel has no {name}"
+    assert "Classifier: Typing :: Typed" in metadata and "# Hitbox" in metadata
     assert points.split() == ["[console_scripts]", "hitbox", "=", "hitbox.main:main"]
     for package in PACKAGES:
         for path in files_of(package):
