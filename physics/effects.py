@@ -148,6 +148,16 @@ class Effects:
         return [field.name for field in fields(self) if getattr(self, field.name)]
 
 
+def declaring(effects: Effects, name: str) -> str:
+    """Return the expression, for messages, of Effects with one more effect and those that it needs.
+
+    name: the effect that is to be declared.
+    """
+    if effects == Effects.rigid_bodies():
+        return f"Effects.rigid_bodies().with_({name}=True)"
+    return repr(effects.and_needed(name).with_(**{name: True}))
+
+
 def _check_no_effects(preset, given):
     """Raise TypeError for effects that were given to a preset, which takes none."""
     if given:

@@ -99,6 +99,13 @@ MEANT: dict[str, tuple[tuple[str, str], ...]] = {
     "collide_bodies": (("contacts", "contacts={}"),),
     "smoothing": (("smooth", "smooth={}"),),
 }
+EFFECTS = (
+    "narrowphase", "response", "gravity", "drag", "wind", "rotation", "friction", "restitution", "stacking",
+    "continuous", "sleeping", "sensors", "persist", "one_way", "conveyor", "joints", "carving",
+)  # fmt: skip
+MEANT |= {
+    name: (*MEANT.get(name, ()), ("effects", f"effects=Effects.rigid_bodies().with_({name}={{}})")) for name in EFFECTS
+}
 
 # Attributes that cannot be set, and those of other engines: {class: {attribute: expression}}, with {} as in MEANT.
 ASSIGNED: dict[str, dict[str, str]] = {
@@ -126,7 +133,8 @@ ASSIGNED: dict[str, dict[str, str]] = {
         **dict.fromkeys(("rate", "motor_speed"), "joint.motor = Drive(speed={}, max=…)"),
         **dict.fromkeys(("max_torque", "max_motor_torque"), "joint.motor = Drive(speed=…, max={})"),
         **dict.fromkeys(("lower", "upper", "min", "max"), "joint.limits = (low, high)"),
-        **dict.fromkeys(("max_force", "break_force"), "joint.breaks = ({}, None)"),
+        "break_force": "joint.breaks = ({}, None)",
+        "max_force": "joint.breaks = ({}, None), or give max_force to a new Target or Motor",
         **dict.fromkeys(("collide_bodies", "collide_connected"), "joint.contacts = {}"),
         "target": "joint.point = (x, y)",
         **dict.fromkeys(

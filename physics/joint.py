@@ -290,7 +290,8 @@ class Joint:
     def speed(self) -> float:
         """Rate of change of the joint's angle [rad/s], or of its translation or length [px/s], after the last step.
 
-        For a joint whose kind controls neither, it is that of the angle.
+        For a joint whose kind controls neither, it is that of the angle. For a Wheel it is that of the suspension; the
+        wheel itself turns at body_b.angular_velocity.
         """
         return self._row["speed"].item()
 
@@ -298,7 +299,8 @@ class Joint:
     def separation(self) -> float:
         """The error of the joint [px]: distance of held anchors, distance from the axis, or excess over limits.
 
-        For a Gear the error of its sum, in the unit of the coordinate of joint_a.
+        For a Gear the error of its sum, in the unit of the coordinate of joint_a; for a Target the distance from its
+        point.
         """
         return self._row["separation"].item()
 

@@ -546,6 +546,7 @@ class World(WorldState):
         """
         self.set_effects(self._effects.with_(narrowphase=checks.flag("narrowphase", on)))
 
+    @hints.explained
     def set_effects(self, effects: Effects) -> None:
         """Replace the effects from the next step on, and wake all bodies.
 

@@ -14,7 +14,7 @@ from physics.broadphase.proxies import PairList, Strategy, write_rectangles
 from physics.collision.areas import with_areas
 from physics.collision.manifold import contacts_of
 from physics.contacts.cache import drop_contacts
-from physics.effects import Effects
+from physics.effects import Effects, declaring
 from physics.events import Events, Pairs
 from physics.islands import sleep
 from physics.islands.awake import Awake
@@ -658,7 +658,7 @@ class WorldState:
 
     def _needs(self, effect: str, what: str, asked: bool) -> None:
         if asked and not getattr(self._effects, effect):
-            raise ValueError(f"{what} needs the effect {effect}: declare it in Effects({effect}=True)")
+            raise ValueError(f"{what} needs the effect {effect}: declare it in {declaring(self._effects, effect)}")
 
     def _needs_fields(self, gravity: Vec2 | None = None, drag: float = 0.0, wind: Vec2 | None = None) -> None:
         """Raise ValueError for a gravity, drag or wind other than 0 whose effect is not declared.

@@ -16,5 +16,7 @@ for axle in axles:
 for _ in range(180):
     world.step()
 
+turn, travel = wheels[0].angular_velocity, axles[0].translation  # a joint Wheel reports its suspension
 print(f"the door is open by {door.angle:.2f} rad, the car drives at {chassis.velocity.x:.0f} px/s")
+print(f"a wheel turns at {turn:.1f} rad/s, its spring is pressed by {-travel:.1f} px")
 assert abs(door.angle + 1.5) < 0.02 and chassis.velocity.x > 100

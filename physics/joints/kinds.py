@@ -280,6 +280,8 @@ class Prismatic(Kind):
 class Wheel(Kind):
     """A wheel on a suspension: B rotates freely, and moves along an axis of A against a spring.
 
+    The motor drives the angle; limits, spring, and translation and speed of the Joint are of the suspension.
+
     a, b: chassis and wheel, Bodies or ids; None for one of them: the world.
     at: the anchor of both bodies (x, y) [px].
     axis: direction of the suspension (x, y), of any length but 0.

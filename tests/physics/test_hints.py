@@ -4,6 +4,7 @@ A pygame object, a value of another argument, a number in place of a Material or
 place of an instance, a keyword of another engine. The world is unchanged after each error.
 """
 
+import dataclasses
 import inspect
 
 import numpy as np
@@ -449,6 +450,9 @@ FOREIGN_ELSEWHERE = [
     (lambda w: w.query_rect(RECT, layers=3), "filter=Filter(membership=3)"),
     (lambda w: w.query_point((0, 0), max_distance=3), "its arguments are point, filter, sensors"),
     (lambda w: w.query_points([(0, 0)], sensor=True), "sensors=True"),
+    (lambda w: World(joints=True), "effects=Effects.rigid_bodies().with_(joints=True)"),
+    (lambda w: World(rotation=False), "effects=Effects.rigid_bodies().with_(rotation=False)"),
+    (lambda w: w.set_effects(carving=True), "effects=Effects.rigid_bodies().with_(carving=True)"),
     (lambda w: Effects.rigid_bodies(joints=True), "write Effects.rigid_bodies().with_(joints=True)"),
     (lambda w: Effects.detection(sensors=True), "write Effects.detection().with_(sensors=True)"),
 ]
@@ -472,6 +476,31 @@ def test_no_hint_names_an_argument_that_the_function_lacks():
                 called(**{**given, word: 1})
             text = str(caught.value)
             assert "its arguments are" in text or any(f"{name}=" in text.split("write ")[1] for name in names), text
+
+
+def test_the_hints_know_every_effect():
+    assert list(physics.hints.EFFECTS) == [field.name for field in dataclasses.fields(Effects)]
+
+
+@pytest.mark.parametrize(("effects", "call", "expression"), [
+    (None, lambda w, b: b.carve(BALL, (0, 0)), "Effects.rigid_bodies().with_(carving=True)"),
+    (None, lambda w, b: w.add_joint(Revolute(None, b, at=(0, 0))), "Effects.rigid_bodies().with_(joints=True)"),
+    (
+        Effects.detection(), lambda w, b: w.add_joint(Revolute(None, b, at=(0, 0))),
+        "Effects(response=True, stacking=True, joints=True)",
+    ),
+    (Effects(response=True, gravity=True), lambda w, b: w.add_body(MASK, sensor=True), "gravity=True, sensors=True)"),
+])  # fmt: skip
+def test_a_missing_effect_comes_with_the_expression_that_declares_it(effects, call, expression):
+    """The expression keeps the effects of the world, and adds those that the missing one needs."""
+    world = World(effects)
+    body = world.add_body(BALL)
+    with pytest.raises(ValueError, match="needs the effect (carving|joints|sensors): declare it in Effects") as caught:
+        call(world, body)
+    text = str(caught.value)
+    assert text.endswith(expression), text
+    other = World(eval(text.partition("declare it in ")[2]))
+    call(other, other.add_body(MASK))
 
 
 # ---- attributes ------------------------------------------------------------------------------------------------------
@@ -506,7 +535,7 @@ JOINT_ATTRIBUTES = [
     ("enabld", False, "did you mean enabled?"),
     ("limit", (0, 1), "did you mean limits?"),
     ("upper", 1, "limits = (low, high)"),
-    ("max_force", 1e6, "breaks = (1000000.0, None)"),
+    ("max_force", 1e6, "breaks = (1000000.0, None), or give max_force to a new Target or Motor"),
     ("body_b", 1, "remove(), and world.add_joint(…)"),
     ("colour", "red", "has no attribute colour"),
 ]
