@@ -57,20 +57,26 @@ def bar(canvas: Canvas, rect: Box, share: float, color: Color, ground: Color = I
 
 
 def banner(
-    canvas: Canvas, title: str, lines: Sequence[str] = (), color: Color = GOLD, y: int | None = None
+    canvas: Canvas,
+    title: str,
+    lines: Sequence[str] = (),
+    color: Color = GOLD,
+    y: int | None = None,
+    field: pygame.Rect | None = None,
 ) -> pygame.Rect:
     """Draw a large title over a dark band in the middle of the picture, with small lines under it.
 
-    Return its rectangle.
+    field: the part of the picture that shows the game; None for all of it. Return the rectangle of the text.
     """
+    field = canvas.rect if field is None else field
     width, height = canvas.measure(title, TEXT, 3)
     total = height + 6 + 13 * len(lines)
-    top = (canvas.rect.height - total) // 2 if y is None else y
-    shade = pygame.Surface((canvas.rect.width, total + 20), pygame.SRCALPHA)
+    top = field.top + (field.height - total) // 2 if y is None else y
+    shade = pygame.Surface((field.width, total + 20), pygame.SRCALPHA)
     shade.fill(BANNER_GROUND)
-    canvas.surface.blit(shade, (0, top - 10))
-    rect = canvas.text(title, canvas.rect.centerx, top, color, TEXT, 3, "center", True)
+    canvas.surface.blit(shade, (field.left, top - 10))
+    rect = canvas.text(title, field.centerx, top, color, TEXT, 3, "center", True)
     for number, line in enumerate(lines):
-        text = canvas.text(line, canvas.rect.centerx, top + height + 8 + 13 * number, PAPER, TEXT, 1, "center", True)
+        text = canvas.text(line, field.centerx, top + height + 8 + 13 * number, PAPER, TEXT, 1, "center", True)
         rect = rect.union(text)
     return rect

@@ -60,6 +60,7 @@ class Disagreement(Shooter):
     sliders = ()
     keeps = {"broadphase": "the shooter's own: over its whole stage, with a boss's 1,500 bullets, the two are level"}
     head = HEAD
+    field = pygame.Rect(0, HEAD, SIDE.x, SIDE.height)
     ranked_by = None
     assists = ()
     takes_level = False
@@ -68,7 +69,6 @@ class Disagreement(Shooter):
 
     def build(self):
         """Build the shooter with an invincible plane, and set all counts to zero."""
-        self.assist = {"invincible": True, "hit_stop": False}
         super().build()
         self.plane.right = SIDE.x - MARGIN
         self.director = Director(from_then_on(self.director.stage, OPENS))
@@ -77,6 +77,16 @@ class Disagreement(Shooter):
         self.reference = ReferenceTier(FIRST)
         self.curves: list[tuple[float, ...]] = []  # shares of wrong hits by tier, over a growing number of moments
         self.apart = 1  # moments between two of them
+
+    @property
+    def invincible(self):
+        """True, whatever the player has chosen for the games."""
+        return True
+
+    @property
+    def hit_stop(self):
+        """False, whatever the player has chosen for the games."""
+        return False
 
     @property
     def hurts(self):
@@ -101,7 +111,6 @@ class Disagreement(Shooter):
     def draw(self, canvas, alpha):
         """Draw the game, and beside it the rates of wrong and missed hits of all collision tiers."""
         super().draw(canvas, alpha)
-        canvas.boxes[:] = [each for each in canvas.boxes if not SIDE.colliderect(each[0])]  # now hidden
         canvas.surface.fill(NIGHT, SIDE)
         canvas.fix(SIDE)
         canvas.surface.fill(SLATE, (SIDE.x, SIDE.y, 1, SIDE.height))

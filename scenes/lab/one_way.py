@@ -54,6 +54,7 @@ RUN, JUMP, HERO_GRAVITY, FALL = 110.0, 380.0, 900.0, 360.0  # [px/s], [px/s2]
 LIFT_AT, LIFT_SIZE = (396.0, 178.0), (56, 16)
 LIFT_WAY = (34.0, 34.0)  # [px] amplitude along x and y
 RIDERS = (-15.0, 15.0)  # [px] crate and walker from the lift's middle
+BOARD = 11  # [px] height of the line of counts below the title line
 SETTLED = 60  # steps until riders are measured
 DUST = ((240, 226, 210), (180, 160, 150), (110, 96, 110))
 BOT = (
@@ -303,8 +304,8 @@ class OneWay(Scene):
         return abs(self.hero.position[0] - self.hero.previous[0]) > 0.4
 
     def _draw_board(self, canvas):
-        canvas.surface.fill(NIGHT, (0, 0, 480, 17))
-        canvas.surface.fill(INK, (0, 17, 480, 1))
+        canvas.surface.fill(NIGHT, (0, HEAD, 480, BOARD))
+        canvas.surface.fill(INK, (0, HEAD + BOARD, 480, 1))
         x = 474
         aside = max(self.aside.values())
         for text, color in (
@@ -312,7 +313,7 @@ class OneWay(Scene):
             (f"hero {self.passed['hero']} up {self.landed['hero']} landed", PAPER),
             (f"bodies {self.passed['body']} up {self.landed['body']} landed", FOG),
         ):
-            x = canvas.text(text, x, 6, color, SMALL, align="right").left - 12
+            x = canvas.text(text, x, HEAD + 3, color, SMALL, align="right").left - 12
 
     def check(self):
         """Return the scene's goals, a list of Goal.

@@ -51,21 +51,21 @@ def _draw_title(canvas, scene):
     course = scene.course
     share = eased(scene.spectacle.act_since, TITLE)
     middle, width = canvas.rect.centerx, canvas.rect.width
-    band(canvas, TITLE_TOP, whole(TITLE_HIGH * share))
+    band(canvas, canvas.rect, TITLE_TOP, whole(TITLE_HIGH * share))
     if share < 0.4:
         return
     off = (1.0 - share) * width
-    text_inside(canvas, ACTS[course.act], middle - off, TITLE_TOP + 7, SKY, 1)
-    text_inside(canvas, course.site.title, middle + off, TITLE_TOP + 19, GOLD, 3)
-    text_inside(canvas, course.site.hint, middle - off, TITLE_TOP + 48, PAPER, 1)
-    text_inside(canvas, course.site.more, middle + off, TITLE_TOP + 62, FOG, 1)
+    text_inside(canvas, canvas.rect, ACTS[course.act], middle - off, TITLE_TOP + 7, SKY, 1)
+    text_inside(canvas, canvas.rect, course.site.title, middle + off, TITLE_TOP + 19, GOLD, 3)
+    text_inside(canvas, canvas.rect, course.site.hint, middle - off, TITLE_TOP + 48, PAPER, 1)
+    text_inside(canvas, canvas.rect, course.site.more, middle + off, TITLE_TOP + 62, FOG, 1)
 
 
 def _draw_landed(canvas, scene):
     """Draw the points of a landing in columns. They are shown while the ship is refuelled."""
     course = scene.course
     share = eased(course.since, CHEER)
-    band(canvas, LANDED_TOP, whole(LANDED_HIGH * share))
+    band(canvas, canvas.rect, LANDED_TOP, whole(LANDED_HIGH * share))
     if share < 0.9:
         return
     canvas.text(f"{course.site.title} REACHED", canvas.rect.centerx, LANDED_TOP + 8, GOLD, TEXT, 2, "center", True)
@@ -79,7 +79,7 @@ def _draw_bonuses(canvas, scene):
     """Draw the bonuses counted so far at the end of the course, one per line."""
     course = scene.course
     share = eased(course.since - SMOKE, inf)
-    band(canvas, CLEARED_TOP, whole(178 * share))
+    band(canvas, canvas.rect, CLEARED_TOP, whole(178 * share))
     if share < 0.9:
         return
     canvas.text("ALL SITES REACHED", canvas.rect.centerx, CLEARED_TOP + 8, GOLD, TEXT, 3, "center", True)

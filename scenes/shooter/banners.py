@@ -1,4 +1,4 @@
-"""Banners across the picture: the stage's title, the boss warning, bonuses, the offer to continue, and the end."""
+"""Banners across the field: the stage's title, the boss warning, bonuses, the offer to continue, and the end."""
 
 from functools import lru_cache
 from math import inf
@@ -18,6 +18,7 @@ STRIPE = 16  # [px] of the warning's slanted stripes
 SMOKE = 50  # steps for which the boss's end stays visible
 BLINK = 20  # steps: WARNING is bright and dark in turn, three times in two seconds
 HALF = 28  # [px] from the top of a two-line band to its middle line, from which it grows
+BONUS_HALF = 90  # [px] from the middle of the field to both ends of a line with a bonus
 HURRY = 4  # the countdown is red below this digit
 
 
@@ -27,17 +28,17 @@ def draw_banners(canvas, scene):
     if ending.mode == ASKING:
         _draw_continue(canvas, scene)
     elif ending.mode == LOST:
-        banner(canvas, "GAME OVER", _summary(scene), RED)
+        banner(canvas, "GAME OVER", _summary(scene), RED, field=scene.field)
     elif ending.mode == WON:
-        banner(canvas, "STAGE CLEAR", _summary(scene), GOLD)
+        banner(canvas, "STAGE CLEAR", _summary(scene), GOLD, field=scene.field)
     elif ending.mode == CLEARED:
         _draw_bonuses(canvas, scene)
     elif director.mode == "ready":
-        _draw_title(canvas, director)
+        _draw_title(canvas, scene)
     elif director.mode == "warning":
         _draw_warning(canvas, scene)
     elif scene.spectacle.bonus[2]:
-        _draw_bonus(canvas, scene.spectacle.bonus)
+        _draw_bonus(canvas, scene)
 
 
 def eased(step, whole_time):
@@ -49,59 +50,60 @@ def eased(step, whole_time):
     return 1.0 - (1.0 - max(share, 0.0)) ** 3
 
 
-def _draw_title(canvas, director):
+def _draw_title(canvas, scene):
     """Draw the stage's title, which slides in from the left, and its name, which slides in from the right.
 
     At the end of the banner both slide out again.
     """
+    director, field = scene.director, scene.field
     share = eased(director.since, READY)
-    middle, width = canvas.rect.centerx, canvas.rect.width
-    band(canvas, 92, whole(58 * share))
+    middle, width = field.centerx, field.width
+    band(canvas, field, 92, whole(58 * share))
     if share < 0.4:
         return
     off = (1.0 - share) * width
-    text_inside(canvas, director.stage.title, middle - off, 104, GOLD, 3)
-    text_inside(canvas, director.stage.name, middle + off, 134, PAPER, 1)
+    text_inside(canvas, field, director.stage.title, middle - off, 104, GOLD, 3)
+    text_inside(canvas, field, director.stage.name, middle + off, 134, PAPER, 1)
 
 
 def _draw_warning(canvas, scene):
     """Draw the word WARNING and the name of the mid-boss or boss, between two rows of moving stripes."""
-    since = scene.director.since
+    since, field = scene.director.since, scene.field
     share = eased(since, WARNING)
     high = whole(56 * share)
-    band(canvas, 100, high)
+    band(canvas, field, 100, high)
     shift = since * 2 % (2 * STRIPE)
     for y in (100 + HALF - high // 2 - 8, 100 + HALF + high // 2):
-        canvas.surface.blit(stripes(canvas.rect.width + 2 * STRIPE), (shift - 2 * STRIPE, y))
+        canvas.surface.blit(stripes(field.width + 2 * STRIPE), (field.left, y), (2 * STRIPE - shift, 0, field.width, 8))
     if share < 0.6:
         return
     bright = not scene.accessibility.flashing or since % (2 * BLINK) < BLINK
-    canvas.text(
-        "WARNING", canvas.rect.centerx, 107, (255, 110, 100) if bright else (232, 96, 96), TEXT, 3, "center", True
-    )
-    canvas.text(scene.director.announced.name, canvas.rect.centerx, 136, PAPER, TEXT, 1, "center", True)
+    canvas.text("WARNING", field.centerx, 107, (255, 110, 100) if bright else (232, 96, 96), TEXT, 3, "center", True)
+    canvas.text(scene.director.announced.name, field.centerx, 136, PAPER, TEXT, 1, "center", True)
 
 
-def _draw_bonus(canvas, bonus):
-    title, points, left = bonus
+def _draw_bonus(canvas, scene):
+    title, points, left = scene.spectacle.bonus
+    middle = scene.field.centerx
     y = 134 - whole(6 * eased(BONUS_SHOWN - left, BONUS_SHOWN + 1))
-    canvas.text(title, canvas.rect.centerx, y, GOLD if points else PAPER, TEXT, 2, "center", True)
+    canvas.text(title, middle, y, GOLD if points else PAPER, TEXT, 2, "center", True)
     if points:
-        canvas.text(f"+{points:,}", canvas.rect.centerx, y + 20, PAPER, TEXT, 1, "center", True)
+        canvas.text(f"+{points:,}", middle, y + 20, PAPER, TEXT, 1, "center", True)
 
 
 def _draw_bonuses(canvas, scene):
     """Draw STAGE CLEAR, and one line for each bonus counted so far."""
-    ending = scene.ending
+    ending, field = scene.ending, scene.field
     share = eased(ending.since - SMOKE, inf)
-    band(canvas, 70, whole(112 * share))
+    band(canvas, field, 70, whole(112 * share))
     if share < 0.9:
         return
-    canvas.text("STAGE CLEAR", canvas.rect.centerx, 82, GOLD, TEXT, 3, "center", True)
+    canvas.text("STAGE CLEAR", field.centerx, 82, GOLD, TEXT, 3, "center", True)
     for number, (name, points) in enumerate(ending.counted):
         y = 114 + 14 * number
-        canvas.text(name, 150, y, PAPER, TEXT, outline=True)
-        canvas.text(f"+{points:,}", 330, y, SKY if points else PAPER, TEXT, align="right", outline=True)
+        canvas.text(name, field.centerx - BONUS_HALF, y, PAPER, TEXT, outline=True)
+        color = SKY if points else PAPER
+        canvas.text(f"+{points:,}", field.centerx + BONUS_HALF, y, color, TEXT, align="right", outline=True)
 
 
 def _draw_continue(canvas, scene):
@@ -111,6 +113,7 @@ def _draw_continue(canvas, scene):
         f"CONTINUE? {digit}",
         ("fire: go on, with the points begun anew", "bomb: hurry"),
         RED if digit < HURRY else GOLD,
+        field=scene.field,
     )
 
 
@@ -124,21 +127,21 @@ def _summary(scene):
     return [f"{points_text(score.points)} points", "   ".join(counts), "fire: go on"]
 
 
-def band(canvas, top, high):
-    """Draw a dark band across the picture, behind a banner's text. top: its y when fully grown; high: its height [px].
+def band(canvas, field, top, high):
+    """Draw a dark band across the field, behind a banner's text. top: its y when fully grown; high: its height [px].
 
     The band grows from its middle line. Once it has room for two lines of text, it only grows downwards.
     """
     if high > 0:
         canvas.surface.blit(
-            _shade(canvas.rect.width, high), (0, top + HALF - high // 2 if high <= 2 * HALF + 2 else top)
+            _shade(field.width, high), (field.left, top + HALF - high // 2 if high <= 2 * HALF + 2 else top)
         )
 
 
-def text_inside(canvas, text, x, y, color, scale):
-    """Draw a text of a sliding banner if it is completely inside the picture. (x, y): middle of its upper edge [px]."""
+def text_inside(canvas, field, text, x, y, color, scale):
+    """Draw a text of a sliding banner if it is completely inside the field. (x, y): middle of its upper edge [px]."""
     rect = canvas.text_rect(text, x, y, TEXT, scale, "center")
-    if canvas.rect.contains(rect):
+    if field.contains(rect):
         canvas.text(text, x, y, color, TEXT, scale, "center", True)
 
 

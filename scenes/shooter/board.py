@@ -1,4 +1,9 @@
-"""Heads-up display of the shooter: score, chain, lives, bombs, power, hits, and the boss's health."""
+"""Heads-up display of the shooter: score, chain, lives, bombs, power, hits, and the boss's health.
+
+Its places are relative to the scene's `field`, the part of the canvas that shows the game.
+"""
+
+import pygame
 
 from game.drawing.canvas import SMALL, TEXT, whole
 from game.drawing.colors import GOLD, INK, PAPER, RED, SKY
@@ -11,14 +16,15 @@ from scenes.shooter.spectacle import NEWS
 
 HEALTH = ((230, 60, 70), (255, 190, 70), (120, 220, 120))  # by remaining health
 FADE = 0.55  # [s] after which a rising word is written darker
-HELD = (
-    (0, 0, 132, 36),
-    (380, 0, 100, 44),
-    (140, 0, 226, 28),
-    (0, 254, 150, 16),
-)  # [canvas px] places of the heads-up display, where no rising word is drawn
-BAR = (148, 17, 184, 7)  # [canvas px] of the leader's health
-CHAIN = (MARGIN, 17, 60, 4)
+HELD = {
+    "topleft": (132, 36),
+    "topright": (100, 44),
+    "midtop": (226, 28),
+    "bottomleft": (150, 16),
+}  # sizes [px] of the heads-up display at these places of the field, where no rising word is drawn
+BAR = (184, 7)  # [px] of the leader's health
+CHAIN = (60, 4)
+BELOW = 17  # [px] from the upper edge of the field to the bars
 HEALTH_WIDTH = 36  # [px] of the bar at a damaged plane
 PHASE_NAME = 150  # steps for which the name of a leader's phase is shown
 SLIDE_IN, SLIDE_OUT = 12, 10  # steps in which the name of a wave comes and goes
@@ -26,12 +32,15 @@ SLIDE_IN, SLIDE_OUT = 12, 10  # steps in which the name of a wave comes and goes
 
 def draw_words(canvas, scene, view):
     """Draw the short texts that rise from events, such as points. view: world point at the picture's corner."""
-    for rect in HELD:
+    for place, size in HELD.items():
+        rect = pygame.Rect((0, 0), size)
+        setattr(rect, place, getattr(scene.field, place))
         canvas.reserve(rect)
     left, top = view
     for text, x, y, age, color in scene.spectacle.works.words:
         faded = tuple(c * 2 // 3 for c in color) if age > FADE else color
-        canvas.text_if_free(text, x - left, y - top, faded, SMALL, align="center", outline=True)
+        if scene.field.contains(canvas.text_rect(text, x - left, y - top, SMALL, align="center")):
+            canvas.text_if_free(text, x - left, y - top, faded, SMALL, align="center", outline=True)
 
 
 def draw_board(canvas, scene):
@@ -48,37 +57,38 @@ def draw_board(canvas, scene):
 
 def _draw_score(canvas, scene):
     score, pulse = scene.score, scene.spectacle.pulse
-    y = MARGIN - whole(2 * pulse)
-    rect = canvas.text(f"{score.points:08d}", MARGIN, y, GOLD if pulse > 0.4 else PAPER, TEXT, outline=True)
+    x, top = scene.field.left + MARGIN, scene.field.top
+    y = top + MARGIN - whole(2 * pulse)
+    rect = canvas.text(f"{score.points:08d}", x, y, GOLD if pulse > 0.4 else PAPER, TEXT, outline=True)
     canvas.text(f"x{score.times}", rect.right + 6, y, SKY if score.times > 1 else PAPER, TEXT, outline=True)
     if scene.best:
-        canvas.text(f"BEST {max(scene.best, score.points):08d}", MARGIN, 30, PAPER, SMALL, outline=True)
-    left, top, width, height = CHAIN
-    canvas.surface.fill(INK, CHAIN)
+        canvas.text(f"BEST {max(scene.best, score.points):08d}", x, top + 30, PAPER, SMALL, outline=True)
+    bar = pygame.Rect((x, top + BELOW), CHAIN)
+    canvas.surface.fill(INK, bar)
     if score.chain:
         color = GOLD if score.times == TOP_CHAIN else SKY
-        canvas.surface.fill(color, (left + 1, top + 1, round((width - 2) * score.hold / HOLD), height - 2))
-    canvas.fix(CHAIN)
-    canvas.text(f"CHAIN {score.chain}  GRAZE {score.grazes}", MARGIN, 23, PAPER, SMALL, outline=True)
+        canvas.surface.fill(color, (x + 1, bar.y + 1, round((bar.width - 2) * score.hold / HOLD), bar.height - 2))
+    canvas.fix(bar)
+    canvas.text(f"CHAIN {score.chain}  GRAZE {score.grazes}", x, top + 23, PAPER, SMALL, outline=True)
 
 
 def _draw_stock(canvas, scene):
-    """Draw lives, bombs and power as rows of icons at the right edge."""
+    """Draw lives, bombs and power as rows of icons at the right edge of the field."""
     ui, plane, gain = load_atlas("ui"), scene.plane, scene.spectacle.gain
-    right = canvas.rect.right - MARGIN
+    right, top = scene.field.right - MARGIN, scene.field.top + MARGIN
     rows = (("icon_life", max(plane.lives - plane.here, 0)), ("icon_bomb", plane.bombs), ("icon_power", plane.power))
     for row, (name, count) in enumerate(rows):
         image = ui[name]
         # The row of power icons jumps after a pick-up.
         lift = whole(3 * gain) if row == 2 else 0
-        icons(canvas, image, count, right - count * (image.get_width() + 2) + 2, MARGIN + 12 * row - lift)
+        icons(canvas, image, count, right - count * (image.get_width() + 2) + 2, top + 12 * row - lift)
     if plane.power == TOP_POWER:
-        canvas.text("MAX", right - TOP_POWER * 11 - 3, MARGIN + 26, GOLD, SMALL, align="right", outline=True)
+        canvas.text("MAX", right - TOP_POWER * 11 - 3, top + 26, GOLD, SMALL, align="right", outline=True)
 
 
 def _draw_hits(canvas, scene):
     """Draw the numbers of hits on the player's core, hull and bounding box. The vulnerable part is written in gold."""
-    ui, y, x = load_atlas("ui"), canvas.rect.bottom - 14, MARGIN
+    ui, y, x = load_atlas("ui"), scene.field.bottom - 14, scene.field.left + MARGIN
     counts = scene.own_hits
     for part in ("core", "hull"):
         canvas.surface.blit(ui[f"icon_{part}"], (x, y))
@@ -93,19 +103,21 @@ def _draw_wave(canvas, scene):
     # The wave's name slides in from above and stays clear of the sky where planes fight.
     y = MARGIN - max(0, news - (NEWS - SLIDE_IN)) - max(0, SLIDE_OUT - news)
     if y >= 0:
-        canvas.text(director.wave, canvas.rect.centerx, y, GOLD, TEXT, align="center", outline=True)
+        canvas.text(director.wave, scene.field.centerx, scene.field.top + y, GOLD, TEXT, align="center", outline=True)
 
 
 def _draw_leader(canvas, scene, leader):
     """Draw the name and timer of the mid-boss or boss above its health bar, which has a section for each phase."""
-    left, top, width, height = BAR
-    phases = len(leader.phases)
-    canvas.text(leader.name, left, MARGIN, PAPER, TEXT, outline=True)
+    bar = pygame.Rect((0, scene.field.top + BELOW), BAR)
+    bar.centerx = scene.field.centerx
+    left, top, width, height = bar
+    phases, above = len(leader.phases), scene.field.top + MARGIN
+    canvas.text(leader.name, left, above, PAPER, TEXT, outline=True)
     if leader.mode == "fight":
         hurry = leader.seconds_left < ALMOST
         seconds = f"{leader.seconds_left:04.1f}" if hurry else f"{int(leader.seconds_left)}"
-        canvas.text(seconds, left + width, MARGIN, RED if hurry else GOLD, TEXT, align="right", outline=True)
-    canvas.surface.fill(INK, BAR)
+        canvas.text(seconds, left + width, above, RED if hurry else GOLD, TEXT, align="right", outline=True)
+    canvas.surface.fill(INK, bar)
     # The section of the last phase is at the left: the bar empties from right to left.
     part = (width - 2) / phases
     behind = phases - 1 - leader.number
@@ -118,9 +130,9 @@ def _draw_leader(canvas, scene, leader):
     canvas.surface.fill(tuple(min(c + 60, 255) for c in color), (start, top + 1, round((part - 1) * share), 1))
     for number in range(1, phases):
         canvas.surface.fill(PAPER, (left + round(part * number), top - 1, 1, height + 2))
-    canvas.fix(BAR)
+    canvas.fix(bar)
     if leader.mode == "fight" and leader.since < PHASE_NAME:
-        canvas.text(leader.phase.name, left, top + 11, SKY, SMALL, outline=True)
+        canvas.text(leader.phase.name, left, top + 12, SKY, SMALL, outline=True)
 
 
 def draw_health(surface, place, share):

@@ -1,7 +1,9 @@
 """The plane shooter's rules. Hits, grazes, bomb blasts and pick-ups are read from the contact events of each step."""
 
 import numpy as np
+import pygame
 
+from game.drawing.canvas import CANVAS_SIZE
 from game.scene import STEP_SECONDS, Scene, Slider
 from physics import Effects
 from scenes.shooter.blows import Blow, Blows, push
@@ -55,6 +57,7 @@ class Shooter(Scene):
     broadphase = "sweep"  # bullets are spread over the whole sky: four times as fast as a grid with 1,500 of them
     sliders = (Slider("hurts", 0, 1, 0, choices=("core", "hull")),)
     music = "shooter"
+    field = pygame.Rect((0, 0), CANVAS_SIZE)  # part of the canvas that shows the game, for its texts and icons
     ranked_by = "points"
     assists = ("invincible", "hit_stop")
     takes_level = True
@@ -103,6 +106,16 @@ class Shooter(Scene):
     def hurts(self):
         """Part of the player's plane whose hits cost a life: "core" or "hull"."""
         return ("core", "hull")[int(self.values["hurts"])]
+
+    @property
+    def invincible(self):
+        """Whether hits do not destroy the player's plane: a choice of the player."""
+        return self.assist["invincible"]
+
+    @property
+    def hit_stop(self):
+        """Whether the game is frozen for a moment after a hit: a choice of the player."""
+        return self.assist["hit_stop"]
 
     @property
     def own_hits(self):
@@ -203,7 +216,7 @@ class Shooter(Scene):
         return identity in self.gone or self.wreckage.is_marked(identity)
 
     def _hit(self, hit_by):
-        if self.assist["invincible"]:
+        if self.invincible:
             self.gone += [identity for identity in hit_by if identity not in self.fleet.planes]
             self.spectacle.hit_taken(self.plane)
             return
@@ -214,7 +227,7 @@ class Shooter(Scene):
 
     def stop_time(self):
         """Freeze the game for FREEZE steps, unless the setting `hit_stop` is off."""
-        self.freeze = FREEZE if self.assist["hit_stop"] else 0
+        self.freeze = FREEZE if self.hit_stop else 0
 
     def _shots_that_hit(self, begun, a, b):
         shot_a, shot_b = self.shots.has(a), self.shots.has(b)
