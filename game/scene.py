@@ -131,7 +131,7 @@ class Scene:
     overlays: tuple[str, ...] = ()  # overlay layers on from the start
     filter_names: dict[int, str] = {}  # membership bit -> its meaning, for the legend of the filters
     legend_at: tuple[int, int] | None = None  # canvas (x, y) where the overlays' legend goes if it is free
-    head = 0  # canvas px of the title line at the top: the line of keys goes beside it. 0: no title line
+    head = 0  # canvas px of the title line at the top. 0: no title line
     hides_pointer = True
     weighs_effects = False  # True: the costs of its choice of effects are measured, and stored in `totals`
     draggable = False  # True: dynamic bodies follow the mouse; the pointer is then shown

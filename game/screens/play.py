@@ -427,9 +427,9 @@ class Play(SceneScreen):
             below.draw(frame)
         if self.measuring.race is not None and split is None:
             self.measuring.race.draw(frame)
-        draw_status(frame, self)
-        self.contact_inspector.draw(frame, self.clock.paused)
         if self.hint is not None and self.open_panel is None:
             self.hint.draw(frame)
+        draw_status(frame, self)
+        self.contact_inspector.draw(frame, self.clock.paused)
         self.session.report.note_drawing(perf_counter() - started)
         return frame

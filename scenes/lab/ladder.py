@@ -51,7 +51,8 @@ NAMES = {"aabb": "box", "obb": "turned box", "pixels": "pixels, as drawn", "mask
 IN_FINDING = ("aabb", "hull", "outline")  # tiers in the finding
 HOLDING = ("circle", "aabb", "obb", "capsule", "hull")  # tiers that contain all pixels of a sprite
 COLUMNS = 3
-CELL = (160, 84)
+CELL = (160, 80)
+LINE = 7  # [px] from one figure to the next
 ROOM = 12  # letters of a figure beside a name of nine
 VIEW = 70  # [px] width and height of a sprite's cell
 MOST = 256  # [px] greatest width and height of the player's picture
@@ -190,9 +191,9 @@ class Ladder(Scene):
                 ("hit, miss", _times(figures.hit.median, figures.miss.median)),
             ]
         else:
-            canvas.text("measuring the rest", x, y + 8 + 8 * len(lines), FOG, SMALL)
+            canvas.text("measuring the rest", x, y + 8 + LINE * len(lines), FOG, SMALL)
         for number, (name, value) in enumerate(lines):
-            top = y + 8 + 8 * number
+            top = y + 8 + LINE * number
             canvas.text(name, x, top, LIT.get(name, FOG), SMALL)
             canvas.text(value, x + 78, top, PAPER, SMALL, align="right")
 

@@ -16,7 +16,7 @@ from tests.game.reading import Reader, assert_text_is_apart
 from tests.pairwise import pairwise, the_others
 
 pytestmark = pytest.mark.usefixtures("nothing_is_measured")
-SIZES = [(1440, 810), (1920, 1080), (960, 540), (480, 270), (1100, 900)]
+SIZES = [(1440, 810), (1920, 1080), (960, 540), (480, 270), (1100, 900), (640, 360)]
 PANEL = [False, True]
 LAYERS = {"none": lambda scene: (), "all": lambda scene: layer_names(), "its own": lambda scene: scene.overlays}
 

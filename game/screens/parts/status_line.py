@@ -12,6 +12,7 @@ HELP_SECONDS = 6.0  # time for which the keys are shown after the start
 RESULT_WAIT = 60  # steps after the end before a key continues, so that holding fire does not skip it
 GAP = "   "  # between the parts of a line
 LINE = 7  # [text px] from one row to the next
+MOST_ROWS = 4  # of a line of text that finds no place in fewer
 HEAD_TITLE = 16  # [canvas px] a title begins this far from the left edge at most
 SHADE = (20, 16, 32, 225)
 
@@ -70,23 +71,37 @@ def draw_in_a_corner(frame: Frame, text: str) -> None:
 def draw_line(frame: Frame, text: str, color: Color, head: int = 0) -> bool:
     """Draw a line of text beside the scene's title, in the top `head` canvas pixels. Return whether it was drawn.
 
-    For head 0, or if it does not fit there, draw it near the bottom or at another free place.
+    For head 0, or if it does not fit there, draw it below the game's picture, near its bottom, or at another free
+    place, in as few rows as fit.
     """
     if head and _draw_in_head(frame, text, color, head):
         return True
     scale = frame.text_scale
-    width, height = frame.measure(text, SMALL, scale)
     area = frame.area.clip(frame.rect)
-    size = (width + 8 * scale, height + 6 * scale)
+    whole = max(area.width, frame.measure(text, SMALL, scale)[0])
+    for parts in range(1, MOST_ROWS + 1):
+        rows = _rows(frame, text, whole // parts, scale)
+        width = max((frame.measure(row, SMALL, scale)[0] for row in rows), default=0)
+        size = (width + 8 * scale, (LINE * len(rows) + 4) * scale)
+        place = frame.free_place(size, _places(frame, area, size)) if rows else None
+        if place is not None:
+            shade = pygame.Surface(size, pygame.SRCALPHA)
+            shade.fill(SHADE)
+            frame.surface.blit(shade, place)
+            for number, row in enumerate(rows):
+                frame.text(row, place[0] + 4 * scale, place[1] + (3 + LINE * number) * scale, color, SMALL, scale)
+            return True
+    return False
+
+
+def _places(frame, area, size):
+    """Return places (x, y) for a box of `size`, best first: below the game's picture `area`, then inside it."""
+    scale = frame.text_scale
     across = (area.centerx - size[0] // 2, area.left + 4 * scale, area.right - size[0] - 4 * scale)
-    rows = [area.bottom - size[1] - n * size[1] for n in range(1, 20)] + [area.top + 4 * scale]
-    place = frame.free_place(size, [(x, y) for x in across for y in rows if y >= area.top])
-    if place is not None:
-        shade = pygame.Surface(size, pygame.SRCALPHA)
-        shade.fill(SHADE)
-        frame.surface.blit(shade, place)
-        frame.text(text, place[0] + 4 * scale, place[1] + 3 * scale, color, SMALL, scale)
-    return place is not None
+    down = range(area.bottom - 2 * size[1], area.top, -size[1])
+    below = (area.bottom + frame.rect.bottom - size[1]) // 2
+    inside = [(x, y) for y in (*down, area.bottom - size[1], area.top + 4 * scale) for x in across]
+    return [(across[0], below), *inside] if below > area.bottom else inside
 
 
 def _draw_in_head(frame, text, color, head):
