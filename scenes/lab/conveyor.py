@@ -53,6 +53,7 @@ APART = 84.0  # [px] between crates on the belt
 OUT_X = 462.0  # [px] where they leave
 WINDOW = (0.70, 0.86)  # of a belt's length: where a crate's speed is measured
 SETTLE = 60  # steps after a change of speed without measurements
+SLOWED = 60  # [px/s] speed that the bot sets first
 ALLOWED = 0.02  # of the belt's speed
 VIEWS = ((4, 30, 472, 108), (4, 154, 472, 108))
 TITLES = ("conveyor declared", "not declared: the same belts, the same crates")
@@ -74,7 +75,7 @@ class Conveyor(Scene):
         "rolling resistance brakes a wheel",
         "the same world without the effect",
     )
-    sliders = (Slider("speed", 20, 120, 60, "px/s", step=10),)
+    sliders = (Slider("speed", 20, 120, 120, "px/s", step=10),)
     actions = (("left right", "speed"),)
     overlays = ()
     draggable = True
@@ -97,7 +98,7 @@ class Conveyor(Scene):
         self.way = 0.0  # [px] motion of the belts, for drawing only
         self.changed = -SETTLE
         self.taken = dict.fromkeys(BELTS, 0)
-        self.worst = dict.fromkeys(BELTS, 0.0)
+        self.worst = dict.fromkeys(BELTS, 0.0)  # greatest error since the last change of speed
         self.last = {}  # belt -> speed of the last crate there since the last change of speed
         self.seen = {kind: set() for kind in KINDS}  # belts on which it was measured
         self.inside = {}  # (body id, belt) -> last speed in the window
@@ -122,6 +123,7 @@ class Conveyor(Scene):
             self.changed = self.frame
             self.inside.clear()
             self.last.clear()
+            self.worst = dict.fromkeys(BELTS, 0.0)
             self._lay_belts()
 
     def update(self, inputs):
@@ -289,10 +291,14 @@ class Conveyor(Scene):
 
     def headline(self):
         """Return the sentence and the number of the title line, a Headline."""
-        still = sum(start is not None for _, start in self.fallen.values())
-        sentence = f"Without the effect conveyor, belts that run at {self.values['speed']} px/s carry nothing."
-        number, unit = f"{self.strayed:.1f} px", f"moved there; {self.delivered} delivered above"
-        return Headline(sentence, "left right: speed", number, unit, still, 1, "crates at rest")
+        speed = float(self.values["speed"])
+        belt = max(self.worst, key=lambda name: self.worst[name])
+        good = len(self.last) < len(BELTS) or self.worst[belt] <= ALLOWED
+        sentence = f"At {speed:.0f} px/s crates do not reach the speed of every belt."
+        if good:
+            sentence = f"Do crates reach the {speed:.0f} px/s of every belt?"
+        number, unit = f"{100 * self.worst[belt]:.1f} %", f"off at most, on the belt {belt}"
+        return Headline(sentence, "left: slower", number, unit, len(self.last), len(BELTS), "belts", good)
 
     def finding(self):
         """Return a sentence with the greatest error of the last crates' speeds on the belts.
@@ -313,8 +319,9 @@ class Conveyor(Scene):
         )
 
     def bot(self):
-        """Return the bot's input for the next step. The bot waits, then raises the speed."""
-        return InputFrame(frozenset(("right",))) if self.frame in (420, 424) else frozenset()
+        """Return the bot's input for the next step. The bot halves the speed, waits, then raises it."""
+        changes = (("slider:speed", SLOWED),) if self.frame == 0 else ()
+        return InputFrame(frozenset(("right",)) if self.frame in (420, 424) else frozenset(), changes=changes)
 
     def state(self):
         """Return the scene's own state for the digest: the measurements."""

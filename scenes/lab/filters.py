@@ -41,6 +41,7 @@ APART, SWING = 15.0, 7.0  # [px] between the discs' centres: 8 to 22, touching a
 SLOP = 0.2  # [px] a pair may keep its contact up to the physics' slop of 0.16 px
 SIDE_X = 322
 CELLS = [(row, column) for row in range(len(KINDS)) for column in range(len(KINDS))]
+ONE_SIDED = (5, 4)  # cell that is marked at the start: pick-up and wall
 BOT_CLICKS = {90: (0, 1), 130: (5, 4), 170: (0, 1)}  # frame: cell
 
 
@@ -68,7 +69,7 @@ class Filters(Scene):
     def build(self):
         """Set the masks of the kinds, then add two discs to each cell."""
         self.masks = [sum(1 << KINDS.index(other) for other in MEETS[kind]) for kind in KINDS]
-        self.marked = (0, 1)
+        self.marked = ONE_SIDED
         self.clock = 0.0
         self.touching = np.zeros((len(KINDS), len(KINDS)), bool)
         self.steps = self.wrong = self.filtered = self.met = self.clicks = 0
@@ -79,6 +80,10 @@ class Filters(Scene):
         """Add all discs again, with the current masks."""
         self.world.clear()
         self.cell_of = {}
+        self.inside = np.zeros(self.touching.shape, bool)  # whether the two discs of a cell overlap
+        self.met_now = np.zeros(self.touching.shape, bool)  # whether they were in contact during this overlap
+        self.overlaps = np.zeros(self.touching.shape, int)  # of each cell since the masks were set
+        self.contacts = np.zeros(self.touching.shape, int)  # overlaps with a contact
         for row, column in CELLS:
             for kind in (row, column):
                 body = self.world.add_body(Circle(RADIUS), filter=Filter(1 << kind, self.masks[kind]))
@@ -138,6 +143,10 @@ class Filters(Scene):
             touch = bool(self.touching[row, column])
             if gap[number] <= 0.0 or gap[number] > SLOP or not may:
                 self.wrong += touch != (may and gap[number] <= 0.0)
+        inside = (gap <= 0.0).reshape(self.inside.shape)
+        self.overlaps += inside & ~self.inside
+        self.contacts += inside & self.touching & ~self.met_now
+        self.inside, self.met_now = inside, inside & (self.met_now | self.touching)
         self.steps += 1
         self.met += int(self.touching.sum())
         self.filtered += self.world.profile.counters["filtered"]
@@ -220,14 +229,16 @@ class Filters(Scene):
     def headline(self):
         """Return the sentence and the number of the title line, a Headline."""
         row, column = self.marked
-        counters = self.world.profile.counters
-        close = counters["filtered"] + counters["candidates"]
-        unit = "close pairs may not touch"
-        sentence = f"Does {KINDS[row]} meet {KINDS[column]}? Only if both rows say yes to each other."
-        good = self.says_yes(row, column) and self.says_yes(column, row)
-        return Headline(
-            sentence, "Space: switch", f"{counters['filtered']} of {close}", unit, self.steps, 1, "steps", good
-        )
+        a, b = KINDS[row], KINDS[column]
+        overlaps, contacts = int(self.overlaps[row, column]), int(self.contacts[row, column])
+        yes = self.says_yes(row, column) + self.says_yes(column, row)
+        sentence = f"Do {a} and {b} touch whenever they overlap?"
+        if contacts < overlaps:
+            said = ("Neither of", "Only one of", "Each of")[yes]
+            sentence = f"{said} {a} and {b} says yes: they pass through each other."
+        unit = "overlaps were contacts"
+        number, good = f"{contacts} of {overlaps}", contacts == overlaps
+        return Headline(sentence, "Space: switch", number, unit, overlaps, 1, "overlaps", good)
 
     def finding(self):
         """Return a sentence with the number of pairs that the filter dropped in the last step.
@@ -258,7 +269,8 @@ class Filters(Scene):
 
     def state(self):
         """Return the scene's own state for the digest: the masks and counts."""
-        return (self.frame, *self.masks, *self.marked, self.clock, self.wrong, self.met, self.filtered, self.clicks)
+        counts = (self.wrong, self.met, self.filtered, self.clicks, int(self.overlaps.sum()), int(self.contacts.sum()))
+        return (self.frame, *self.masks, *self.marked, self.clock, *counts)
 
 
 def cell_rect(row, column):

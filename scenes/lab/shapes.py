@@ -77,7 +77,7 @@ class Shapes(Scene):
     sliders = (
         Slider("A", 0, len(NAMES) - 1, 2, choices=NAMES),
         Slider("B", 0, len(NAMES) - 1, 1, choices=NAMES),
-        Slider("step", 0, MOST_STEPS, MOST_STEPS),
+        Slider("step", 0, MOST_STEPS, 0),
     )
     actions = (
         ("mouse", "drag"),
@@ -325,8 +325,18 @@ class Shapes(Scene):
 
     def headline(self):
         """Return the sentence and the number of the title line, a Headline."""
-        wrong = self.disagreed + self.mirrored
-        sentence = "SAT, GJK and the contact answer for the same two shapes: do they agree?"
+        wrong, step = self.disagreed + self.mirrored, self.step_shown
+        off = 0.0 if step is None else abs(step["distance"] - self.steps[-1]["distance"])
+        if step is not None and off > EXACT:
+            index, count = min(int(self.values["step"]), len(self.steps) - 1), len(self.steps)
+            sentence = (
+                f"{step['phase'].upper()} stopped after round {index + 1} of {count} is wrong about the distance."
+            )
+            unit = "off the answer of the last round"
+            return Headline(sentence, "Enter: next round", f"{off:.3g} px", unit, self.compared, 1, "answers")
+        sentence = "SAT, GJK and the contact disagree about the same two shapes."
+        if not wrong:
+            sentence = "SAT, GJK and the contact answer for the same two shapes: do they agree?"
         unit = f"of {self.compared:,} answers differ"
         return Headline(sentence, "Enter: step", f"{wrong}", unit, self.compared, ENOUGH, "answers", not wrong)
 

@@ -219,10 +219,14 @@ class Tumbler(Scene):
 
     def headline(self):
         """Return the sentence and the number of the title line, a Headline."""
-        sentence = "The turning drum presses shapes into each other; none of them may get out."
-        number, unit = f"{self.pressed:.2f} px", f"deepest overlap, {self.escaped} got out"
-        good, seen = self.pressed < THINNEST / 5 and not self.escaped, max(self.since - SETTLED, 0)
-        return Headline(sentence, "left: slower", number, unit, seen, 60, "settled steps", good)
+        count, speed = len(self.world.bodies) - 1, float(self.values["speed"])
+        sentence = f"At {speed:.1f} rad/s shapes get out of the drum."
+        if not self.escaped:
+            sentence = f"At {speed:.1f} rad/s, does any shape get out of the drum?"
+        number, seen = f"{self.escaped} of {count}", max(self.since - SETTLED, 0)
+        return Headline(
+            sentence, "right: faster", number, "shapes got out", seen, 60, "settled steps", not self.escaped
+        )
 
     def finding(self):
         """Return a sentence with the number of shapes that got out, the drum's turns, and the overlap in the load."""
