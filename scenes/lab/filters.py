@@ -73,6 +73,7 @@ class Filters(Scene):
         self.clock = 0.0
         self.touching = np.zeros((len(KINDS), len(KINDS)), bool)
         self.steps = self.wrong = self.filtered = self.met = self.clicks = 0
+        self.close = self.dropped = 0  # pairs that overlap in this step, and those of them that may not touch
         self.add_world()
         self.fill()
 
@@ -149,7 +150,9 @@ class Filters(Scene):
         self.inside, self.met_now = inside, inside & (self.met_now | self.touching)
         self.steps += 1
         self.met += int(self.touching.sum())
-        self.filtered += self.world.profile.counters["filtered"]
+        allowed = np.array([self.says_yes(*cell) and self.says_yes(*cell[::-1]) for cell in CELLS])
+        self.close, self.dropped = int((gap <= 0.0).sum()), int(((gap <= 0.0) & ~allowed).sum())
+        self.filtered += self.dropped
 
     def draw(self, canvas, alpha):
         """Draw the grid with its headings, and the text beside it."""
@@ -204,7 +207,7 @@ class Filters(Scene):
             y += 13 if font == TEXT else 9
         counters = self.world.profile.counters
         for name, value in (
-            ("filtered", counters["filtered"]),
+            ("filtered", self.dropped),
             ("candidates", counters["candidates"]),
             ("touching", int(self.touching.sum())),
         ):
@@ -241,16 +244,13 @@ class Filters(Scene):
         return Headline(sentence, "Space: switch", number, unit, overlaps, 1, "overlaps", good)
 
     def finding(self):
-        """Return a sentence with the number of pairs that the filter dropped in the last step.
+        """Return a sentence with the number of overlapping pairs that the filter dropped in the last step.
 
         It also names the number of wrong contacts so far.
         """
         if not self.steps:
             return "not yet: the discs have to swing"
-        counters = self.world.profile.counters
-        sentence = (
-            f"of {counters['filtered'] + counters['candidates']} pairs whose boxes met {counters['filtered']} were"
-        )
+        sentence = f"of {self.close} pairs that overlap {self.dropped} were"
         agreed = sum(self.says_yes(row, column) and self.says_yes(column, row) for row, column in CELLS)
         return (
             f"{sentence} dropped unwritten; {agreed} of {len(CELLS)} cells may touch, {self.wrong} ever did otherwise"
