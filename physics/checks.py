@@ -58,8 +58,8 @@ def seconds(name: str, value: Any, low: float | None = None, above: float | None
     found = number(name, value, low, above)
     if isinstance(value, numbers.Integral) and found >= MILLISECONDS:
         raise ValueError(
-            f"{name} must be in seconds, a float from {MILLISECONDS} s on (got {shown(value)}): write {value} / 1000 "
-            f"for milliseconds, 1 / {value} for steps per second, {found} for seconds"
+            f"{name} must be in seconds, from {MILLISECONDS} s on as a float (got {shown(value)}): write "
+            f"{value} / 1000 for milliseconds, 1 / {value} for steps per second, {found} for seconds"
         )
     return found
 

@@ -189,8 +189,8 @@ class World(WorldState):
         dt: length of the step [s], >= 0 (pygame's Clock.tick() / 1000); None: world.dt. A step below 1e-30 s counts
             as 0: it moves nothing, and keeps forces and targets for the next step.
 
-        Raises TypeError if dt is not a number; ValueError if it is negative, not finite, or an int from 4 on, which
-        are milliseconds; RuntimeError during a step.
+        Raises TypeError if dt is not a number; ValueError if it is negative, not finite, or an int >= 4, which looks
+        like milliseconds; RuntimeError during a step.
 
         >>> ball.velocity = (0, -100)
         >>> for _ in range(60):

@@ -10,6 +10,21 @@ solid[60:140, 400:412] = True
 picture = pygame.Surface((1024, 256), pygame.SRCALPHA)
 picture.fill("sienna")  # in a game the image that the mask was made from
 
+world = World(Effects.rigid_bodies().with_(carving=True))
+ground = world.add_body(PixelMask(solid, origin=(0, 0)), kind="static")
+boulder = world.add_body(Circle(9), position=(700, 40))
+pebble = world.add_body(Circle(3), position=(745, 60))
+
+
+def explode(at, radius):
+    """Blow a crater into the ground, and push away what is near."""
+    crater = ground.carve(Circle(radius), at)  # bodies there wake, and fall in
+    for body in world.overlap(Circle(3 * radius), at):
+        away = body.center - at
+        if body.kind == "dynamic" and away.length > 0:
+            body.apply_impulse(away.normalized() * 200 * body.mass)  # 200 px/s
+    return crater
+
 
 def clear_carved(image, body):
     """Make the pixels of an image transparent where the body's mask is no longer solid."""
@@ -17,13 +32,11 @@ def clear_carved(image, body):
     alpha[~body.shapes[0].solid.T] = 0
 
 
-world = World(Effects.rigid_bodies().with_(carving=True))
-ground = world.add_body(PixelMask(solid, origin=(0, 0)), kind="static")
-boulder = world.add_body(Circle(9), position=(700, 40))
 for _ in range(180):
     world.step()
 
-crater = ground.carve(Circle(24), boulder.position)  # bodies there wake, and fall in
+crater = explode(boulder.position, 24)
+thrown = pebble.velocity.length
 cut = ground.carve(Polygon.box(14, 14), (430, 65))  # the rest of the bridge comes loose
 (bridge,) = cut.fragments
 corner = bridge.position - bridge.shapes[0].origin  # of its image in that of the ground, before it falls
@@ -35,7 +48,7 @@ for _ in range(240):
     world.step()
 
 print(f"{crater.removed} + {cut.removed} pixels are gone, {bridge.shapes[0].area} came down to {bridge.position}")
-assert boulder.position.y > before.y + 10
+assert boulder.position.y > before.y + 10 and thrown > 199
 assert pygame.mask.from_surface(picture).count() == ground.shapes[0].area
 assert pygame.mask.from_surface(piece).count() == bridge.shapes[0].area
 assert bridge.kind == "dynamic" and not bridge.awake and bridge.position.y > 75

@@ -31,6 +31,8 @@ class Drive:
     speed: target speed of the coordinate [px/s, or rad/s for an angle].
     max: greatest force [mass px/s²] or torque [mass px²/s²], >= 0; it must be given.
 
+    To accelerate a mass by a [px/s²] takes a force of mass · a, at the rim of a wheel a torque of mass · a · radius.
+
     Raises TypeError if a value is not a number, ValueError if max is missing or below 0, or if a number is not finite.
     """
 

@@ -136,6 +136,7 @@ def test_force_of_infinite_strength_is_caught_in_its_step():
     assert near.position == (9.0, 0.0)
 
 
+@pytest.mark.filterwarnings("ignore:World.step")
 def test_angle_that_overflows_within_a_step_is_caught():
     world = World(ALL, gravity=(0, 0))
     world.add_body(Polygon.box(4, 4), angular_velocity=1e308)
