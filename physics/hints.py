@@ -353,7 +353,9 @@ def in_place_of_vector(name: str, value: Any) -> str:
         return ": write (z.real, z.imag)"
     if not is_number(value):
         return ""
-    return f": write (0, {brief(value)})" if name == "gravity" else ": write (x, y)"
+    if name == "gravity":
+        return f": write (0, {brief(abs(value))}), in px/s², y points down"
+    return ": write (x, y)"
 
 
 def in_place_of_points(name: str, value: Any, count: int | None = None) -> str:

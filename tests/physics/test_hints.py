@@ -667,8 +667,9 @@ def test_too_many_arguments_get_the_names():
     for call in (lambda: Circle(1, 2, 3), lambda: Polygon((0, 0), (1, 0), (1, 1)), lambda: Polygon.box(1, 2, 3, 4, 5)):
         with pytest.raises(TypeError, match=r"takes .* \(got [35] arguments: \("):
             call()
-    with pytest.raises(TypeError, match=r"gravity must be a pair .*: write \(0, 500\)"):
-        World(gravity=500)
+    for gravity, written in ((500, "500"), (-9.8, "9.8")):  # y points down, so that a fall is positive
+        with pytest.raises(TypeError, match=rf"gravity must be a pair .*: write \(0, {written}\), in px/s², y points"):
+            World(gravity=gravity)
     with pytest.raises(TypeError, match="names must be a list"):
         Effects.named("gravity")
 
