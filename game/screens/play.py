@@ -423,13 +423,15 @@ class Play(SceneScreen):
         else:
             with self.step_inspector.showing():
                 frame = picture.draw_scene(self.scene, self.overlays, alpha, self.open_panel, reserve)
-        if below is not None:
+        covered = self.open_panel is not None and picture.presenter.crowded  # the panel is the whole picture
+        if below is not None and not covered:
             below.draw(frame)
         if self.measuring.race is not None and split is None:
             self.measuring.race.draw(frame)
         if self.hint is not None and self.open_panel is None:
             self.hint.draw(frame)
-        draw_status(frame, self)
+        if not covered or self.news:
+            draw_status(frame, self)
         self.contact_inspector.draw(frame, self.clock.paused)
         self.session.report.note_drawing(perf_counter() - started)
         return frame

@@ -21,6 +21,7 @@ from game.screens.attract import Attract
 from game.screens.menu import Menu
 from game.screens.message_screen import error_message
 from game.screens.near_misses import NearMisses
+from game.screens.parts import effect_rows
 from game.screens.parts.background import SceneBackground
 from game.screens.pause_menu import PauseMenu
 from game.screens.play import Play
@@ -206,6 +207,7 @@ class Screens:
         """Open the panel of the paused game, which shows what each effect costs; without a game, the lab of effects."""
         if self.played is not None:
             self._open_in_game(Play.toggle_panel, "panel_open")
+            self._game().panel.show(effect_rows.TITLE)
         elif EFFECTS_LAB in self.arcade.registry.names:
             self.play(EFFECTS_LAB)
         else:

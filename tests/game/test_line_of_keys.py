@@ -73,3 +73,21 @@ def test_below_the_picture_is_its_first_place(plays):
     assert min(rect.top for rect, text in frame.boxes if LAST in text) >= frame.area.bottom
     frame = drawn(play, (960, 540), with_keys=True)
     assert max(rect.bottom for rect, text in frame.boxes if LAST in text) <= frame.area.bottom
+
+
+@pytest.mark.parametrize("opened", ["panel_open", "costs_open"])
+def test_a_panel_that_covers_the_picture_is_covered_by_nothing(opened):
+    play = Play(make_scene("lab/stacks"), DeviceSource(), Silent())
+    for _ in range(90):
+        play.step()
+    setattr(play, opened, True)
+    running = play.draw(Picture(pygame.Surface((640, 360))))
+    pixels = pygame.surfarray.array3d(running.surface)
+    play.clock.paused = True
+    frozen = play.draw(Picture(pygame.Surface((640, 360))))
+    texts = [text for _, text in frozen.boxes]
+    assert not any("FROZEN" in text or "-10 s" in text for text in texts)
+    assert_text_is_apart(frozen.boxes, frozen.rect)
+    changed = (pygame.surfarray.array3d(frozen.surface) != pixels).any(axis=2)
+    assert changed.sum() < 200, "nothing but the box of the row Freeze"
+    play.close()

@@ -7,7 +7,9 @@ from pathlib import Path
 import pygame
 import pytest
 
+from game.drawing.number_text import plain_name
 from game.drawing.sprites import load_atlas
+from game.measure.ledger import EFFECTS
 from game.run.picture import Picture
 from game.screens.near_misses import CLEAR, HITS, NearMisses, corner, course
 from game.screens.play import Play
@@ -155,6 +157,12 @@ def test_the_pause_menu_opens_both_beside_the_game_that_was_paused(driver, downs
         assert driver.name == "NearMisses"
         press(driver, pygame.K_RETURN)
     assert driver.screen is play and getattr(play, opened)
+    if not downs:
+        return
+    for size in ((480, 270), (640, 360), (960, 540), (1440, 810)):
+        frame = play.draw(Picture(pygame.Surface(size)))
+        words = [text for _, text in frame.boxes]
+        assert "Effects" in words and plain_name(EFFECTS[0]) in words, size
 
 
 def test_it_is_a_stop_of_the_tour(driver):

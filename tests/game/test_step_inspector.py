@@ -329,3 +329,22 @@ def test_the_panel_leads_there(play):
     row = next(row for row in play_rows(play) if row.label == "Step inspector")
     row.press()
     assert row.key == "E" and play.step_inspector.open and not play.panel_open
+
+
+@pytest.mark.parametrize("size", [(640, 360), (960, 540), (1280, 720), (1440, 810)])
+def test_the_card_leaves_the_title_line_of_a_lab_free(size):
+    play = screen(make_scene("lab/stacks"))
+    frame = play.draw(Picture(pygame.Surface(size)))
+    head = frame.from_canvas((0, 0, 480, play.scene.head))
+
+    def titles(frame):
+        return [(rect, text) for rect, text in frame.boxes if head.contains(rect) and "measuring" not in text]
+
+    before = titles(frame)
+    assert before
+    play.toggle_step_inspector()
+    for _ in range(3):
+        key(play, pygame.K_RIGHT)
+        frame = play.draw(Picture(pygame.Surface(size)))
+        assert titles(frame) == before
+    play.close()

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import pygame
 
-from game.drawing.canvas import shorten, small_font
+from game.drawing.canvas import small_font, wrap
 from game.drawing.colors import DUSK, FOG, GREEN, PAPER, SKY
 from game.drawing.presenter import Frame
 from game.measure.setting import Setting
@@ -55,18 +55,18 @@ class AdviceRows:
             self.apply(advice[0])
 
     def draw(self, frame: Frame, left: int, y: int, width: int, scale: int) -> int:
-        """Draw both lines from (left, y) down, `width` wide [frame px]. Return the y below them."""
+        """Draw both texts from (left, y) down, `width` wide [frame px]. Return the y below them."""
         texts = ((self._advice(), GREEN), (self._tuning(), SKY if self.tuner.on else FOG))
         font, line = small_font(scale)
-        high = (line + 2) * scale
         for row, (text, color) in enumerate(texts):
-            self.rects[row] = rect = pygame.Rect(left, y + row * high, width, high - scale)
+            lines = wrap(text, width - 4 * scale, font, scale)
+            self.rects[row] = rect = pygame.Rect(left, y, width, (line * len(lines) + 1) * scale)
             frame.surface.fill(DUSK, rect)
             ink = color if row or "PgUp" in text else PAPER
-            frame.text(
-                shorten(text, width - 4 * scale, font, scale), left + 2 * scale, rect.y + scale, ink, font, scale
-            )
-        return y + 2 * high + scale
+            for number, words in enumerate(lines):
+                frame.text(words, left + 2 * scale, y + (1 + line * number) * scale, ink, font, scale)
+            y = rect.bottom + scale
+        return y + scale
 
     def _advice(self):
         survey, here, advice = self.tuner.survey, self.measuring.now(), self.measuring.advice

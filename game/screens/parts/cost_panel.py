@@ -57,6 +57,8 @@ FEET = (
     "click: play with it   M closes",
     "M closes",
 )
+LEAST = 60  # [text px] least height of the plot
+BELOW = 116  # [text px] for the legend, the finding, the advice, four rows of the list and the keys
 LASTS = 15  # pictures for which a painted panel is shown, even if new results arrive
 TRAIL = 12  # number of last applied settings that a line joins
 
@@ -186,7 +188,8 @@ class CostPanel:
         known = self.survey.known(self.shown_kind())
         self.places, self.rows = [], []
         if known:
-            plot = pygame.Rect(left, y, width, max(60 * scale, rect.height * 2 // 5))
+            high = min(rect.height * 2 // 5, rect.bottom - y - BELOW * scale)
+            plot = pygame.Rect(left, y, width, max(LEAST * scale, high))
             self._draw_plot(frame, plot, known, now, scale)
             y = self._draw_forms(frame, left, plot.bottom + 3 * scale, width, known, now, scale)
             y = self._draw_finding(frame, left, y, width, now, scale)
@@ -321,9 +324,11 @@ class CostPanel:
         font, line = small_font(scale)
         high = (line + 1) * scale
         ranking = self.ranking()
+        room = rect.height // high - 2  # without the heading, and the numbers of those that do not fit
+        if room < 1:
+            return
         frame.text("time of a step, noise, error", rect.right - 2 * scale, rect.y + scale, FOG, font, scale, "right")
         rect = pygame.Rect(rect.x, rect.y + high, rect.width, rect.height - high)
-        room = max(0, rect.height // high - 1)
         # The selected setting stays visible.
         places = {setting: place for place, setting in enumerate(ranking)}
         here = self.hovered if self.focused and self.hovered is not None else now

@@ -8,6 +8,7 @@ from game.measure.ledger import EFFECTS
 from game.screens.parts.measuring import Measuring
 from game.screens.parts.panel import HEAD, LINE, NOTE, Row
 
+TITLE = "Effects"
 WAITS = "..."
 UNKNOWN = "-"
 
@@ -15,7 +16,7 @@ UNKNOWN = "-"
 def effect_rows(measuring: Measuring) -> list[Row]:
     """Return the panel's rows about the costs of effects: a heading, a line per effect, a note if measuring failed."""
     ledger = measuring.ledger
-    rows = [Row(HEAD, "Effects", cells=("us a step", "kernels")), *_choices(measuring)]
+    rows = [Row(HEAD, TITLE, cells=("us a step", "kernels")), *_choices(measuring)]
     for name in EFFECTS:
         declared = getattr(measuring.world.effects, name)
         known = ledger.effects.get(name, EffectCost(name, declared))

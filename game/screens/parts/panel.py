@@ -90,6 +90,14 @@ class Panel:
             return False
         return True
 
+    def show(self, head: str) -> None:
+        """Scroll to the section with the heading `head`, and mark its first row; do nothing if there is none."""
+        rows = self.rows()
+        for first, row in enumerate(rows):
+            if row.kind == HEAD and row.label == head:
+                self.first = first
+                self.mark = next((n for n in range(first, len(rows)) if rows[n].kind in LIVE), self.mark)
+
     def _step_mark(self, rows, direction):
         live = [i for i, row in enumerate(rows) if row.kind in LIVE]
         if not live:

@@ -217,6 +217,9 @@ class StepInspectorView:
         bars = bars_of(self.session.scene.totals)
         below = bar_table_height(len(bars)) + BETWEEN
         size = room, (sum(height for *_, height in lines) + below + 2 * EDGE) * scale
+        head = round(self.session.scene.head * frame.zoom)
+        if size[1] <= area.height - head:  # the title line stays visible
+            area = pygame.Rect(area.x, area.y + head, area.width, area.height - head)
         rect = self._place(frame, area, size)
         frame.surface.fill(faded(NIGHT, 0.1), rect)
         pygame.draw.rect(frame.surface, GOLD, rect, max(1, scale // 2))

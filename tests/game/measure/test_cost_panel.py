@@ -213,3 +213,19 @@ def test_nothing_in_the_plot_is_under_nine_pixels(size):
     assert all(rect.height >= 9 for rect, _ in inside), [text for rect, text in inside if rect.height < 9]
     assert_text_is_apart(inside, frame.rect)
     play.close()
+
+
+@pytest.mark.usefixtures("nothing_is_measured")
+@pytest.mark.parametrize("size", [(640, 360), (960, 540), (1280, 720), (1440, 810)])
+def test_the_longest_texts_leave_room_for_the_list_and_are_not_cut(size, monkeypatch):
+    advice = "leave it; brute: predicted 0.77, measured 1.03: withdrawn"
+    monkeypatch.setattr("game.screens.parts.advice_rows.AdviceRows._advice", lambda rows: advice)
+    play = play_with_a_survey()
+    play.scene.hits.count.update(core=2, hull=1_100, box=1_800)
+    here = play.measuring.now()
+    frame = play.draw(Picture(pygame.Surface(size)))
+    inside = [(rect, text) for rect, text in frame.boxes if play.costs.rect.colliderect(rect)]
+    assert_text_is_apart(inside, play.costs.rect)
+    assert advice in words(frame)
+    assert here in [setting for _, setting in play.costs.rows]
+    play.close()
