@@ -11,6 +11,7 @@ from game.drawing.colors import FOG, INK, PAPER, SLATE, Color
 from game.drawing.presenter import Box, Frame
 
 GRID = (52, 46, 76)
+APART = 3  # [text px] least distance of two names in a row
 LEAST_SPAN = 0.3  # [decades] least span of a scale
 
 
@@ -46,8 +47,10 @@ def draw_scatter(frame: Frame, canvas_rect: Box, title: str, dots: Mapping[objec
         if here in places:
             pygame.draw.circle(surface, PAPER, places[here], 4 * frame.scale, max(1, frame.scale // 2))
         for key in sorted(dots, key=lambda each: each != here):
-            x, y = places[key]
-            frame.text_if_free(dots[key].name, x + 4 * scale, y - 7 * scale, dots[key].color, SMALL, scale)
+            x, y = places[key][0] + 4 * scale, places[key][1] - 7 * scale
+            room = frame.text_rect(dots[key].name, x, y, SMALL, scale).inflate(2 * APART * scale, 0)
+            if frame.is_free(room):  # two numbers side by side would read as one
+                frame.text(dots[key].name, x, y, dots[key].color, SMALL, scale)
     else:
         frame.text("measuring", plot.x, rect.centery, FOG, SMALL, scale)
     frame.fix(rect)

@@ -1,10 +1,13 @@
 """lab/pyramid's scatter: its errors are those that the lab itself judges by, and what was tried is remembered."""
 
+from itertools import combinations
+
 import pygame
 import pytest
 
+from game.drawing.canvas import Canvas
 from game.drawing.colors import PAPER
-from game.drawing.presenter import Frame
+from game.drawing.presenter import Frame, Presenter
 from game.input.inputs import InputFrame, InputState
 from game.measure.measured_runs import RunFigures
 from game.measure.moment import Moment
@@ -97,3 +100,15 @@ def test_nothing_and_a_single_dot_without_error_can_be_drawn(dots):
     frame.scale, frame.area = 2, surface.get_rect()
     draw_scatter(frame, (0, 0, 200, 100), "plot", dots, "a")
     assert ("measuring" in [text for _, text in frame.boxes]) == (not dots)
+
+
+@pytest.mark.parametrize("size", [(640, 360), (960, 540), (1440, 810)])
+def test_the_names_of_two_dots_do_not_read_as_one(size):
+    dots = {number: Dot(100.0 * (1.0 + 0.02 * number), 0.01, PAPER, str(number), True) for number in range(1, 9)}
+    frame = Presenter(pygame.Surface(size)).present(Canvas())
+    before = len(frame.boxes)
+    draw_scatter(frame, (4, 80, 130, 66), "overlap", dots, 1)
+    names = [rect for rect, text in frame.boxes[before:] if text in map(str, dots)]
+    assert 1 < len(names) < len(dots), "those without room are left out"
+    for a, b in combinations(names, 2):
+        assert not a.inflate(4 * frame.plot_scale, 0).colliderect(b)
