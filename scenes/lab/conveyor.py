@@ -53,7 +53,7 @@ APART = 84.0  # [px] between crates on the belt
 OUT_X = 462.0  # [px] where they leave
 WINDOW = (0.70, 0.86)  # of a belt's length: where a crate's speed is measured
 SETTLE = 60  # steps after a change of speed without measurements
-SLOWED = 60  # [px/s] speed that the bot sets first
+SLOWED, SLOWED_AT = 60, 90  # [px/s] speed that the bot sets first, and the frame
 ALLOWED = 0.02  # of the belt's speed
 VIEWS = ((4, 30, 472, 108), (4, 154, 472, 108))
 TITLES = ("conveyor declared", "not declared: the same belts, the same crates")
@@ -320,7 +320,7 @@ class Conveyor(Scene):
 
     def bot(self):
         """Return the bot's input for the next step. The bot halves the speed, waits, then raises it."""
-        changes = (("slider:speed", SLOWED),) if self.frame == 0 else ()
+        changes = (("slider:speed", SLOWED),) if self.frame == SLOWED_AT else ()
         return InputFrame(frozenset(("right",)) if self.frame in (420, 424) else frozenset(), changes=changes)
 
     def state(self):
