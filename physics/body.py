@@ -566,9 +566,9 @@ class Body(Handle):
         self._world._row_at(self._id)
 
     def _stir(self, row: int) -> int:
-        """Wake the body, whose row number is `row`, and set its sleep time to 0.
+        """Wake the body with this row number, and set its sleep time to 0.
 
-        Return the row number after the call.
+        Return its new row number, because waking may drop the rows of removed bodies.
         """
         columns = self._world._bodies.columns
         if not columns["awake"][row]:

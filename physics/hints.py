@@ -344,7 +344,7 @@ def _in_place_of_shape(value, many):
 
 
 def in_place_of_vector(name: str, value: Any) -> str:
-    """Return the hint for a wrong value given in place of the pair `name`; "" if there is none."""
+    """Return a hint for `value`, which was given for an argument `name` that must be a pair; "" if there is none."""
     if is_a(value, "pygame", "Rect", "FRect"):
         return ": write rect.center or rect.topleft"
     if is_own(value, "Body", "Character"):

@@ -366,8 +366,8 @@ class Joint:
     def limits(self) -> tuple[float, float] | None:
         """The limits (low, high) of the joint's angle, translation or length; None: no limits.
 
-        A value is -inf or inf where only the other side is limited. Setting them raises as for motor, and for a
-        Ratchet.
+        A value is -inf or inf where only the other side is limited. Setting them raises TypeError or
+        ValueError for invalid limits, and ValueError for a joint without a coordinate and for a Ratchet.
         """
         row = self._row
         lower, upper = row["lower"].item(), row["upper"].item()

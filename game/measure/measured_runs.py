@@ -17,9 +17,9 @@ WARM_STEPS = 2  # steps before the first run, which compile
 class RunFigures(NamedTuple):
     """The figures of one measured run so far.
 
-    cost: seconds per step over the repetitions. overlap: deepest overlap [px]. farthest: greatest distance that a body
-    moved in one step [px]. overlap and farthest cover only the steps that MeasuredRun.judged selects; they are None if
-    it selects none.
+    cost: the Cost of a step [s], over the repetitions of the run. overlap: deepest overlap [px]. farthest: greatest
+    distance that a body moved in one step [px]. overlap and farthest cover only the steps that MeasuredRun.judged
+    selects; they are None if it selects none.
     """
 
     cost: Cost

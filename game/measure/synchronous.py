@@ -12,7 +12,7 @@ from game.scene import Scene
 def measure_requests(scene: Scene) -> None:
     """Make the measurements that the scene requests and that have no results yet.
 
-    Store the results in scene.figures; of a scene that weighs its effects also time and bytes, in scene.totals.
+    Store the results in scene.figures. If the scene measures its effects, store their times and bytes in scene.totals.
     """
     request = scene.measured()
     if isinstance(request, SpriteRequest) and not scene.figures:

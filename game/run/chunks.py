@@ -74,7 +74,7 @@ class Chunks:
     """The contents of several buffers, stored in order as chunks.
 
     raw: the buffers. widths: size of an array item in each buffer [bytes], 0 if the buffer is not an array. before: the
-    Chunks of an earlier state of the same buffers, whose equal chunks are shared. new: the chunks that are not shared.
+    Chunks of an earlier state of the same buffers: a chunk that is equal there is not stored again. new: the others.
     """
 
     def __init__(self, raw: Sequence[memoryview], widths: Sequence[int], before: "Chunks | None" = None) -> None:

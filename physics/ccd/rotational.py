@@ -193,9 +193,9 @@ def back_to(mover, other_count, other_radius, depth, fraction, size, workspace):
 def sweep_part(mover, other_count, other_radius, depth, workspace):
     """Sweep the mover against a convex piece of an obstacle.
 
-    Return (fraction or MISS, whether the core circle was swept). The piece is in workspace.advance.local_b, with
-    other_count corners and the rounding radius other_radius [px]. depth [px]: depth of the mover in the whole obstacle
-    at the start, up to which an overlap is not an impact.
+    Return (fraction of the motion at the impact or MISS, whether the core circle was swept). The piece is in
+    workspace.advance.local_b, with other_count corners and the rounding radius other_radius [px]. depth [px]: depth of
+    the mover in the whole obstacle at the start; an overlap with the piece that is no deeper is not an impact.
     """
     count, radius, half, slack = mover
     reach = place_mover(count, workspace)

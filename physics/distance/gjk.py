@@ -436,8 +436,8 @@ def shape_separation(a, a_count, a_radius, b, b_count, b_radius, first, workspac
 
     a, b: world corners (n, 2) [px], 1 to 16 of them; a_radius, b_radius [px]: roundings; first: (index of a corner of
     A, index of a corner of B) at which the search starts. If the hulls overlap, the separation is negative: minus the
-    distance that B must move along the normal to end the overlap. workspace.state then holds the numbers of rounds and
-    of caps hit.
+    distance that B must move along the normal to end the overlap. After the call workspace.state holds the number of
+    rounds, and how many searches ended at their greatest number of rounds.
     """
     if walk_to_nearest(a, a_count, b, b_count, first[0], first[1], workspace) == TOUCHING:
         measure_depth(a, a_count, b, b_count, workspace)

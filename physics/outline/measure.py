@@ -237,7 +237,7 @@ class Moments(NamedTuple):
 
 
 def moments(around: Sequence[Stretch]) -> Moments:
-    """Return the Moments of the figure inside a closed boundary. Without area, all are 0 and the centre is nan.
+    """Return the Moments of the figure inside a closed boundary. If its area is 0, the centre is nan, the inertia 0.
 
     around: stretches of the boundary.
     """

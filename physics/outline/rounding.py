@@ -297,8 +297,8 @@ def _beyond(core, points):
 def _moves(core):
     """Return the directions (m, k, 2) in which the k corners of a core are moved in the search for a better core.
 
-    Each corner is moved to the right, and down. A core of two corners is also lengthened, rotated, and shifted along
-    and across its line.
+    There are two directions for each corner: it alone moves to the right, or it alone moves down. A core of two corners
+    is also lengthened, rotated, and shifted along and across its line.
     """
     moves = np.eye(core.size).reshape(-1, *core.shape)
     if len(core) != 2 or (core[0] == core[1]).all():

@@ -49,7 +49,9 @@ from physics.tables.table import joined
 
 
 def query_aabb(world: AskedWorld, lower: Pair, upper: Pair, filter: Filter, sensors: bool) -> list:
-    """Return the bodies that have a shape whose AABB meets a closed box [px]. Empty masks and grids have no AABB.
+    """Return the bodies that have a shape whose AABB meets a closed box [px].
+
+    Masks and grids without solid pixels or tiles are not found.
 
     lower, upper: corners (min_x, min_y), (max_x, max_y) of the box; filter: Filter of the query; sensors: whether
     sensors are included. Raises TypeError for values of other types, ValueError for lower > upper.

@@ -42,7 +42,7 @@ def exact_aabb(rasters, corners, raster, x, y, angle):
 
 @subkernel
 def into_raster(raster, body, cosine, sine, x, y):
-    """Return the world point (x, y) [px] in the coordinates of a mask's raster, from its top left corner.
+    """Return the coordinates [px] of a world point (x, y) [px] in a mask's raster, from (0, 0) at its top left corner.
 
     raster: RASTER row; body: BODY row of the mask; cosine, sine: rotation of the body.
     """

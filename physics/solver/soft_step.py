@@ -427,7 +427,7 @@ def turn_normal(lane, s, c_inout):
 
 @inlined
 def follow_core(lane, s, c_inout):
-    """Update the moment arms on the body with the face, in a contact of a face with a round shape.
+    """Update the moment arms of the body with the face, in a contact between a face and a round shape.
 
     The core of the round shape is the shape without its radius. It may have moved along the face, and the arms follow
     it. Only contacts whose lane field TURNS is NORMAL_OF_A or NORMAL_OF_B change. lane, s, c_inout: see turn_normal.

@@ -303,7 +303,7 @@ class EffectsLab(Scene):
             canvas.text(line, table.x, table.y - 2 - 7 * number, PAPER, SMALL)
 
     def draw_on_frame(self, frame):
-        """Draw the outlines of the bodies whose positions differ between the two yards."""
+        """Draw the outlines, in both yards, of the bodies whose positions differ between the two yards (worlds)."""
         numbers, gaps = apart(self.real, self.other)
         far = [number for number, gap in zip(numbers, gaps.tolist(), strict=True) if gap > VISIBLE]
         # The outlines stay off the plate with the words.

@@ -1,4 +1,4 @@
-"""python -m tests.accuracy DIR: docs/accuracy.json, docs/accuracy.md and its thirteen plots from a full report in DIR.
+"""python -m tests.accuracy DIR: docs/accuracy.json, docs/accuracy.md and its fifteen plots from a full report in DIR.
 
 python -m tests.accuracy DIR CHART replaces one chart by that of a report of this chart alone (--only CHART). The page
 then says that it was measured apart, and where, until a full report replaces all.

@@ -1,4 +1,4 @@
-"""docs/accuracy.md: the story of a full report in thirteen plots, from the rows kept in docs/accuracy.json."""
+"""docs/accuracy.md: the story of a full report in fifteen plots, from the rows kept in docs/accuracy.json."""
 
 import json
 from pathlib import Path
@@ -25,6 +25,8 @@ STORY = {  # by chart: the panel that tells the most
     "effects": "declared: taken out",
     "chaos": "when",
     "latency": "time",
+    "peers": "time of a frame",
+    "papers": "corners of two polygons",
     "joints": "ball of 1000 rods on a chain",
 }
 INTRODUCTION = """# What accuracy costs in time

@@ -88,7 +88,7 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
             and not any(row["failures"].values())
         }
         if len(good) > 1:
-            found.append(ordering(f"{panel}, error at most 1", good))
+            found.append(ordering(f"{panel}, in frame {FRAME} alone, error at most 1", good))
     return found
 
 
@@ -107,7 +107,7 @@ def _panels(rows: Sequence[Row]) -> list[Panel]:
 CHART = Chart(
     13,
     "scenes",
-    "Every setting of every scene",
+    "Every setting of every scene, in one frame",
     "What would another broad phase, tier, solver or count of substeps cost here, and how wrong would it be?",
     "finer runs of the same moment, as far as two of them agree; exact pixels for verdicts; no overlap for piles",
     _panels,

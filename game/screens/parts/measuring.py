@@ -121,7 +121,7 @@ class Measuring:
             self.ledger.measure_effects(*self._weighed())
 
     def _measure_request(self) -> None:
-        """Order the measurements that the scene requests if the request is new, and pass the results to the scene."""
+        """Start the measurements that the scene requests, if it has a new request, and give the scene all results."""
         request = self.scene.measured()
         if isinstance(request, SpriteRequest) and not (self.benched and all(map(is_, request, self.benched))):
             self.bench.stop()

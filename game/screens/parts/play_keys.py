@@ -61,7 +61,7 @@ def press(play: Played, key: int) -> bool:
 
 
 def press_button(play: Played, button: str) -> bool:
-    """Process a pad button of a played scene that does not control the game. Return False if it controls the game."""
+    """Process a pad button for the screen of a played scene. Return False if the button controls the game instead."""
     panel = play.open_panel
     if button == "start":
         play.stop()

@@ -36,7 +36,7 @@ def along(distance, angle, x=0.0, y=0.0):
 
 
 def rod(side, start, end, thick):
-    """Add a box from one point (x, y) [px] to another, and return its body. It passes through all others.
+    """Add a box from one point (x, y) [px] to another, and return its body, which collides with no other body.
 
     thick: its thickness [px]. side: see page.Side.
     """
@@ -153,7 +153,9 @@ def build_bridge(side, strongest=STRONGEST):
 
 
 def load_bridge(side):
-    """Increase the load of the bridge until it is broken: a force on the ball beside its weight.
+    """Increase the load on the bridge for one step, unless the bridge is broken.
+
+    The load is the ball and a force on it.
 
     side: see page.Side.
     """

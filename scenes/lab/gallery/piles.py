@@ -61,7 +61,7 @@ def build_huge(side):
 
 
 def sunk(side):
-    """Return the vertical distance of the large crate from its place on rigid crates [mm]. side: see page.Side."""
+    """Return how far the large crate is from its height on rigid crates [mm]. side: see page.Side."""
     return MM * abs(side.kept["load"].position[1] - side.kept["y"])
 
 

@@ -83,7 +83,7 @@ class Machine:
         raise TypeError(f"{cls.__name__} must define goals")
 
     def handle(self) -> tuple[float, float]:
-        """Return the place (x, y) [px] of a body that the bot drags."""
+        """Return the world point (x, y) [px] at which the bot grips the body that it drags."""
         raise TypeError(f"{type(self).__name__} must define handle")
 
     def draw_behind(self, canvas: Canvas, camera: Camera, alpha: float) -> None:
