@@ -279,6 +279,7 @@ def test_zero_step_moves_nothing():
     assert len(world.contacts) >= 2
 
 
+@pytest.mark.filterwarnings("ignore:World.step. dt is in seconds")
 @pytest.mark.parametrize("dt", [1e-9, 1.0, 100.0])
 def test_any_positive_step_stays_finite(dt):
     world = World(ALL)
