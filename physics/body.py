@@ -554,7 +554,9 @@ class Body(Handle):
         return [columns[name][row] for name in names]
 
     def _pair(self, first: str, second: str) -> Vec2:
-        return Vec2(*self._values(first, second))
+        world = self._world
+        row, columns = world._row_at(self._id), world._bodies.columns
+        return Vec2(columns[first][row], columns[second][row])
 
     @property
     def _definitions(self) -> np.void:

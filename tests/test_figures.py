@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from game.invariants.watch import all_invariants
+from game.report.charts import peers
 from physics.joints.kinds import KINDS
 from scenes import SCENES
 from scenes.lab.gallery.pages import PAGES
@@ -105,12 +106,9 @@ def at_equal_overlap():
     """Return a sentence: pyramids by the cheapest settings of both engines that overlap by at most 0.1 px."""
     rows, ratios = kept("accuracy.json")["rows"]["peers"], []
     for boxes in (55, 210, 1035):
-        best = {}
-        for row in rows:
-            if row["panel"] == f"pyramid of {boxes}" and row["overlap"] <= 0.1:
-                seconds = row["cost"]["seconds"][1]
-                best[row["series"]] = min(seconds, best.get(row["series"], seconds))
-        ratios.append(f"{best['ours'] / best['pymunk']:.2f}")
+        best = peers.cheapest(rows, f"pyramid of {boxes}", 0.1)
+        ours, pymunk = (best[engine]["cost"]["seconds"][1] for engine in ("ours", "pymunk"))
+        ratios.append(f"{ours / pymunk:.2f}")
     return (
         "With an overlap of at most 0.1 px and pymunk's best slop, iterations and substeps, pyramids of 55, 210 and "
         f"1,035 boxes take {', '.join(ratios)} of its time"

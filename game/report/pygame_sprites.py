@@ -64,6 +64,36 @@ def _pygame_mask(mask):
     return made
 
 
+def hits_after_rects(rects: list[pygame.Rect], masks: list[pygame.Mask]) -> Hits:
+    """Return the pairs that share a pixel: collidelistall of each rectangle, then Mask.overlap."""
+    found = set()
+    for k, (rect, mask) in enumerate(zip(rects, masks, strict=True)):
+        for j in rect.collidelistall(rects):
+            if j > k and mask.overlap(masks[j], (rects[j].x - rect.x, rects[j].y - rect.y)):
+                found.add((k, j))
+    return found
+
+
+class Sprite(pygame.sprite.Sprite):
+    """A sprite as pygame's collision functions expect it. place: its index."""
+
+    def __init__(self, place: int, mask: pygame.Mask, rect: pygame.Rect) -> None:
+        super().__init__()
+        self.place, self.mask, self.rect = place, mask, rect
+
+
+def group_of(rects: list[pygame.Rect], masks: list[pygame.Mask]) -> Any:
+    """Return a pygame Group of Sprites that share these rectangles and masks."""
+    return pygame.sprite.Group(*(Sprite(k, *each) for k, each in enumerate(zip(masks, rects, strict=True))))
+
+
+def hits_of_groupcollide(group: Any) -> Hits:
+    """Return the pairs of a group that share a pixel, as tutorials find them: groupcollide with collide_mask."""
+    collide: Any = pygame.sprite.collide_mask  # the stubs ask for a bool; it returns a point or None
+    hits: Any = pygame.sprite.groupcollide(group, group, False, False, collide)
+    return {(a.place, b.place) for a, others in hits.items() for b in others if a.place < b.place}
+
+
 # ---- programs --------------------------------------------------------------------------------------------------------
 
 
@@ -102,12 +132,7 @@ class Plain(Program):
 
     def test(self) -> Hits:
         """Return the hits at the present rectangles."""
-        rects, masks, found = self.rects, self.traffic.masks, set()
-        for k, rect in enumerate(rects):
-            for j in rect.collidelistall(rects):
-                if j > k and masks[k].overlap(masks[j], (rects[j].x - rect.x, rects[j].y - rect.y)):
-                    found.add((k, j))
-        return found
+        return hits_after_rects(self.rects, self.traffic.masks)
 
 
 class RectsOnly(Plain):
@@ -143,26 +168,15 @@ class Sorted(Plain):
         return found
 
 
-class Sprite(pygame.sprite.Sprite):
-    """A sprite as pygame's collision functions expect it. place: its index."""
-
-    def __init__(self, place: int, mask: pygame.Mask, rect: pygame.Rect) -> None:
-        super().__init__()
-        self.place, self.mask, self.rect = place, mask, rect
-
-
 class GroupCollide(Plain):
     """The program of tutorials: pygame.sprite.groupcollide with collide_mask."""
 
     def __init__(self, traffic: Traffic) -> None:
         super().__init__(traffic)
-        sprites: Any = [Sprite(k, *each) for k, each in enumerate(zip(traffic.masks, self.rects, strict=True))]
-        self.group = pygame.sprite.Group(*sprites)
+        self.group = group_of(self.rects, traffic.masks)
 
     def test(self) -> Hits:
-        collide: Any = pygame.sprite.collide_mask  # the stubs ask for a bool; it returns a point or None
-        hits: Any = pygame.sprite.groupcollide(self.group, self.group, False, False, collide)
-        return {(a.place, b.place) for a, others in hits.items() for b in others if a.place < b.place}
+        return hits_of_groupcollide(self.group)
 
 
 # ---- worlds ----------------------------------------------------------------------------------------------------------
@@ -206,9 +220,6 @@ class Moved(Stepped):
         self.world.step()
         self.hits = self.world.touching()
         self.tested += self.world.profile.counters["pairs_tested"]
-
-    def found(self) -> Hits:
-        return set(map(tuple, np.sort(self.hits - self.ids[0], axis=1).tolist()))
 
 
 class Recipe(Plain):

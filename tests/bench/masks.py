@@ -11,7 +11,7 @@ import numpy as np
 import pygame
 
 from game.report.charts.peers import measure_sprites
-from game.report.pygame_sprites import BEST, MOVE, RECIPE, STEP
+from game.report.pygame_sprites import BEST, MOVE, RECIPE, STEP, group_of, hits_after_rects, hits_of_groupcollide
 from physics import BruteForce, DynamicTree, Effects, PixelMask, SpatialHashGrid, SweepAndPrune, World
 from tests.bench import mask_bodies, verdicts
 from tests.bench.timing import best_in_turns, best_of, table
@@ -37,14 +37,6 @@ def sprite_images(rng, count):
     return found
 
 
-class Sprite(pygame.sprite.Sprite):
-    """The interface of pygame's collision functions: a mask and a rect."""
-
-    def __init__(self, mask, rect):
-        super().__init__()
-        self.mask, self.rect = mask, rect
-
-
 class Field:
     """The sprites as pygame has them, and the same in worlds of ours."""
 
@@ -62,25 +54,7 @@ class Field:
             for kind, (x, y) in zip(self.which, self.corners, strict=True)
         ]
         self.masks = [masks[kind] for kind in self.which]
-        self.sprites = [Sprite(mask, rect) for mask, rect in zip(self.masks, self.rects, strict=True)]
-        self.place = {sprite: number for number, sprite in enumerate(self.sprites)}
-        self.group = pygame.sprite.Group(*self.sprites)
-
-    def hits_of_groupcollide(self):
-        """Return the result of the usual first version of a pygame program."""
-        group, place, collide = self.group, self.place, pygame.sprite.collide_mask
-        # The stubs ask for a bool where pygame itself documents this function, which returns a point or None.
-        hits = pygame.sprite.groupcollide(group, group, False, False, collide)  # pyright: ignore[reportArgumentType]
-        return {(place[a], place[b]) for a, others in hits.items() for b in others if place[a] < place[b]}
-
-    def hits_of_collidelistall(self):
-        """Return the hits by the fastest way that pygame alone has."""
-        found, rects, masks = set(), self.rects, self.masks
-        for number, (rect, mask) in enumerate(zip(rects, masks, strict=True)):
-            for other in rect.collidelistall(rects):
-                if other > number and mask.overlap(masks[other], (rects[other].x - rect.x, rects[other].y - rect.y)):
-                    found.add((number, other))
-        return found
+        self.group = group_of(self.rects, self.masks)
 
     def world(self, strategy, effects):
         """All sprites in a world of ours, standing still."""
@@ -142,11 +116,11 @@ def run(quick=False):
     pygame.init()
     count = 500 if quick else SPRITES
     field = Field(count)
-    truth = field.hits_of_collidelistall()
+    truth = hits_after_rects(field.rects, field.masks)
     kept = []
-    slow = best_of(2, lambda: kept.append(field.hits_of_groupcollide()))
+    slow = best_of(2, lambda: kept.append(hits_of_groupcollide(field.group)))
     assert kept[0] == truth, f"groupcollide finds {len(kept[0])} hits, collidelistall {len(truth)}"
-    pairs, timed = 0, {"collidelistall": partial(best_of, 1, field.hits_of_collidelistall)}
+    pairs, timed = 0, {"collidelistall": partial(best_of, 1, partial(hits_after_rects, field.rects, field.masks))}
     for name, (strategy, effects, read) in ways().items():
         world = field.world(strategy(), effects)
         world.step()

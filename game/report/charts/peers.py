@@ -139,23 +139,18 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
             if name in exact and BEST in exact
         ]
     for panel in dict.fromkeys(row["panel"] for row in rows if row["panel"] != "sprites"):
-        found += [_at_overlap(panel, most, [row for row in rows if row["panel"] == panel]) for most in ALIKE]
+        found += [_at_overlap(panel, most, rows) for most in ALIKE]
     return found
 
 
 def _at_overlap(panel, most, rows) -> Claim:
     """Return the claim which engine is the fastest of those that overlap by at most `most` [px], each at its best."""
     about = f"{panel} boxes, overlap of at most {most:g} px"
-    best: dict[str, Row] = {}
-    for row in rows:
-        before = best.get(row["series"])
-        if row["overlap"] <= most and (before is None or pair(row["cost"])[1] < pair(before["cost"])[1]):
-            best[row["series"]] = row
+    curves, best = fronts(rows, panel), cheapest(rows, panel, most)
     if len(best) > 1:
         return ordering(about, {engine: pair(row["cost"]) for engine, row in best.items()})
     reached = f"{' and '.join(best)} alone reaches it" if best else "no setting reaches it"
-    shallow = {engine: min(r["overlap"] for r in rows if r["series"] == engine) for engine in ("ours", "pymunk")}
-    figure = ", ".join(f"{engine} {depth:.3g} px at least" for engine, depth in shallow.items())
+    figure = ", ".join(f"{engine} {curve[-1]['overlap']:.3g} px at least" for engine, curve in curves.items())
     return Claim(f"{about}: {reached}", figure, HOLDS)
 
 
@@ -167,6 +162,15 @@ def fronts(rows: Sequence[Row], panel: str) -> dict[str, list[Row]]:
         points = {label: (pair(row["cost"])[1], row["overlap"]) for label, row in mine.items()}
         found[engine] = [mine[label] for label in pareto_front(points)]
     return found
+
+
+def cheapest(rows: Sequence[Row], panel: str, most: float) -> dict[str, Row]:
+    """Return {engine: its cheapest row in a panel with an overlap of at most `most` [px]}, without engines of none."""
+    within = {
+        engine: next((row for row in curve if row["overlap"] <= most), None)
+        for engine, curve in fronts(rows, panel).items()
+    }
+    return {engine: row for engine, row in within.items() if row is not None}
 
 
 def _panels(rows: Sequence[Row]) -> list[Panel]:

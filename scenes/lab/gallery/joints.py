@@ -5,6 +5,7 @@ once. In all functions, `side` is a Side: one of the page's two worlds while it 
 """
 
 from math import atan2, cos, degrees, dist, hypot, sin
+from typing import Any
 
 import numpy as np
 
@@ -45,21 +46,30 @@ def rod(side, start, end, thick):
     return side.world.add_body(shape, position=middle, angle=atan2(by - ay, bx - ax), filter=ALONE)
 
 
+def build_row(side, kind, count, thick, angle):
+    """Build a straight row of rods of 1 m that joints hold to the world and to one another. Return the last rod's body.
+
+    kind: kind of the joints; count: number of rods; thick: their thickness [px]; angle: angle of the row, clockwise
+    from the right [rad]. side: see page.Side.
+    """
+    last: Any = None
+    for k in range(count):
+        at = along(METER * k, angle)
+        body = rod(side, at, along(METER * (k + 1), angle), thick)
+        side.world.add_joint(kind(last, body, at=at))
+        last = body
+    return last
+
+
 def build_chain(side, angle=0.0, ratio=RATIO):
     """Build a straight chain of 12 links, and at its end a ball of a thousand times a link's mass.
 
     angle: of the chain, clockwise from the right [rad]; ratio: mass of the ball [links]. side: see page.Side.
     """
-    before = None
-    for k in range(LINKS):
-        at = along(METER * k, angle)
-        link = rod(side, at, along(METER * (k + 1), angle), LINK)
-        side.world.add_joint(Revolute(before, link, at=at))
-        before = link
-    assert before is not None
+    last = build_row(side, Revolute, LINKS, LINK, angle)
     at = along(LINKS * METER, angle)
-    ball = side.world.add_body(Circle(RADIUS), position=at, mass=ratio * before.mass, filter=ALONE)
-    side.world.add_joint(Revolute(before, ball, at=at))
+    ball = side.world.add_body(Circle(RADIUS), position=at, mass=ratio * last.mass, filter=ALONE)
+    side.world.add_joint(Revolute(last, ball, at=at))
 
 
 def gap(side):
@@ -72,13 +82,8 @@ def build_cantilever(side, angle=0.0):
 
     angle: of the cantilever, clockwise from the right [rad]. side: see page.Side.
     """
-    before = None
-    for k in range(BEAMS):
-        at = along(METER * k, angle)
-        beam = rod(side, at, along(METER * (k + 1), angle), BEAM)
-        side.world.add_joint(Weld(before, beam, at=at))
-        before = beam
-    side.kept.update(last=before, tip=along(BEAMS * METER, angle))
+    last = build_row(side, Weld, BEAMS, BEAM, angle)
+    side.kept.update(last=last, tip=along(BEAMS * METER, angle))
 
 
 def sag(side):
