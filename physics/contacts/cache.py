@@ -1,4 +1,4 @@
-"""Contact cache of worlds with a stacking solver: contacts follow moved bodies without a new narrow phase."""
+"""Contact cache of worlds with a stacking solver: updates contacts of moved bodies without a new narrow phase."""
 
 import math
 
@@ -99,7 +99,7 @@ def core_in_body(body, turn, x, y, nx, ny, inside, behind):
 
 @subkernel
 def share_of(polygons, table, body_a, body_b, contact, a, b, second):
-    """Return which side a contact point follows when the sides slide along the face: 0 for A, 1 for B, 0.5 for both.
+    """Return which side a contact point moves with when the sides slide along the face: 0 for A, 1 for B, 0.5 for both.
 
     A point at a corner or on a circle moves with the side that has the corner or circle. A point clipped by the end of
     a face moves with the side that has the face. polygons, table: geometry.polygons and geometry.corners; body_a,
@@ -210,10 +210,11 @@ def write_caches(geometry, bodies, shapes, contacts_inout):
 
 @inlined
 def cores_at(a, turn_a, b, turn_b, local_ax, local_ay, local_bx, local_by):
-    """Return the world positions of a contact's points on both cores, as (ax, ay, dx, dy) [px].
+    """Return the positions of a contact point on both cores in the world, as (ax, ay, dx, dy) [px].
 
-    ax, ay: the point on A's core; dx, dy: vector from there to the point on B's core. a, b: BODY rows; turn_a, turn_b:
-    (cosine, sine) of the angles; local_ax, local_ay, local_bx, local_by [px]: the points in the space of their bodies.
+    ax, ay: the point on A's core; dx, dy: vector from this point to the point on B's core. a, b: BODY rows; turn_a,
+    turn_b: (cosine, sine) of the angles; local_ax, local_ay, local_bx, local_by [px]: the points in the space of their
+    bodies.
     """
     ax, ay = rotate(local_ax, local_ay, turn_a[0], turn_a[1])
     bx, by = rotate(local_bx, local_by, turn_b[0], turn_b[1])
@@ -227,10 +228,12 @@ def clipped_gap(gap, core, other, apart, with_a, normal, wander):
     """Correct the gap between the cores at a clipped contact point. Return (gap [px], whether it was corrected).
 
     A point clipped by the end of a face moves along the incident hull edge when the sides slide, which changes the gap.
-    The incident edge is the line through both core points of the side without the face. gap [px]: gap before the
-    correction. core, other [px]: vectors from A's to B's core point, at this contact point and at the other one. apart
-    [px]: vector from A's core point here to A's core point there. with_a: whether A has the face; normal: unit normal
-    of the contact; wander [px]: smaller corrections are omitted.
+    The incident edge is the line through both core points of the side without the face.
+
+    gap [px]: gap before the correction. core [px]: vector from A's to B's core point at this contact point; other [px]:
+    the same vector at the other contact point. apart [px]: vector from A's core point at this contact point to A's core
+    point at the other. with_a: whether A has the face; normal: unit normal of the contact; wander [px]: smaller
+    corrections are omitted.
     """
     nx, ny = normal
     edge_x = apart[0] + (other[0] - core[0] if with_a else 0.0)
@@ -273,7 +276,7 @@ def update_contact(a, turn_a, b, turn_b, wander, contact_inout):
     Return (moved, rolled, corrected). moved [px]: greatest relative motion of a point since detection, along the face
     or the normal. rolled [px]: motion of the contact around a rounding since detection. corrected: whether clipped_gap
     corrected a point. a, b: BODY rows; turn_a, turn_b: (cosine, sine) of their angles; wander [px]: smaller corrections
-    of a clipped point are omitted; inf omits all. contact_inout: CONTACT row.
+    of a clipped point are omitted, all corrections if inf. contact_inout: CONTACT row.
     """
     c = contact_inout
     two = c.count == 2
@@ -358,10 +361,10 @@ def is_finite(contact):
 def recycle_distance(contact, distance):
     """Return the greatest relative motion [px] at which a contact is kept without a new narrow phase (recycled).
 
-    The motion counts from the detection of the contact. The result is `distance` [px], or RECYCLE_MOVE times as much
-    for a loaded contact with two points and without roundings, whose points are updated exactly. If the two points are
-    close together (see RECYCLE_SHARE), it remains `distance`. Unloaded contacts are detected again earlier, because the
-    shortest way out of an overlap may change.
+    The motion counts from the detection of the contact. The result is RECYCLE_MOVE times `distance` [px] for a loaded
+    contact with two points and without roundings, whose points are updated exactly. It is `distance` for all other
+    contacts, and for points that are close together (see RECYCLE_SHARE). Unloaded contacts are detected again earlier,
+    because the shortest direction out of an overlap may change.
     """
     c = contact
     loaded = c.normal_force_1 > 0.0 or c.normal_force_2 > 0.0
@@ -491,7 +494,7 @@ def copy_kept(contacts, new_bodies, new_shapes, kept_out):
 
 
 def drop_contacts(tables: WorldTables, new_bodies: np.ndarray, new_shapes: np.ndarray) -> None:
-    """Drop the contacts of removed bodies and shapes, and update the row numbers of the others.
+    """Drop the contacts of removed bodies and shapes, and update the row numbers in the remaining contacts.
 
     new_bodies, new_shapes: int64 new number of each row before the removal, negative for a removed row; tables: a World
     or StepState.

@@ -1,7 +1,7 @@
 """Narrow phase of worlds with a stacking solver: contacts are recycled, or detected and matched with the last step.
 
-A contact is recycled if the step uses it without a new narrow phase: its points and normal are only moved with the
-bodies. All other contacts are stale: they are detected again.
+A contact is recycled if the step uses it without a new narrow phase. Its points and normal are then only moved with the
+bodies. All other contacts of the last step are stale, and their pairs are detected again.
 """
 
 import math
@@ -80,7 +80,7 @@ def touches(contact):
 
 @inlined
 def begin_step(geometry, p, q, a, b, contact_inout):
-    """Prepare a contact for a new step: reset impulses and colour, write mixed materials and approach speeds.
+    """Prepare a contact for a new step: reset impulses and colour, write mixed material values and approach speeds.
 
     p, q: BODY rows of A and B; a, b: SHAPE rows of A and B. contact_inout: CONTACT row.
     """
@@ -101,10 +101,10 @@ def begin_step(geometry, p, q, a, b, contact_inout):
 
 @subkernel
 def complete_contact(geometry, bodies, shapes, previous, first, contact_inout):
-    """Write the cache of a contact detected in this step, and the forces of equal features in the last step.
+    """Write the cache of a contact detected in this step, and copy forces from contact points with the same feature id.
 
-    previous: CONTACT rows of the last step; first: index in `previous` at which the rows of the same pair of shapes
-    begin, or would be inserted if there are none. contact_inout: CONTACT row.
+    previous: CONTACT rows of the last step, with these forces; first: index in `previous` at which the rows of the same
+    pair of shapes begin, or would be inserted if there are none. contact_inout: CONTACT row.
     """
     c = contact_inout
     reset_impulses(c)
@@ -157,13 +157,13 @@ def match_contacts(geometry, bodies, shapes, previous, stale, found, contacts_ou
 
 @kernel
 def replace_contacts(geometry, bodies, shapes, stale, found_inout, previous_inout):
-    """Replace the stale contacts by the detected ones and return True, if each pair has as many new as old ones.
+    """Overwrite the stale contacts with the detected ones, if each pair has as many detected as stale contacts.
 
-    Nothing else is copied, unlike in match_contacts: O(found). In settling pyramids of 2,485 and 5,050 boxes, a step
-    with 4 substeps takes 0.82 to 0.99 times as long as with match_contacts; with substeps by load the gain is within
-    the noise. stale: int32 rows of `previous_inout` that must not be kept without a new narrow phase, ascending;
-    found_inout: CONTACT rows of this step, in the order of the candidate pairs, used as scratch; previous_inout:
-    CONTACT rows of the last step.
+    Return whether the contacts were overwritten. Unlike in match_contacts, nothing else is copied: O(found). In
+    settling pyramids of 2,485 and 5,050 boxes, a step with 4 substeps takes 0.82 to 0.99 times as long as with
+    match_contacts; with substeps by load the gain is within the noise. stale: int32 rows of `previous_inout` that must
+    not be kept without a new narrow phase, ascending; found_inout: CONTACT rows of this step, in the order of the
+    candidate pairs, used as scratch; previous_inout: CONTACT rows of the last step.
     """
     found, previous = found_inout, previous_inout
     if len(found) != len(stale):
@@ -225,13 +225,14 @@ def refresh_recycled(a, b, row_a, row_b, candidate, place, contact_inout):
 def recycle_contacts(batch, distance, previous_inout, kinds_out, counts_out, stale_out, work_inout):
     """Keep contacts of the last step without a new narrow phase where possible, and classify the other pairs by kind.
 
-    Sensors are left out. Return (number of stale rows, number of pairs left to test plus number of pairs with a part of
-    a larger shape). If neither body has moved since the last step, CONTACT.can_recycle of that step decides. Otherwise
-    can_recycle decides, with `distance` [px]. previous_inout: CONTACT rows of the last step, sorted by shape ids like
-    the candidates; kept rows are updated to the present poses. kinds_out: kind of each pair, NOTHING if its contacts
-    are kept. counts_out: number of pairs of each kind that are left. stale_out (previous,): int32 rows that are not
-    kept, including all contacts of masks. work_inout: counters, see COUNTERS. O(candidates + contacts). batch: see
-    manifold.Batch.
+    Return (number of stale rows, number of pairs left to test plus number of pairs with a part of a larger shape).
+    Sensors are left out. If neither body has moved since the last step, a contact is kept if that step set
+    CONTACT.can_recycle. Otherwise the function can_recycle is called, with `distance` [px].
+
+    batch: see manifold.Batch; previous_inout: CONTACT rows of the last step, sorted by shape ids like the candidates;
+    kept rows are updated to the present poses. kinds_out: kind of each pair, NOTHING if its contacts are kept.
+    counts_out: number of pairs of each kind that are left. stale_out (previous,): int32 rows that are not kept,
+    including all contacts of masks. work_inout: counters, see COUNTERS. O(candidates + contacts).
     """
     bodies = batch.bodies
     shapes = batch.shapes
@@ -301,7 +302,9 @@ class Found(NamedTuple):
 
 
 class ContactCache:
-    """Two tables of contacts of one world, used in turn: for the present contacts, and for the next ones."""
+    """Two tables for the contacts of one world: one holds the present contacts, and the next contacts go into the
+    other.
+    """
 
     def __init__(self) -> None:
         self.tables = [zeros_in_lines(16, CONTACT) for _ in range(2)]
@@ -320,9 +323,10 @@ class ContactCache:
     ) -> Found | None:
         """Find the contacts of all pairs without sensors. Contacts whose bodies have hardly moved are kept (recycled).
 
-        Return the new contacts and the stale rows of `previous` (those not kept), or None if all contacts are kept and
-        no pair is left to test. batch: candidate pairs; previous: CONTACT rows of the last step, of which kept rows are
-        updated in place; distance [px]: see recycle_contacts; work: counters of work done, see COUNTERS.
+        Return a Found with the new contacts and the stale rows of `previous`, which are not kept. Return None if all
+        contacts are kept and no pair is left to test. batch: candidate pairs; previous: CONTACT rows of the last step,
+        of which kept rows are updated in place; distance [px]: see recycle_contacts; work: counters of work done, see
+        COUNTERS.
         """
         if len(self.stale) < len(previous):
             self.stale = np.zeros(2 * len(previous), np.int32)
@@ -353,8 +357,8 @@ class ContactCache:
 def find_contacts(state: StepState) -> None:
     """Write the contacts at the start of the step to state.contact_rows, with warm-start forces.
 
-    They include gaps up to the speculative distance. Contacts of the last step whose bodies have hardly moved are kept
-    without a new narrow phase.
+    Gaps up to the speculative distance also count as contacts. Contacts of the last step whose bodies have hardly moved
+    are kept without a new narrow phase.
     """
     if not len(state.awake.bodies):
         state.contact_rows = NO_CONTACTS
@@ -397,9 +401,9 @@ ALIKE = 0.9
 
 
 class KeptImpulses:
-    """Contacts of shapes that are about to be replaced, kept to transfer their forces to the new shapes.
+    """Contacts of shapes that are about to be replaced, stored to transfer their forces to the new shapes.
 
-    rows: row numbers of the shapes to be removed. In a world without a contact cache there is nothing to keep.
+    rows: row numbers of the shapes to be removed. No contacts are stored in a world without a contact cache.
     """
 
     def __init__(self, tables: WorldTables, rows: np.ndarray) -> None:
@@ -453,10 +457,10 @@ class KeptImpulses:
         tables.contact_rows = known[order_of(known)]
 
     def _stood_on(self, shapes, pairs):
-        """Return CONTACT rows, one for each pair with a Chain, that take the place of contacts of the last step.
+        """Return substitutes for contacts of the last step: one empty CONTACT row for each pair with a Chain.
 
         One-way surfaces do not stop a body that overlaps them without an earlier contact. With these rows, the new
-        surface holds a body that stood on the old one, at any depth. shapes: SHAPE table; pairs (n, 2): SHAPE row
+        surface holds a body that stood on the old surface, at any depth. shapes: SHAPE table; pairs (n, 2): SHAPE row
         numbers.
         """
         some = shapes[pairs[(shapes["kind"][pairs] == CHAIN).any(axis=1)]]

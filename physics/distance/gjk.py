@@ -1,4 +1,4 @@
-"""Distance of convex hulls by GJK, penetration depth by EPA, and the nearest two parts of concave shapes."""
+"""Distance of convex hulls by GJK, penetration depth by EPA, and the nearest pair of parts of two concave shapes."""
 
 import math
 from typing import NamedTuple
@@ -40,7 +40,9 @@ def new_gap_workspace() -> GapWorkspace:
 
 @subkernel
 def support(corners, count, x, y):
-    """Return the index of the corner farthest along the direction (x, y); of several, the first. O(count)."""
+    """Return the index of the corner farthest along the direction (x, y), the lowest index if several are equal.
+    O(count).
+    """
     best = 0
     most = 0.0
     for k in range(1, count):
@@ -90,7 +92,7 @@ def region_of(x, y, ex, ey):
     """Return where the origin projects onto a line segment: -1 before its start, 0 on it, 1 beyond its end.
 
     The segment starts at (x, y) and has the vector (ex, ey). A projection that is past an end only by rounding counts
-    as on the segment. So parallel faces with flush ends get the face normal.
+    as on the segment. With this rule, parallel faces with flush ends get the face normal.
     """
     along = -(x * ex + y * ey)
     length2 = ex * ex + ey * ey
@@ -121,10 +123,11 @@ def edge_distance(a, b, p, q, simplex):
 
 @subkernel
 def drop_corner(a, b, simplex_inout):
-    """Reduce a triangle to one of the two edges at its newest corner (row 2): the edge nearer to the origin.
+    """Reduce a triangle to one of the two edges at its newest corner (row 2), the edge nearer to the origin.
 
     Return False, without a change, if the origin lies in the triangle, else True. The third edge is not tested, because
-    the search has just crossed it. a, b (n, 2) [px]: corners of the hulls. simplex_inout: array of a GapWorkspace.
+    the search has just crossed this edge. a, b (n, 2) [px]: corners of the hulls. simplex_inout: array of a
+    GapWorkspace.
     """
     ex, ey = edge_of(a, b, 0, 1, simplex_inout)
     fx, fy = edge_of(a, b, 0, 2, simplex_inout)
@@ -146,7 +149,7 @@ def drop_corner(a, b, simplex_inout):
 
 @subkernel
 def reduce_simplex(a, b, state_inout, simplex_inout):
-    """Reduce the simplex to its corner or edge nearest to the origin, and write the direction from there to the origin.
+    """Reduce the simplex to its corner or edge nearest to the origin, and write the direction from it to the origin.
 
     Return TOUCHING if the origin lies in or on the simplex, else SEARCHING. a, b (n, 2) [px]: corners of the hulls;
     state_inout, simplex_inout: arrays of a GapWorkspace.
@@ -201,9 +204,9 @@ def start_walk(a, b, i, j, state_out, simplex_out):
 def walk_on(a, a_count, b, b_count, state_inout, simplex_inout):
     """Run one round of GJK: reduce the simplex to its feature nearest to the origin, then add the support point.
 
-    a, b (n, 2) [px]: corners, a_count and b_count of them. Return SEARCHING if a support point was added, APART if no
-    support point is nearer to the origin than the feature, and TOUCHING if the origin lies in the simplex. O(corners).
-    state_inout, simplex_inout: arrays of a GapWorkspace.
+    Return SEARCHING if a support point was added, APART if no support point is nearer to the origin than the feature,
+    and TOUCHING if the origin lies in the simplex. O(corners). a, b (n, 2) [px]: corners of the hulls; a_count,
+    b_count: numbers of corners in use; state_inout, simplex_inout: arrays of a GapWorkspace.
     """
     state_inout[ROUNDS] += 1.0
     if reduce_simplex(a, b, state_inout, simplex_inout) == TOUCHING:
@@ -224,10 +227,10 @@ def walk_on(a, a_count, b, b_count, state_inout, simplex_inout):
 
 @subkernel
 def write_edge_gap(a, b, places, p, q, nx, ny, gap_out):
-    """Write separation, normal and nearest points of two hulls, which an edge of their Minkowski difference defines.
+    """Write separation, normal and nearest points of two hulls from an edge of their Minkowski difference.
 
-    The edge leads from row p to row q of `places`, which is the simplex or the polytope. Its rows begin with the
-    indices of a corner of A and a corner of B. nx, ny: unit normal of the edge; gap_out: GapWorkspace.gap.
+    The edge leads from row p to row q of `places`, which is the simplex or the polytope. Each row of `places` begins
+    with the indices of a corner of A and a corner of B. nx, ny: unit normal of the edge; gap_out: GapWorkspace.gap.
     """
     i = int(places[p, 0])
     j = int(places[p, 1])
@@ -267,8 +270,9 @@ def write_nearest(a, b, state, simplex, gap_out):
 def walk_to_nearest(a, a_count, b, b_count, i, j, workspace):
     """Run GJK for two hulls. Return APART and write workspace.gap, or return TOUCHING. At most GJK_CAP rounds.
 
-    a, b: world corners (n, 2) [px], 1 to 16 of them; i, j: indices of the corners of A and B at which the search
-    starts. If the rounds do not suffice, the result so far is used and workspace.state[CAPPED] is increased.
+    a, b (n, 2) [px]: world corners; a_count, b_count: their numbers, 1 to 16; i, j: indices of the corners of A and B
+    at which the search starts. If the rounds do not suffice, the result so far is used and workspace.state[CAPPED] is
+    increased.
     """
     start_walk(a, b, i, j, workspace.state, workspace.simplex)
     status = SEARCHING
@@ -346,7 +350,8 @@ def start_polytope(a, a_count, b, b_count, polytope_out):
 
 @subkernel
 def shallowest_edge(polytope, count):
-    """Return the row of the polytope in which the edge nearest to the origin starts; of several, the first.
+    """Return the row of the polytope in which the edge nearest to the origin starts, the first row if several are
+    equal.
 
     count: number of corners of the polytope.
     """
@@ -361,8 +366,8 @@ def shallowest_edge(polytope, count):
 def grow_polytope(a, a_count, b, b_count, count, polytope_inout):
     """Replace the polytope edge nearest to the origin by two edges that meet in the support point beyond it.
 
-    Return the new number of corners. It is unchanged if no corner of the Minkowski difference lies beyond the edge.
-    Then the edge belongs to the difference. a_count, b_count, count: numbers of corners of A, B and the polytope.
+    Return the new number of corners. The number is unchanged if no corner of the Minkowski difference lies beyond the
+    edge, which is then an edge of the difference. a_count, b_count, count: numbers of corners of A, B and the polytope.
     O(corners). polytope_inout: array of a GapWorkspace.
     """
     k = shallowest_edge(polytope_inout, count)
@@ -406,9 +411,10 @@ def write_depth(a, b, count, polytope, gap_out):
 def measure_depth(a, a_count, b, b_count, workspace):
     """Find the shortest move of B that ends its overlap with A (EPA).
 
-    Separation, normal and points are written to workspace.gap. The separation is minus the length of this move, which
-    is along the normal. a, b (n, 2) [px]: corners, a_count and b_count of them. The rounds are added to
-    workspace.state[ROUNDS]; if they reach EPA_CAP, 1 is added to workspace.state[CAPPED]. O(corners squared).
+    Separation, normal and points are written to workspace.gap. The move is along the normal, and the separation is
+    minus the length of the move. a, b (n, 2) [px]: corners of the hulls; a_count, b_count: numbers of corners in use.
+    The rounds are added to workspace.state[ROUNDS]; if they reach EPA_CAP, 1 is added to workspace.state[CAPPED].
+    O(corners squared).
     """
     count = start_polytope(a, a_count, b, b_count, workspace.polytope)
     if count > 1:
@@ -434,10 +440,10 @@ def measure_depth(a, a_count, b, b_count, workspace):
 def shape_separation(a, a_count, a_radius, b, b_count, b_radius, first, workspace):
     """Write separation, unit normal from A to B and nearest points to workspace.gap. Return the separation [px].
 
-    a, b: world corners (n, 2) [px], 1 to 16 of them; a_radius, b_radius [px]: roundings; first: (index of a corner of
-    A, index of a corner of B) at which the search starts. If the hulls overlap, the separation is negative: minus the
-    distance that B must move along the normal to end the overlap. After the call workspace.state holds the number of
-    rounds, and how many searches ended at their greatest number of rounds.
+    If the hulls overlap, the separation is negative: minus the distance that B must move along the normal to end the
+    overlap. a, b (n, 2) [px]: world corners; a_count, b_count: their numbers, 1 to 16; a_radius, b_radius [px]:
+    roundings; first: (index of a corner of A, index of a corner of B) at which the search starts. After the call,
+    workspace.state holds the number of rounds, and how many searches ended at their greatest number of rounds.
     """
     if walk_to_nearest(a, a_count, b, b_count, first[0], first[1], workspace) == TOUCHING:
         measure_depth(a, a_count, b, b_count, workspace)
@@ -456,7 +462,7 @@ def shape_separation(a, a_count, a_radius, b, b_count, b_radius, first, workspac
 
 @subkernel
 def box_gap(boxes_a, i, boxes_b, j):
-    """Return the distance [px] of boxes_a[i] and boxes_b[j] (min_x, min_y, max_x, max_y); 0 if they overlap."""
+    """Return the distance [px] between boxes_a[i] and boxes_b[j] (min_x, min_y, max_x, max_y); 0 if they overlap."""
     across = max(0.0, max(boxes_a[i, 0] - boxes_b[j, 2], boxes_b[j, 0] - boxes_a[i, 2]))
     down = max(0.0, max(boxes_a[i, 1] - boxes_b[j, 3], boxes_b[j, 1] - boxes_a[i, 3]))
     return norm(across, down)

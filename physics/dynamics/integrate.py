@@ -1,4 +1,4 @@
-"""Integration: velocities from forces, poses from velocities; and the quarantine of bodies with invalid numbers."""
+"""Integration of velocities from forces and of poses from velocities; quarantine of bodies with invalid numbers."""
 
 import math
 from collections.abc import Callable
@@ -26,10 +26,10 @@ BOTH = (False, True)
 
 
 def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool) -> Callable:
-    """Return the kernel that integrates the velocities of dynamic bodies in a world with these effects.
+    """Return the kernel that integrates the velocities of dynamic bodies.
 
-    Each argument: whether the effect is on. Wind adds the acceleration drag_rate · wind. With both wind and drag,
-    bodies approach the velocity of the wind.
+    gravity, drag, wind, rotation: whether the world has these effects. Wind adds the acceleration drag_rate · wind.
+    With both wind and drag, bodies approach the velocity of the wind.
     """
 
     @kernel
@@ -64,7 +64,9 @@ def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool) ->
 
 
 def make_position_pass(rotation: bool) -> Callable:
-    """Return the kernel that integrates the poses of bodies, with or without rotation about their centres of mass."""
+    """Return the kernel that integrates the poses of bodies. rotation: whether bodies rotate about their centres of
+    mass.
+    """
 
     @kernel
     def integrate_positions(rows, dt, bodies_inout, work_inout):
@@ -376,9 +378,9 @@ def take_broken(rows, shape_rows, grid_rows, shapes, characters, course, bodies_
 
 @kernel
 def take_broken_by_solver(rows, course, bodies_inout, broken_out):
-    """Quarantine bodies whose numbers a solver left out of range, and list them in broken_out. Return their number.
+    """Quarantine bodies that have invalid numbers after a solver, and list them in broken_out. Return their number.
 
-    Arguments as in take_broken.
+    Arguments: see take_broken.
     """
     return take_broken_bodies(rows, course, bodies_inout, broken_out)
 
@@ -401,7 +403,7 @@ def quarantine(state: StepState) -> None:
 
 @stage("quarantine_solved", reads=(*READS, "joints", "non_finite_count", "workspace"), writes=(*WRITES, "workspace"))
 def quarantine_solved(state: StepState) -> None:
-    """Disable bodies whose numbers a solver left out of range, and drop their contacts, before sweeps and reports."""
+    """Disable bodies that have invalid numbers after the solver, and drop their contacts, before sweeps and reports."""
     if not state.non_finite_count:
         return
     broken, course = np.zeros((len(state.bodies), 2), np.int64), Course(0.0, 0.0, state.tolerances.speed_limit, 0.0)

@@ -1,8 +1,8 @@
-"""The lists of awake rows: the bodies and shapes that the passes of a step process.
+"""Lists of awake rows: the bodies and shapes that the passes of a step process.
 
-Without sleeping these are all rows. With sleeping they are the awake dynamic bodies, moving static or kinematic bodies,
-characters, and for one step the added or edited bodies. Sleeping bodies and bodies at rest cost nothing. The lists are
-updated when bodies wake or fall asleep, so that a step does not have to search all bodies.
+Without sleeping, the lists contain all rows. With sleeping, they contain the awake dynamic bodies, moving static or
+kinematic bodies, characters, and for one step the added or edited bodies. Sleeping bodies and bodies at rest cost
+nothing. The lists are updated when bodies wake or fall asleep, so a step does not have to search all bodies.
 """
 
 import math
@@ -23,7 +23,9 @@ NONE = np.zeros(0, np.int64)
 
 @inlined
 def is_active(body):
-    """Return whether a BODY row can change a contact: a dynamic body if awake, others if they move or were moved."""
+    """Return whether a BODY row can change a contact: a dynamic body that is awake, or another body that moves or was
+    moved.
+    """
     if body.kind == DYNAMIC:
         return body.awake
     return (
@@ -101,7 +103,7 @@ class Awake:
         self.stale = True
 
     def mark_dirty(self, ids: list[int]) -> None:
-        """Have the next step include bodies (ids) that were added or edited. No effect without sleeping."""
+        """Include added or edited bodies (ids) in the lists of the next step. No effect without sleeping."""
         if self.sleeping:
             self.dirty += ids
 
@@ -129,9 +131,9 @@ class Awake:
         self.known = (self.known[0], -1)
 
     def take_in(self, tables: WorldTables) -> None:
-        """Add rows that are new in the tables to the lists, or rebuild the lists if start_over has marked them.
+        """Add rows that are new in `tables` to the lists, or rebuild the lists if start_over has marked them.
 
-        Rebuilt lists contain the bodies of the last step (column `active`). So the next step can find the bodies that
+        Rebuilt lists contain the bodies of the last step (column `active`). The next step can then find the bodies that
         have come to rest since, and store their touching pairs.
         """
         bodies, shapes = tables.bodies, tables.shapes
@@ -167,13 +169,14 @@ class Awake:
         self.starts = np.searchsorted(owners[self.order], np.arange(len(bodies) + 1))
 
     def is_known(self, bodies: np.ndarray, shapes: np.ndarray) -> bool:
-        """Return whether the lists cover all rows of these tables."""
+        """Return whether the lists are valid and cover all rows of the tables `bodies` and `shapes`."""
         return not self.stale and self.known == (len(bodies), len(shapes))
 
     def may_move(self, bodies: np.ndarray, before: np.ndarray) -> np.ndarray:
-        """Return the body rows whose pose may have changed since `before` was the value of `self.bodies`.
+        """Return the body rows whose pose may have changed since an earlier time.
 
-        before: at most one step old. The result may contain bodies that have not moved.
+        before: value of `self.bodies` at that time, which is at most one step ago. The result may contain bodies that
+        have not moved.
         """
         dirty = rows_of(bodies, np.array(self.dirty, np.int64))
         rows = np.concatenate([before, self.bodies, self.dynamic, self.kinematic, dirty[dirty >= 0]])
@@ -217,10 +220,10 @@ class Awake:
     writes=("awake", "sleeping_set", "pairs", "touching_pairs", "sensing_pairs", "bodies.active", "bodies.dirty"),
 )
 def list_awake(state: StepState) -> None:
-    """Update the lists of awake rows: add bodies that have begun to move, remove bodies that have stopped.
+    """Update the lists of awake rows: add bodies that have begun to move, and remove bodies that have stopped.
 
-    The sleeping set stores the touching pairs of bodies that are not in the lists. So the pairs of added bodies are
-    moved out of it, and the pairs of removed bodies into it.
+    The sleeping set stores the touching pairs of bodies that are not in the lists. The touching pairs of added bodies
+    are therefore moved out of the sleeping set, and those of removed bodies into it.
     """
     awake, bodies = state.awake, state.bodies
     awake.take_in(state)
@@ -351,9 +354,10 @@ def is_free(body):
 
 @kernel
 def start_groups(rows, bodies, fall, groups_out):
-    """Make each body a group of its own, and write the force on it in free fall: mass times acceleration. O(rows).
+    """Make each body a group of its own, and write the force on the body in free fall: mass times acceleration.
+    O(rows).
 
-    rows: awake body rows; bodies: BODY table. groups_out: Groups.
+    rows: awake body rows; bodies: BODY table; fall: see FreeFall; groups_out: Groups.
     """
     g = groups_out
     for k in range(len(rows)):
@@ -375,10 +379,10 @@ def start_groups(rows, bodies, fall, groups_out):
 
 @kernel
 def join_groups(bodies, contacts, friction, groups_inout):
-    """Join free bodies that press on each other with friction into groups. O(contacts).
+    """Join free bodies (see is_free) that press on each other with friction into groups. O(contacts).
 
-    A body that friction holds on a body that is not free is marked in Groups.anchored. A body with two loaded points in
-    one contact is marked in Groups.faces. friction: 1 if the world applies friction, else 0.
+    A free body that friction holds on another kind of body is marked in Groups.anchored. A body with two loaded points
+    in one contact is marked in Groups.faces. friction: 1 if the world applies friction, else 0.
     """
     g = groups_inout
     for i in range(len(contacts)):
@@ -405,8 +409,8 @@ def join_groups(bodies, contacts, friction, groups_inout):
 def list_joint_edges(bodies, joints, count, edges_out):
     """Append the joints of awake bodies to edges_out as graph edges. Return the number of all edges. O(joints).
 
-    The edge of a joint links its awake dynamic bodies. A joint with a running motor, or to a moving body that is not
-    dynamic, keeps its bodies awake. count: number of contact edges, which are already in edges_out.
+    The edge of a joint links its awake dynamic bodies. A joint keeps its bodies awake if its motor runs, or if it
+    connects them to a moving body that is not dynamic. count: number of contact edges, which are already in edges_out.
     """
     found = count
     for i in range(len(joints)):
@@ -456,10 +460,10 @@ def hold_of(joint):
 
 @subkernel
 def hang_on_pulleys(joint, a, b, groups_inout):
-    """Write the pulleys of a taut rope as pivots of the bodies that hang on it.
+    """Write the wheels of a taut pulley rope as pivots of the free bodies that hang on the rope.
 
-    The bodies stay in separate groups: each swings about its own pulley, and keep_coupled_awake finds ropes that run.
-    joint: JOINT row; a, b: whether each body is free.
+    The bodies stay in separate groups, because each swings about its own wheel. keep_coupled_awake detects ropes that
+    run. joint: JOINT row; a, b: whether each body is free, see is_free.
     """
     j, g = joint, groups_inout
     if not (j.upper_force > 0.0 or j.lower == j.upper):
@@ -474,7 +478,7 @@ def hang_on_pulleys(joint, a, b, groups_inout):
 
 @kernel
 def stop_groups(bodies, joints, groups_inout):
-    """Mark bodies with a pivot or a rail as anchored if a loaded gear or ratchet to a resting body holds them.
+    """Mark bodies as anchored that have a pivot or a rail and are held by a loaded gear or ratchet to a resting body.
 
     O(joints). bodies: BODY rows; joints: JOINT rows.
     """
@@ -492,7 +496,8 @@ def stop_groups(bodies, joints, groups_inout):
 
 @kernel
 def join_jointed_groups(bodies, joints, groups_inout):
-    """Join free bodies into groups by their joints, and write how joints to bodies at rest hold a group. O(joints).
+    """Join free bodies (see is_free) into groups by their joints, and write how joints to resting bodies hold them.
+    O(joints).
 
     The position of a pivot, or the direction of a rail, is written to Groups.hold_x, hold_y at the row of the held
     body.
@@ -568,8 +573,9 @@ def way_of_hung(root, body, groups, fall):
     """Return how far [px] a body may still move if its group hangs on one pivot or slides on rails.
 
     A pivoted group under an acceleration swings like a pendulum: the result is SWING times the amplitude, computed from
-    the present displacement and speed. It is infinite if the centre of mass is above the pivot. Without acceleration
-    the group rotates on about the pivot. root: root row of the group; body: BODY row; fall: see FreeFall.
+    the present displacement and speed. It is infinite if the centre of mass is above the pivot. Without acceleration,
+    the group is assumed to keep rotating about the pivot. root: root row of the group; body: BODY row; fall: see
+    FreeFall.
     """
     g = groups
     ax, ay = g.ax[root], g.ay[root]
@@ -619,9 +625,10 @@ def sum_groups(rows, bodies, fall, groups_inout):
 
 @subkernel
 def choose_surface(root, nx, ny, groups_inout):
-    """Store a surface as the one on which a group presses, if it accelerates into it more than into the stored one.
+    """Store a surface for a group if the group accelerates into it more than into the surface stored before.
 
-    root: root row of the group; nx, ny: normal of the surface, towards the group; groups_inout: Groups.
+    The stored surface is the one on which the group presses most. root: root row of the group; nx, ny: normal of the
+    surface, towards the group; groups_inout: Groups.
     """
     g = groups_inout
     into = -(g.ax[root] * nx + g.ay[root] * ny)
@@ -635,8 +642,8 @@ def choose_surface(root, nx, ny, groups_inout):
 def mark_blocked(root, nx, ny, fall, groups_inout):
     """Mark a group as blocked if another surface stops it from sliding along the surface on which it presses.
 
-    This is so if the sliding motion would lead into the other surface by more than a slop. root: root row of the group;
-    nx, ny: normal of the other surface, towards the group. groups_inout: Groups; fall: see FreeFall.
+    The other surface stops the group if the sliding motion would lead into it by more than a slop. root: root row of
+    the group; nx, ny: normal of the other surface, towards the group. groups_inout: Groups; fall: see FreeFall.
     """
     g = groups_inout
     into = -(g.ax[root] * nx + g.ay[root] * ny)
@@ -646,7 +653,8 @@ def mark_blocked(root, nx, ny, fall, groups_inout):
 
 @kernel
 def find_surfaces(rows, bodies, contacts, fall, groups_inout):
-    """Find the surface on which each group presses most, and remove the acceleration into it. Mark blocked groups.
+    """Find the surface on which each group presses most, and remove the group's acceleration into it. Mark blocked
+    groups.
 
     rows: awake body rows. O(rows + contacts). groups_inout: Groups; fall: see FreeFall.
     """
@@ -681,8 +689,9 @@ def find_surfaces(rows, bodies, contacts, fall, groups_inout):
 def keep_free_awake(rows, bodies, groups, fall, islands, least_out):
     """Set the least sleep time of an island to 0 if the free motion of one of its bodies exceeds the slop. O(rows).
 
-    rows: awake body rows; islands (bodies,) int32: root row of the island of each body; least_out (bodies,): least
-    sleep time [s] of an island, at its root row; fall: see FreeFall.
+    Free motion is the distance that a body would move in FREE_TIME if no friction held it. rows: awake body rows;
+    islands (bodies,) int32: root row of the island of each body; least_out (bodies,): least sleep time [s] of an
+    island, at its root row; groups: see Groups; fall: see FreeFall.
     """
     g = groups
     for k in range(len(rows)):
@@ -713,8 +722,8 @@ def keep_free_awake(rows, bodies, groups, fall, islands, least_out):
 def keep_sprung_awake(bodies, joints, slop, islands, least_out):
     """Set the least sleep time of an island to 0 if one of its bodies still moves on a joint spring. O(joints).
 
-    A body on a spring is slow where it turns back. So it may sleep only after it has stayed in place for half a period.
-    Its speed must also be so low that the amplitude is at most about a slop [px]. islands, least_out: see
+    A body on a spring is slow where it reverses. It may therefore sleep only after it has stayed in place for half a
+    period. Its speed must also be so low that the amplitude is at most about a slop [px]. islands, least_out: see
     keep_free_awake.
     """
     for i in range(len(joints)):
@@ -742,8 +751,8 @@ def keep_sprung_awake(bodies, joints, slop, islands, least_out):
 def keep_coupled_awake(bodies, joints, fall, islands, least_out):
     """Set the least sleep time of an island to 0 if its gears turn or its ropes run by more than the slop. O(joints).
 
-    The motion is that of FREE_TIME at the present speed. bodies: BODY rows; joints: JOINT rows; fall: see FreeFall;
-    islands, least_out: see keep_free_awake.
+    The motion is predicted for FREE_TIME at the present speed. bodies: BODY rows; joints: JOINT rows; fall: see
+    FreeFall; islands, least_out: see keep_free_awake.
     """
     for i in range(len(joints)):
         j = joints[i]
@@ -766,7 +775,7 @@ def keep_awake_what_moves_freely(
     islands: np.ndarray,
     least_out: np.ndarray,
 ) -> None:
-    """Keep islands awake in which a body that friction does not hold would move further than the slop in FREE_TIME.
+    """Keep islands awake that contain a body which would move further than the slop in FREE_TIME, held by no friction.
 
     rows: awake body rows; friction: whether the world applies friction; groups: scratch Groups with room for all BODY
     rows; islands, least_out: see keep_free_awake; fall: see FreeFall.

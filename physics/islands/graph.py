@@ -1,11 +1,13 @@
 """Constraint graph: islands, substep classes and graph colours of constraints.
 
 An edge of the graph is a constraint. Its nodes are the one to four bodies on which the constraint acts. Islands are
-found by union-find over the edges in the order of shape ids, with the lowest node as the root. So islands do not depend
-on the broad phase (Catto, Box2D v3, Simulation Islands, 2023). No two edges of one colour share a node of finite mass.
-So neither the order of the edges within a colour nor the number of SIMD lanes or threads changes a bit of the result
-(Catto, SIMD Matters, 2024). Edges with a static or kinematic body get the last colours. They are solved last, so that
-they prevail over other edges.
+found by union-find over the edges in the order of shape ids, with the lowest node as the root. They therefore do not
+depend on the broad phase (Catto, Box2D v3, Simulation Islands, 2023). A substep class is the index of a number of
+substeps.
+
+No two edges of one colour share a node of finite mass. The result is therefore the same to the bit for any order of the
+edges within a colour, and any number of SIMD lanes or threads (Catto, SIMD Matters, 2024). Edges with a static or
+kinematic body get the last colours. They are solved last, and prevail over other edges.
 """
 
 from typing import NamedTuple
@@ -94,8 +96,8 @@ def find_roots(
 ):
     """Write the root of the island of each node: the lowest node of the island. O(nodes + count).
 
-    count: number of edges; links_islands (nodes,) bool: True if edges of the node merge islands, False if the node
-    remains an island of its own; parents_out (nodes,): int32 roots.
+    count: number of edges; links_islands (nodes,) bool: True if edges of the node merge islands, False if the node is
+    always an island of its own; parents_out (nodes,): int32 roots.
     """
     for i in range(len(parents_out)):
         parents_out[i] = i
@@ -135,10 +137,10 @@ STATIC_COLORS = 12  # number of last colours that are preferred for contacts wit
 
 @subkernel
 def free_color(taken, rank):
-    """Return a colour whose bit in `taken` is not set, or -1 if all bits are set.
+    """Return a free colour, whose bit in `taken` is not set, or -1 if all bits are set.
 
     rank 0: the first free colour. STATIC_RANK: the last free colour. KINEMATIC_RANK: the last free colour before the
-    STATIC_COLORS last ones, or one of these if there is no other. taken: bit k is set if colour k is taken.
+    STATIC_COLORS last ones, or one of these if no other is free. taken: bit k is set if colour k is taken.
     """
     last = COLORS - 1 - (STATIC_COLORS if rank == KINEMATIC_RANK else 0)
     for k in range(COLORS):
@@ -162,12 +164,12 @@ def color_edges(
     degrees_out,
     colors_out,
 ):
-    """Colour the edges greedily, so that no two edges of one colour share a node of finite mass. O(nodes + count).
+    """Colour the edges greedily. No two edges of one colour share a node of finite mass. O(nodes + count).
 
     Later colours are solved later, and so prevail over opposing contacts. Edges with kinematic nodes get late colours,
-    edges with static nodes the last ones. count: number of edges; has_finite_mass (nodes,) bool; rank (nodes,): int8,
-    see KINEMATIC_RANK; taken_out (nodes,): int64, one bit for each colour at the node; degrees_out (nodes,): int64
-    number of edges at each node; colors_out (count,): int32, -1 if no colour was free.
+    and edges with static nodes get the last colours. count: number of edges; has_finite_mass (nodes,) bool; rank
+    (nodes,): int8, see KINEMATIC_RANK; taken_out (nodes,): int64, one bit for each colour at the node; degrees_out
+    (nodes,): int64 number of edges at each node; colors_out (count,): int32, -1 if no colour was free.
     """
     for i in range(len(taken_out)):
         taken_out[i] = 0
@@ -196,10 +198,10 @@ def color_edges(
 
 @subkernel
 def slot_of(edge, edges, colors, classes):
-    """Return the sort key of an edge: by greatest substep class of its nodes, then by colour. No colour comes first.
+    """Return the key of an edge for sorting by the greatest substep class of its nodes, then by colour.
 
-    edge: index of the edge; colors: colour of each edge, -1 for none; classes (nodes,): class of each node, empty if
-    there is only one class.
+    Edges without a colour come first in each class. edge: index of the edge; colors: colour of each edge, -1 for none;
+    classes (nodes,): class of each node, empty if there is only one class.
     """
     slot = colors[edge] + 1
     if len(classes) > 0:

@@ -85,9 +85,9 @@ class SleepingSet:
         return np.setdiff1d(named, island.bodies).tolist()
 
     def take_naming(self, identity: int) -> list[tuple[np.ndarray, np.ndarray]]:
-        """Remove the contacts with an outside body (id) from all islands.
+        """Remove the contacts and touching pairs of an outside body (id) from all islands.
 
-        Return (CONTACT rows, EVENT rows) per island.
+        Return a list with the removed (CONTACT rows, EVENT rows) of each island.
         """
         found = []
         for key in sorted(self.links.get(identity, ())):
@@ -102,8 +102,8 @@ class SleepingSet:
     def keep_touching(self, rows: np.ndarray, fell_asleep: np.ndarray, keys: np.ndarray) -> None:
         """Store the touching pairs of islands that have just fallen asleep.
 
-        rows: EVENT rows of the pairs; fell_asleep: CONTACT rows of the islands in the order of shape ids; keys: key of
-        the island of each CONTACT row.
+        rows: EVENT rows of the pairs; fell_asleep: CONTACT rows of the islands in the order of shape ids; keys: for
+        each CONTACT row, the key of its island.
         """
         known = fell_asleep["shape_a"] << 32 | fell_asleep["shape_b"]
         place = np.searchsorted(known, rows["shape_a"] << 32 | rows["shape_b"])
@@ -114,7 +114,7 @@ class SleepingSet:
             self.islands[key] = self.islands[key]._replace(touching=part)
 
     def naming(self, identity: int, own: int) -> np.ndarray:
-        """Return the sleeping CONTACT rows with a body (id). own: key of the body's own island, -1 if it has none."""
+        """Return the sleeping CONTACT rows of a body (id). own: key of the body's own island, -1 if it is in none."""
         parts = [np.zeros(0, CONTACT)]
         for key in sorted({own, *self.links.get(identity, ())} & self.islands.keys()):
             m = self.islands[key].contacts
@@ -126,7 +126,7 @@ class SleepingSet:
         return in_order(joined([np.zeros(0, CONTACT), *(each.contacts for each in self.islands.values())]))
 
     def keep_reported(self, tables: WorldTables) -> None:
-        """Move the touching pairs and sensor pairs of two inactive bodies from `tables` to this set."""
+        """Move the touching pairs and sensor pairs whose bodies are both inactive from `tables` to this set."""
         self.touching_pairs = np.concatenate([self.touching_pairs, tables.touching_pairs.take_resting(tables.bodies)])
         self.sensing_pairs = np.concatenate([self.sensing_pairs, tables.sensing_pairs.take_resting(tables.bodies)])
 
@@ -137,7 +137,7 @@ class SleepingSet:
             setattr(self, name, np.zeros(0, EVENT))
 
     def return_reported(self, tables: WorldTables, ids: np.ndarray) -> None:
-        """Move the stored touching pairs and sensor pairs of these bodies (ids) back to `tables`."""
+        """Move the stored touching pairs and sensor pairs of bodies (ids) back to `tables`."""
         for name in ("touching_pairs", "sensing_pairs"):
             kept = getattr(self, name)
             if len(kept):
@@ -147,7 +147,7 @@ class SleepingSet:
 
 
 def order_of(manifolds: np.ndarray) -> np.ndarray:
-    """Return the indices that sort CONTACT rows by shape ids. The contacts of one pair keep their order."""
+    """Return the indices that sort CONTACT rows by shape ids. The sort is stable within a pair of shapes."""
     return np.lexsort((np.arange(len(manifolds)), manifolds["shape_b"], manifolds["shape_a"]))
 
 
@@ -166,7 +166,8 @@ def in_order(manifolds: np.ndarray) -> np.ndarray:
 
 
 def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
-    """Wake the islands of bodies, and the islands that touch them, before the bodies are moved, edited or removed.
+    """Wake the islands of bodies, and the islands that touch these bodies, before the bodies are moved, edited or
+    removed.
 
     ids: ids of the bodies; bodies that joints link to them are included. The next step visits these bodies, and their
     sleep time is reset to 0. No effect without sleeping. tables: a World or StepState.
@@ -183,11 +184,12 @@ def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
 
 
 def disturb_one(world: Any, identity: int, row: int) -> int:
-    """Wake the island of one body, as `disturb` does, but faster and only between steps.
+    """Wake the island of one body, as `disturb` does, but faster and only between steps. Return the body's new row
+    number.
 
-    identity, row: id and row number of the body. If an island wakes or the world has joints, the call drops the rows of
-    bodies that were removed before, and the row number may change. Otherwise it reads only single numbers. world: a
-    World, annotated Any because its module imports this one. Return the body's row number afterwards.
+    identity, row: id and row number of the body. If an island wakes or the world has joints, the rows of bodies that
+    were removed before are deleted, which may change the row number. Otherwise the call is fast, because it processes
+    no arrays. world: a World, annotated Any because its module imports this one.
     """
     awake, sleeping_set = world.awake, world.sleeping_set
     if not awake.sleeping:
@@ -216,7 +218,7 @@ def with_partners(joints: np.ndarray, ids: list[int]) -> list[int]:
 
 
 def stir(tables: WorldTables, ids: list[int], rows: np.ndarray) -> None:
-    """Have the next step visit bodies, given by ids and row numbers in BODY, and reset their sleep time."""
+    """Include bodies in the next step, and reset their sleep time. ids, rows: their ids and row numbers in BODY."""
     tables.sleeping_set.return_reported(tables, ids)
     tables.awake.mark_dirty(ids)
     tables.bodies["sleep_time"][rows] = 0.0
@@ -246,8 +248,8 @@ def islands_at(tables: WorldTables, ids: list[int], rows: np.ndarray) -> set[int
 def disturb_shapes(tables: WorldTables, identity: int, shapes: np.ndarray) -> bool:
     """Wake the sleeping islands that touch changed shapes of a body at rest. Return whether this is sufficient.
 
-    False: nothing was changed, and the caller must call disturb, because other pairs of the body may be affected.
-    identity: id of the body; shapes: ids of the changed shapes; tables: a World or StepState.
+    If the result is False, nothing was changed. The caller must then call `disturb`, because other pairs of the body
+    may be affected. identity: id of the body; shapes: ids of the changed shapes; tables: a World or StepState.
     """
     sleeping_set = tables.sleeping_set
     row = rows_of(tables.bodies, [identity])[0]
@@ -266,7 +268,9 @@ def disturb_shapes(tables: WorldTables, identity: int, shapes: np.ndarray) -> bo
 
 
 def _islands_beside(tables, manifolds, identity):
-    """Return the keys of the sleeping islands that touch body `identity` in the CONTACT rows `manifolds`."""
+    """Return the keys of the sleeping islands that touch a body according to CONTACT rows `manifolds`. identity: its
+    id.
+    """
     own = manifolds[(manifolds["body_a"] == identity) | (manifolds["body_b"] == identity)]
     others = np.union1d(own["body_a"], own["body_b"])
     rows = rows_of(tables.bodies, others)
@@ -280,7 +284,9 @@ def wake_all(tables: WorldTables) -> None:
 
 
 def wake(tables: WorldTables, keys: Iterable[int]) -> None:
-    """Wake the islands with these keys: move their bodies, and the bodies' sleeping contacts, to the awake tables."""
+    """Wake the islands with these keys: move their bodies, and the sleeping contacts of the bodies, to the awake
+    tables.
+    """
     sleeping_set = tables.sleeping_set
     keys = [key for key in sorted(keys) if key in sleeping_set.islands]
     if not keys:
@@ -307,7 +313,7 @@ def wake(tables: WorldTables, keys: Iterable[int]) -> None:
 
 
 def _bring_back(tables, contacts):
-    """Add contacts that wake to tables.contact_rows, with present row numbers, unless their pair is already there."""
+    """Add woken CONTACT rows with present row numbers to tables.contact_rows, unless their pair is already there."""
     found = tables.contact_rows
     known = found["shape_a"] << 32 | found["shape_b"]
     new = ~np.isin(contacts["shape_a"] << 32 | contacts["shape_b"], known)
@@ -460,7 +466,7 @@ def is_touching(contact):
 
 @inlined
 def is_pressed(contact):
-    """Return whether a contact overlaps or had a normal impulse in the step, unlike a gap that is only speculative."""
+    """Return whether a contact overlaps or had a normal impulse in the step. False for a merely speculative gap."""
     c = contact
     if c.separation_1 <= 0.0 or c.normal_impulse_1 > 0.0:
         return True
@@ -478,9 +484,9 @@ def list_contact_edges(
 ):
     """List the contacts that link bodies or keep a body awake, as graph edges between BODY rows. O(contacts).
 
-    Return the number of edges. An edge links two awake dynamic bodies that touch. An edge of one node keeps a body
-    awake that touches a moving body which is not dynamic. With conveyor 1, a loaded contact with a surface speed also
-    keeps its bodies awake. edges_out: Edges with room for two edges per contact.
+    Return the number of edges. An edge with two nodes links two awake dynamic bodies that touch. An edge with one node
+    keeps a body awake that touches a moving kinematic or static body. With conveyor 1, a loaded contact with a surface
+    speed also keeps its bodies awake. edges_out: Edges with room for two edges per contact.
     """
     found = 0
     for i in range(len(contacts)):
@@ -508,14 +514,17 @@ def list_contact_edges(
 
 @kernel
 def start_islands(rows, parents_out):
-    """Make each body of `rows` an island of its own in the union-find forest parents_out. O(rows)."""
+    """Make each body of `rows` a separate island in the union-find forest parents_out. O(rows)."""
     for k in range(len(rows)):
         parents_out[rows[k]] = rows[k]
 
 
 @inlined
 def way_from(body, x, y, angle):
-    """Return an upper bound [px] of the distance of any point of a body from its place at a pose; NaN for NaN."""
+    """Return an upper bound [px] of the distance that any point of a body has from its position at another pose.
+
+    x, y [px], angle [rad]: the other pose. The result is NaN if a number of either pose is NaN.
+    """
     return norm(body.x - x, body.y - y) + abs(body.angle - angle) * body.extent
 
 
@@ -538,11 +547,11 @@ def advance_sleep_times(
     """Advance the sleep times and rocking times of awake bodies by dt [s]. O(rows + count).
 
     Return (number of islands of awake dynamic bodies, whether any body has a sleep time of at least `patience` [s]).
-    The sleep time restarts at 0 when a body is further than `slow` [px/s] times `patience` from its reference pose. The
-    rocking time restarts when it is further than rocking_range [px] from its own, see settings.ROCKING_RANGE. rows:
-    rows of the awake bodies; edges, count, parents_inout: see graph.join. least_out, excess_out (bodies,): at the root
-    of each island, the least sleep time [s] of its bodies, and the sum of speed² - slow² [px²/s²] over its bodies.
-    bodies_inout: BODY table.
+    The sleep time restarts at 0 when a body is further than `slow` [px/s] times `patience` from its reference pose for
+    sleep. The rocking time restarts when the body is further than rocking_range [px] from its reference pose for
+    rocking, see settings.ROCKING_RANGE. rows: rows of the awake bodies; edges, count, parents_inout: see graph.join.
+    least_out, excess_out (bodies,): at the root of each island, the least sleep time [s] of its bodies, and the sum of
+    speed² - slow² [px²/s²] over its bodies. bodies_inout: BODY table.
     """
     distance = slow * patience
     islands = 0
@@ -603,8 +612,9 @@ def fall_asleep(
     """Put islands to sleep if all their bodies have stayed in place for `patience` [s]. O(rows).
 
     Return the number of bodies that fell asleep. The mean square speed of the island must also be at most the square of
-    the sleep speed. So a few bodies may tremble, but an island that has just begun to fall, or was pushed, stays awake.
-    rows: rows of the awake bodies; parents, least, excess: see advance_sleep_times. bodies_inout: BODY table.
+    the sleep speed. With this rule a few bodies may tremble, but an island that has just begun to fall, or was pushed,
+    stays awake. rows: rows of the awake bodies; parents, least, excess: see advance_sleep_times. bodies_inout: BODY
+    table.
     """
     slept = 0
     for k in range(len(rows)):
@@ -686,7 +696,7 @@ class IslandWorkspace:
     ),
 )
 def rest(state: StepState) -> None:
-    """Put islands to sleep that have stayed in place for long enough, and move them to the sleeping set."""
+    """Put islands to sleep that have stayed in place for long enough, and move these islands to the sleeping set."""
     awake, bodies, contacts, search = state.awake, state.bodies, state.contact_rows, state.workspace.islands
     if not len(awake.dynamic):
         return
@@ -734,8 +744,8 @@ def rest(state: StepState) -> None:
 def _park(state, slept):
     """Move the islands of bodies that fell asleep, and their touching contacts, to the sleeping set.
 
-    slept: row numbers in BODY. Return (CONTACT rows that were moved, in the order of shape ids; key of the island of
-    each).
+    slept: row numbers in BODY. Return (CONTACT rows that were moved, in the order of shape ids; for each of these rows,
+    the key of its island).
     """
     bodies, m = state.bodies, state.contact_rows
     still = (bodies["kind"][m["body_row_a"]] != DYNAMIC) | ~bodies["awake"][m["body_row_a"]]

@@ -1,4 +1,4 @@
-"""The number of substeps of each island, chosen from the loads of the last step, impacts and new bodies."""
+"""Choice of the number of substeps of each island, from the loads of the last step, impacts and new bodies."""
 
 import math
 from typing import NamedTuple
@@ -25,10 +25,11 @@ class Islands(NamedTuple):
 
 
 def estimate_rate(state: StepState) -> float:
-    """Return a factor r [s/px]: a contact needs n substeps with n² = r v to sag by no more than state.accuracy [px].
+    """Return the factor r [s/px] between the load of a contact and the square of the number of substeps that it needs.
 
-    v [px/s] is the impulse of the contact in the step divided by its effective mass m. A contact sags under a force F
-    by F / (m ω²), where HERTZ_SHARE gives ω as a fraction of the substeps per second.
+    With n² = r v, a contact sags by no more than state.accuracy [px] in n substeps. v [px/s] is the impulse of the
+    contact in the step divided by its effective mass m. A contact sags under a force F by F / (m ω²), where HERTZ_SHARE
+    gives ω as a fraction of the substeps per second.
     """
     return state.dt / ((math.tau * HERTZ_SHARE) ** 2 * state.accuracy)
 
@@ -37,7 +38,7 @@ def estimate_rate(state: StepState) -> float:
 def class_for(choices, square, least):
     """Return the index in `choices` of the least number of substeps n with n² >= square.
 
-    The search begins at index `least`. choices: numbers of substeps, ascending. If none of them is large enough, the
+    The search begins at index `least`. choices: numbers of substeps, ascending. If no choice is large enough, the
     result is the last index.
     """
     place = least
@@ -51,8 +52,8 @@ def class_motions(motions, degrees, islands, classes_out):
     """Write the substep class of each MOTION row: the index of its number of substeps in islands.choices. O(motions).
 
     Return whether there are new bodies with contacts. A body without constraints takes the fewest substeps. A new body
-    takes islands.by_load if it has contacts, and islands.jointed if it has only joints. Every other body takes the
-    number that the last step chose (MOTION.substeps). degrees: number of contacts of each body.
+    takes islands.by_load if it has contacts, and islands.jointed if it has only joints. For every other body, the last
+    step has chosen the number (MOTION.substeps). degrees: number of contacts of each body.
     """
     unknown = False
     choices, by_load = islands.choices, islands.by_load
@@ -70,7 +71,7 @@ def class_motions(motions, degrees, islands, classes_out):
 
 @subkernel
 def expect_impacts(edges, count, motions, rate, choices, classes_inout):
-    """Raise the substep class of bodies that collide in this step, as far as the impact needs. O(count).
+    """Raise the substep class of bodies that collide in this step, to the class that the impact needs. O(count).
 
     More substeps are needed for a greater ratio of the masses, because a light body has to transmit the momentum of a
     heavy one. count: number of contacts, the first entries of `edges`; motions: MOTION rows; rate: result of
@@ -165,7 +166,7 @@ class LoadRules(NamedTuple):
 def choose_substeps(members, degrees, substeps, rules, motions_inout):
     """Write the number of substeps that each body of a group needs in the next step. O(members).
 
-    Return whether every body needs the same number as in this step. Then the caller need not determine the islands.
+    Return True if every body needs the same number as in this step; the caller then need not determine the islands.
     members: indices of the MOTION rows of the group; degrees: number of contacts of each body; substeps: number in this
     step; rules: see LoadRules.
     """
@@ -198,12 +199,12 @@ def choose_substeps(members, degrees, substeps, rules, motions_inout):
 
 @subkernel
 def share_substeps(members, parents, substeps, most_by_load, motions_inout):
-    """Give each body the greatest number of substeps that a body of its island needs. O(members).
+    """Give each body the greatest number of substeps that any body of its island needs. O(members).
 
-    Return the number of capped islands: they would need more substeps than they may take. An island in which a body has
-    more than two contacts is a heap. A heap takes at most most_by_load substeps, because some body of a heap always
-    leans. members: indices of MOTION rows; parents (motions,) int32: the lowest row of the island of each body;
-    substeps: number of substeps in this step.
+    Return the number of capped islands, which need more substeps than they may take. An island in which a body has more
+    than two contacts is a heap. A heap takes at most most_by_load substeps, because some body of a heap always leans.
+    members: indices of MOTION rows; parents (motions,) int32: the lowest row of the island of each body; substeps:
+    number of substeps in this step.
     """
     for k in range(len(members)):
         m = motions_inout[members[k]]

@@ -1,9 +1,9 @@
-"""The kinds of joints: one dataclass for each kind, whose `columns` converts its settings to columns of JOINT rows.
+"""Kinds of joints: one dataclass for each kind. Its method `columns` converts settings to columns of JOINT rows.
 
 A joint has two anchors, one on each body. It holds the anchors together in both directions (PINNED), only across an
 axis of A (ON_AXIS), or not at all (FREE). It may also hold the angle. On one coordinate (an angle, a translation or a
-length) it may have limits, a motor and a spring. A gear couples two other joints, a pulley two bodies. To add a kind,
-define a class here and add it to KINDS.
+length) it may have limits, a motor and a spring. A gear couples two other joints, and a pulley couples two bodies. To
+add a kind, define a class here and add it to KINDS.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class Drive:
     speed: target speed of the coordinate [px/s, or rad/s for an angle].
     max: greatest force [mass px/s²] or torque [mass px²/s²], >= 0; it must be given.
 
-    To accelerate a mass by a [px/s²] takes a force of mass · a, at the rim of a wheel a torque of mass · a · radius.
+    A force of mass · a accelerates a mass by a [px/s²]. At the rim of a wheel, the torque is mass · a · radius.
 
     Raises TypeError if a value is not a number, ValueError if max is missing or below 0, or if a number is not finite.
     """
@@ -54,9 +54,9 @@ class Spring:
     hertz: frequency [1/s], > 0; damping: damping ratio, >= 0; 1 is critical.
     target: the coordinate at which the spring rests [px or rad]; None: the coordinate when the joint is made.
 
-    Frequency and damping refer to the two bodies alone, held by the rest of the joint. A door swings about its hinge
-    with this frequency, and does not overshoot with a damping of 1. The stiffness is k = m (2 pi hertz)², where m is
-    the effective mass or moment of inertia of this motion.
+    Frequency and damping are those of the two bodies and their joint alone, without other forces. A door swings about
+    its hinge with this frequency, and does not overshoot with a damping of 1. The stiffness is k = m (2 pi hertz)²,
+    where m is the effective mass or moment of inertia of this motion.
 
     Raises TypeError if a value is not a number; ValueError for hertz <= 0, damping < 0, or a number that is not finite.
     """
@@ -96,7 +96,7 @@ def checked_limits(value: Any, low: float | None = None) -> tuple[float, float]:
 
 
 def checked_breaks(value: Any) -> tuple[float, float]:
-    """Return the (force, torque) above which a joint breaks. inf means that the joint never breaks by that value.
+    """Return the (force, torque) above which a joint breaks. inf: this value never breaks the joint.
 
     value: a pair (force, torque) in which None means unbreakable, or None for an unbreakable joint. Raises TypeError if
     value is not a pair of numbers; ValueError for a number <= 0.
@@ -126,7 +126,7 @@ def motor_fields(motor: Any) -> dict[str, float]:
 
 
 def checked_spring(spring: Any, name: str = "spring") -> Spring | None:
-    """Return `spring` unchanged if it is a Spring or None. Raises TypeError for anything else.
+    """Return `spring` unchanged if it is a Spring or None. Raises TypeError for any other value.
 
     name: name of the argument in error messages.
     """
@@ -137,7 +137,7 @@ def checked_spring(spring: Any, name: str = "spring") -> Spring | None:
 
 
 def greatest(name: str, value: Any) -> float:
-    """Return a bound of force or torque as a number, where None means inf. name: the argument's name in messages.
+    """Return an upper bound of a force or torque as a float; inf for None. name: name of the argument in messages.
 
     Raises TypeError if the value is not a number, ValueError if it is below 0.
     """
@@ -159,10 +159,10 @@ DEFAULTS = {
 
 @dataclass(frozen=True, kw_only=True)
 class Kind:
-    """The common arguments of all joints. A kind also has arguments for its bodies, anchors and coordinate.
+    """Base class with the arguments of all joints. A kind adds arguments for its bodies, anchors and coordinate.
 
     breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
-    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    contacts: whether A and B may touch each other; local: True for anchors and axes in body space, not in the world.
     user: any value of the game, kept as joint.user.
     """
 
@@ -179,7 +179,7 @@ class Kind:
     user: Any = None
 
     def sides(self) -> tuple[Any, Any]:
-        """Return the two arguments for the bodies, (a, b), as the caller gave them."""
+        """Return the arguments for the two bodies or joints that the joint connects, unchanged: (for A, for B)."""
         given = vars(self)
         return given["a"], given["b"]
 
@@ -218,7 +218,7 @@ class Revolute(Kind):
     limits: least and greatest value of the angle (low, high) [rad], None on a side: no limit there; None: no limits.
     motor: a Drive that drives the angle; None: no motor; spring: a Spring on the angle; None: no spring.
     breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
-    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    contacts: whether A and B may touch each other; local: True for anchors and axes in body space, not in the world.
     user: any value of the game, kept as joint.user.
 
     The world needs the effect `joints`. World.add_joint checks the arguments, and raises TypeError or ValueError.
@@ -250,7 +250,7 @@ class Prismatic(Kind):
         limits.
     motor: a Drive that drives the translation; None: no motor; spring: a Spring on the translation; None: no spring.
     breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
-    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    contacts: whether A and B may touch each other; local: True for anchors and axes in body space, not in the world.
     user: any value of the game, kept as joint.user.
 
     The translation is 0 when the joint is made. The world needs the effect `joints`. World.add_joint checks the
@@ -282,7 +282,8 @@ class Prismatic(Kind):
 class Wheel(Kind):
     """A wheel on a suspension: B rotates freely, and moves along an axis of A against a spring.
 
-    The motor drives the angle; limits, spring, and translation and speed of the Joint are of the suspension.
+    The motor drives the angle of B. Limits and spring act on the translation along the axis, which `translation` and
+    `speed` of the Joint report.
 
     a, b: chassis and wheel, Bodies or ids; None for one of them: the world.
     at: the anchor of both bodies (x, y) [px].
@@ -290,7 +291,7 @@ class Wheel(Kind):
     limits: least and greatest translation (low, high) [px], None on a side: no limit there; None: no limits.
     motor: a Drive that drives the angle of B; None: no motor; spring: a Spring on the translation; None: no spring.
     breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
-    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    contacts: whether A and B may touch each other; local: True for anchors and axes in body space, not in the world.
     user: any value of the game, kept as joint.user.
 
     The world needs the effect `joints`. World.add_joint checks the arguments, and raises TypeError or ValueError.
@@ -323,7 +324,7 @@ class Distance(Kind):
     limits: least and greatest value of the distance (low, high) [px], None on a side: no limit there; None: no limits.
     motor: a Drive that drives the distance; None: no motor; spring: a Spring on the distance; None: no spring.
     breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
-    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    contacts: whether A and B may touch each other; local: True for anchors and axes in body space, not in the world.
     user: any value of the game, kept as joint.user.
 
     Without limits, motor and spring the joint is a rigid rod. With limits and nothing else it is a rope: the distance
@@ -369,10 +370,10 @@ class Weld(Kind):
 
     a, b: Bodies or ids; None for one of them: the world.
     at: the anchor of both bodies (x, y) [px].
-    spring: a Spring makes the joint soft in translation; angular_spring: a Spring makes it soft in rotation. Their
-        targets are ignored; None: rigid.
+    spring: a Spring makes the joint soft in translation; angular_spring: a Spring makes it soft in rotation. None:
+        rigid. The targets of both springs are ignored.
     breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
-    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    contacts: whether A and B may touch each other; local: True for anchors and axes in body space, not in the world.
     user: any value of the game, kept as joint.user.
 
     The world needs the effect `joints`. World.add_joint checks the arguments, and raises TypeError or ValueError.
@@ -438,10 +439,10 @@ class Motor(Kind):
     velocity: target velocity of B relative to A (x, y) [px/s], in the space of A.
     angular_velocity: target angular velocity of B relative to A [rad/s].
     max_force: greatest force [mass px/s²]; max_torque: greatest torque [mass px²/s²]. Both must be given, >= 0.
-    spring: a Spring in place of target velocities: it pulls B back to the pose relative to A that B had when the joint
-        was made; None: no spring.
+    spring: a Spring that replaces the target velocities. It pulls B back to the pose relative to A that B had when the
+        joint was made; None: no spring.
     breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
-    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    contacts: whether A and B may touch each other; local: True for anchors and axes in body space, not in the world.
     user: any value of the game, kept as joint.user.
 
     Raises ValueError if max_force or max_torque is missing. The world needs the effect `joints`. World.add_joint checks
@@ -493,9 +494,9 @@ class Target(Kind):
     body: the pulled body, a Body or an id.
     at: the point of the body (x, y) [px].
     point: the target in the world (x, y) [px], which joint.point changes; None: the position of `at`.
-    spring: the Spring; its target is ignored; max_force: greatest force [mass px/s²], >= 0; None: no bound.
+    spring: the Spring, whose target is ignored; max_force: greatest force [mass px/s²], >= 0; None: no bound.
     breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
-    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    contacts: whether A and B may touch each other; local: True for anchors and axes in body space, not in the world.
     user: any value of the game, kept as joint.user.
 
     The world needs the effect `joints`. World.add_joint checks the arguments, and raises TypeError or ValueError.
@@ -554,19 +555,19 @@ class NoContact(Kind):
 @explained_class
 @dataclass(frozen=True)
 class Gear(Kind):
-    """A gear that holds a sum of two coordinates: coordinate of A plus ratio times coordinate of B equals the phase.
+    """A gear that keeps the sum of two coordinates constant: coordinate of A + ratio · coordinate of B = phase.
 
     joint_a, joint_b: Joints or their ids. The coordinate of a hinge (Revolute, Wheel, Angle, Ratchet) is its angle
-        [rad], that of a slider (Prismatic) its translation [px]. A Body stands for its angle in the world.
+        [rad], that of a slider (Prismatic) its translation [px]. The coordinate of a Body is its angle in the world.
     ratio: any number but 0: teeth of B over teeth of A. If positive, the sides turn in opposite directions.
-    phase: the sum that is held; None: the present sum.
+    phase: the constant sum; None: the present sum.
     breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
     contacts: whether A and B may touch each other; local: without effect, because there are no anchors.
     user: any value of the game, kept as joint.user.
 
-    Two hinges are a pair of gears, a hinge and a slider are a rack and pinion. The force and torque of the gear act on
-    B. A gear is removed with each of its joints. The world needs the effect `joints`. World.add_joint checks the
-    arguments, and raises TypeError, ValueError or KeyError.
+    Two hinges are a pair of gears, and a hinge and a slider are a rack and pinion. The force and torque that the Joint
+    reports act on B. If one of its joints is removed, the gear is removed too. The world needs the effect `joints`.
+    World.add_joint checks the arguments, and raises TypeError, ValueError or KeyError.
 
     >>> other = world.add_joint(Revolute(None, ball, at=(200, 280)))
     >>> world.add_joint(Gear(hinge, other, ratio=2.0))
@@ -596,16 +597,16 @@ class Gear(Kind):
 @explained_class
 @dataclass(frozen=True)
 class Pulley(Kind):
-    """A rope from one body up over two pulleys and down to another body. Its coordinate is the length in use.
+    """A rope from one body over two pulleys to another body. Its coordinate is length at A + ratio · length at B.
 
     a, b: Bodies or ids; None for one of them: the world.
     at_a, at_b: anchors of A and B (x, y) [px].
     ground_a, ground_b: the pulleys, points of the world (x, y) [px].
     ratio: factor on B's length of rope, and on the tension on B (a block and tackle), > 0.
-    length: distance of A's anchor from its pulley + ratio · that of B's [px], > 0; None: the present length.
+    length: distance of A from its pulley + ratio · distance of B from its pulley [px], > 0; None: the present length.
     rigid: True: the rope also pushes; False: it can be slack.
     breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
-    contacts: whether A and B may touch each other; local: anchors and axes are in body space, not in the world.
+    contacts: whether A and B may touch each other; local: True for anchors and axes in body space, not in the world.
     user: any value of the game, kept as joint.user.
 
     An anchor stops at its pulley. The world needs the effect `joints`. World.add_joint checks the arguments, and raises
@@ -637,7 +638,7 @@ class Pulley(Kind):
         return super().columns() | {"ratio": checks.number("ratio", self.ratio, above=0.0)}
 
     def with_rope(self, rows: np.ndarray, lengths_a: np.ndarray, lengths_b: np.ndarray) -> None:
-        """Write the length of the rope.
+        """Write the length of the rope to the columns of limits.
 
         rows: JOINT rows (n,), which are changed; lengths_a, lengths_b: distances of the anchors from their pulleys (n,)
             [px].
@@ -650,19 +651,19 @@ class Pulley(Kind):
 @explained_class
 @dataclass(frozen=True)
 class Ratchet(Kind):
-    """A ratchet: B may turn one way relative to A, and back only to the last tooth that it has passed.
+    """A ratchet: B may turn in one direction relative to A, and back only to the last tooth that B has passed.
 
     a, b: Bodies or ids; None for one of them: the world.
     phase: angle of a tooth relative to the present angle [rad].
-    ratchet: angle from tooth to tooth [rad], other than 0; B may turn on in the direction of its sign. It must be
-        given.
+    ratchet: angle from tooth to tooth [rad], other than 0. Its sign is the direction in which B may turn. The argument
+        must be given.
     breaks: greatest (force [mass px/s²], torque [mass px²/s²]), above which the joint breaks; None: it never breaks.
     contacts: whether A and B may touch each other; local: without effect, because there are no anchors.
     user: any value of the game, kept as joint.user.
 
-    Its coordinate is the angle, 0 when the joint is made; `limits` of the Joint is the present tooth. Raises ValueError
-    if ratchet is missing. The world needs the effect `joints`. World.add_joint checks the arguments, and raises
-    TypeError or ValueError.
+    Its coordinate is the angle, 0 when the joint is made. `limits` of the Joint contains the last tooth. Raises
+    ValueError if ratchet is missing. The world needs the effect `joints`. World.add_joint checks the arguments, and
+    raises TypeError or ValueError.
 
     >>> world.add_joint(Ratchet(None, ball, ratchet=math.radians(15)))
     Joint(1, Ratchet, world, body 1)
@@ -686,7 +687,7 @@ class Ratchet(Kind):
 
 
 def checked_ratio(value: Any, name: str = "ratio") -> float:
-    """Return a ratio. Raises TypeError if it is not a number, ValueError if it is 0 or not finite.
+    """Return `value` as a ratio. Raises TypeError if it is not a number, ValueError if it is 0 or not finite.
 
     name: name of the argument in messages.
     """
@@ -697,7 +698,7 @@ def checked_ratio(value: Any, name: str = "ratio") -> float:
 
 
 def tooth_at(angle: float, phase: float, ratchet: float) -> dict[str, float]:
-    """Return the JOINT columns of the limits of a ratchet, from its last tooth at or before `angle` [rad].
+    """Return the JOINT columns `lower` and `upper` of a ratchet, from its last tooth at or before `angle` [rad].
 
     phase, ratchet: see Ratchet.
     """

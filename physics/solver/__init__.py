@@ -1,1 +1,1 @@
-"""Solvers: from contacts to impulses, velocities and poses."""
+"""Solvers, which compute impulses from contacts and joints, and update the velocities and poses of bodies."""

@@ -1,8 +1,8 @@
 """Blocking: a body that would overlap another keeps its old pose, as in the movement loop of simple arcade games.
 
 Unlike in `projection`, only kinematic bodies push other bodies. A dynamic body that would overlap keeps its old pose
-and loses its velocity towards the obstacle. At its old pose it may block other bodies. So the test is repeated until no
-further body overlaps, at most once per body; in practice two or three times.
+and loses its velocity towards the obstacle. At its old pose it may block other bodies, so the test is repeated until no
+further body has to be moved back. Two or three repetitions are usual, and the limit is one per body.
 """
 
 import math
@@ -33,8 +33,8 @@ def stay_behind(bodies_inout, manifolds_inout, work_inout):
     """Move overlapping dynamic bodies back to the poses that they had before the step. O(manifolds).
 
     Return how many bodies were moved back. Manifolds that stopped a body are marked as `swept`. A body that did not
-    move is left alone, and a manifold with a separation of 0 stops no body. manifolds_inout: CONTACT rows; work_inout:
-    work counters. bodies_inout: BODY table.
+    move in this step is not changed, and a manifold with a separation of 0 stops no body. bodies_inout: BODY table;
+    manifolds_inout: CONTACT rows; work_inout: work counters.
     """
     put_back = 0
     for i in range(len(manifolds_inout)):
@@ -97,8 +97,8 @@ def stop_approach(bodies_inout, manifolds_inout):
 def _make_way(state, stayed):
     """Let kinematic bodies push away dynamic bodies that overlap them.
 
-    A dynamic body that was moved back is also pushed if a kinematic body would overlap it at its old pose. stayed:
-    CONTACT rows whose dynamic body was moved back.
+    A dynamic body that was moved back to its old pose is also pushed if a kinematic body would overlap it there.
+    stayed: CONTACT rows whose dynamic body was moved back.
     """
     bodies, contacts, sweeper = state.bodies, state.contact_rows, state.workspace.sweep
     overlaps = (contacts["separation_1"] < 0.0) | ((contacts["count"] == 2) & (contacts["separation_2"] < 0.0))
@@ -118,7 +118,7 @@ def _make_way(state, stayed):
 
 
 def solve(state: StepState, contacts: PushSet) -> float:
-    """Move overlapping bodies back to their old poses, until none that moved still overlaps.
+    """Move overlapping bodies back to their old poses, until no body that moved in this step overlaps another body.
 
     contacts: unused, because this solver works on state.contact_rows. Return the step length [s].
     """

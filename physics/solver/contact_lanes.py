@@ -1,4 +1,4 @@
-"""The contacts of a step as constraints: choose substeps, order them for the solver, and store the resulting impulses.
+"""Contact constraints of a step: the choice of substeps, the order for the solver, and the storage of the impulses.
 
 The solver works on lanes: a lane holds one contact for the SIMD passes, see lanes.py. Islands with the same number of
 substeps form a group. The solver advances one group by the whole step, then the next. Islands do not affect each other,
@@ -144,10 +144,10 @@ class Group(NamedTuple):
 
 @subkernel
 def credit_overlap(overlap, motion, balance_inout):
-    """Add to a body's energy reserve the energy that it takes to lift the body by an overlap [px].
+    """Increase the energy reserve of a body by the energy that lifts it by an overlap [px] against its acceleration.
 
-    A reserve is energy that the solver may give back, see energy.py. motion, balance_inout: MOTION and BALANCE row of
-    the body.
+    The reserve is energy that the solver may add to the body's motion, see energy.py. motion, balance_inout: MOTION and
+    BALANCE row of the body.
     """
     m = motion
     if m.inverse_mass > 0.0:
@@ -180,7 +180,7 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, plan_
     traits_of.
 
     Sensors, contacts without a body of finite mass, and contacts under a character's feet are left out. Islands may be
-    squeezed only by faces of bodies of infinite mass: such faces overlap and point in different directions, or one
+    squeezed if faces of bodies of infinite mass overlap other bodies, and the faces differ in direction or one of them
     moves.
 
     contacts, bodies, motions: CONTACT, BODY and MOTION rows; dt [s]; limits: see settings.Limits. lists_inout:
@@ -249,7 +249,7 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, plan_
 
 @subkernel
 def list_joint_edges(joints, count, edges_out):
-    """Write the joints to solve as graph edges, after those of the contacts. Return the number of all edges. O(joints).
+    """Write the joints to solve as graph edges, after the edges of contacts. Return the number of all edges. O(joints).
 
     joints: result of joint_rows.list_joints; count: number of edges of contacts; edges_out: Edges of the graph.
     """
@@ -316,10 +316,12 @@ def list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, pla
 
 @subkernel
 def order_joints(joints, classes, starts_out, rows_out):
-    """Write the indices of JOINT rows sorted by class, the index of their number of substeps (stable).
+    """Write the indices of JOINT rows, stably sorted by class. A class stands for a number of substeps, see
+    Plan.classes.
 
-    O(classes · joints). joints: result of joint_rows.list_joints; classes (motions,): class of each MOTION row;
-    starts_out: index of the first joint of each class, then the number of joints; rows_out: the sorted indices.
+    The class of a joint is the greater class of its two bodies. O(classes · joints). joints: result of
+    joint_rows.list_joints; classes (motions,): class of each MOTION row. starts_out: index of the first joint of each
+    class, then the number of joints; rows_out: the sorted indices.
     """
     found = 0
     for group in range(len(starts_out) - 1):
@@ -432,8 +434,8 @@ class Selection:
 def add_estimates(blocks, count, substeps, rules, motions_inout):
     """Raise MOTION.estimate of each body to the square of the number of substeps that its contacts need. O(contacts).
 
-    Also set MOTION.capped if a load needs more substeps than both the present number and rules.most_by_load. blocks,
-    count: the contacts, in the first `count` blocks; substeps: the present number; rules: see LoadRules. motions_inout:
+    Also set MOTION.capped if a load needs more substeps than both `substeps` and rules.most_by_load. blocks, count: the
+    contacts, in the first `count` blocks; substeps: their number in this step; rules: see LoadRules. motions_inout:
     MOTION rows.
     """
     reach = max(substeps, rules.most_by_load)
@@ -470,8 +472,8 @@ def add_estimates(blocks, count, substeps, rules, motions_inout):
 def choose_by_load(blocks, count, group, links_islands, rules, plan_inout, motions_inout):
     """Write to the MOTION rows how many substeps each island of a group takes in the next step.
 
-    Return how many islands have needed more substeps than allowed for at least rules.patience [s]. This time excludes
-    short impacts. blocks, count: the contacts of the group, in the first `count` blocks; links_islands: see
+    Return how many islands have needed more substeps than allowed for at least rules.patience [s], so that short
+    impacts do not count. blocks, count: the contacts of the group, in the first `count` blocks; links_islands: see
     MotionLists; rules: see LoadRules; plan_inout: see Plan. Islands are searched only if a body needs another number of
     substeps. O(members + constraints).
     """
@@ -539,7 +541,7 @@ def store_lanes(blocks, count, inverse_h, share, contacts_inout):
 
     blocks, count: the contacts, in the first `count` blocks; inverse_h [1/s]: inverse of the length of a substep.
     share: weight of this step's forces in the cached forces, which are a moving average. A very short step gets a small
-    weight: its impulses, divided by its length, would count as large forces.
+    weight, because its impulses divided by its length would be large forces.
     """
     rest = 1.0 - share
     for block in range(count):
@@ -560,7 +562,7 @@ def store_lanes(blocks, count, inverse_h, share, contacts_inout):
 
 
 def make_finish_lanes(restitution: bool, friction: bool) -> Callable:
-    """Return the kernel that ends a step after its last substep. restitution, friction: whether the world has them."""
+    """Return the kernel that ends a step after its last substep. restitution, friction: effects that the world has."""
 
     @kernel
     def finish_lanes(count, context, impacts_inout, motions_inout, blocks_inout, contacts_inout, work_inout):

@@ -1,13 +1,13 @@
 """Energy bound: contacts add no energy to an island, except the work of kinematic bodies and moving surfaces.
 
-Contacts may add energy for four reasons: they separate overlaps, their springs ring, their normals are a step old on
-curved ground, or their moment arms are fixed for a substep. Bodies that exchanged impulses in a step form a set of
+Contacts may add energy for four reasons. They separate overlaps, their springs oscillate, their normals are a step old
+on curved ground, or their moment arms are fixed for a substep. Bodies that exchanged impulses in a step form a set of
 touching bodies. After the step, the kinetic energy of a set is compared with its energy before the step plus the work
-of gravity, forces and moving surfaces. A further gain may come from the reserve of the bodies, which is energy lost in
-earlier steps. The rest of the gain is removed by scaling the velocities.
+of gravity, forces and moving surfaces. A further gain may be taken from the reserve of the bodies, which is energy lost
+in earlier steps. The rest of the gain is removed by scaling the velocities.
 
-Bodies in flight that hit only each other keep their momentum and angular momentum. Only their velocities relative to
-their common motion as one rigid body are scaled.
+If a set touches no body of infinite mass, it keeps its momentum and angular momentum. Only the velocities relative to
+the set's common motion as one rigid body are scaled.
 """
 
 import math
@@ -60,7 +60,7 @@ def work_of_surfaces(c, lane, a, b):
 def work_of_lift(c, lane, a, b, context):
     """Return the work that a contact did in this step by moving its points apart, over at most one slop per point.
 
-    A contact spring that sagged under a load gives this energy back. c: the fields of a block; lane: lane of the
+    A contact spring that was compressed by a load returns this energy. c: the fields of a block; lane: lane of the
     contact in the block; a, b: MOTION rows; context: see StepContext.
     """
     along = (b.dx - a.dx) * c[at.NX + lane] + (b.dy - a.dy) * c[at.NY + lane]
@@ -77,10 +77,10 @@ def work_of_lift(c, lane, a, b, context):
 
 @inlined
 def note_direction(nx, ny, rubs, motion, balance_inout):
-    """Record for a body that a contact acts on it along the normal (nx, ny).
+    """Record in a body's BALANCE row that a contact acts on the body along the normal (nx, ny).
 
     The record is a single normal, or `in_all` for all directions. Friction sets `in_all`, and so does a normal that is
-    not parallel to the recorded one. rubs: whether friction acted; motion, balance_inout: MOTION and BALANCE row of the
+    not parallel to the recorded one. rubs: True if friction acted; motion, balance_inout: MOTION and BALANCE row of the
     body.
     """
     e = balance_inout
@@ -93,9 +93,10 @@ def note_direction(nx, ny, rubs, motion, balance_inout):
 
 @inlined
 def energy_along(motion, balance):
-    """Return the kinetic energy of a body along the single normal of its contacts, or 0 if they act in all directions.
+    """Return the kinetic energy of a body along the single normal of its contacts, or 0 if contacts act in all
+    directions.
 
-    motion, balance: MOTION and BALANCE row of the body; see note_direction.
+    motion, balance: MOTION and BALANCE row of the body, see note_direction.
     """
     if balance.in_all or motion.inverse_mass == 0.0:
         return 0.0
@@ -105,7 +106,7 @@ def energy_along(motion, balance):
 
 @subkernel
 def scale_without(energy, whole):
-    """Return the factor by which to scale velocities so that their kinetic energy `whole` decreases by `energy`.
+    """Return the factor for velocities that reduces their kinetic energy `whole` by `energy`.
 
     The result is 1 for energy <= 0, and 0 if `energy` is at least `whole`.
     """
@@ -116,14 +117,14 @@ def scale_without(energy, whole):
 
 @inlined
 def scale_motion(root, balance, motion_inout):
-    """Scale the velocities of a body, to remove energy that contacts added.
+    """Scale the velocities of a body to remove energy that contacts added.
 
     root: BALANCE row with the scale factors for the set of touching bodies that contains this body; balance,
     motion_inout: BALANCE and MOTION row of the body.
 
-    If no body of the set touches a body of infinite mass (not `anchored`), only the velocity relative to the common
-    motion of the set is scaled. Otherwise root.along_scale is applied to the velocity along the single normal of the
-    body's contacts, and then root.scale to the whole velocity.
+    If no body of the set touches a body of infinite mass (`anchored` is False), only the velocity relative to the
+    common motion of the set is scaled. Otherwise root.along_scale is applied to the velocity along the single normal of
+    the body's contacts, and then root.scale to the whole velocity.
     """
     m = motion_inout
     if not root.anchored:
@@ -150,7 +151,7 @@ def scale_motion(root, balance, motion_inout):
 
 @inlined
 def note_face(c, lane, a, b, root_inout):
-    """Record the normal of a contact, and the speed of its kinematic body, in its set of touching bodies.
+    """Record a contact's normal, and the speed of its kinematic body if any, for the set of touching bodies.
 
     `oblique` is set in three cases: the normal is neither parallel nor perpendicular to the first recorded normal, the
     contact has restitution, or the kinematic body rotates. c: the fields of a block; lane: lane of the contact in the
@@ -174,9 +175,9 @@ def note_face(c, lane, a, b, root_inout):
 def limit_speed(root, push_speed, motion_inout):
     """Limit the speed of a body that a moving kinematic face pushes, directly or through other bodies.
 
-    The limit is the greatest speed of the faces, and of the bodies before the step, plus push_speed [px/s], which the
-    separation of overlaps may add. There is no limit among oblique faces, see note_face. root: BALANCE row of the root
-    of the body's set; motion_inout: MOTION row of the body.
+    The limit is the greatest speed of these faces and of the set's bodies before the step, plus push_speed [px/s].
+    Push-out of overlaps may add this speed. There is no limit among oblique faces, see note_face. root: BALANCE row of
+    the root of the body's set; motion_inout: MOTION row of the body.
     """
     m = motion_inout
     speed = norm(m.vx, m.vy)
@@ -247,11 +248,11 @@ def join_touching(blocks, count, group, joints, links_islands, motions, parents_
     """Find the sets of touching bodies of a group: bodies that exchanged impulses in this step (union-find).
 
     Only such bodies can have exchanged energy. A contact or joint joins its two bodies, unless one of them has infinite
-    mass. Also record in balance_inout, the BALANCE rows, in which directions contacts and joints act on each body.
+    mass. Also record in the BALANCE rows the directions in which contacts and joints act on each body.
 
-    blocks, count: the contacts, in the first `count` blocks; joints: the joints of all groups, see
-    joint_rows.list_joints; links_islands: see MotionLists; motions: MOTION rows; parents_out (motions) int32: the root
-    of each body, which is a body that represents its set.
+    blocks, count: the contacts, in the first `count` blocks; group: see contact_lanes.Group; joints: the joints of all
+    groups, see joint_rows.list_joints; links_islands: see MotionLists; motions: MOTION rows. parents_out (motions)
+    int32: the root of each body, which is a body that represents its set; balance_inout: BALANCE rows.
     """
     for k in range(len(joints)):  # also of the other groups, whose bodies are reset before their turn
         parents_out[joints[k, 1]] = joints[k, 1]
@@ -315,7 +316,8 @@ def add_momentum(motion, balance, root_inout):
 
 @subkernel
 def energy_in_common(balance_inout):
-    """Replace the sums of add_momentum by the common motion of the set as one rigid body. Return its kinetic energy.
+    """Replace the sums of add_momentum by the common motion of the set as one rigid body. Return the energy of this
+    motion.
 
     balance_inout: BALANCE row of the set's root.
     """
@@ -340,7 +342,7 @@ def sum_balances(blocks, count, group, links_islands, parents, context, motions,
 
     The BALANCE row of each root receives the sums. blocks, count: the contacts, in the first `count` blocks; group: see
     contact_lanes.Group; links_islands: see MotionLists; parents (motions) int32: the root of each body, see
-    join_touching; context: see StepContext.
+    join_touching; context: see StepContext; motions: MOTION rows.
     """
     for block in range(count):
         c = blocks.lines[block * SIZE : (block + 1) * SIZE]
@@ -377,13 +379,14 @@ def sum_balances(blocks, count, group, links_islands, parents, context, motions,
 
 @subkernel
 def draw_on_reserve(slop, balance_inout):
-    """Write the factors on velocities that remove the gain of energy of a set of touching bodies.
+    """Write the factors on velocities that remove the energy gain of a set of touching bodies.
 
-    A gain that the reserve covers is taken from the reserve, not removed. Return 1 if a gain has to be removed, else 0.
-    balance_inout: BALANCE row of the root of the set, with the sums of sum_balances.
+    A gain that the energy reserve covers is subtracted from the reserve, and not removed. Return 1 if a gain has to be
+    removed, else 0. slop [px]: see settings.Tolerances; balance_inout: BALANCE row of the set's root, from
+    sum_balances.
 
-    Errors of the integrator alternate in sign, so bodies may take back energy that they lost before. Per step this is
-    SHARE_BACK of their energy, or the energy of a lift by a slop [px]. Sets with joints may take back all of their
+    Errors of the integrator alternate in sign, so bodies may regain energy that they lost before. In one step they may
+    regain SHARE_BACK of their energy, or the energy of a lift by a slop. Sets with joints may regain all of their
     reserve in one step, because light links under tension exchange much energy with the integrator's error. Work of
     surfaces that did not speed up a body is not added to the reserve. Bodies with motors, springs or joints to
     kinematic bodies keep all gains.
@@ -406,7 +409,8 @@ def draw_on_reserve(slop, balance_inout):
 
 @subkernel
 def limit_squeezed(most, before, motion_inout):
-    """Limit the speed of a body squeezed between faces to `most` [px/s], or to its speed before the step if greater.
+    """Limit the speed of a body squeezed between faces to `most` [px/s], or to its speed before the step if that is
+    greater.
 
     The limit applies to the kinetic energy, so that rotation is included. most: 0 for no limit; before: kinetic energy
     of the body before the step, plus the work done on it in the step; motion_inout: MOTION row.
@@ -427,7 +431,7 @@ def limit_squeezed(most, before, motion_inout):
 def join_pushed(blocks, count, group, links_islands, parents_out):
     """Join the bodies of a group that exchanged contact impulses in this step into sets of touching bodies.
 
-    Unlike join_touching, ignore joints and record no directions. Arguments: see join_touching.
+    Unlike join_touching, this function ignores joints and records no directions. Arguments: see join_touching.
     """
     for k in range(len(group.members)):
         parents_out[group.members[k]] = group.members[k]
@@ -444,13 +448,14 @@ def join_pushed(blocks, count, group, links_islands, parents_out):
 
 @subkernel
 def keep_losses(group, parents, motions, balance_inout):
-    """Add the energy that each set of touching bodies lost to its reserve, if no set of the group gained energy.
+    """Add the energy that each set of touching bodies lost to the set's reserve, if no set of the group gained energy.
 
-    Return whether no set gained; otherwise no reserve is changed. parents (motions) int32: the root of each body.
+    Return True if no set gained; otherwise no reserve is changed. group: see contact_lanes.Group; parents (motions)
+    int32: the root of each body, see join_touching; motions: MOTION rows; balance_inout: BALANCE rows.
 
-    This is a shortcut for worlds without joints and moving kinematic bodies, and gives the result of sum_balances and
+    This is a shortcut for worlds without joints and moving kinematic bodies, with the result of sum_balances and
     draw_on_reserve. In such worlds surfaces can only add energy to a set, so a set without a gain is not slowed down.
-    In a pile that settles it takes a third of the time.
+    The shortcut takes a third of the time in a pile that settles.
     """
     for k in range(len(group.members)):
         e = balance_inout[group.members[k]]
@@ -529,12 +534,12 @@ def limit_energy(blocks, count, group, links_islands, moving, context, plan_inou
     """Remove the energy that the contacts of a group have added. O(members + lanes).
 
     Return how many sets of touching bodies had gained energy. In islands squeezed between faces, the speed of a body is
-    also limited to the speed of the faces plus the push-out speed. A body that was faster before the step keeps its
+    also limited to the speed of the faces plus the push-out speed. A body that was faster before the step may keep its
     speed.
 
     blocks, count: the contacts, in the first `count` blocks; group, plan_inout: see contact_lanes.Group and Plan;
     links_islands: see MotionLists; moving: number of kinematic bodies that move; context: see StepContext;
-    balance_inout: BALANCE rows, one for each MOTION row. motions_inout: MOTION rows.
+    balance_inout: BALANCE rows, one for each MOTION row; motions_inout: MOTION rows.
     """
     plan = plan_inout
     floor = 0.5 * context.limits.calm_speed * context.limits.calm_speed
@@ -561,11 +566,11 @@ OPPOSITE = -0.5  # cosine between normals of two faces below which the faces opp
 
 @subkernel
 def note_faces(edges, count, lists, slop, parents, squeeze_out):
-    """Write the greatest overlaps of each island, and whether it is caught between opposing faces.
+    """Write the greatest overlaps of each island, and whether the island is caught between opposing faces.
 
     A face is the side of a body of infinite mass at a contact. edges, count: the constraints, in the first `count`
     graph edges; lists: MotionLists; slop [px]: smaller overlaps with a face do not count; parents (motions) int32: the
-    root of the island of each body; squeeze_out: SQUEEZE rows, of which the rows of roots are written.
+    root of the island of each body; squeeze_out: SQUEEZE rows, of which only the rows of roots are written.
     """
     for turn in range(2):
         for i in range(count):
@@ -594,12 +599,13 @@ def note_faces(edges, count, lists, slop, parents, squeeze_out):
 
 @subkernel
 def find_squeezed(edges, count, lists, motions, limits, parents_out, squeeze_out):
-    """Find the islands without room, and write the bounds of their impulses as SQUEEZE rows. O(count + motions).
+    """Find the islands without room, and write bounds on their contact impulses to the SQUEEZE rows. O(count +
+    motions).
 
-    Return whether there are any. A face is the side of a body of infinite mass at a contact. An island has no room if
-    it overlaps deeply, and if overlapping faces point in different directions or a moving face is opposite to another
-    face. edges, count: the constraints, in the first `count` graph edges; lists: MotionLists; motions: MOTION rows;
-    limits: see settings.Limits; parents_out (motions) int32: the root of the island of each body.
+    Return whether such an island exists. A face is the side of a body of infinite mass at a contact. An island has no
+    room if it overlaps deeply, and if overlapping faces point in different directions or a moving face is opposite to
+    another face. edges, count: the constraints, in the first `count` graph edges; lists: MotionLists; motions: MOTION
+    rows; limits: see settings.Limits; parents_out (motions) int32: the root of the island of each body.
     """
     for i in range(len(motions)):
         s = squeeze_out[i]

@@ -1,10 +1,10 @@
 """Gears, pulleys and ratchets in the passes of the stacking solvers.
 
-A gear holds a sum of two coordinates: coordinate of A plus ratio times coordinate of B. A coordinate is the angle or
+A gear holds the coordinate of A plus ratio times the coordinate of B at a constant sum. A coordinate is the angle or
 the translation of another joint, or the angle of a body. A pulley bounds a sum of two lengths of rope in the same way
-(Catto, Box2D v2, b2GearJoint and b2PulleyJoint). Both are one row on up to four bodies, solved after the other joints
-and before the trees. A ratchet is a limit of an angle that follows the teeth from step to step (Chipmunk,
-cpRatchetJoint); the pass of the other joints solves this limit.
+(Catto, Box2D v2, b2GearJoint and b2PulleyJoint). A gear or pulley is one constraint row on up to four bodies, solved
+after the other joints and before the trees. A ratchet is an angle limit that moves with the teeth from step to step
+(Chipmunk, cpRatchetJoint). The pass of the other joints solves this limit.
 """
 
 import math
@@ -34,8 +34,8 @@ from physics.tables.table import row_of
 def list_couplings(rows, joints, couplings_out):
     """List the gears, pulleys and ratchets of a group in the order of ids. Return their number. O(rows).
 
-    rows: indices of the JOINT rows of the group; joints: all JOINT rows; couplings_out (rows,): COUPLING rows, of which
-    `joint` is written.
+    rows: indices of the JOINT rows of the group; joints: all JOINT rows; couplings_out (rows,): COUPLING rows. Only
+    their field `joint` is written.
     """
     found = 0
     for k in range(len(rows)):
@@ -49,8 +49,8 @@ def list_couplings(rows, joints, couplings_out):
 def follow_teeth(joint_inout):
     """Move the limit of a ratchet to the last tooth that its angle has passed. joint_inout: JOINT row.
 
-    With a positive distance of the teeth the lower limit rises, with a negative one the upper limit falls. The limit
-    never moves back.
+    If the distance between teeth is positive, the lower limit rises. If it is negative, the upper limit falls. The
+    limit never moves back.
     """
     j = joint_inout
     if j.ratchet == 0.0:
@@ -66,10 +66,10 @@ def follow_teeth(joint_inout):
 
 @subkernel
 def begin_gear(bodies, h, gear, coupling_out, joints_inout):
-    """Write the joints of a gear, and the angles of its bodies at the start of a step.
+    """Write to a COUPLING row the joints of a gear, and the angles of its bodies at the start of a step.
 
-    Joints that are not solved themselves are begun here. bodies: BODY rows; h [s]: length of a substep; gear: JOINT row
-    of the gear; joints_inout: all JOINT rows.
+    A joint of the gear that is not solved in this step is initialised here. bodies: BODY rows; h [s]: length of a
+    substep; gear: JOINT row of the gear; joints_inout: all JOINT rows.
     """
     j, c = gear, coupling_out
     c.row_a, c.row_b = row_of(joints_inout, j.joint_a), row_of(joints_inout, j.joint_b)
@@ -83,7 +83,7 @@ def begin_gear(bodies, h, gear, coupling_out, joints_inout):
 
 @subkernel
 def begin_pulley(bodies, joint, coupling_out):
-    """Write the vectors from the pulleys to the anchors at the start of a step.
+    """Write to a COUPLING row the vectors [px] from the pulley wheels to the anchors at the start of a step.
 
     bodies: BODY rows; joint: JOINT row after begin_joint.
     """
@@ -123,10 +123,10 @@ def begin_couplings(bodies, h, couplings_inout, joints_inout):
 
 @subkernel
 def side_value(row, start, motion, joints):
-    """Return the coordinate of a side of a gear at the present poses [rad or px].
+    """Return the coordinate [rad or px] of a side of a gear at the present poses.
 
-    row: index of the JOINT row of the side; NO_JOINT for a body, whose angle was `start` [rad] at the start of the
-    step; motion: MOTION row of the body; joints: all JOINT rows.
+    row: index of the JOINT row of the side, or NO_JOINT if the side is a body; start [rad]: angle of this body at the
+    start of the step; motion: MOTION row of the body; joints: all JOINT rows.
     """
     if row < 0:
         return start + motion.turn
@@ -136,7 +136,7 @@ def side_value(row, start, motion, joints):
 
 @subkernel
 def side_speed(row, motion, joints, motions):
-    """Return the rate of the coordinate of a side of a gear. Arguments as in side_value; motions: MOTION rows."""
+    """Return the rate of the coordinate of a side of a gear. Arguments: see side_value; motions: MOTION rows."""
     if row < 0:
         return motion.angular_velocity
     j = joints[row]
@@ -146,7 +146,7 @@ def side_speed(row, motion, joints, motions):
 
 @subkernel
 def push_side(row, impulse, motion, joints, motions_inout):
-    """Apply an impulse on the coordinate of a side of a gear; > 0 increases it.
+    """Apply an impulse to the coordinate of a side of a gear. A positive impulse increases the coordinate.
 
     row, joints: see side_value; motion: index of the MOTION row of the body.
     """
@@ -164,9 +164,10 @@ def push_side(row, impulse, motion, joints, motions_inout):
 
 @subkernel
 def jacobian_of_side(row, motion, at_b, joints):
-    """Return (MOTION row, x, y, angular) of the Jacobian of a side of a gear, for one of the two bodies of its joint.
+    """Return (MOTION row, x, y, angular): the Jacobian of a gear's side with respect to one body of the side's joint.
 
-    row, joints: see side_value; motion: index of the MOTION row of a body; at_b: True for body B of the joint.
+    row, joints: see side_value; motion: index of the MOTION row of the body if the side is a body; at_b: True for body
+    B of the joint.
     """
     if row < 0:
         return motion, 0.0, 0.0, 1.0 if at_b else 0.0
@@ -181,10 +182,10 @@ def jacobian_of_side(row, motion, at_b, joints):
 
 @subkernel
 def product_of_sides(row, motion, other_row, other_motion, joints, motions):
-    """Return J W Kᵀ, the change of the coordinate of one side of a gear by a unit impulse on the other side.
+    """Return J W Kᵀ, the change of the rate of one side's coordinate by a unit impulse on the other side of a gear.
 
-    J, K: Jacobians of the two sides; W: inverse masses. For twice the same side this is its inverse effective mass.
-    row, motion, other_row, other_motion: see jacobian_of_side; motions: MOTION rows.
+    J, K: Jacobians of the two sides; W: inverse masses. If both arguments are the same side, the result is its inverse
+    effective mass. row, motion, other_row, other_motion: see jacobian_of_side; motions: MOTION rows.
     """
     total = 0.0
     for k in range(4):
@@ -198,7 +199,7 @@ def product_of_sides(row, motion, other_row, other_motion, joints, motions):
 
 @subkernel
 def place_gear(motions, coupling_inout, joints_inout):
-    """Write the sum of coordinates of a gear at the present poses, and its inverse effective mass.
+    """Write to a COUPLING row the sum of coordinates of a gear at the present poses, and its inverse effective mass.
 
     The bodies of both sides may be the same, as in a planetary gear. motions: MOTION rows; coupling_inout: COUPLING
     row; joints_inout: all JOINT rows.
@@ -221,7 +222,7 @@ def place_gear(motions, coupling_inout, joints_inout):
 
 @subkernel
 def push_gear(coupling, impulse, joints, motions_inout):
-    """Apply an impulse on the sum of coordinates of a gear; > 0 increases it.
+    """Apply an impulse to the sum of coordinates of a gear. A positive impulse increases the sum.
 
     coupling: COUPLING row; joints: all JOINT rows.
     """
@@ -236,10 +237,11 @@ def push_gear(coupling, impulse, joints, motions_inout):
 
 @subkernel
 def place_pulley(joint, a, b, coupling_inout):
-    """Write the length of the rope of a pulley at the present poses, its directions, and its inverse effective mass.
+    """Write to a COUPLING row a pulley's rope length and directions at the present poses, and its inverse effective
+    mass.
 
-    An anchor in its pulley has no direction, and is not pulled. joint: JOINT row after place_joint; a, b: MOTION rows;
-    coupling_inout: COUPLING row.
+    An anchor at the position of its wheel has no direction, and is not pulled. joint: JOINT row after place_joint; a,
+    b: MOTION rows; coupling_inout: COUPLING row.
     """
     j, c = joint, coupling_inout
     ax, ay = c.rope_ax + a.dx + (j.ax - j.arm_ax), c.rope_ay + a.dy + (j.ay - j.arm_ay)
@@ -260,7 +262,8 @@ def place_pulley(joint, a, b, coupling_inout):
 
 @subkernel
 def push_ropes(joint, coupling, on_a, on_b, a_inout, b_inout):
-    """Apply impulses on the lengths of rope of A and of B; > 0 lengthens them.
+    """Apply the impulses on_a and on_b to the rope lengths of a pulley at A and B. A positive impulse lengthens the
+    rope.
 
     joint, coupling: JOINT and COUPLING row; a_inout, b_inout: MOTION rows.
     """
@@ -273,7 +276,7 @@ def push_ropes(joint, coupling, on_a, on_b, a_inout, b_inout):
 
 @subkernel
 def rope_speeds(joint, coupling, a, b):
-    """Return the rates [px/s] at which the ropes of A and of B lengthen. Arguments as in push_ropes."""
+    """Return the rates [px/s] at which the ropes of A and of B lengthen. Arguments: see push_ropes."""
     j, c = joint, coupling
     speed = a.vx * c.pull_ax + a.vy * c.pull_ay + a.angular_velocity * (j.ax * c.pull_ay - j.ay * c.pull_ax)
     other = b.vx * c.pull_bx + b.vy * c.pull_by + b.angular_velocity * (j.bx * c.pull_by - j.by * c.pull_bx)
@@ -282,10 +285,11 @@ def rope_speeds(joint, coupling, a, b):
 
 @subkernel
 def stop_at_pulleys(context, coupling, joint_inout, a_inout, b_inout):
-    """Stop anchors at their pulleys, so that no length of rope becomes negative.
+    """Stop anchors at the wheels of their pulley, so that no rope length becomes negative.
 
-    Otherwise a light body would be drawn to and fro through its pulley, and would not hold the other body. The impulses
-    are point_x and point_y of the joint. context: see StepContext; other arguments: see push_ropes.
+    Otherwise a light body would swing back and forth through the wheel, and would not hold the other body. The
+    accumulated impulses are point_x (A) and point_y (B) of the joint. context: see StepContext; other arguments: see
+    push_ropes.
     """
     j, c, a, b = joint_inout, coupling, a_inout, b_inout
     soft = (0.0, 1.0, 0.0)
@@ -306,7 +310,7 @@ def stop_at_pulleys(context, coupling, joint_inout, a_inout, b_inout):
 
 @subkernel
 def place_coupling(motions, coupling_inout, joints_inout):
-    """Place a gear or pulley at the present poses.
+    """Update a gear or pulley to the present poses, see place_gear and place_pulley.
 
     motions: MOTION rows; coupling_inout: COUPLING row; joints_inout: all JOINT rows.
     """
@@ -319,7 +323,7 @@ def place_coupling(motions, coupling_inout, joints_inout):
 
 @subkernel
 def push_sum(coupling, impulse, joints, motions_inout):
-    """Apply an impulse on the sum of a gear or pulley. coupling: COUPLING row; joints: all JOINT rows."""
+    """Apply an impulse to the sum that a gear or pulley constrains. coupling: COUPLING row; joints: all JOINT rows."""
     j = joints[coupling.joint]
     if j.hold == GEARED:
         push_gear(coupling, impulse, joints, motions_inout)
@@ -330,9 +334,9 @@ def push_sum(coupling, impulse, joints, motions_inout):
 
 @subkernel
 def sum_speed(coupling, joints, motions):
-    """Return the rate of the sum of a gear or pulley, without anchors that are stopped at their pulleys.
+    """Return the rate of the sum that a gear or pulley constrains, without anchors that are stopped at their wheels.
 
-    Arguments as in push_sum; motions: MOTION rows.
+    coupling, joints: see push_sum; motions: MOTION rows.
     """
     c = coupling
     j = joints[c.joint]
@@ -346,9 +350,9 @@ def sum_speed(coupling, joints, motions):
 
 @subkernel
 def warm_couplings(couplings_inout, joints_inout, motions_inout):
-    """Place gears and pulleys at the present poses, and apply the impulses of the last substep. O(couplings).
+    """Update gears and pulleys to the present poses, and apply the impulses of the last substep. O(couplings).
 
-    couplings_inout: COUPLING rows from list_couplings, placed as joints by warm_joints; joints_inout: all JOINT rows.
+    couplings_inout: COUPLING rows from list_couplings; joints_inout: all JOINT rows, updated before by warm_joints.
     """
     for k in range(len(couplings_inout)):
         c = couplings_inout[k]
@@ -362,9 +366,10 @@ def warm_couplings(couplings_inout, joints_inout, motions_inout):
 
 @inlined
 def inverse_mass_of_sum(joint, coupling):
-    """Return the inverse effective mass of the sum of a gear or pulley. joint, coupling: JOINT and COUPLING row.
+    """Return the inverse effective mass of the sum that a gear or pulley constrains. joint, coupling: JOINT and
+    COUPLING row.
 
-    An anchor that is stopped at its pulley counts as immovable: stop_at_pulleys takes its speed away again.
+    An anchor that is stopped at its wheel counts as immovable, because stop_at_pulleys removes its speed again.
     """
     j, c = joint, coupling
     if j.hold == GEARED or (j.point_x == 0.0 and j.point_y == 0.0):
@@ -375,7 +380,7 @@ def inverse_mass_of_sum(joint, coupling):
 
 @subkernel
 def solve_sum(biased, context, coupling, joints_inout, motions_inout):
-    """Solve the sum of a gear or pulley, between its limits. A gear is held at its phase.
+    """Solve the constraint of a gear or pulley once. A gear holds its sum at `phase`, a pulley keeps it within limits.
 
     biased: see solve_joints; context: see StepContext; coupling: COUPLING row; joints_inout: all JOINT rows.
     """
@@ -431,7 +436,7 @@ def solve_couplings(biased, context, couplings_inout, joints_inout, motions_inou
 
 @subkernel
 def sum_couplings(couplings_inout, joints_inout):
-    """Add the impulses of gears and pulleys in a substep to the totals of the step. O(couplings).
+    """Add the substep impulses of gears and pulleys to the totals of the step. O(couplings).
 
     couplings_inout: COUPLING rows from list_couplings; joints_inout: all JOINT rows.
     """
@@ -459,7 +464,8 @@ def sum_couplings(couplings_inout, joints_inout):
 
 @inlined
 def arm_of_side(row, joints, motion):
-    """Return the arm [px] that turns an error of a side of a gear into a length: the radius of gyration; 1 for a slide.
+    """Return the arm [px] that converts the error of a gear's side to a length: 1 for a translation, else a radius of
+    gyration.
 
     row: index of the JOINT row of the side, NO_JOINT for a body; joints: all JOINT rows; motion: MOTION row of the
     side.
@@ -473,9 +479,9 @@ def arm_of_side(row, joints, motion):
 def estimate_couplings(couplings, joints, rate, motions_inout):
     """Raise MOTION.estimate to the square of the number of substeps that gears and pulleys need. O(couplings).
 
-    The sum of a gear or pulley sags as a joint of the iterative tier does. The sag of a gear is measured as a length,
-    on the side where it is shorter. couplings: COUPLING rows of the step; joints: all JOINT rows; rate: see
-    substeps.estimate_rate.
+    The estimate is computed from the sag of the sum that the gear or pulley constrains, as for iterative joints. The
+    sag of a gear is measured as a length, on the side where it is shorter. couplings: COUPLING rows of the step;
+    joints: all JOINT rows; rate: see substeps.estimate_rate.
     """
     for k in range(len(couplings)):
         c = couplings[k]

@@ -1,13 +1,13 @@
-"""The direct tier of joints: the parts of joints that trees can solve, as rows for the solver in joint_trees.py.
+"""Direct tier of joints: writes the parts of joints that trees can solve as rows for the solver in joint_trees.py.
 
 For a joint in a tree, the parts that hold its anchors and its angle are solved exactly, together with all other joints
-of the tree. So is its coordinate, if that is held or has a spring. Joints that close a loop, further joints between the
-same two bodies, limits and motors are rows beside the tree, see joint_schur.py. The passes of joint_rows.py solve all
-else, before the trees: parts with a bounded force, and all parts of meshes.
+of the tree. Its coordinate is solved in the same way if it is held or has a spring. Joints that close a loop, further
+joints between the same two bodies, limits and motors are rows beside the tree, see joint_schur.py. The passes of
+joint_rows.py solve everything else before the trees: parts with a bounded force, and all parts of meshes.
 
 Rigid parts have no spring. A velocity removes an error of position within the next substep, and the solve at the end of
-that substep removes this velocity again. A spring that the user has set enters as compliance (Catto, Soft Constraints,
-GDC 2011).
+that substep removes this velocity again. A spring that the user has set is a compliance of its row (Catto, Soft
+Constraints, GDC 2011).
 """
 
 from typing import NamedTuple
@@ -103,13 +103,14 @@ def list_tree_joints(rows, joints, order_out, counts_out, motion_a_out, motion_b
 def drop_meshes(order, row_counts, motion_a, motion_b, taken, parents_inout, sums_out, order_inout):
     """Remove the joints of meshes from the list of joints for trees. Return the number of remaining joints.
 
-    A connected component is a mesh if the joints outside its tree are more than a quarter of those in it, and have more
-    rows than are solved exactly, see joint_schur.py. In a mesh the iterative passes converge better without trees,
-    because a tree would undo their work on the loops. O(joints + motions).
+    A connected component is a mesh under two conditions. Its joints outside the tree are more than a quarter of those
+    in the tree, and they have more rows than are solved exactly, see joint_schur.py. In a mesh the iterative passes
+    converge better without trees, because a tree would undo their corrections of the loops. O(joints + motions).
 
     order, row_counts, motion_a, motion_b, taken: arguments of joint_trees.build_forest and factor_trees; parents_inout:
-    Forest.parents; sums_out (motions, 3) int32: for the root of each component, the numbers of joints in its tree and
-    outside, and of the rows of the latter; order_inout: the same array as `order`, which is shortened in place.
+    Forest.parents. sums_out (motions, 3) int32, for the root of each component: number of joints in its tree, number of
+    joints outside, and number of rows of the joints outside. order_inout: the same array as `order`, shortened in
+    place.
     """
     for i in range(len(sums_out)):
         sums_out[i, 0], sums_out[i, 1], sums_out[i, 2] = 0, 0, 0
@@ -137,7 +138,7 @@ def mark_direct(rows, taken, joints_inout):
     """Record in JOINT.direct whether each joint of a group is in a tree. Return the number of joints with a spring.
 
     O(rows). Only springs on coordinates count. The flags that joint_schur.py sets are cleared. rows: indices of JOINT
-    rows; taken: the values, in the order of `rows`.
+    rows; taken: for each of these rows, True if the joint is in a tree.
     """
     springs = 0
     for k in range(len(rows)):
@@ -216,12 +217,13 @@ def draw(error, hertz, damping, impulse, rate, most, h, row_inout):
 
 @inlined
 def bend(joint, a, b, h):
-    """Return a correction (x, y) [px/s] of the target velocity of B's anchor relative to A's, for rotating arms.
+    """Return a velocity correction (x, y) [px/s] that compensates the curved paths of the anchors of a rotating joint.
 
-    Velocities move anchors along straight lines, but an arm r [px] that rotates at w [rad/s] bends the path of its
-    anchor. In a substep of h [s] the anchor ends w² h² r / 2 nearer to the body's centre, so the anchors would
-    separate. The correction fades to 0 for light bodies under tension and for fast rotation, where it would amplify
-    oscillations, see add_inertia. There the next substep removes the separation. joint: JOINT row; a, b: MOTION rows.
+    Velocities move anchors along straight lines, but an arm r [px] that rotates at w [rad/s] curves the path of its
+    anchor. In a substep of h [s] the anchor ends w² h² r / 2 nearer to the body's centre, so the two anchors would
+    separate. The correction is added to the target velocity of B's anchor relative to A's. It fades to 0 for light
+    bodies under tension (see add_inertia) and for fast rotation, because it would amplify oscillations. The next
+    substep then removes the separation. joint: JOINT row; a, b: MOTION rows.
     """
     j = joint
     growth = max(a.tension * a.own_inverse_inertia, b.tension * b.own_inverse_inertia)
@@ -270,12 +272,13 @@ def write_targets(joint, rate, context, a, b, first, rows_inout):
 
 @subkernel
 def add_inertia(rows, order, h, joints_inout, motions_inout):
-    """Raise the inertia of light bodies in trees under tension, so that substeps can follow their oscillations.
+    """Raise the inertia of light bodies in trees under tension, so that substeps can resolve their oscillations.
+    O(order).
 
     A light link between heavy bodies oscillates like a string. A tension F at an arm r turns the link back by a torque
     F r per radian. With an inertia of at least h² Σ F r, the oscillation advances by at most one radian in a substep of
-    h [s]. F is the greatest recent force, and fades within a quarter of a second, because a chain that jerks is slack
-    in between. Source: geometric stiffness, Andrews, Teichmann and Kövecses, 2017. rows, order: see JointSet. O(order).
+    h [s]. F is the greatest recent force. It fades within a quarter of a second, because a jerking chain is slack
+    between jerks. Source: geometric stiffness, Andrews, Teichmann and Kövecses, 2017. rows, order: see JointSet;
     joints_inout: JOINT rows; motions_inout: MOTION rows.
     """
     fade = max(1.0 - h / FADING, 0.0)
@@ -377,7 +380,7 @@ class JointSet(NamedTuple):
 def begin_trees(context, joints_inout, motions_inout):
     """Prepare the trees for a solve at the present poses. Return the number of redundant rows, see factor_trees.
 
-    The geometry of their joints is computed, and the trees are factored. context: see StepContext; joints_inout:
+    The geometry of the joints in trees is computed, and the trees are factored. context: see StepContext; joints_inout:
     JointSet; motions_inout: MOTION rows.
     """
     s = joints_inout
@@ -446,7 +449,7 @@ def start_joints(first, context, joints_inout, motions_inout):
 
 @subkernel
 def finish_joints(context, joints_inout, motions_inout):
-    """Solve all joints once after a substep, at the new poses and for velocities only.
+    """Solve all joints once after a substep, at the new poses and without correction of position errors.
 
     context: see StepContext; joints_inout: JointSet; motions_inout: MOTION rows.
     """
@@ -463,7 +466,7 @@ def end_joints(joints_inout):
 
 
 class Trees:
-    """Arrays for the joint trees of a group of islands. They are refilled for each group, and grow as needed."""
+    """Arrays for the joint trees of a group of islands. They are reused for each group, and grow as needed."""
 
     def __init__(self) -> None:
         self.forest: Forest = new_forest(0, 0)
@@ -505,7 +508,10 @@ class Trees:
         return JointSet(joints, rows, springs, couplings, order, self.counts, self.rows, self.forest, schur)
 
     def _drop_meshes(self, order, motions, taken):
-        """Return the joints for trees without those of meshes, and the number of joints in trees."""
+        """Return (joints for trees without the joints of meshes, number of joints that are in trees).
+
+        order: see JointSet; motions: MOTION rows; taken: for each joint, whether it is in a tree; updated in place.
+        """
         a, b = self.motion_a, self.motion_b
         if len(self.sums) < len(motions):
             self.sums = np.zeros((2 * len(motions), 3), np.int32)
@@ -516,7 +522,7 @@ class Trees:
         return order[:left], build_forest(order[:left], a, b, motions, self.forest, taken) if left else 0
 
     def _list_schur(self, rows, joints, motions, taken):
-        """Return the rows beside the trees."""
+        """Return a Schur with the rows beside the trees, enlarged if needed. Arguments: see count_schur."""
         schur = self.schur
         if len(schur.slot_of) < len(motions):
             schur = self.schur = schur._replace(slot_of=np.zeros(2 * len(motions), np.int32))

@@ -1,4 +1,4 @@
-"""The state of joints after a step, as `world.joints` reports it: coordinates, speeds, errors, breaking."""
+"""Report of joints after a step, as in `world.joints`: coordinates, speeds, errors, and whether a joint broke."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from physics.tables.table import row_of
 
 @subkernel
 def place_anchor(body, x, y):
-    """Return the world position (x, y) [px] of a point (x, y) [px] in the space of a BODY row."""
+    """Return the world position (x, y) [px] of a point whose coordinates (x, y) [px] are relative to a BODY row."""
     c, s = rotation_of(body.angle)
     return body.x + c * x - s * y, body.y + s * x + c * y
 
@@ -26,10 +26,11 @@ def velocity_at(body, x, y):
 
 @subkernel
 def side_after_step(identity, body_row, bodies, joints):
-    """Return (coordinate, its rate, speed [px/s]) of a side of a gear at the present poses.
+    """Return (coordinate, its rate, speed [px/s]) of one side of a gear at the present poses.
 
-    The speed is that of the furthest point of the body, for a side that turns. identity: id of the joint, NO_JOINT for
-    a body; body_row: row number in BODY of the side; joints: JOINT rows, reported up to this joint.
+    A side of a gear is a joint or, with the id NO_JOINT, a body. Its coordinate is an angle [rad] or a translation
+    [px]. For an angle, the speed is that of the body's point furthest from its centre. identity: id of the joint;
+    body_row: row number in BODY of the side; joints: JOINT rows, reported up to this joint.
     """
     row = row_of(joints, identity)
     extent = bodies[body_row].extent if body_row >= 0 else 0.0
@@ -48,7 +49,8 @@ def side_after_step(identity, body_row, bodies, joints):
 
 @subkernel
 def report_gear(bodies, joints, joint_inout):
-    """Write the sum of coordinates that a gear holds, its rate, its error, and the speed of its faster side.
+    """Write to a gear's JOINT row the sum of coordinates that it holds, its rate, its error, and the faster side's
+    speed.
 
     bodies: BODY rows; joints: JOINT rows, reported up to the gear; joint_inout: JOINT row of the gear.
     """
@@ -63,10 +65,10 @@ def report_gear(bodies, joints, joint_inout):
 
 @subkernel
 def rope_after_step(body_row, x, y, ground_x, ground_y, bodies):
-    """Return (length [px], its rate [px/s]) of the rope from a pulley to the anchor of a body.
+    """Return (length [px], its rate [px/s]) of the rope from a pulley wheel to the anchor of a body.
 
     body_row: row number in BODY, WORLD for the world; x, y [px]: the anchor in the space of the body; ground_x,
-    ground_y [px]: the pulley.
+    ground_y [px]: position of the wheel in the world.
     """
     vx, vy = 0.0, 0.0
     if body_row >= 0:
@@ -80,7 +82,8 @@ def rope_after_step(body_row, x, y, ground_x, ground_y, bodies):
 
 @subkernel
 def report_pulley(bodies, joint_inout):
-    """Write the length of the rope of a pulley, its rate, its error, and the speed of its faster side.
+    """Write to a pulley's JOINT row the length of its rope, the rate and error of this length, and the faster side's
+    speed.
 
     bodies: BODY rows; joint_inout: JOINT row.
     """
@@ -150,6 +153,6 @@ def measure_joints(state: StepState) -> None:
 
 
 def mark_sleeping(bodies: np.ndarray, joints: np.ndarray) -> None:
-    """Clear the column `awake` of the joints whose bodies are asleep. bodies: BODY; joints: JOINT rows."""
+    """Clear the column `awake` of the joints that have no awake body. bodies: BODY rows; joints: JOINT rows."""
     a, b = joints["body_row_a"], joints["body_row_b"]
     joints["awake"] &= ((a >= 0) & bodies["awake"][a]) | ((b >= 0) & bodies["awake"][b])

@@ -1,9 +1,9 @@
 """Joints as soft constraints that the stacking solvers solve one after the other, with warm starting (iterative tier).
 
-A joint of any kind consists of parts. One part holds its anchors together, one holds its angle. On its coordinate (an
-angle, a translation or a length) there may be a spring, a motor and two limits. Moment arms, axes and effective masses
-are recomputed in each substep. Sources: Catto, Soft Constraints, GDC 2011, and Solver2D, 2024 (soft joints with a
-relaxing pass); Catto, Box2D v3, joint.c (the parts).
+A joint of any kind consists of parts. One part holds its anchors together, and one holds its angle. On its coordinate
+(an angle, a translation or a length) there may be a spring, a motor and two limits. Moment arms, axes and effective
+masses are recomputed in each substep. Sources: Catto, Soft Constraints, GDC 2011, and Solver2D, 2024 (soft joints with
+a relaxing pass); Catto, Box2D v3, joint.c (the parts).
 """
 
 import math
@@ -33,12 +33,12 @@ def is_idle(joint):
 
 @subkernel
 def side_of_gear(identity, body_row, motion_of, motions, joints):
-    """Return (BODY row of a side of a gear, whether the side acts).
+    """Return (BODY row that represents a side of a gear, whether the side acts).
 
-    The BODY row is that of a dynamic body of the joint, if it has one. The edge of the gear in the graph then links all
-    bodies that the gear moves, because the edge of the joint links its two bodies. A removed or disabled joint does not
-    act. identity: id of the joint, NO_JOINT for a gear of bodies; body_row: present BODY row of the side; motion_of,
-    motions: see list_joints; joints: all JOINT rows.
+    If the side is a joint with a dynamic body, the result is the row of that body. In the graph, the edge of the gear
+    then connects all bodies that the gear moves, because the joint's own edge connects the joint's two bodies. A
+    removed or disabled joint does not act. identity: id of the joint, NO_JOINT for a side that is a body; body_row:
+    present BODY row of the side; motion_of, motions: see list_joints; joints: all JOINT rows.
     """
     if identity == NO_JOINT:
         return body_row, True
@@ -108,9 +108,9 @@ def list_joints(motion_of, motions_inout, joints_inout, links_out, work_inout):
 
 @inlined
 def arm_of(body, x, y):
-    """Return the vector (x, y) [px] in the world from a body's centre of mass to a point (x, y) [px] in its space.
+    """Return the vector (x, y) [px] in the world from a body's centre of mass to a point of the body. body: BODY row.
 
-    body: BODY row.
+    x, y [px]: the point in the space of the body.
     """
     c, s = rotation_of(body.angle)
     u, v = x - body.local_center_x, y - body.local_center_y
@@ -279,10 +279,10 @@ def coordinate_inverse_mass(joint, a, b):
 
 @subkernel
 def spring_inverse_mass(joint, a, b):
-    """Return the inverse effective mass that the spring on a joint's coordinate moves if the joint's holds are rigid.
+    """Return the inverse effective mass that a joint's spring acts on, if the joint's other parts are rigid.
 
     The frequency and the damping ratio of the spring refer to this mass. A door on a spring swings with its inertia
-    about the hinge, and a slider does not rotate. Box2D v3 takes the moments of inertia about the centres instead: a
+    about the hinge, and a slider does not rotate. Box2D v3 uses the moments of inertia about the centres instead: a
     door then swings slower, and overshoots when critically damped. For the axis of a Wheel and for a Distance the
     result is coordinate_inverse_mass. joint: JOINT row; a, b: MOTION rows.
     """
@@ -319,9 +319,9 @@ def softness_of(hertz, damping, h):
 def spring_of(hertz, damping, h):
     """Return (rate [1/s], carry, give) of a spring on a coordinate, over a substep of h [s]. It is stable at any hertz.
 
-    With the coordinate's distance c from rest, its velocity v at the start of the substep and its inverse effective
-    mass w, the spring solves: new velocity + give · w · impulse = carry · v - rate · c. An undamped spring has the
-    stiffness of the implicit midpoint rule, and keeps its energy (Hairer, Lubich and Wanner, Geometric Numerical
+    Let c be the coordinate's distance from rest, v its velocity at the start of the substep, and w its inverse
+    effective mass. The spring solves: new velocity + give · w · impulse = carry · v - rate · c. An undamped spring has
+    the stiffness of the implicit midpoint rule, and keeps its energy (Hairer, Lubich and Wanner, Geometric Numerical
     Integration, 2006, chapter 6). With a damping ratio of 1 or more, or if its swing is too fast for the substeps, it
     is an implicit Euler step (Catto, Soft Constraints, GDC 2011), which does not overshoot. hertz [1/s]: frequency;
     damping: damping ratio.
@@ -370,19 +370,19 @@ def bounded(value, most):
 
 @inlined
 def holds_point(joint):
-    """Return whether a tree can solve the anchors of a joint: they are held together, with unbounded force."""
+    """Return whether the tree solver can solve the anchors of a joint: they are held together, with unbounded force."""
     return joint.hold != FREE and joint.follows_point and joint.point_max == math.inf
 
 
 @inlined
 def holds_angle(joint):
-    """Return whether a tree can solve the angle of a joint: it is held, with unbounded torque."""
+    """Return whether the tree solver can solve the angle of a joint: it is held, with unbounded torque."""
     return joint.locks_angle and joint.follows_angle and joint.angle_max == math.inf
 
 
 @inlined
 def holds_coordinate(joint):
-    """Return whether a tree can solve the coordinate of a joint: it has equal limits, or a spring."""
+    """Return whether the tree solver can solve the coordinate of a joint: it has equal limits, or a spring."""
     return joint.coordinate != NO_COORDINATE and (joint.lower == joint.upper or joint.spring_hertz > 0.0)
 
 
@@ -402,7 +402,7 @@ def is_coordinate_free(joint):
 
 @inlined
 def has_limits(joint):
-    """Return whether a joint has limits between which its coordinate moves; that of a gear or pulley is a sum."""
+    """Return whether limits bound a joint's coordinate and leave it a range. False for gears and pulleys."""
     bounded_side = joint.lower > -math.inf or joint.upper < math.inf
     return joint.coordinate != NO_COORDINATE and joint.hold < GEARED and joint.lower != joint.upper and bounded_side
 
@@ -415,7 +415,7 @@ def has_motor(joint):
 
 @inlined
 def turns(joint):
-    """Return whether a gear acts on the angle of a joint, otherwise on its translation."""
+    """Return whether a gear that acts on this joint acts on its angle (True) or on its translation (False)."""
     return joint.coordinate == ANGLE or joint.turns_motor
 
 
@@ -424,7 +424,7 @@ def turns(joint):
 
 @subkernel
 def write_line(joint, nx, ny, row_out):
-    """Write the Jacobian of the speed at which B's anchor moves relative to A's anchor along a unit vector (nx, ny).
+    """Write the Jacobian of the velocity of B's anchor relative to A's anchor, along a unit vector (nx, ny).
 
     joint: JOINT row; row_out: JOINT_ROW.
     """
@@ -638,9 +638,9 @@ def impulse_of(joint):
 def warm_joints(rows, first, joints_inout, motions_inout):
     """Apply the impulses of the last substep (warm start). O(rows).
 
-    rows: indices of JOINT rows; first: whether this is the first substep; motions_inout: MOTION rows. In the first
-    substep, the geometry of the joints is computed. In a later one, it is known from the end of the substep before, and
-    the impulses of that substep are added to the totals of the step.
+    rows: indices of JOINT rows; first: True in the first substep of a step; motions_inout: MOTION rows. In the first
+    substep, the geometry of the joints is computed. In later substeps, the geometry is known from the end of the
+    previous substep, whose impulses are added to the totals of the step.
     """
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
@@ -659,7 +659,7 @@ def warm_joints(rows, first, joints_inout, motions_inout):
 
 @subkernel
 def solve_joints(rows, biased, context, joints_inout, motions_inout):
-    """Solve every joint once, except for the parts that trees solve. O(rows).
+    """Solve every joint once, except for the parts that the tree solver solves. O(rows).
 
     rows: indices of JOINT rows; biased: True to also remove errors of position, False to solve only the velocities at
     the present poses; context: see StepContext. motions_inout: MOTION rows.
@@ -723,10 +723,10 @@ def store_joints(rows, context, joints_inout):
 def estimate_joints(rows, joints, rate, dt, accuracy, motions_inout):
     """Raise MOTION.estimate to the square of the number of substeps that the joints of a body need. O(rows).
 
-    In the iterative tier, the spring of a joint has twice the frequency of the spring of a contact, so the joint sags
-    by a quarter as much. In both tiers, an anchor on an arm r that rotates by an angle φ in a substep leaves the joint
-    by r φ² / 2. rows: indices of JOINT rows; rate: see substeps.estimate_rate; dt [s]: step length; accuracy [px]:
-    greatest accepted error. motions_inout: MOTION rows.
+    In the iterative tier, a joint's spring has twice the frequency of a contact's spring, so the joint sags by a
+    quarter as much. In both tiers, if an arm r rotates by an angle φ in a substep, its anchor is displaced by r φ² / 2.
+    rows: indices of JOINT rows; rate: see substeps.estimate_rate; dt [s]: step length; accuracy [px]: greatest accepted
+    error. motions_inout: MOTION rows.
     """
     for k in range(len(rows)):
         j = joints[rows[k]]

@@ -1,13 +1,15 @@
 """Rows beside the trees of joints, solved exactly: loop closures, limits and motors of joints between bodies of a tree.
 
-joint_trees.py solves a tree alone. Three kinds of rows do not fit into it: the rows of a joint that closes a loop
-(Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter 8), the limits and the motor on the coordinate of a joint.
-The Schur complement S of the tree is the matrix of the changes of the velocities of these rows by unit impulses along
-them, with the tree attached. A column of S costs one solve of the tree, and is computed when its row first needs an
-impulse. The equations in S are then solved by factors L D Lᵀ, in O(k³) for k rows with an impulse.
+joint_trees.py solves only the joints of a tree. Three kinds of rows are not part of the tree: rows of a joint that
+closes a loop (Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter 8), the limits on the coordinate of a joint,
+and its motor. The Schur complement S of the tree describes how these rows respond to impulses, with the tree attached:
+column i holds the velocity changes of all rows by a unit impulse along row i. A column costs one solve of the tree, and
+is computed when its row first needs an impulse. The equations in S are then solved by factors L D Lᵀ, in O(k³) for k
+rows with an impulse.
 
-Impulses of limits and motors are bounded. Block principal pivoting finds which of them are at a bound (Júdice and
-Pires, A block principal pivoting algorithm for large-scale strictly monotone linear complementarity problems, 1994).
+Impulses of limits and motors are bounded. Block principal pivoting finds which of these impulses are at a bound (Júdice
+and Pires, A block principal pivoting algorithm for large-scale strictly monotone linear complementarity problems,
+1994).
 """
 
 import math
@@ -141,7 +143,9 @@ def tree_of_body(motion, motions, schur):
 
 @inlined
 def tree_of_joint(joint, motions, schur):
-    """Return the root slot of the tree to which both bodies of a JOINT row belong. It is negative if there is none."""
+    """Return the root slot of the tree that contains both bodies of a JOINT row. It is negative if there is no such
+    tree.
+    """
     a, b = tree_of_body(joint.motion_a, motions, schur), tree_of_body(joint.motion_b, motions, schur)
     if a == ANY_TREE:
         return b
@@ -150,7 +154,7 @@ def tree_of_joint(joint, motions, schur):
 
 @inlined
 def number_of_limits(joint):
-    """Return the number of limits of a JOINT row between which its coordinate moves, 0 to 2."""
+    """Return how many limits bound the coordinate of a JOINT row, 0 to 2. Equal limits count as none."""
     count = (1 if joint.lower > -math.inf else 0) + (1 if joint.upper < math.inf else 0)
     return count if has_limits(joint) else 0
 
@@ -212,8 +216,8 @@ def count_schur(
 def place_blocks(size, schur_inout):
     """Choose the rows of each tree, and write where its rows, slots and matrix begin. Return the number of rows.
 
-    A tree that would have too many rows of a kind has none of that kind, which counts as a reached cap. size: number of
-    slots. O(slots).
+    A tree with too many rows of one kind (loops, limits or motors) gets none of that kind. This counts as a reached
+    cap. size: number of slots. O(slots).
     """
     s = schur_inout
     total, entries, slots = 0, 0, 0
@@ -239,7 +243,10 @@ def place_blocks(size, schur_inout):
 
 @subkernel
 def add_part(index, part, joint, schur_inout):
-    """Append a row to the rows of the tree of a joint. index: index of the joint in JointSet.rows; joint: JOINT row."""
+    """Append a row to the rows of the tree of a joint. index: index of the joint in JointSet.rows; joint: JOINT row.
+
+    part: LOWER, UPPER or MOTOR, or the number of the joint's own row if the joint closes a loop.
+    """
     s = schur_inout
     a, b = s.slot_of[joint.motion_a], s.slot_of[joint.motion_b]
     t = s.trees[s.tree_of[a if a >= 0 else b]]
@@ -253,9 +260,10 @@ def add_part(index, part, joint, schur_inout):
 
 @kernel
 def list_schur(rows, motions, forest, row_counts, taken, joints_inout, schur_inout):
-    """Write the rows beside the trees, after count_schur. Joints whose parts have rows are marked. O(slots + joints).
+    """Write the rows beside the trees, after count_schur. O(slots + joints).
 
-    JOINT.direct, exact_limits and exact_motor are set for the joints with such rows. Arguments: see count_schur.
+    JOINT.direct, exact_limits and exact_motor are set for joints whose loop rows, limits or motor are among these rows.
+    Arguments: see count_schur.
     """
     s = schur_inout
     for slot in range(forest.sizes[0]):
@@ -287,10 +295,10 @@ def list_schur(rows, motions, forest, row_counts, taken, joints_inout, schur_ino
 
 @subkernel
 def begin_schur(rows, joints, tree_rows, motions, schur_inout):
-    """Write the Jacobians of the rows beside the trees at the present poses. The columns of S become unknown. O(rows).
+    """Write the Jacobians of the rows beside the trees at the present poses. O(rows).
 
-    rows: indices of the JOINT rows of the group; joints: all JOINT rows, placed by place_joint; tree_rows: JOINT_ROW
-    rows of the joints of `rows`; motions: MOTION rows.
+    The columns of the Schur complement are marked as not computed. rows: indices of the JOINT rows of the group;
+    joints: all JOINT rows, after place_joint; tree_rows: JOINT_ROW rows of the joints of `rows`; motions: MOTION rows.
     """
     s = schur_inout
     for i in range(s.counts[0]):
@@ -315,9 +323,10 @@ def begin_schur(rows, joints, tree_rows, motions, schur_inout):
 
 @inlined
 def limit_target(gap, biased, most, inverse_h):
-    """Return the least velocity of a coordinate away from a limit: a gap may close, a violation is removed.
+    """Return the least velocity [px/s or rad/s] at which a coordinate must move away from its limit.
 
-    gap [px or rad]: distance from the limit; biased: True to also remove violations, at no more than `most`; inverse_h
+    A gap may close within the substep, so the result is then negative. gap [px or rad]: distance from the limit,
+    negative for a violation; biased: True to also remove violations, at a speed of no more than `most`; inverse_h
     [1/s]: inverse of a substep.
     """
     if gap > 0.0:
@@ -327,10 +336,11 @@ def limit_target(gap, biased, most, inverse_h):
 
 @subkernel
 def aim_schur(rows, biased, context, joints, tree_rows_inout, schur_inout):
-    """Write the wanted velocities of the rows beside the trees, and the bounds of the changes of their impulses.
+    """Write the target velocities of the rows beside the trees, and the bounds of the changes of their impulses.
+    O(rows).
 
-    Arguments: see begin_schur; biased: True to also remove errors of position; context: see StepContext.
-    tree_rows_inout: JOINT_ROW rows with their targets; the impulses of joints that close loops become 0. O(rows).
+    Impulses of joints that close loops are reset to 0. biased: True to also remove errors of position; context: see
+    StepContext; tree_rows_inout: JOINT_ROW rows with their targets; other arguments: see begin_schur.
     """
     s = schur_inout
     for i in range(s.counts[0]):
@@ -371,10 +381,12 @@ def velocity_along(row, bodies, motions):
 
 @inlined
 def bound_motor(row_inout):
-    """Bound the change of the impulse of a motor in a solve by its present impulse and by what its joint alone needs.
+    """Limit how much a solve may change the impulse of a motor. row_inout: SCHUR_ROW of the motor, whose bounds are
+    reduced.
 
-    So the impulse follows a load within a few solves. But it stays small while a mechanism passes through a singular
-    pose, in which the speed of the motor hardly depends on its impulse. row_inout: SCHUR_ROW, whose bounds are reduced.
+    The limit is the present impulse plus LOCAL_CHANGES times the impulse that the joint alone would need. The impulse
+    then adapts to a load within a few solves. It stays small in a singular pose of a mechanism, in which the motor's
+    speed hardly depends on its impulse.
     """
     r = row_inout
     most = r.impulse + (LOCAL_CHANGES * abs(r.violation) / r.scale if r.scale > 0.0 else 0.0)
@@ -385,8 +397,8 @@ def bound_motor(row_inout):
 def begin_states(tree, bodies, motions, schur_inout):
     """Write the violations of the rows of a tree after a solve of the tree alone, and a first guess of their states.
 
-    A row is free if its impulse can reduce its violation. Return whether any row needs a change of its impulse. tree:
-    SCHUR_TREE row; bodies: TREE_BODY rows; motions: MOTION rows.
+    A row is free if its impulse can reduce its violation, otherwise at a bound. Return whether any row needs a change
+    of its impulse. tree: SCHUR_TREE row; bodies: TREE_BODY rows; motions: MOTION rows.
     """
     needed = False
     for i in range(tree.first, tree.first + tree.count):
@@ -405,7 +417,7 @@ def begin_states(tree, bodies, motions, schur_inout):
 
 @inlined
 def respond(child, first, rows, parent_inout, violations_out):
-    """Update the velocity of a parent by a joint to a child, as gather_violations does for wanted velocities of 0.
+    """Update the velocity of a parent by a joint to a child, like gather_violations, but for target velocities of 0.
 
     Arguments: see gather_violations.
     """
@@ -422,9 +434,10 @@ def respond(child, first, rows, parent_inout, violations_out):
 
 @subkernel
 def compute_column(index, tree, motions, forest_inout, schur_inout):
-    """Compute a column of S: the velocities of the rows of a tree after a unit impulse along one of them. O(slots).
+    """Compute a column of the Schur complement: the velocities of a tree's rows after a unit impulse along one row.
+    O(slots).
 
-    index: number of the row in the tree; tree: SCHUR_TREE row; motions: MOTION rows.
+    index: number of this row in the tree; tree: SCHUR_TREE row; motions: MOTION rows.
     """
     f, s = forest_inout, schur_inout
     r = s.rows[tree.first + index]
@@ -465,9 +478,9 @@ def compute_column(index, tree, motions, forest_inout, schur_inout):
 
 @subkernel
 def list_free(tree, motions, forest_inout, schur_inout):
-    """List the free rows of a tree. Return their number. Missing columns of S are computed.
+    """List the free rows of a tree, whose impulses are not at a bound. Return their number.
 
-    tree: SCHUR_TREE row; motions: MOTION rows.
+    Missing columns of the Schur complement are computed. tree: SCHUR_TREE row; motions: MOTION rows.
     """
     s = schur_inout
     found = 0
@@ -484,9 +497,10 @@ def list_free(tree, motions, forest_inout, schur_inout):
 @subkernel
 def solve_free(count, tree, schur_inout):
     """Solve the equations of the free rows of a tree by factors L D Lᵀ, and write the changes of their impulses.
+    O(count³).
 
-    A redundant row, whose pivot is 0 after the elimination of others, gets its scale as compliance. count: number of
-    free rows; tree: SCHUR_TREE row. O(count³).
+    A row is redundant if its pivot is 0 after the elimination of other rows. Its scale (the pivot without other joints)
+    is then used as compliance. count: number of free rows, see list_free; tree: SCHUR_TREE row.
     """
     s = schur_inout
     for p in range(count):
@@ -519,10 +533,10 @@ def solve_free(count, tree, schur_inout):
 
 @inlined
 def next_state(index, tree, schur):
-    """Return the state of a row of a tree that follows from the present impulses.
+    """Return the state that a row of a tree should have according to the present impulses.
 
-    A free row beyond a bound goes to that bound. A row at a bound becomes free if it would have to leave the bound to
-    reduce its violation. index: number of the row in the tree; tree: SCHUR_TREE row.
+    A free row whose impulse is beyond a bound gets the state of that bound. A row at a bound becomes free if its
+    impulse must leave the bound to reduce its violation. index: number of the row in the tree; tree: SCHUR_TREE row.
     """
     s = schur
     r = s.rows[tree.first + index]
@@ -542,9 +556,9 @@ def next_state(index, tree, schur):
 
 @subkernel
 def change_states(only_last, tree, schur_inout):
-    """Change the states of the rows of a tree that their impulses contradict. Return the number of such rows.
+    """Correct the states of a tree's rows that differ from next_state. Return how many were wrong. O(count²).
 
-    only_last: True to change only the last of them; tree: SCHUR_TREE row. O(count²).
+    only_last: True to correct only the last of them; tree: SCHUR_TREE row.
     """
     s = schur_inout
     wrong, last = 0, -1
@@ -564,7 +578,8 @@ def change_states(only_last, tree, schur_inout):
 
 @subkernel
 def pivot_rows(tree, motions, forest_inout, schur_inout):
-    """Find the changes of the impulses of the rows of a tree by block principal pivoting. Return 1 if it was stopped.
+    """Find the changes of the impulses of a tree's rows by block principal pivoting. Return 1 if it did not finish,
+    else 0.
 
     All rows in a wrong state change their states at once, as long as the number of such rows decreases. Otherwise only
     the last of them changes, which always terminates (Murty, 1974). tree: SCHUR_TREE row, after begin_states; motions:
@@ -624,10 +639,10 @@ def push_rows(rows, tree, schur, joints_inout, tree_rows_inout, motions_inout):
 
 @subkernel
 def solve_tree_again(tree, slots, forest_inout, tree_rows_inout, motions_inout):
-    """Solve a tree once more, and add the impulses to those of the first solve. O(slots of the tree).
+    """Solve a tree a second time, and add the impulses to those of the first solve. O(slots of the tree).
 
-    tree: SCHUR_TREE row; slots: see Schur; tree_rows_inout: JOINT_ROW rows, with the impulses of the first solve, which
-    act on the rows with compliance.
+    tree: SCHUR_TREE row; slots: see Schur; tree_rows_inout: JOINT_ROW rows with the impulses of the first solve. In
+    rows with compliance these impulses change the target velocity.
     """
     f, last = forest_inout, tree.first_slot + tree.slots - 1
     for k in range(tree.first_slot, last + 1):

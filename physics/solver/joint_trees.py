@@ -1,18 +1,18 @@
 """Direct solver for trees of joints: exact impulses in linear time, for any ratio of masses.
 
-Bodies of finite mass and the joints between them form a graph. Joints that close a loop are left to an iterative
-solver; the other joints form a forest. Bodies of infinite mass cut the graph, so a bridge between two walls is a tree.
-A tree is eliminated from its leaves to its root, and solved back from the root to its leaves (Baraff, Linear-Time
+Bodies of finite mass and the joints between them form a graph. Joints that close a loop are solved iteratively
+elsewhere; the other joints form a forest. Bodies of infinite mass cut the graph, so a bridge between two walls is a
+tree. A tree is eliminated from its leaves to its root, and then solved from the root to its leaves (Baraff, Linear-Time
 Dynamics using Lagrange Multipliers, SIGGRAPH 1996; Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter 7).
 
-The elimination computes articulated inverse inertias: the 3×3 matrix W of a body is the response of its velocity to an
+The elimination computes articulated inverse inertias. The 3×3 matrix W of a body is the response of its velocity to an
 impulse, with its subtree attached. A joint to a child with the inverse inertia Wc acts on the parent like a measurement
 of the parent's velocity in a Kalman filter, with the covariance S = Γ + Jc Wc Jcᵀ. Γ holds the compliances of the
 joint's rows, and Jc is their Jacobian for the child. The case S = 0, a rigid joint to a body of infinite mass, needs no
 special treatment, because S is never inverted.
 
 W is stored as U D Uᵀ, with U unit upper triangular and D diagonal. S is diagonalised row by row without being formed.
-So no digits are lost if a light body carries a heavy body (Bierman, Factorization Methods for Discrete Sequential
+This loses no digits if a light body carries a heavy body (Bierman, Factorization Methods for Discrete Sequential
 Estimation, 1977, chapters 5 and 6). Impulses follow from the innovations of the filter (the smoother of Bryson and
 Frazier, 1963). The velocity of a child follows from the velocity of its parent.
 """
@@ -106,7 +106,8 @@ TREE_ROW = in_lines(
 
 
 class Forest(NamedTuple):
-    """The trees of joints with their bodies and factors, and scratch arrays to build them. The arrays are reused.
+    """The trees of joints with their bodies and factors, and scratch arrays for building the trees. The arrays are
+    reused.
 
     (joints) and (motions) in the fields below are capacities for joints and MOTION rows. A half-edge is one side of a
     joint: 2 · joint for body A, 2 · joint + 1 for body B.
@@ -137,7 +138,8 @@ def new_forest(joints: int, motions: int) -> Forest:
 def with_room(forest: Forest, joints: int, motions: int) -> Forest:
     """Return the forest if its capacities suffice, otherwise an empty forest with greater capacities.
 
-    joints, motions: required capacities. A capacity that is too small grows to the required one, but at least doubles.
+    joints, motions: required numbers of joints and of MOTION rows. A capacity that is too small grows to the required
+    one, but at least doubles.
     """
     has_joints, has_motions = len(forest.nexts) // 2, len(forest.parents)
     if joints <= has_joints and motions <= has_motions:
@@ -159,7 +161,7 @@ def has_infinite_mass(motion):
 
 @subkernel
 def take_joints(order, motion_a, motion_b, motions, forest_inout, taken_out):
-    """Choose the joints that form the forest. Return their number. The joints of each body are linked into a list.
+    """Choose the joints that form the forest, and link the chosen joints of each body into a list. Return their number.
 
     The elements of these lists are half-edges: a half-edge is one side of a joint, see Forest. Arguments: see
     build_forest.
@@ -270,7 +272,7 @@ def build_forest(
 
 @inlined
 def load_row(joint_row, parent_is_a, parent_mass, child_mass, inertia, number):
-    """Return a JOINT_ROW as a tuple, the form in which rows are factored. Its fields: see the comment under "factor".
+    """Return a JOINT_ROW as the tuple in which rows are factored. Its fields: see the comment under "factor".
 
     parent_is_a: whether the parent is body A of the joint; parent_mass, child_mass: (inverse mass, inverse inertia) of
     each body; inertia: factors (D, U) of the child's inverse inertia; number: index of the row in the joint, 0..2.
@@ -289,9 +291,10 @@ def load_row(joint_row, parent_is_a, parent_mass, child_mass, inertia, number):
 
 @inlined
 def moves_more(row, other):
-    """Return whether the child has a greater part in the pivot of `row` than in that of `other` (tuples of load_row).
+    """Return whether the child contributes more to the pivot of `row` than to the pivot of `other` (tuples of
+    load_row).
 
-    The part is relative to the pivot that the row has without other joints.
+    Each contribution is divided by the pivot that its row has without other joints.
     """
     return row[9] * other[10] > other[9] * row[10]
 
@@ -301,10 +304,11 @@ def independent(row, lead, inertia, common, is_second):
     """Make `row` uncorrelated with an earlier row `lead` of the joint. Return (new row, subtracted multiple of `lead`).
 
     Two rows are correlated if an impulse along one of them changes the velocity of the child along the other. Nothing
-    is subtracted if the child does not respond to `lead`. row, lead: tuples of load_row; inertia: factors (D, U) of the
-    child's inverse inertia; common: compliance of the first row in the order of elimination. is_second: whether `lead`
-    is the second row in this order. Then `row` and `lead` may each contain a multiple of the first row, and so share
-    its compliance.
+    is subtracted if the child does not respond to `lead`.
+
+    row, lead: tuples of load_row; inertia: factors (D, U) of the child's inverse inertia; common: compliance of the
+    first row in the order of elimination. is_second: True if `lead` is the second row in this order. Then `row` and
+    `lead` may both contain a multiple of the first row, and so share its compliance.
     """
     d_x, d_y, d_w, _, _, _ = inertia
     px, py, pw, cx, cy, cw, gx, gy, gw, child, scale, compliance, of_first, number = row
@@ -392,9 +396,10 @@ def factor_joint(joint_rows, motions, body, at, rows_out, parent_inout):
     """Factor the joint of a body to its parent, and update the articulated inverse inertia of the parent.
 
     Return the number of redundant rows. Modified Gram-Schmidt makes the rows uncorrelated in the response of the child
-    (S = L D Lᵀ). The first row is the one in whose pivot the child has the greatest relative part. So the subtracted
-    multiples stay small, even if the child can hardly move. joint_rows, motions: see factor_trees; body, parent_inout:
-    TREE_BODY rows of the child and of the parent; at: index of the joint's first row in rows_out (TREE_ROW).
+    (S = L D Lᵀ). The rows are sorted by the relative contribution of the child to their pivots, greatest first. The
+    subtracted multiples then stay small, even if the child can hardly move. joint_rows, motions: see factor_trees;
+    body, parent_inout: TREE_BODY rows of the child and of the parent; at: index of the joint's first row in rows_out
+    (TREE_ROW).
     """
     p = parent_inout
     count, is_a, j = body.count, body.parent_is_a, MOST_ROWS * body.joint
@@ -442,10 +447,10 @@ def factor_trees(
 ):
     """Factor the equations of all trees, from the leaves to the roots. Return the number of redundant rows. O(joints).
 
-    A row is redundant if its pivot is 0 after the elimination of other rows, or if no body responds to it. It then gets
-    its pivot without other joints as compliance, so that its impulse is finite. joint_rows (MOST_ROWS joints,):
-    JOINT_ROW with Jacobians and compliances; row_counts (joints,): int32, 0..3; motions: MOTION rows with inverse
-    masses and inertias; forest_inout: result of build_forest, receives the factors.
+    A row is redundant if its pivot is 0 after the elimination of other rows, or if no body responds to it. Its
+    compliance is then set to the pivot that it has without other joints, which keeps its impulse finite. joint_rows
+    (MOST_ROWS joints,): JOINT_ROW with Jacobians and compliances; row_counts (joints,): int32, 0..3; motions: MOTION
+    rows with inverse masses and inertias; forest_inout: result of build_forest, receives the factors.
     """
     f = forest_inout
     singular = 0
@@ -471,12 +476,14 @@ def factor_trees(
 
 @subkernel
 def gather_violations(child, first, rows, joint_rows_inout, parent_inout, violations_out):
-    """Update the velocity of a parent by the joint to a child whose subtree has been processed (from leaves to root).
+    """Update the velocity of a parent by the joint to one of its children (pass from leaves to root).
 
-    violations_out receives the violation of each row [px/s or rad/s] for a parent at rest: the wanted minus the present
-    relative velocity. JOINT_ROW.impulse receives the impulses that follow from the subtree alone; spread_impulses then
-    adds the effect of all other impulses on the parent. child, parent_inout: TREE_BODY rows; first: index of the
-    joint's first row in `rows` (TREE_ROW) and violations_out.
+    The subtree of the child has been processed before. violations_out receives the violation of each row [px/s or
+    rad/s] for a parent at rest: the required minus the present relative velocity. JOINT_ROW.impulse receives the
+    impulses that follow from the subtree alone; spread_impulses then adds the effect of all other impulses on the
+    parent.
+
+    child, parent_inout: TREE_BODY rows; first: index of the joint's first row in `rows` (TREE_ROW) and violations_out.
     """
     c, p = child, parent_inout
     rhs_1, rhs_2 = 0.0, 0.0
@@ -501,9 +508,9 @@ def gather_violations(child, first, rows, joint_rows_inout, parent_inout, violat
 def follow_parent(parent, first, rows, violations, body_inout):
     """Write the final velocity of a child, given the final velocity of its parent (pass from root to leaves).
 
-    The velocity follows from the violations that remain at the parent's final velocity, not from the impulses. So
-    joints hold to the last digit, even if impulses with long arms nearly cancel. parent, body_inout: TREE_BODY rows of
-    parent and child; first: index of the joint's first row in `rows` (TREE_ROW) and `violations` (see
+    The velocity is computed from the violations that remain at the parent's final velocity, not from the impulses.
+    Joints then hold to the last digit, even if impulses with long arms nearly cancel. parent, body_inout: TREE_BODY
+    rows of parent and child; first: index of the joint's first row in `rows` (TREE_ROW) and `violations` (see
     gather_violations).
     """
     p, c = parent, body_inout
@@ -517,11 +524,11 @@ def follow_parent(parent, first, rows, violations, body_inout):
 
 @subkernel
 def spread_impulses(first, rows, joint_rows_inout, parent_inout, body_inout):
-    """Write the final impulses of the rows of a joint, given the impulse fx, fy, fw that acts on its parent.
+    """Write the final impulses of the rows of a joint, given the impulse (fx, fy, fw) that acts on the parent body.
 
-    The final impulses are added to the impulse on the parent, for the next joint of the parent, and to the impulse on
-    the child. parent_inout, body_inout: TREE_BODY rows of parent and child; first: index of the joint's first row in
-    `rows` (TREE_ROW); joint_rows_inout: JOINT_ROW, see gather_violations.
+    The final impulses are added to the impulse on the child. They are also added to the impulse on the parent, for the
+    next joint of the parent. parent_inout, body_inout: TREE_BODY rows of parent and child; first: index of the joint's
+    first row in `rows` (TREE_ROW); joint_rows_inout: JOINT_ROW, see gather_violations.
     """
     p, c = parent_inout, body_inout
     impulse_1, impulse_2 = 0.0, 0.0
@@ -568,8 +575,8 @@ def place_body(motion, body_out):
 def sweep_trees(count, forest_inout, joint_rows_inout):
     """Solve all trees for the velocities of the first `count` TREE_BODY rows, in O(joints).
 
-    One pass leads from the leaves to the roots, a second one back to the leaves. forest_inout: see Forest;
-    joint_rows_inout: JOINT_ROW rows.
+    The first pass goes from the leaves to the roots, and the second from the roots to the leaves. forest_inout: see
+    Forest; joint_rows_inout: JOINT_ROW rows.
     """
     f = forest_inout
     for slot in range(count - 1, -1, -1):

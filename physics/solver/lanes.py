@@ -1,4 +1,4 @@
-"""Contacts in SIMD lanes: their layout, the points and bodies in them, and how they are filled from CONTACT rows."""
+"""Layout of contacts in SIMD lanes, the functions that fill lanes from CONTACT rows, and impulses in a lane."""
 
 import math
 from collections.abc import Callable
@@ -115,7 +115,7 @@ IN_CONTACT, UNLOADED = 1.0, 2.0  # summed in OUTCOME: the contact has an impulse
 
 
 def _lanes_in_use(contacts, block):
-    """Return how many lanes of a block hold a contact: they are the first lanes. contacts: see Blocks.contact."""
+    """Return how many lanes of a block hold a contact. The lanes in use come first. contacts: see Blocks.contact."""
     count = 0
     while count < LANES and contacts[block, count] >= 0:
         count += 1
@@ -163,7 +163,7 @@ def make_blocks(count: int) -> Blocks:
 
 
 def blocks_needed(contacts: int, uncolored: int) -> int:
-    """Return the most blocks that a number of contacts can need. uncolored: how many of them have no graph colour."""
+    """Return an upper bound on the blocks that contacts need. uncolored: how many of them have no graph colour."""
     return contacts // LANES + COLORS + 1 + uncolored  # the last block of a colour may be partly empty
 
 
@@ -171,9 +171,9 @@ def blocks_needed(contacts: int, uncolored: int) -> int:
 def lay_out(starts, blocks_out):
     """Assign blocks to the contacts of each graph colour, and clear the unused lanes. Return the number of blocks.
 
-    starts (colours + 2) int64: index of the first contact of each slot, then the number of contacts. Slot 0 holds the
-    contacts without a colour, each of which gets a block of its own. Slot k + 1 holds the contacts of colour k.
-    O(blocks). blocks_out: the contacts, see Blocks.
+    starts (colours + 2) int64: index of the first contact of each slot, and finally the end of the last slot. Slot 0
+    holds the contacts without a colour, each of which gets a block of its own. Slot k + 1 holds the contacts of colour
+    k. O(blocks). blocks_out: see Blocks.
     """
     found = 0
     for slot in range(len(starts) - 1):
@@ -231,9 +231,9 @@ def solve_two(change_1, change_2, off_diagonal_1, off_diagonal_2, factor, old_1,
 
     Each point reaches its required velocity, or separates with impulse 0. change_1, change_2: change of impulse that
     each point would need without the other. off_diagonal_1, off_diagonal_2: k_12 / k_11 and k_12 / k_22 of the matrix k
-    of inverse effective masses. factor: see block_factor. old_1, old_2: impulses before. Point 2 is solved after point
-    1 if they nearly coincide, or if no case fits because of rounding. All cases are computed and one is selected: the
-    loop has no branches, so the compiler vectorises it.
+    of inverse effective masses. factor: see block_factor. old_1, old_2: impulses before. Both, either or neither point
+    has an impulse: all four cases are computed, and one is selected without branches, for vectorisation. Point 2 is
+    solved after point 1 if the points nearly coincide, or if no case fits because of rounding.
     """
     only_1 = old_1 + change_1 + off_diagonal_1 * old_2
     only_2 = old_2 + change_2 + off_diagonal_2 * old_1
@@ -295,9 +295,9 @@ def scatter_velocities(s, lane, a_out, b_out):
 def measure_gaps(lane, s, c_inout):
     """Write the separations [px] of both points of a contact at the present poses to GAP_1 and GAP_2.
 
-    The core of a rounded shape is the shape without its radius. A point on the core rotates with its body. The surface
-    stays one radius away from it along the normal. s: gathered poses, see GATHERED. lane: lane of the contact in the
-    block c_inout.
+    The core of a rounded shape is the shape without its radius. Each point of the core rotates with its body. The
+    surface stays one radius away from the core along the normal. s: gathered poses, see GATHERED. lane: lane of the
+    contact in the block c_inout.
     """
     c = c_inout
     nx = c[NX + lane]
@@ -323,8 +323,8 @@ def measure_gaps(lane, s, c_inout):
 def arms_of(x, y, radius, cosine, sine, start_nx, start_ny, nx, ny):
     """Return the moment arms [px] of a contact point on a rotated body: (for normal impulses, for tangential impulses).
 
-    x, y [px]: the point relative to the centre of mass, before the rotation by (cosine, sine). radius [px]: distance of
-    the point from the core of the shape along the normal. (start_nx, start_ny), (nx, ny): normal before and after the
+    x, y [px]: the point relative to the centre of mass, before the rotation by (cosine, sine). radius [px]: radius of
+    the rounded shape, negative for body B. (start_nx, start_ny), (nx, ny): contact normal before and after the
     rotation.
     """
     x -= radius * start_nx
@@ -336,11 +336,11 @@ def arms_of(x, y, radius, cosine, sine, start_nx, start_ny, nx, ny):
 
 @inlined
 def write_arms(lane, cos_a, sin_a, cos_b, sin_b, c_inout):
-    """Write the moment arms of both points of a contact, for bodies that have rotated since the start of the step.
+    """Write the moment arms of both points of a contact to its lane, after the bodies have rotated in the step.
 
-    (cos_a, sin_a), (cos_b, sin_b): rotations of A and B. The core of a shape (the shape without its radius) rotates
-    with its body. The surface stays one radius away from the core along the normal. lane: lane of the contact in the
-    block c_inout.
+    (cos_a, sin_a), (cos_b, sin_b): rotations of A and B since the start of the step. The core of a shape (the shape
+    without its radius) rotates with its body. The surface stays one radius away from the core along the normal. lane:
+    lane of the contact in the block c_inout.
     """
     c = c_inout
     nx = c[NX + lane]
@@ -357,7 +357,7 @@ def write_arms(lane, cos_a, sin_a, cos_b, sin_b, c_inout):
 
 @inlined
 def write_masses(lane, c_inout):
-    """Write the effective masses and the block solver's factors of a contact, from its present moment arms."""
+    """Compute the effective masses and block-solver factors of a lane of c_inout from its present moment arms."""
     c = c_inout
     masses = c[IM_A + lane] + c[IM_B + lane]
     ii_a, ii_b = c[II_A + lane], c[II_B + lane]
@@ -390,7 +390,7 @@ def clamp(impulse, limit):
 def make_friction(second: bool, rotation: bool, sums: bool) -> Any:
     """Return a function that applies friction at one of the two points of a contact.
 
-    second: True for the second point; rotation: whether bodies rotate; sums: whether to add up impulses over substeps.
+    second: True for the second point; rotation: whether bodies rotate; sums: whether to add up the impulses of a step.
     """
     a_line, b_line = (TANGENT_A_2, TANGENT_B_2) if second else (TANGENT_A_1, TANGENT_B_1)
     mass_line, impulse_line = (TANGENT_MASS_2, TANGENT_2) if second else (TANGENT_MASS_1, TANGENT_1)
@@ -424,7 +424,7 @@ def make_friction(second: bool, rotation: bool, sums: bool) -> Any:
 
 @inlined
 def resist_rolling(lane, wa, wb, normal_impulse, c_inout):
-    """Apply rolling resistance, up to its limit. Return the new angular velocities (wa, wb) [rad/s] of A and B."""
+    """Apply the rolling resistance of a lane of c_inout. Return the new angular velocities (wa, wb) [rad/s]."""
     c = c_inout
     old = c[ROLLING + lane]
     impulse = clamp(old - c[ROLLING_MASS + lane] * (wb - wa), c[ROLLING_LIMIT + lane] * normal_impulse)
@@ -461,7 +461,7 @@ def push_pair(c, lane, second, impulse, a_inout, b_inout):
 
 @subkernel
 def tangential_speed(c, lane, second, a, b):
-    """Return B's speed [px/s] relative to A along the tangent, less the surface speed. See relative_speed."""
+    """Return B's speed [px/s] relative to A along the tangent, minus the surface speed. See relative_speed."""
     speed = (b.vy - a.vy) * c[NX + lane] - (b.vx - a.vx) * c[NY + lane] - c[SURFACE + lane]
     speed += b.angular_velocity * c[(TANGENT_B_2 if second else TANGENT_B_1) + lane]
     return speed - a.angular_velocity * c[(TANGENT_A_2 if second else TANGENT_A_1) + lane]
@@ -469,7 +469,7 @@ def tangential_speed(c, lane, second, a, b):
 
 @subkernel
 def push_along(c, lane, second, impulse, a_inout, b_inout):
-    """Apply a tangential impulse to B at a contact point, and the opposite to A. Arguments: see push_pair."""
+    """Apply a tangential impulse to B at a contact point, and the opposite to A. See relative_speed."""
     x, y = -impulse * c[NY + lane], impulse * c[NX + lane]
     a_inout.vx -= a_inout.inverse_mass * x
     a_inout.vy -= a_inout.inverse_mass * y
@@ -493,7 +493,7 @@ TURNING = 1e-5  # [rad] rotation in a step above which the arms of a round conta
 
 @subkernel
 def touches_slowly(separation, speed, limits):
-    """Return whether a contact point is within the slop and its normal speed is at most impact_speed in size."""
+    """Return whether a contact point is within the slop, and its normal speed at most limits.impact_speed."""
     return separation <= limits.slop and abs(speed) <= limits.impact_speed
 
 
@@ -501,8 +501,8 @@ def touches_slowly(separation, speed, limits):
 def limit_impulses(count, motions, squeeze, h, blocks_inout):
     """Limit the normal impulses of contacts in islands that are squeezed between static or kinematic faces. O(lanes).
 
-    The limit is written to the lane field MOST, and the cached impulses are reduced to it. count: number of blocks;
-    motions: MOTION rows; squeeze: SQUEEZE rows with the limits, one for each MOTION row; h [s]: length of a substep.
+    Each limit is written to the lane field MOST, and the cached impulses are reduced to it. count: number of blocks;
+    motions: MOTION rows; squeeze: for each MOTION row, a SQUEEZE row that sets its limit; h [s]: length of a substep.
     """
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
@@ -522,7 +522,7 @@ def limit_impulses(count, motions, squeeze, h, blocks_inout):
 
 @inlined
 def sticks(a, b, contact, distance):
-    """Return whether a contact between two faces sticks. Its normal and moment arms are then kept from its detection.
+    """Return whether a contact between two faces sticks, so that the normal and moment arms of its detection are kept.
 
     A contact sticks if it carries a load, neither shape is round, and neither body has rotated by more than
     STICKING_TURN since detection. The relative displacement of the centres must also be at most `distance` [px]. An
@@ -559,7 +559,7 @@ def tangential_drift(a, b, contact):
 
 @inlined
 def slips(contact):
-    """Return whether the friction of a contact reached 99 % of its limit in the last step."""
+    """Return whether the friction of a CONTACT row reached 99 % of its limit in the last step."""
     c = contact
     tangent = abs(c.tangent_force_1) + abs(c.tangent_force_2)
     return tangent >= GRIPPING * c.friction * (c.normal_force_1 + c.normal_force_2)
@@ -602,13 +602,13 @@ def how_it_turns(contact, a, b, dt, lane, c):
 
 @inlined
 def rocks(body):
-    """Return whether a rocking BODY row may be slowed: it is static, or has rocked in place for ROCKING_TIME."""
+    """Return whether a body may be kept from rocking: it is static, or has rocked in place for ROCKING_TIME."""
     return body.kind == STATIC or (body.kind == DYNAMIC and body.rocking_time >= ROCKING_TIME)
 
 
 @inlined
 def rolling_limit(contact, p, q, limits):
-    """Return the rolling resistance of a contact of BODY rows p, q: the greatest torque per normal force [px]."""
+    """Return the greatest rolling-resistance torque per normal force [px]. p, q: BODY rows of the contact."""
     is_round = contact.radius_a > 0.0 or contact.radius_b > 0.0
     still = is_round and contact.friction > 0.0 and rocks(p) and rocks(q)
     return max(contact.rolling_resistance, limits.rocking_resistance if still else 0.0)
@@ -616,7 +616,7 @@ def rolling_limit(contact, p, q, limits):
 
 @inlined
 def write_softness(contact, sticking, a, b, degrees, context, lane, c_out):
-    """Write the fields of a lane that set how softly its contact separates.
+    """Write the fields of a lane that determine how softly its contact is pushed apart.
 
     They are PUSH_OUT_SHARE, BIAS_RATE, IMPULSE_SCALE, STRIKE_LIMIT and STIFFNESS, then RESTING, LOADED and BOUNCING.
     sticking: result of sticks; a, b: MOTION rows; degrees: numbers of contacts of A and of B; context: see StepContext.
@@ -718,7 +718,7 @@ def copy_first(lane, c_inout):
 
 @subkernel
 def write_all_masses(count, blocks_inout):
-    """Write moment arms and effective masses in all lanes of `count` blocks: the compiler vectorises such a loop."""
+    """Write moment arms and effective masses to all lanes of `count` blocks, in a loop that can be vectorised."""
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
         for lane in range(lanes_of(blocks_inout.contact, block)):
@@ -733,10 +733,10 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
 
     @kernel
     def prepare_lanes(bodies, motions, plan, group, context, contacts_inout, blocks_out, work_inout):
-        """Write the contacts of a group into lanes, each block with contacts of one colour. O(edges).
+        """Write the contacts of a group into lanes. A block holds contacts of one colour. Return the number of blocks.
 
-        Return the number of blocks. plan, group: see contact_lanes.Plan and Group. Contacts are read in memory order,
-        which the processor prefetches. The blocks being filled, one for each colour, fit into its cache.
+        plan, group: see contact_lanes.Plan and Group. O(edges). Contacts are read in memory order, which the processor
+        prefetches. The blocks being filled, one for each colour, fit into its cache.
         """
         starts = group.starts
         count = lay_out(starts, blocks_out)

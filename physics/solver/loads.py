@@ -1,4 +1,4 @@
-"""Removal of the cached contact forces under a heavy body that is removed or moved.
+"""Removal of the cached contact forces below a body that is removed or moved by the program.
 
 The solver starts a contact from its force at the end of the last step. After a body a thousand times as heavy as the
 body below it is removed, this cached force is a thousand times too large. A solver pass removes only a part of the
@@ -38,14 +38,15 @@ def link_contacts(contacts, heads_out, nexts_out):
 
 @kernel
 def forget_below(rows, size, bodies, blow, stamp, lists_inout, contacts_inout):
-    """Clear the cached forces of bodies under groups of bodies that are about to be removed or moved.
+    """Clear the cached contact forces of bodies under groups of bodies that are about to be removed or moved.
 
-    An outer body is affected if bodies of a group press on it with a force per mass of more than `blow` [px/s2]. Then
-    all its contacts lose their cached forces, and so do all contacts of the dynamic bodies connected to it by contacts.
+    A body outside a group is affected if a body of the group presses on it with a force per mass above `blow` [px/s2].
+    All contacts of the affected body lose their cached forces. The same happens to all contacts of the dynamic bodies
+    that contacts connect to it.
 
-    Return the greatest stamp used. stamp: a number not less than any mark in lists_inout (see Lists); rows: row numbers
-    in BODY of the groups, `size` per group; bodies: all BODY rows. O(contacts of the groups and of the connected
-    bodies). contacts_inout: CONTACT rows.
+    Return the greatest stamp used. rows: row numbers in BODY of the groups, `size` per group; bodies: all BODY rows;
+    stamp: a number not less than any mark in lists_inout (see Lists); contacts_inout: CONTACT rows. O(contacts of the
+    groups and of the connected bodies).
     """
     heads, nexts = lists_inout.heads, lists_inout.nexts
     marks, reached = lists_inout.marks, lists_inout.reached

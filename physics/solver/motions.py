@@ -1,4 +1,5 @@
-"""The motions of bodies within a step: copied from the awake bodies, advanced by substeps, and written back.
+"""Motions of bodies within a step: MOTION rows are copied from the awake bodies, advanced by substeps, and written
+back.
 
 The stacking solvers use them. Row 0 of MOTION represents all bodies that do not move in this step: static bodies,
 sleeping bodies, and kinematic bodies at rest.
@@ -75,7 +76,7 @@ def write_fixed(motions_out, lists_out):
 
 
 class MotionLists(NamedTuple):
-    """Lists that accompany the MOTION rows of a world: the row of each body, and the kind of each row."""
+    """Arrays that accompany the MOTION rows of a world, with the row of each body and the kind of each row."""
 
     motion_of: np.ndarray  # (bodies) int32 MOTION row of each body; 0: the body does not move
     has_finite_mass: np.ndarray  # (motions) bool an impulse changes the velocity of the body
@@ -96,7 +97,7 @@ class Air(NamedTuple):
 
 
 def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
-    """Return the kernel that copies bodies to MOTION rows. gravity, wind, rotation: whether the world has them."""
+    """Return the kernel that copies bodies to MOTION rows. gravity, wind, rotation: effects that the world has."""
 
     @kernel
     def gather_motions(rows, bodies, air, motions_out, lists_out, work_inout):
@@ -166,10 +167,10 @@ def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
     def integrate_substep_velocities(members, h, drag_rate, motions_inout):
         """Integrate the velocities of island bodies over a substep of h [s], and warm start their contacts. O(members).
 
-        members: indices of MOTION rows. Accelerations come first, with only half of the acceleration for bodies with
-        MOTION.halves (see accelerate_again). Then drag_rate [1/s] is applied implicitly, which is stable at any rate.
-        The warm start repeats the velocity change by contact impulses in the last substep, v - free_v. As impulses and
-        moment arms are unchanged, no contact has to be read.
+        members: indices of MOTION rows. Accelerations are applied first, with only half of the acceleration for bodies
+        with MOTION.halves (see accelerate_again). Then drag_rate [1/s] is applied implicitly, which is stable at any
+        rate. The warm start adds the velocity change v - free_v that contact impulses caused in the last substep.
+        Impulses and moment arms have not changed since then, so no contact has to be read.
         """
         keep = 1.0 / (1.0 + drag_rate * h)
         for i in range(len(members)):
@@ -197,10 +198,10 @@ def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
 
 @subkernel
 def change_velocity(vx, vy, w, motion_inout):
-    """Add (vx, vy) [px/s] and w [rad/s] to the velocity of a body, and to MOTION.free_vx, free_vy, free_w.
+    """Add (vx, vy) [px/s] and w [rad/s] to the velocity of a body, and to its free velocity. motion_inout: MOTION row.
 
-    The free velocity is the velocity without contact impulses. The next warm start of contacts repeats the difference
-    of the two velocities, so this difference must not change. motion_inout: MOTION row.
+    The free velocity (free_vx, free_vy, free_w) is the velocity without contact impulses. The next warm start of
+    contacts adds the velocity minus the free velocity once more, so this difference must not change here.
     """
     m = motion_inout
     m.vx += vx
@@ -216,8 +217,8 @@ def accelerate_again(members, h, motions_inout):
     """Add the second half of a substep's acceleration to bodies with MOTION.halves. O(members).
 
     members: indices of MOTION rows; h [s]: length of the substep. Bodies with MOTION.halves have rigid joints and no
-    contacts. Half of their acceleration acts before the positions are integrated, half afterwards. So errors of energy
-    are of second order in h: Verlet integration with constraints (RATTLE, Andersen 1983).
+    contacts. Half of their acceleration acts before the positions are integrated, and half afterwards: Verlet
+    integration with constraints (RATTLE, Andersen 1983). The energy error is then of second order in h.
     """
     for i in range(len(members)):
         m = motions_inout[members[i]]
@@ -233,9 +234,9 @@ def make_substep_positions(rotation: bool) -> Callable:
     def integrate_substep_positions(members, h, push_speed, motions_inout):
         """Move island bodies by their velocity and pseudo-velocity over a substep of h [s]. O(members).
 
-        members: indices of MOTION rows. The pseudo-velocity is limited to push_speed [px/s], and then reset. Bodies in
-        contact move by the velocity at the end of the substep, which keeps stacks stable. Bodies without contact follow
-        the exact parabola: otherwise a bouncing ball would lose h times its speed in height with each flight.
+        members: indices of MOTION rows. The pseudo-velocity is limited to push_speed [px/s], and reset afterwards.
+        Bodies in contact move by the velocity at the end of the substep, which keeps stacks stable. Bodies without
+        contact follow the exact parabola. Otherwise each flight of a bouncing ball would be lower by h times its speed.
         """
         for i in range(len(members)):
             m = motions_inout[members[i]]
@@ -284,10 +285,10 @@ def is_usable(body, speed_limit):
 
 @kernel
 def scatter_motions(rows, motions, speed_limit, lists_inout, bodies_inout):
-    """Write velocities, poses and centres of mass from the MOTION rows back to the bodies. O(rows).
+    """Write velocities, poses and centres of mass from the MOTION rows back to the BODY rows. O(rows).
 
     Return how many bodies are not usable, see is_usable. The poses before the step are stored in BODY.previous_…. rows:
-    indices of BODY rows, in the order of the MOTION rows from 1 on; speed_limit [px/s]: greatest permitted speed.
+    indices of BODY rows, in the order of the MOTION rows from 1 on; speed_limit [px/s]: greatest permitted speed;
     lists_inout: MotionLists.
     """
     non_finite_count = 0
@@ -388,8 +389,8 @@ WRITES = (
 def run_solver(state: StepState, solve: Callable[[StepState, Any], float]) -> None:
     """Run a stacking solver: copy the bodies to MOTION rows, call solve(state, contacts), and write the rows back.
 
-    The result of `solve` is ignored. In a step of length 0 `solve` is not called, and without awake bodies nothing is
-    done.
+    The result of `solve` is ignored. `solve` is not called in a step of length 0. Without awake bodies the function
+    does nothing.
     """
     if not len(state.awake.bodies):
         return

@@ -108,9 +108,9 @@ def prepare_pushes(geometry, bodies, shapes, manifolds, conveyor, press, pushes_
 def limit_pushes(pushes, bodies, push_speed, dt, reach_out):
     """Write the greatest displacement [px] by which contacts may push each body in this step. O(pushes).
 
-    The displacement is dt · (push_speed + v), where v is the speed of the body or the approach speed of one of its
-    contacts, whichever is greatest. push_speed [px/s]: speed at which overlaps are removed; dt [s]: step length;
-    reach_out (bodies) [px]: result, written only for the bodies of PUSH rows.
+    The displacement is dt · (push_speed + v). v is the greatest of the body's speed and the approach speeds of its
+    contacts. push_speed [px/s]: speed at which overlaps are removed; dt [s]: step length; reach_out (bodies) [px]:
+    result, written only for the bodies of PUSH rows.
     """
     for i in range(len(pushes)):
         r = pushes[i]
@@ -128,7 +128,8 @@ def limit_pushes(pushes, bodies, push_speed, dt, reach_out):
 def store_pushes(pushes, manifolds_inout):
     """Write the impulses of PUSH rows back to the CONTACT rows. O(pushes).
 
-    Contacts that overlapped at detection are marked as `swept`, so that they count as touching even if they end apart.
+    Contacts that overlapped at detection are marked as `swept`. They then count as touching even if the pass has
+    separated the bodies.
     """
     for i in range(len(pushes)):
         r = pushes[i]
@@ -170,7 +171,7 @@ class PushSet:
         write_caches(tables, state.bodies, state.shapes, state.contact_rows)
 
     def solve(self, state: StepState, run: Callable, *settings: Any) -> None:
-        """Run one solver pass over the PUSH rows. run: kernel of the pass; settings: its first arguments."""
+        """Run one solver pass over the PUSH rows. run: kernel of the pass; settings: first arguments of this kernel."""
         run(*settings, state.bodies, self.rows, state.work)
 
     def store(self, state: StepState) -> None:
@@ -334,7 +335,8 @@ def _moves(bodies, rows, before):
 
 
 def _slow_down(bodies, rows, before, reach):
-    """Limit how far contacts have displaced each body in this step, however many contacts push it.
+    """Limit how far contacts have displaced each body in this step. The limit does not depend on the number of
+    contacts.
 
     Only the sum over all passes is limited, because pushes in opposite directions cancel. rows: indices of the BODY
     rows; before (n, 2) [px]: their positions before the passes; reach (n,) [px]: greatest displacements.
@@ -347,7 +349,8 @@ def _slow_down(bodies, rows, before, reach):
 
 
 def _hold_back(state, rows, before):
-    """Stop bodies that contacts pushed through a wall: move them back, then forward until a resting body blocks them.
+    """Undo that contacts pushed bodies through a wall: move the bodies back, then forward until a resting body blocks
+    them.
 
     Only bodies that were pushed by more than CORE times their least half extent are tested. rows: indices of the BODY
     rows; before (n, 2) [px]: their positions before the passes.

@@ -131,7 +131,7 @@ def is_against_static(blocks, impact):
 
 @subkernel
 def mover_of(blocks, impact, motions):
-    """Return (index of the MOTION row of finite mass, 1.0 if it is B or -1.0) for an impact on a static body."""
+    """Return (MOTION row of the moving body, 1.0 if this is body B or -1.0 if A) for an impact on a static body."""
     row = blocks.motion_b[impact.block, impact.lane]
     if motions[row].inverse_mass > 0.0:
         return row, 1.0
@@ -184,8 +184,8 @@ def arm_of(blocks, impact, second, sign):
 def is_simulated(blocks, impacts, last, contacts):
     """Return whether the impacts of a body within a step have to be simulated one after the other.
 
-    They have to if impulses acted at two or more points of the body, and at least one of these points approached fast
-    enough to bounce. An exception is a single manifold with two fast points. last: list of impacts, see link_impacts.
+    True if impulses acted at two or more points of the body, and at least one of these points approached fast enough to
+    bounce. An exception is a single manifold with two fast points. last: list of impacts, see link_impacts.
     """
     points = 0
     rows = 0
@@ -250,7 +250,7 @@ def soonest_impact(blocks, impacts, last, motions):
 
 @subkernel
 def close_gaps(blocks, last, time, motions, impacts_inout):
-    """Reduce the gaps in impacts_inout at a body's points by its motion over a time [s]. last: see link_impacts."""
+    """Reduce the gaps of a body's contact points by the body's motion over a time [s]. last: see link_impacts."""
     k = last
     while k != NO_IMPACT:
         r = impacts_inout[k - 1]
@@ -263,7 +263,7 @@ def close_gaps(blocks, last, time, motions, impacts_inout):
 
 @subkernel
 def list_hits(blocks, last, span, motions, impacts_inout):
-    """Mark in impacts_inout the points that hit within `span` [s], with separation speeds. last: see link_impacts."""
+    """Mark a body's points that hit within `span` [s], and write their speeds after the hit. last: see link_impacts."""
     k = last
     while k != NO_IMPACT:
         r = impacts_inout[k - 1]
@@ -282,7 +282,7 @@ def list_hits(blocks, last, span, motions, impacts_inout):
 
 @inlined
 def hits_at(impact, second):
-    """Return (whether a point hits now, its impulse in the present hit, the separation speed [px/s] to reach)."""
+    """Return (whether a point of an impact hits now, its impulse in this hit, separation speed [px/s] to reach)."""
     r = impact
     if second:
         return r.bounces_2, r.blow_2, r.wanted_2
@@ -304,8 +304,8 @@ def add_blow(second, change, impact_inout):
 def solve_pair(blocks, i, first_point, j, second_point, last, motions, impacts_inout):
     """Solve two points of one body that hit at the same time. Return the greater change of a normal speed [px/s].
 
-    i, j: indices of the IMPACT rows of both points, which may be equal; first_point, second_point: whether each is the
-    second point of its row. One point given twice is solved alone. last: see link_impacts; blocks: see lanes.Blocks.
+    i, j: IMPACT rows of the two points, which may be equal; first_point, second_point: True for the second point of row
+    i and of row j. One point passed twice is solved alone. last: see link_impacts; blocks: see lanes.Blocks.
     """
     r = impacts_inout[i]
     o = impacts_inout[j]
@@ -348,8 +348,8 @@ def solve_together(blocks, last, hit_speed, motions, impacts_inout):
 
     last: see link_impacts; hit_speed [px/s]: approach speed of the soonest hit. Each point separates at restitution
     times its approach speed or faster. The points are solved in pairs, in rounds. On level ground, the first pair with
-    the centre of mass between its points is already the solution, and the other pairs leave it unchanged.
-    impacts_inout: IMPACT rows; blocks: see lanes.Blocks. motions: MOTION rows.
+    the centre of mass between its points gives the final solution, and the other pairs do not change it. impacts_inout:
+    IMPACT rows; blocks: see lanes.Blocks. motions: MOTION rows.
     """
     for _ in range(MOST_ROUNDS):
         changed = 0.0
@@ -382,7 +382,7 @@ def solve_together(blocks, last, hit_speed, motions, impacts_inout):
 
 @subkernel
 def solve_alone(blocks, last, motions, impacts_inout):
-    """Apply the impulse of a body's only point that hits now. last: list of impacts, see link_impacts."""
+    """Apply the impulse at the only point of a body that hits at the present time. last: see link_impacts."""
     i = last
     while i != NO_IMPACT:
         for point in range(points_of(blocks, impacts_inout[i - 1])):
@@ -430,8 +430,8 @@ def rub(impact, second, to_rest, motions_inout, blocks_inout):
     """Remove the friction impulse at a point of an impact, or apply friction for the simulated normal impulse.
 
     Return the change of the tangential speed [px/s]. second: True for the second point; to_rest: True to apply
-    friction, False to remove it. The friction limit uses only the part of the normal impulse that stops the approach,
-    as in substeps. motions_inout: MOTION rows; blocks_inout: the contacts, see lanes.Blocks.
+    friction, False to remove the friction impulse. The friction limit uses only the part of the normal impulse that
+    stops the approach, as in substeps. motions_inout: MOTION rows; blocks_inout: the contacts, see lanes.Blocks.
     """
     r = impact
     lane = r.lane
@@ -463,7 +463,7 @@ def greatest_speed(impacts, last):
 
 @subkernel
 def apply_simulated(last, hit_speed, impacts_inout, motions_inout, blocks_inout):
-    """Replace a body's impulses of the substeps by the impulses of its simulated impacts, with friction.
+    """Replace the impulses of a body from the substeps by the impulses of its simulated impacts, with friction.
 
     last: see link_impacts; hit_speed [px/s]: greatest impact speed of the body. The impulses are not cached for the
     next step. impacts_inout: IMPACT rows; motions_inout: MOTION rows; blocks_inout: the contacts, see lanes.Blocks.
@@ -591,8 +591,8 @@ def bounce_together(wanted_1, wanted_2, old_1, old_2, c, lane, a_inout, b_inout)
 def list_bounces(contacts, count, motions_inout, impacts_inout, blocks_inout, work_inout):
     """Keep the IMPACT rows with a point that bounces, and write the speeds [px/s] at which these points must separate.
 
-    Return (number of rows kept, whether two of these share a body of finite mass). Simulated impacts are dropped. The
-    bodies of the kept rows are marked in MOTION.last_impact. count: number of rows before.
+    Return (number of rows kept, whether two of the kept rows share a body of finite mass). Simulated impacts are
+    dropped. The bodies of the kept rows are marked in MOTION.last_impact. count: number of rows before.
     """
     blocks = blocks_inout
     kept = 0
@@ -625,7 +625,7 @@ def list_bounces(contacts, count, motions_inout, impacts_inout, blocks_inout, wo
 
 @subkernel
 def mark_bodies(blocks, block, lane, motions_inout):
-    """Set last_impact of the finite-mass bodies of a contact to LEFT_OUT. Return whether it was already set on one."""
+    """Set last_impact of the finite-mass bodies of a contact to LEFT_OUT. Return whether one was marked before."""
     shared = False
     for side in range(2):
         m = motions_inout[(blocks.motion_a if side == 0 else blocks.motion_b)[block, lane]]
@@ -637,7 +637,7 @@ def mark_bodies(blocks, block, lane, motions_inout):
 
 @subkernel
 def list_handed_on(blocks_count, count, motions_inout, impacts_inout, blocks_inout):
-    """Append the contacts that can pass an impact on to other bodies. Return the new number of IMPACT rows.
+    """Append the contacts that can transmit an impact to other bodies. Return the new number of IMPACT rows.
 
     They are contacts of marked bodies (see mark_bodies) with an impulse in this step. Their bodies are marked too, and
     the search is repeated until it finds no more. An appended contact does not bounce: its approach speed may remain,
@@ -722,7 +722,7 @@ def are_unloaded(blocks, impacts, count, contacts, speed, dt):
 def bounce_in_rounds(count, hits_alone, least, impacts_inout, motions_inout, blocks_inout):
     """Solve IMPACT rows in rounds, until a round changes no normal speed by more than `least` [px/s].
 
-    At most ROUNDS rounds are made. count: number of rows; hits_alone: whether to solve only rows with a bouncing point.
+    At most ROUNDS rounds are made. count: number of rows; hits_alone: True to solve only rows with a bouncing point.
     """
     for _ in range(ROUNDS):
         changed = 0.0
@@ -738,8 +738,8 @@ def hand_on(count, fastest, impacts_inout, motions_inout, blocks_inout):
     """Replace the impulses of contacts without loads by a sequence of impacts, as in Newton's cradle.
 
     In each impact all contacts that approach are solved together; contacts that approach after it form the next impact.
-    So an impact passes through bodies that only touch. Return whether the sequence ended within MOST_BLOWS impacts.
-    count: number of IMPACT rows; fastest [px/s]: greatest separation speed of the first impact.
+    An impact is thus transmitted through bodies that only touch. Return whether the sequence ended within MOST_BLOWS
+    impacts. count: number of IMPACT rows; fastest [px/s]: greatest separation speed of the first impact.
     """
     for i in range(count):
         r = impacts_inout[i]
@@ -778,7 +778,7 @@ def hand_on(count, fastest, impacts_inout, motions_inout, blocks_inout):
 def restore_bounces(contacts, count, found, context, impacts_inout, motions_inout, blocks_inout, work_inout):
     """Make points that hit in this step separate at restitution times their impact speed. O(lanes).
 
-    count: number of blocks; found: number of impacts, as list_impacts wrote them; context: see StepContext;
+    count: number of blocks; found: number of IMPACT rows written by list_impacts; context: see StepContext;
     impacts_inout: IMPACT rows, with room for all contacts.
     """
     solve_simultaneous(contacts, found, context.dt, impacts_inout, motions_inout, blocks_inout, work_inout)

@@ -1,15 +1,15 @@
 """Sequential impulses: one step, several passes, warm start, Baumgarte stabilisation.
 
-Unlike in `soft_step`, bodies move once, after all passes, and contacts are rigid: stacks tremble more and sag by the
-slop. Unloaded contacts separate by a pseudo-velocity (split impulses). The loads determine the number of substeps that
-soft_step would take, and this solver takes ITERATIONS_PER_SUBSTEP passes for each of them.
+Unlike in `soft_step`, bodies move once, after all passes, and contacts are rigid. Stacks therefore tremble more, and
+sag by the slop. Unloaded contacts separate by a pseudo-velocity (split impulses). The loads determine the number of
+substeps that soft_step would take, and this solver makes ITERATIONS_PER_SUBSTEP passes for each of these substeps.
 
-The energy bound of energy.py holds here too. Without it, discs that a block pressed against a wall reached 1,160 px/s
-in one step after the block had stopped.
+The energy bound of energy.py applies to this solver too. Without it, discs that a block had pressed against a wall
+reached 1,160 px/s in one step after the block had stopped.
 
 Each pass transmits a load by one or two rows of a stack. With ten passes for all islands, a pyramid of 45 rows moves at
-8 to 60 px/s for over a minute. A plank with a hundredth of the mass of its load creeps by 0.4 to 5 m in that time. With
-passes by load both come to rest, and a step takes 1.5 times as long.
+8 to 60 px/s for over a minute. A plank with a hundredth of the mass of its load creeps by 0.4 to 5 m in that time. If
+the loads determine the number of passes, pyramid and plank come to rest, and a step takes 1.5 times as long.
 
 Source: Catto, Iterative Dynamics with Temporal Coherence, GDC 2005, and Box2D-Lite, 2006.
 """
@@ -106,9 +106,9 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
         """Solve every contact once: friction first, then both normal impulses together. O(count).
 
         count: number of blocks; context: see StepContext; passes: see Passes. Overlaps of loaded contacts are removed
-        through the velocities of their bodies, not through pseudo-velocities. The impulses for this act in every pass
-        and are cached, otherwise columns would sag. motions_inout: MOTION rows; blocks_inout: the contacts, see
-        lanes.Blocks.
+        through the velocities of their bodies, not through pseudo-velocities. The impulses that remove overlaps act in
+        every pass and are cached, otherwise columns would sag. motions_inout: MOTION rows; blocks_inout: the contacts,
+        see lanes.Blocks.
         """
         s = blocks_inout.gathered
         for block in range(count):
@@ -195,10 +195,10 @@ def make_push_point(second: bool, rotation: bool) -> Callable:
 
     @inlined
     def push_point(lane, a_arm, b_arm, context, rate, s_inout, c_inout):
-        """Change the gathered pseudo-velocities of two bodies so that their unloaded contact separates at the point.
+        """Change the gathered pseudo-velocities of two bodies, which separates their unloaded contact at the point.
 
-        A loaded contact is left unchanged. lane: lane of the contact in the block c_inout; a_arm, b_arm [px]: moment
-        arms of the normal impulse; context: see StepContext; rate [1/s]: see separation_speed; s_inout: gathered
+        Nothing changes if the contact is loaded. lane: lane of the contact in the block c_inout; a_arm, b_arm [px]:
+        moment arms of the normal impulse; context: see StepContext; rate [1/s]: see separation_speed; s_inout: gathered
         values.
         """
         c = c_inout
@@ -232,7 +232,7 @@ def make_push_point(second: bool, rotation: bool) -> Callable:
 
 
 def make_push_pass(rotation: bool) -> Callable:
-    """Return the function that goes once over all contacts and pushes unloaded ones apart.
+    """Return the function that makes one pass over all contacts and separates the unloaded contacts.
 
     rotation: whether bodies rotate.
     """
@@ -287,7 +287,8 @@ def make_push_pass(rotation: bool) -> Callable:
 
 @subkernel
 def stop_impacts(count, motions_inout, blocks_inout):
-    """Remove the approach speed that the passes have left at impacts (contacts with the lane field BOUNCING). O(lanes).
+    """Remove the approach speed that the solver passes left at impacts: contacts with the lane field BOUNCING.
+    O(lanes).
 
     Only points with a normal impulse are changed: if they still approached, they would hit again in the next step. Slow
     contacts are excluded: in loaded stacks the passes leave a small approach speed, which the next step removes. count:

@@ -236,9 +236,9 @@ def clear_impulses(members, count, motions_inout, blocks_inout):
 def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = False) -> Callable:
     """Return the function that solves all contacts once, either with bias or as a relaxing pass.
 
-    biased: True for the pass with bias, which separates overlaps. Without bias, the pass is a relaxing pass: it
-    measures gaps, applies friction and sums impulses. alone: True if no relaxing pass follows, so that the pass with
-    bias does all of this. rotation, friction: whether the world has these effects.
+    biased: True for the pass with bias, which separates overlaps. False for the relaxing pass, which measures gaps,
+    applies friction and sums impulses. alone: True if no relaxing pass follows; then the pass with bias does its work
+    too. rotation, friction: whether the world has these effects.
     """
     last = alone or not biased
     rubs = friction and last
@@ -388,7 +388,7 @@ WARM_LANES = {r: make_warm_lanes(rotation=r) for r in BOTH}
 
 @inlined
 def turn_normal(lane, s, c_inout):
-    """Write the normal of a round contact at the present poses, and adapt BASE_1 and BASE_2 to it.
+    """Write the normal of a round contact at the present poses, and adapt BASE_1 and BASE_2 to this normal.
 
     The lane field TURNS determines how the normal follows the bodies. lane: lane of the contact in the block c_inout;
     s: gathered poses, see lanes.GATHERED.
@@ -429,8 +429,9 @@ def turn_normal(lane, s, c_inout):
 def follow_core(lane, s, c_inout):
     """Update the moment arms of the body with the face, in a contact between a face and a round shape.
 
-    The core of the round shape is the shape without its radius. It may have moved along the face, and the arms follow
-    it. Only contacts whose lane field TURNS is NORMAL_OF_A or NORMAL_OF_B change. lane, s, c_inout: see turn_normal.
+    The core of the round shape is the shape without its radius. If the core has moved along the face, the arms move
+    with it. Only contacts whose lane field TURNS is NORMAL_OF_A or NORMAL_OF_B change. lane, s, c_inout: see
+    turn_normal.
     """
     c = c_inout
     turns = c[at.TURNS + lane]
@@ -453,8 +454,8 @@ def turn_arms(count, motions_inout, blocks_inout):
     """Write the normals, moment arms and effective masses of round contacts at the present poses. O(count).
 
     The next substep then starts with impulses at the new arms, and along the new normals (see turn_impulses). With the
-    former ones, torques and forces would lag behind the motion and add energy. count: number of blocks. motions_inout:
-    MOTION rows; blocks_inout: the contacts, see lanes.Blocks.
+    former arms and normals, torques and forces would lag behind the motion and add energy. count: number of blocks.
+    motions_inout: MOTION rows; blocks_inout: the contacts, see lanes.Blocks.
     """
     s = blocks_inout.gathered
     for block in range(count):
@@ -494,8 +495,8 @@ def turn_impulses(count, motions_inout, blocks_inout):
     """Rotate the impulses of round contacts to their present normals, after the relaxing pass. O(count).
 
     The next substep starts with these impulses. The relaxing pass removed part of the impulses along the present
-    normals, although they had been applied along the former normals. The velocities are corrected by the difference.
-    count: number of blocks. motions_inout: MOTION rows; blocks_inout: the contacts, see lanes.Blocks.
+    normals, although they had been applied along the former normals. This error of the velocities is corrected. count:
+    number of blocks. motions_inout: MOTION rows; blocks_inout: the contacts, see lanes.Blocks.
     """
     for block in range(count):
         if not blocks_inout.turns[block]:
@@ -524,11 +525,12 @@ def turn_impulses(count, motions_inout, blocks_inout):
 
 @subkernel
 def follow_inertias(count, motions, blocks_inout):
-    """Write the present inverse inertias of the bodies of contacts, and the effective masses that follow. O(lanes).
+    """Write the present inverse inertias of the bodies to the lanes of their contacts, and update effective masses.
+    O(lanes).
 
-    Tension in a tree of joints raises the inertia of its links (see joint_direct.add_inertia). Contacts must push with
-    the same inertia, as passes over constraints that see different masses need not converge. count: number of blocks;
-    motions: MOTION rows; blocks_inout: the contacts, see lanes.Blocks.
+    Tension in a tree of joints raises the inertia of its links (see joint_direct.add_inertia). Contacts must use the
+    same inertia, because passes over constraints with different masses of a body need not converge. count: number of
+    blocks; motions: MOTION rows; blocks_inout: the contacts, see lanes.Blocks.
     """
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
@@ -565,7 +567,7 @@ def make_substeps(
 
     drag, rotation, friction, joints: whether the world has these effects. The last three arguments are for measurements
     (studied_solvers.py). iterations: number of passes with bias in a substep; warm: whether each substep starts from
-    the impulses of the last substep; relaxed: whether a relaxing pass follows, otherwise the pass with bias applies
+    the impulses of the last substep; relaxed: whether a relaxing pass follows. If False, the pass with bias applies
     friction.
     """
     velocities, positions = SUBSTEP_VELOCITIES[drag, rotation], SUBSTEP_POSITIONS[rotation]

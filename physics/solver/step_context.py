@@ -32,7 +32,7 @@ DRIFT_SHARE = 0.02  # share of the tangential drift of a sticking contact that f
 
 
 class Softness(NamedTuple):
-    """The spring and damper of a soft contact, as the two constants of its impulse over a substep."""
+    """The spring and damper of a soft contact, expressed as two constants for computing the impulse of a substep."""
 
     bias_rate: float  # [1/s] separation speed per px of overlap
     grip: float  # weight of the relative velocity against the accumulated impulse: softness 1 / (1 + grip)
@@ -82,9 +82,9 @@ def context_of(
 ) -> StepContext:
     """Return the constants of a step of dt [s] that is divided into `substeps` substeps.
 
-    by_load: whether the number of substeps was chosen from the loads. span [s], at least dt: step length for which
-    springs are tuned; a step shorter than `span` separates overlaps no faster. drag [1/s]; tolerances: see
-    settings.Tolerances.
+    by_load: whether the number of substeps was chosen from the loads on the contacts. span [s], at least dt: step
+    length for which springs are tuned; a step shorter than `span` does not separate overlaps faster. drag [1/s]:
+    damping rate of velocities; tolerances: see settings.Tolerances.
     """
     h = dt / substeps
     # With substeps by load, springs are as stiff as the substeps allow.
