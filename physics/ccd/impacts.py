@@ -1,7 +1,7 @@
-"""First impact of each fast body on its path in a step, and the pose at which it stops there.
+"""First impact of each fast body on its path in a step, and the pose at which the impact stops the body.
 
-An impact of a sweep is a fraction of the motion (0 to 1), or the constant MISS, and a unit normal. Functions return it
-as (fraction, nx, ny).
+An impact of a sweep is a fraction of the motion (0 to 1), or the constant MISS, and a unit normal. Functions return an
+impact as (fraction, nx, ny).
 """
 
 import math
@@ -22,8 +22,8 @@ from physics.tables.step_state import TOI_CALLS
 def is_fast(bodies, paths, row, other):
     """Return whether a dynamic and a kinematic body move so far relative to each other that they may miss a contact.
 
-    This is so if a point of the dynamic body may move, relative to the kinematic body, by more than the dynamic body's
-    inradius. row, other: row numbers in BODY of the dynamic and the kinematic body; paths: see Sweep.
+    The result is True if a point of the dynamic body may move, relative to the kinematic body, by more than the dynamic
+    body's inradius. row, other: row numbers in BODY of the dynamic and the kinematic body; paths: see Sweep.
     """
     b = bodies[row]
     if b.kind != DYNAMIC or bodies[other].kind != KINEMATIC or b.continuous == OFF or b.quarantined:
@@ -75,8 +75,8 @@ def has_closed_form(mover, other, mode):
 def sweep_disc(x, y, radius, move, outline, slack):
     """Return the first impact (fraction of the move, nx, ny) of a moving disc with a Hull at rest.
 
-    x, y, radius [px]: centre and radius of the disc; move: (dx, dy) [px]; outline: the Hull; the normal points from it
-    to the disc. The fraction is MISS without an impact, and if the overlap at the start is deeper than slack [px].
+    x, y, radius [px]: centre and radius of the disc; move: (dx, dy) [px]; outline: the Hull. The normal points from the
+    Hull to the disc. The fraction is MISS without an impact, and if the overlap at the start is deeper than slack [px].
     """
     corners, count, _, edges = outline
     fraction, nx, ny = sweep_circle_polygon(corners, count, edges, x, y, move[0], move[1], radius)
@@ -137,8 +137,8 @@ def sweep_pair(row, other, dt, sweep, scratch):
 def asks_sweep(body, dt, only_straight):
     """Return whether a body needs a sweep without rotation in this step of dt [s].
 
-    A body in mode "ray" or "swept" always does. A body in mode "auto" does if it moves by more than its inradius, and
-    only_straight is False. body: BODY row.
+    A body in mode "ray" or "swept" always needs the sweep. A body in mode "auto" needs it if only_straight is False and
+    the body moves by more than its inradius. body: BODY row.
     """
     if body.continuous == OFF or body.continuous == TOI or body.kind == STATIC or body.quarantined:
         return False
@@ -149,11 +149,11 @@ def asks_sweep(body, dt, only_straight):
 
 @subkernel
 def write_impact(pair, impact, from_a, stops, found, impacts_out):
-    """Append an impact to impacts_out unless it is full.
+    """Append an impact to impacts_out unless the array is full. Return the new number of impacts.
 
-    pair: index of the candidate pair; impact: (fraction of the step, nx and ny from the obstacle to the mover, feature
-    id of the tile or link, or -1); from_a: whether the mover is A; stops: whether the impact stops the mover; found:
-    number of impacts before the call. Return the new number of impacts, counted also when it is full.
+    An impact that does not fit is counted too. pair: index of the candidate pair; impact: (fraction of the step, nx and
+    ny from the obstacle to the mover, feature id of the tile or link, or -1); from_a: whether the mover is A; stops:
+    whether the impact stops the mover; found: number of impacts before the call.
     """
     if found < impacts_out.shape[0]:
         fraction, nx, ny, feature = impact
@@ -172,8 +172,8 @@ def find_impacts(dt, only_straight, sweep_inout, scratch, impacts_out):
 
     impacts_out (n, 8) float64, columns: index of the candidate pair, fraction of the step, nx and ny from A to B, 1.0
     if the body stops, -1; the last two are not written. The body does not stop if its motion into the obstacle within
-    dt is at most a quarter of its smallest half extent. Then the contact solver resolves the overlap, so that a body
-    that slides on the ground is not held. only_straight: leave out bodies in mode "auto", which are swept with
+    dt is at most a quarter of its smallest half extent. The contact solver then resolves the overlap, and a body that
+    slides on the ground is not stopped. only_straight: True to leave out bodies in mode "auto", which are swept with
     rotation. scratch: a Workspace. sweep_inout: see Sweep.
     """
     bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
@@ -238,7 +238,8 @@ def stop_at_impacts(shapes, candidates, impacts, bodies_inout):
 
 @subkernel
 def first_meeting(mover, other, slack, sweep_inout):
-    """Return the first impact (fraction of the step, nx, ny, feature) of two shapes; the fraction is MISS without one.
+    """Return the first impact (fraction of the step, nx, ny, feature) of two shapes. The fraction is MISS without an
+    impact.
 
     mover, other: row numbers in SHAPE; the normal points from `other` to `mover`; feature: id of the tile or link, or
     -1. Each body moves along its path up to its BODY.fraction of the step, and then rests. slack [px]: see Mover.
@@ -292,9 +293,9 @@ def rest_where_it_is(bodies, row, paths_inout, fast_inout):
 def goes_on(bodies, paths, mover, other, fraction, nx, ny):
     """Return how far [px] two bodies would still move into each other after an impact at a fraction of the step.
 
-    It is the greater of two distances: their relative motion after the impact against the normal (nx, ny), and the
-    motion of their outermost points by rotation in the whole step. The normal points from other to mover. mover, other:
-    row numbers in BODY; paths: see Sweep.
+    The result is the greater of two distances: their relative motion after the impact against the normal (nx, ny), and
+    the motion of their outermost points by rotation in the whole step. The normal points from `other` to `mover`.
+    mover, other: row numbers in BODY; paths: see Sweep.
     """
     left_m = max(0.0, bodies[mover].fraction - fraction)
     left_o = max(0.0, bodies[other].fraction - fraction)
@@ -309,7 +310,7 @@ def goes_on(bodies, paths, mover, other, fraction, nx, ny):
 
 @subkernel
 def is_swept(moving, a, b, sweep_inout):
-    """Return whether a pair of shapes is to be swept: one body is fast relative to the other.
+    """Return whether a pair of shapes is to be swept, because one body is fast relative to the other.
 
     a, b: SHAPE rows. moving: 0 selects pairs with a static or kinematic body that does not move in this step; 1 selects
     all other pairs. With a stacking solver, two dynamic bodies are swept only if at least one is a bullet. sweep_inout:
@@ -345,9 +346,9 @@ def find_rotational_impacts(moving, rotation, sweep_inout, impacts_out):
 
     impacts_out (n, 8), columns: index of the candidate pair, fraction of the step, nx and ny from A to B, 1.0 if the
     body stops, feature. moving: see is_swept. Without a stacking solver, a small motion into the obstacle does not stop
-    a body, because the contact resolves the overlap in the same step. Small means at most a quarter of the smallest
-    half extent. rotation: whether bodies rotate; if not, pairs with a closed form are left to find_impacts.
-    sweep_inout: see Sweep.
+    a body, because the contact resolves the overlap in the same step. A motion is small if it is at most a quarter of
+    the smallest half extent. rotation: whether bodies rotate; if False, pairs with a closed form are left to
+    find_impacts. sweep_inout: see Sweep.
     """
     bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
     stacking, slack = sweep_inout.stacking, sweep_inout.slack
@@ -396,7 +397,7 @@ def lose_fall(lost, path_x, path_y, gravity_x, gravity_y, dt, body_inout):
 
     The velocity includes the gravity of the whole step, but the body does not move along the last part of its path. A
     body in free fall gets the velocity of the time at which it stopped. Any other body loses as much kinetic energy as
-    it would have gained by falling along the lost part. lost: this part as a share of the path; path_x, path_y [px]:
+    it would have gained by falling along that last part. lost: last part as a share of the path; path_x, path_y [px]:
     the whole path; gravity_x, gravity_y [px/s2]; dt [s]. body_inout: BODY row.
     """
     b = body_inout
@@ -419,7 +420,7 @@ def lose_fall(lost, path_x, path_y, gravity_x, gravity_y, dt, body_inout):
 def move_back(rows, paths, gravity_x, gravity_y, dt, bodies_inout):
     """Move the stopped dynamic bodies back to the pose of their first impact. O(rows).
 
-    They lose the rest of their motion in this step. rows: row numbers in BODY; paths (bodies, 6): see Sweep; gravity_x,
+    The rest of their motion in this step is lost. rows: row numbers in BODY; paths (bodies, 6): see Sweep; gravity_x,
     gravity_y [px/s2] and dt [s], the length of the step: see lose_fall.
     """
     for k in range(len(rows)):
@@ -448,7 +449,7 @@ def move_back(rows, paths, gravity_x, gravity_y, dt, bodies_inout):
 def is_ray(body, other):
     """Return whether the sweep of a body against another body uses a ray from its centre instead of its outline.
 
-    This is so for a body in mode "ray" that is not static, unless the other body is in mode "swept" or "toi". body,
+    A ray is used for a body in mode "ray" that is not static, unless the other body is in mode "swept" or "toi". body,
     other: BODY rows.
     """
     return body.continuous == RAY and body.kind != STATIC and other.continuous != SWEPT and other.continuous != TOI
@@ -459,8 +460,8 @@ def impact_point(body, shape, side, nx, ny, fraction, flew_on):
     """Return an estimate (x, y) [px] of the point at which a shape hit another shape.
 
     It is the point of the shape's AABB farthest along side · (nx, ny), or the centre of the AABB for a ray. body,
-    shape: BODY and SHAPE rows at the end of the step; fraction: fraction of the step at the impact. flew_on: whether
-    the body moved on after the impact; if so, the point is moved back to its place at the impact.
+    shape: BODY and SHAPE rows at the end of the step; fraction: fraction of the step at the impact. flew_on: True if
+    the body moved on after the impact; the point is then moved back by the motion since the impact.
     """
     reach = 0.0 if body.continuous == RAY and body.kind != STATIC else side
     x = 0.5 * (shape.min_x + shape.max_x) + reach * nx * 0.5 * (shape.max_x - shape.min_x)
@@ -476,8 +477,8 @@ def impact_point(body, shape, side, nx, ny, fraction, flew_on):
 def write_impacts(bodies, shapes, candidates, impacts, dt, response, manifolds_out):
     """Write a CONTACT row for each impact that both bodies reached before they stopped. Return the number of rows.
 
-    impacts (n, 8): candidate, fraction, normal from A to B, stops, feature, point x and y [px]. A point that is nan is
-    estimated by impact_point: for the shape that is swept as a ray, otherwise for the shape with the smaller AABB.
+    impacts (n, 8): candidate, fraction, normal from A to B, stops, feature, point x and y [px]. If the point is nan,
+    impact_point estimates it: for the shape that is swept as a ray, otherwise for the shape with the smaller AABB.
     response 1: the separation [px] is that of the final poses, from the motion after the impact. response 0: the
     separation is 0. dt [s]: step length. manifolds_out: CONTACT rows.
     """

@@ -1,8 +1,9 @@
 """Sweep of masks by their pixels, for worlds without contact response and for sensors: the time of the first overlap.
 
 A mask is the union of its solid pixel squares at the exact pose, even if it is drawn on whole pixels (snap=True). The
-pixels are grouped into rectangles. Only a motion that leads deeper than the overlap at the start has an impact, as in
-rotational.py, but here without a slop. So grazing contacts and seams between two rectangles are not impacts.
+pixels are grouped into rectangles. Only a motion that leads deeper than the overlap at the start has an impact. The
+same rule holds in rotational.py, but here there is no slop. Grazing contacts and seams between two rectangles are
+therefore not impacts.
 """
 
 import math
@@ -35,7 +36,7 @@ from physics.tables.step_state import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
 
 
 class Squares(NamedTuple):
-    """The solid pixels of the masks of a library, grouped into rectangles and computed once."""
+    """The solid pixels of the masks of a library, grouped into rectangles. They are computed once for each mask."""
 
     spans: np.ndarray  # (masks, 2) first row in boxes, number of rows; -1: not computed yet
     boxes: np.ndarray  # (n, 4) left, top, right, bottom [px] in body space
@@ -45,7 +46,8 @@ NO_SQUARES = Squares(np.zeros((0, 2), np.int64), np.zeros((0, 4)))
 
 
 def squares_of(library: Library, masks: np.ndarray, known: Squares) -> Squares:
-    """Return Squares with the rectangles of these masks: `known`, or an extended copy if some are missing.
+    """Return Squares that contain the rectangles of these masks: `known`, or an extended copy if masks are missing in
+    it.
 
     masks: row numbers of the masks in the library.
     """
@@ -109,8 +111,8 @@ def write_single(geometry, bodies, shapes, row, workspace):
 def misses_square(boxes, k, body, x, y, dx, dy, reach):
     """Return whether a shape that moves from (x, y) by (dx, dy) cannot meet rectangle k of a mask.
 
-    boxes: Squares.boxes; body: BODY row of the mask, which must not rotate. Coordinates [px] are relative to its centre
-    of mass. reach [px]: greatest distance of the shape's points from (x, y).
+    boxes: Squares.boxes; body: BODY row of the mask, which must not rotate. Coordinates [px] are relative to the mask's
+    centre of mass. reach [px]: greatest distance of the shape's points from (x, y).
     """
     left = boxes[k, 0] - body.local_center_x - reach
     top = boxes[k, 1] - body.local_center_y - reach
@@ -123,11 +125,13 @@ def misses_square(boxes, k, body, x, y, dx, dy, reach):
 def sweep_on_pieces(mover, depth, body, squares, span, hull, workspace, best_out):
     """Sweep one piece of the moving shape against all pieces of the other shape, or measure their overlap.
 
-    mover: the piece, with its corners in workspace.mover. depth [px]: overlap at the start, up to which an overlap is
-    not an impact. If `depth` is negative, nothing is swept, and the deepest overlap [px] at the start is returned.
-    Otherwise 0 is returned. body: BODY row of the other shape; span: result of pieces_of for the other shape; hull: the
-    only piece of the other shape if it is not a mask, with the corners in workspace.advance.local_b. best_out (5,):
-    first impact so far, see sweep_squares. O(nearby pieces). squares: see Squares.
+    depth [px]: overlap at the start; an impact must lead to a deeper overlap. If `depth` is negative, nothing is swept,
+    and the deepest overlap [px] at the start is returned. Otherwise 0 is returned.
+
+    mover: the moving piece, with its corners in workspace.mover. body: BODY row of the other shape; span: result of
+    pieces_of for the other shape; hull: the only piece of the other shape if it is not a mask, with the corners in
+    workspace.advance.local_b. squares: see Squares; best_out (5,): first impact so far, see sweep_squares. O(nearby
+    pieces).
     """
     r = workspace.advance
     first, pieces, are_squares = span
@@ -171,7 +175,7 @@ def sweep_on_pieces(mover, depth, body, squares, span, hull, workspace, best_out
 def middle_of_mask(geometry, shape, body, angle):
     """Return the centre (x, y) [px] of a mask's AABB at an angle [rad], in body space relative to the centre of mass.
 
-    shape, body: SHAPE and BODY rows. The centre decides on which side of a chain link the mask is.
+    shape, body: SHAPE and BODY rows. The centre determines the side of a chain link on which the mask is.
     """
     raster = geometry.raster_of[shape.geometry, 0]
     left, top, right, bottom = exact_aabb(geometry.rasters, geometry.corners, raster, 0.0, 0.0, angle)
@@ -250,7 +254,7 @@ def sweep_squares(row, other, squares, sweep_inout, best_out):
 def first_shared(row, other, squares, sweep_inout, best_out):
     """Write the first overlap in the step of two shapes, at least one of them a mask, to best_out (5,).
 
-    best_out: as in sweep_squares, but with the fraction of the step. Each body moves along its path up to its
+    best_out: as in sweep_squares, but the fraction is that of the step. Each body moves along its path up to its
     BODY.fraction of the step, and then rests. row, other: row numbers in SHAPE. sweep_inout: see Sweep; squares: see
     Squares.
     """

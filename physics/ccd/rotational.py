@@ -1,4 +1,4 @@
-"""Continuous collision of a hull that moves and rotates, with hulls, tiles, chains and shapes made of parts."""
+"""Continuous collision of a hull that moves and rotates against hulls, tiles, chains and shapes made of parts."""
 
 import math
 from typing import NamedTuple
@@ -68,7 +68,7 @@ class Mover(NamedTuple):
 
 
 class Sweep(NamedTuple):
-    """Input of the sweeps of a step: candidate pairs, and the paths of their bodies."""
+    """Input of the sweeps of a step: candidate pairs, the paths of their bodies, and scratch arrays."""
 
     geometry: Geometry
     bodies: np.ndarray  # BODY
@@ -107,8 +107,8 @@ def write_motion(motions, body_row, motion_out):
 def write_local(geometry, bodies, shapes, row, motion_inout, corners_out):
     """Write the corners [px] of a hull relative to its body's centre of mass at angle 0. Return their number.
 
-    A shape of kind BOUNDS never rotates: its corners are the corners at the start angle, and the rotation in
-    motion_inout (6,) is set to 0. row: row number in SHAPE. corners_out (16, 2): the result.
+    A shape of kind BOUNDS never rotates: the corners at the start angle are written, and the rotation in motion_inout
+    (6,) is set to 0. row: row number in SHAPE. corners_out (16, 2): the result.
     """
     b = bodies[shapes[row].body_row]
     if shapes[row].kind != BOUNDS:
@@ -136,9 +136,9 @@ def place_mover(count, workspace):
 
 @subkernel
 def depth_at_start(mover, other_count, other_radius, workspace):
-    """Return how deep [px] the mover is in the hull in workspace.advance.local_b at the start; 0 without overlap.
+    """Return how deep [px] the mover overlaps the hull in workspace.advance.local_b at the start; 0 without overlap.
 
-    other_count, other_radius: number of corners and rounding radius [px] of that hull.
+    other_count, other_radius: number of corners and rounding radius [px] of this hull.
     """
     place_mover(mover.count, workspace)
     return max(0.0, -separate_at(mover.count, mover.radius, other_count, other_radius, 0.0, workspace.advance))
@@ -150,9 +150,11 @@ def sweep_core(core_radius, other_count, other_radius, workspace):
 
     core_radius [px]: radius of the core circle, a small circle around the centre of mass. The hull is in
     workspace.advance.local_b, with other_count corners and the rounding radius other_radius [px]. The result is MISS if
-    the centre is inside the hull at the start. If the circle would overlap the hull at the start, its radius is reduced
-    to CORE_LEFT of the centre's distance. So the centre never crosses the surface. With half of the distance, 3 of 768
-    test rooms lost a body whose centre reached the wall step by step.
+    the centre is inside the hull at the start.
+
+    If the circle would overlap the hull at the start, its radius is reduced to CORE_LEFT of the centre's distance from
+    the hull. The centre then never crosses the surface. With half of the distance, 3 of 768 test rooms lost a body
+    whose centre reached the wall step by step.
     """
     workspace.advance.local_a[0, 0] = 0.0
     workspace.advance.local_a[0, 1] = 0.0
@@ -168,9 +170,9 @@ def sweep_core(core_radius, other_count, other_radius, workspace):
 def back_to(mover, other_count, other_radius, depth, fraction, size, workspace):
     """Return the last fraction before `fraction` at which the mover was only `depth` [px] deep (Newton's method).
 
-    At `fraction` the mover is deeper. The iteration starts at `fraction`, so that it does not find an earlier contact
-    with another side of the obstacle. The obstacle is in workspace.advance.local_b, with other_count corners and the
-    rounding radius other_radius [px]; size [px]: sum of the extents of both shapes.
+    At `fraction` the mover is deeper. The iteration starts at `fraction`, because a search from the start could find an
+    earlier contact with another side of the obstacle. The obstacle is in workspace.advance.local_b, with other_count
+    corners and the rounding radius other_radius [px]; size [px]: sum of the extents of both shapes.
     """
     count, radius, _, _ = mover
     gap = workspace.advance.gap.gap
@@ -195,7 +197,7 @@ def sweep_part(mover, other_count, other_radius, depth, workspace):
 
     Return (fraction of the motion at the impact or MISS, whether the core circle was swept). The piece is in
     workspace.advance.local_b, with other_count corners and the rounding radius other_radius [px]. depth [px]: depth of
-    the mover in the whole obstacle at the start; an overlap with the piece that is no deeper is not an impact.
+    the mover in the whole obstacle at the start; an overlap with the piece up to this depth is not an impact.
     """
     count, radius, half, slack = mover
     reach = place_mover(count, workspace)
@@ -221,10 +223,9 @@ def sweep_part(mover, other_count, other_radius, depth, workspace):
 
 @subkernel
 def swept_box(reach, motion_a, motion_b):
-    """Return the AABB (min_x, min_y, max_x, max_y) [px] of the path of A, relative to the centre of mass of B.
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] of the path of A relative to the centre of mass of B.
 
-    B is thus regarded as at rest. reach [px]: greatest distance of A's points from its centre of mass; motion_a,
-    motion_b (6,): see write_motion.
+    reach [px]: greatest distance of A's points from its centre of mass; motion_a, motion_b (6,): see write_motion.
     """
     x, y = motion_a[CENTER_X] - motion_b[CENTER_X], motion_a[CENTER_Y] - motion_b[CENTER_Y]
     dx, dy = motion_a[MOVE_X] - motion_b[MOVE_X], motion_a[MOVE_Y] - motion_b[MOVE_Y]
@@ -252,11 +253,12 @@ def feet_of(mover, local_y, workspace):
 
 @subkernel
 def place_tile(geometry, grid, line, column, local, stood, workspace):
-    """Write the corners of a tile to workspace.advance.local_b. Return their number; 0: the tile cannot stop the mover.
+    """Write the corners of a tile to workspace.advance.local_b. Return their number, 0 if the tile cannot stop the
+    mover.
 
-    line, column: row and column of the cell; local: see sweep_tiles. stood [px]: y of the mover's lowest point at the
-    start, minus its slack. Only the top line of a one-way tile is written, and only if the mover started above it.
-    grid: row of geometry.grids.
+    grid: row of geometry.grids; line, column: row and column of the cell; local: see sweep_tiles. stood [px]: y of the
+    mover's lowest point at the start, minus its slack. Only the top line of a one-way tile is written, and only if the
+    mover started above it.
     """
     g = geometry.grids[grid]
     kind = geometry.cells[g.offset + line * g.columns + column].kind
@@ -378,7 +380,7 @@ def is_before(link, local, middle, fraction, core, workspace):
 def misses_block(block, local, box):
     """Return whether the AABB of a block of links is disjoint from `box` (left, top, right, bottom) [px].
 
-    block: LINK_BLOCK row; the box is relative to `local`, the centre of mass (x, y) [px] of the chain's body.
+    block: LINK_BLOCK row; local: centre of mass (x, y) [px] of the chain's body, to which `box` is relative.
     """
     left, top, right, bottom = box
     x, y = local
@@ -387,9 +389,10 @@ def misses_block(block, local, box):
 
 @subkernel
 def depth_in_chain(geometry, chain, local, middle, mover, workspace):
-    """Return the greatest depth [px] of the mover, at the start, in the links of a chain that face it (see is_before).
+    """Return the greatest depth [px] at which the mover overlaps links of a chain that face the mover, at the start.
 
-    geometry, chain, local: see sweep_chain; middle: see is_before; workspace: see RotationalWorkspace.
+    A link faces the mover if is_before is True. geometry, chain, local: see sweep_chain; middle: see is_before;
+    workspace: see RotationalWorkspace.
     """
     span = geometry.chains[chain]
     motion = workspace.advance.motion_a
@@ -417,7 +420,7 @@ def depth_in_chain(geometry, chain, local, middle, mover, workspace):
 
 @subkernel
 def starts_across(geometry, chain, local, mover, workspace):
-    """Return whether the mover lies across a one-way surface at the start by more than its slack, so that it may pass.
+    """Return whether the mover overlaps a one-way surface at the start by more than its slack, so that it may pass.
 
     chain: row of geometry.chains; local: see sweep_chain; workspace: see RotationalWorkspace.
     """
@@ -446,10 +449,10 @@ def sweep_chain(geometry, chain, local, mover, but, workspace):
 
 @subkernel
 def sweep_chain_seen_from(geometry, chain, local, middle, mover, but, workspace):
-    """Return the first impact, as sweep_chain does, of a mover that is one piece of a larger moving shape.
+    """Return the first impact with a chain, as sweep_chain does, of a mover that is one piece of a larger moving shape.
 
     middle: point (x, y) [px] of the whole shape, relative to its centre of mass at angle 0. A link is hit only if this
-    point is in front of it. Other arguments: see sweep_chain.
+    point is in front of the link. Other arguments: see sweep_chain.
     """
     span = geometry.chains[chain]
     other = workspace.advance.motion_b
@@ -486,7 +489,7 @@ def sweep_chain_seen_from(geometry, chain, local, middle, mover, but, workspace)
 
 @subkernel
 def shrink_to_middle(count, mover_inout):
-    """Replace the `count` corners in mover_inout by their mean, a single point that is swept as a ray. Return 1."""
+    """Replace the `count` corners in mover_inout by one point, their mean, which is swept as a ray. Return 1."""
     mover_inout[0, 0], mover_inout[0, 1] = middle_of(mover_inout, count)
     return 1
 
@@ -495,9 +498,9 @@ def shrink_to_middle(count, mover_inout):
 def sweep_hull(mover, core_b, n, radius_b, workspace):
     """Return the first impact (fraction of the motion, nx, ny) of the mover with another hull.
 
-    The fraction is MISS without an impact. The obstacle is in workspace.advance.local_b, with n corners and the
-    rounding radius radius_b [px]. The normal points from it to the mover. core_b [px]: radius of the obstacle's core
-    circle; 0: none.
+    The fraction is MISS without an impact. The other hull is in workspace.advance.local_b, with n corners and the
+    rounding radius radius_b [px]. The normal points from the other hull to the mover. core_b [px]: radius of the other
+    hull's core circle; 0: none.
     """
     depth = depth_at_start(mover, n, radius_b, workspace)
     fraction, core = sweep_part(mover, n, radius_b, depth, workspace)
@@ -531,8 +534,8 @@ def sweep_rotational(row, other, slack, but, sweep_inout):
     """Return the first impact (fraction, nx, ny, feature) of two shapes that move and rotate along sweep_inout.cuts.
 
     The fraction is that of these paths, or MISS; the normal points from `other` to `row`; feature: id of the tile or
-    link, -1 for a hull. row, other: row numbers in SHAPE; row must be a hull, other a hull, tile grid or chain, else
-    the result is MISS. slack [px]: see Mover; but: feature id of a tile or link to ignore, or -1.
+    link, -1 for a hull. row, other: row numbers in SHAPE. The shape `row` must be a hull, and `other` a hull, tile grid
+    or chain; otherwise the result is MISS. slack [px]: see Mover; but: feature id of a tile or link to ignore, or -1.
     """
     geometry, bodies, shapes = sweep_inout.geometry, sweep_inout.bodies, sweep_inout.shapes
     workspace = sweep_inout.workspace
@@ -620,11 +623,11 @@ def gap_at_start(a_count, a_radius, b_count, b_radius, workspace):
 
 @kernel
 def advance_parts(a, b, workspace, impact_out):
-    """Write the first impact of any part of A with any part of B to impact_out (3,).
+    """Write the first impact of any part of A with any part of B to impact_out (3,). O(parts of A · parts of B).
 
     impact_out: fraction of the motion or MISS, nx and ny from A to B. a, b: Parts in body space; workspace:
-    RotationalWorkspace with both motions, to which the counters are written. Pairs of parts that cannot meet before the
-    first impact so far are skipped. O(parts of A · parts of B).
+    RotationalWorkspace with both motions, which also receives the counters. Pairs of parts are skipped if they cannot
+    meet before the first impact found so far.
     """
     r = workspace.advance
     path = begin_sweep(workspace, impact_out)
@@ -642,10 +645,10 @@ def advance_parts(a, b, workspace, impact_out):
 
 @kernel
 def sweep_unions(a, b, workspace, impact_out):
-    """Write the first impact of two shapes whose parts may lie flush, such as masks, to impact_out (3,).
+    """Write the first impact of two shapes whose parts may be flush, such as masks, to impact_out (3,).
 
-    A motion that leads no deeper than the overlap at the start is not an impact (see "rotational" above). So seams
-    between parts and grazing contacts are not impacts. Arguments as in advance_parts. O(parts of A · parts of B).
+    A motion that leads no deeper than the overlap at the start is not an impact (see "rotational" above). Seams between
+    parts and grazing contacts are therefore not impacts. Arguments: see advance_parts. O(parts of A · parts of B).
     """
     r = workspace.advance
     path = begin_sweep(workspace, impact_out)
@@ -676,7 +679,7 @@ def advance_on_ground(geometry, ground, is_chain, a, workspace, impact_out):
     """Write the first impact of a shape made of parts with a tile grid or chain to impact_out (3,), see advance_parts.
 
     ground: row of geometry.grids, or of geometry.chains if is_chain is 1; a: Parts of the shape. Tiles are hit only on
-    sides that no other tile covers, a chain only from its front. workspace: see RotationalWorkspace.
+    sides that no other tile covers. A chain is hit only from its front. workspace: see RotationalWorkspace.
     """
     begin_sweep(workspace, impact_out)
     for i in range(len(a.counts)):

@@ -74,11 +74,12 @@ def way_of(bodies, paths, row):
 @kernel
 def find_fast(rows, bodies, paths, fast_out):
     """Flag the bodies to sweep. Return (number of bodies whose pairs must be tested, number swept without rotation).
+    O(rows).
 
     A moving body in mode "toi", "ray" or "swept" is always flagged. A body in mode "auto" is flagged if one of its
-    points may move by more than its inradius. The first number also includes bodies without a flag that a kinematic
-    body may pass through, see impacts.is_fast. rows: row numbers in BODY; paths: see list_paths; fast_out (bodies,)
-    bool. O(rows).
+    points may move by more than its inradius. The first number also includes bodies without a flag if a kinematic body
+    may pass through them, see impacts.is_fast. rows: row numbers in BODY; paths: see list_paths; fast_out (bodies,)
+    bool.
     """
     found = 0
     straight = 0
@@ -107,8 +108,8 @@ def find_fast(rows, bodies, paths, fast_out):
 def find_outgrown(rows, bodies, shapes, proxies, fast, rows_out):
     """List the shapes of swept bodies that have left their broad-phase AABB. Return their number. O(rows).
 
-    rows, rows_out: row numbers in SHAPE; proxies: PROXY table with the broad-phase AABBs; fast (bodies,) bool: bodies
-    to sweep.
+    rows: row numbers in SHAPE to test; rows_out: row numbers of the listed shapes; proxies: PROXY table with the
+    broad-phase AABBs; fast (bodies,) bool: bodies to sweep.
     """
     found = 0
     for k in range(len(rows)):
@@ -156,11 +157,11 @@ MEETINGS = 2  # most tiles or links of one kinematic body that a call tests: the
 
 @kernel
 def push_ahead(sweep_inout, moves_inout):
-    """Push stopped bodies out of the way of kinematic bodies for the rest of the step. Return the number of pushes.
+    """Push stopped bodies out of the path of kinematic bodies for the rest of the step. Return the number of pushes.
 
-    A push is along one normal, so in a corner one call is not enough: the caller repeats the call until the result is
-    0. moves_inout (bodies, 2) [px]: translation of each stopped body from the place where it stopped, to which each
-    push is added. O(candidates). sweep_inout: see Sweep.
+    Each push is along one normal, so in a corner the caller must repeat the call until the result is 0. moves_inout
+    (bodies, 2) [px]: translation of each body since it was stopped, to which each push is added. O(candidates).
+    sweep_inout: see Sweep.
     """
     bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
     cuts, slack = sweep_inout.cuts, sweep_inout.slack
@@ -248,8 +249,8 @@ class Sweeper:
     def pairs_of(self, state: StepState, strict: bool = False) -> Sweep:
         """Return the Sweep for the candidate pairs of a step.
 
-        strict: whether every impact stops a body, however small the motion after it, as in worlds with a stacking
-        solver.
+        strict: True if every impact stops a body, however small the motion after the impact, as in worlds with a
+        stacking solver.
         """
         return Sweep(
             state.library.tables,
@@ -268,7 +269,7 @@ class Sweeper:
 
 
 def _look(state, moving, strict=False) -> np.ndarray:
-    """Return the impacts (n, 8) of fast bodies, with resting bodies (moving 0) or between moving bodies (moving 1).
+    """Return the impacts (n, 8) of fast bodies, with resting bodies (moving 0) or among moving bodies (moving 1).
 
     Columns: see impacts.write_impacts. strict: see Sweeper.pairs_of.
     """
@@ -300,7 +301,7 @@ def _masks_in(state) -> np.ndarray:
 def _look_straight(state, bodies, dt, only_straight) -> np.ndarray:
     """Return the impacts (n, 8) within dt [s] that are found by sweeps in closed form, see impacts.find_impacts.
 
-    bodies: BODY table with the start poses and velocities; only_straight: leave out bodies in mode "auto".
+    bodies: BODY table with the start poses and velocities; only_straight: True to leave out bodies in mode "auto".
     """
     sweeper = state.workspace.sweep
     sweeper.grow(state)
@@ -313,7 +314,8 @@ FORESEEN = ("effects", "stacks", "tolerances", "dt", "awake", "bodies", "shapes"
 
 @stage("time_of_impact", reads=FORESEEN, writes=("impacts", "library", "work", "workspace", "bodies.fraction"))
 def foresee_impacts(state: StepState) -> None:
-    """Predict the impacts of the coming motion, and write BODY.fraction, up to which each body may move in the step.
+    """Predict the impacts of the coming motion, and write BODY.fraction: the part of its motion that each body may
+    make.
 
     This stage is for worlds without a stacking solver.
     """
@@ -339,7 +341,8 @@ def foresee_impacts(state: StepState) -> None:
 def detect_moved(state: StepState) -> None:
     """Find the contacts at the final poses, and add the predicted impacts of pairs that have no such contact.
 
-    This stage is for worlds without a stacking solver. First, kinematic bodies push stopped bodies out of their way.
+    Before the detection, kinematic bodies push stopped bodies out of their path. This stage is for worlds without a
+    stacking solver.
     """
     rows = state.awake.bodies
     stopped = rows[state.bodies["fraction"][rows] < 1.0] if len(state.impacts) and state.effects.response else rows[:0]
@@ -488,8 +491,8 @@ def push_stopped(state: StepState, stopped: np.ndarray) -> bool:
 def shift_freely(state: StepState, rows: np.ndarray, moves: np.ndarray, arrived: bool = False) -> None:
     """Translate bodies, each one until a body at rest blocks it.
 
-    rows (n,): row numbers in BODY; moves (n, 2): translations [px]; arrived: whether kinematic bodies already are at
-    their final poses. If so, they block too.
+    rows (n,): row numbers in BODY; moves (n, 2): translations [px]; arrived: True if kinematic bodies already are at
+    their final poses. They then block bodies too.
     """
     sweeper, bodies, awake = state.workspace.sweep, state.bodies, state.awake.bodies
     sweeper.grow(state)
@@ -508,7 +511,7 @@ def shift_freely(state: StepState, rows: np.ndarray, moves: np.ndarray, arrived:
 
 
 def _report(state, met):
-    """Add the impacts `met` (n, 8) to the contacts of the step, and those of sensors to state.swept_sensors.
+    """Add the impacts `met` (n, 8) to the contacts of the step. Impacts with sensors go to state.swept_sensors.
 
     An added contact begins in this step, but its impulse follows in the next step.
     """

@@ -34,11 +34,11 @@ MISS = 2.0  # in place of a fraction 0..1 of the motion: no impact
 
 @subkernel
 def sweep_circles(x, y, dx, dy, radius):
-    """Return the first impact (fraction of the motion, nx, ny) of two discs; the fraction is MISS without one.
+    """Return the first impact (fraction of the motion, nx, ny) of two discs. The fraction is MISS without an impact.
 
     The normal points from the first disc to the second. x, y [px]: centre of the second disc relative to the first; dx,
-    dy [px]: its motion relative to the first; radius [px]: sum of both radii. If the discs touch or overlap at the
-    start, the fraction is 0 if they approach, else MISS.
+    dy [px]: motion of the second disc relative to the first; radius [px]: sum of both radii. If the discs touch or
+    overlap at the start, the fraction is 0 if they approach, else MISS.
     """
     nx, ny = unit(x, y, 1.0, 0.0)
     approach = x * dx + y * dy
@@ -63,9 +63,9 @@ def sweep_circles(x, y, dx, dy, radius):
 def cast_on_polygon(corners, count, edges, x, y, dx, dy):
     """Return where a ray enters a convex polygon: (fraction of the ray or MISS, nx, ny). The ray must start outside.
 
-    x, y [px]: start of the ray; dx, dy [px]: vector from its start to its end; edges: bit k is set if edge k may be
-    hit. The ray is clipped by the half plane of each edge, so that it cannot pass between two edges (Cyrus and Beck
-    1978). count: number of corners.
+    x, y [px]: start of the ray; dx, dy [px]: vector from the start to the end of the ray; count: number of corners;
+    edges: bit k is set if edge k may be hit. The ray is clipped by the half plane of each edge, so it cannot pass
+    between two edges (Cyrus and Beck 1978).
     """
     enter = -1.0
     leave = 1.0
@@ -92,9 +92,9 @@ def cast_on_polygon(corners, count, edges, x, y, dx, dy):
 def sweep_circle_polygon(corners, count, edges, x, y, dx, dy, radius):
     """Return the first impact of a moving disc with a polygon at rest as (fraction of the motion or MISS, nx, ny).
 
-    The normal points from polygon to disc. x, y, radius [px]: centre and radius of the disc; radius 0 means a ray; dx,
-    dy [px]: its motion; edges: bits of the edges (low 16) and corners (next 16) that may be hit; count: number of
-    corners.
+    The normal points from polygon to disc. corners, count: corners of the polygon [px], and their number; edges: bits
+    of the edges (low 16) and corners (next 16) that may be hit. x, y, radius [px]: centre and radius of the disc;
+    radius 0 means a ray; dx, dy [px]: motion of the disc.
     """
     hit, nx, ny, _, _, separation, _ = collide_polygon_circle(corners, count, edges, x, y, radius)
     if hit and separation <= 0.0:
@@ -131,9 +131,11 @@ def half_planes(a, a_count, b, b_count, side, move, slack, clip):
     """Return the time interval in which two moving polygons may overlap, clipped by the faces of the polygon in b.
 
     a, b (16, 2) [px]: corners; side: 1.0 if `a` holds polygon A and `b` holds B, -1.0 if `a` holds B and `b` holds A.
-    move: motion (x, y) [px] of polygon A. slack [px]: faces are moved inwards by this much. clip: the interval before
-    the call, in the form of the result: (fraction at which the overlap begins or MISS, fraction at which it ends, face
-    entered last, nx, ny). The face is k for face k of B, -1 - k for face k of A; the normal points from B to A.
+    move: motion (x, y) [px] of polygon A. slack [px]: distance by which faces are moved inwards.
+
+    clip: the interval before the call. It has the form of the result: (fraction at which the overlap begins or MISS,
+    fraction at which it ends, face entered last, nx, ny). The face is k for face k of B, and -1 - k for face k of A.
+    The normal points from B to A.
     """
     enter, leave, entering, nx, ny = clip
     for k in range(b_count):
@@ -160,8 +162,8 @@ def sweep_polygons(a, a_count, b, b_count, move, slack):
     """Return the first impact (fraction of the motion, nx, ny) of a moving polygon A with a polygon B at rest.
 
     The fraction is MISS without an impact; the normal points from B to A. move: motion (x, y) [px] of A; slack [px]: an
-    overlap up to this depth is not an impact. A deeper overlap at the start gives MISS, because the contact solver
-    resolves it.
+    overlap up to this depth is not an impact. If the overlap at the start is deeper, the fraction is MISS, because the
+    contact solver resolves the overlap.
     """
     clip = half_planes(a, a_count, b, b_count, 1.0, move, slack, (-1.0, 1.0, 0, 0.0, -1.0))
     if clip[0] <= 1.0:
@@ -272,7 +274,7 @@ def along(corners, motion, fraction, k, x, y, nx, ny):
     """Return (position [px], velocity, bound of the acceleration) of corner k of a hull along the unit vector (nx, ny).
 
     Velocity and acceleration are per whole motion. corners (16, 2) [px]: corners at this fraction of `motion`, relative
-    to the world point (x, y).
+    to the world point (x, y); motion (6,): see AdvanceWorkspace.
     """
     arm_x = corners[k, 0] - ((motion[CENTER_X] - x) + fraction * motion[MOVE_X])
     arm_y = corners[k, 1] - ((motion[CENTER_Y] - y) + fraction * motion[MOVE_Y])
@@ -283,10 +285,10 @@ def along(corners, motion, fraction, k, x, y, nx, ny):
 
 @subkernel
 def free_until(gap, speed, bend):
-    """Return the first t >= 0 with gap + speed · t - bend / 2 · t² = 0; infinite if there is none.
+    """Return the first t >= 0 with gap + speed · t - bend / 2 · t² = 0, infinite if there is none.
 
-    Two corners cannot meet before t. gap >= 0 [px]; speed: rate at which the gap grows; bend: bound of the
-    acceleration, >= 0.
+    t is a lower bound of the time until two corners meet. gap >= 0 [px]: distance of the corners; speed: rate at which
+    the gap grows; bend: bound of the acceleration, >= 0.
     """
     if bend > 0.0:
         root = math.sqrt(speed * speed + 2.0 * bend * gap)
@@ -300,11 +302,11 @@ def free_until(gap, speed, bend):
 
 @subkernel
 def free_motion(a_count, b_count, radii, fraction, separation, workspace):
-    """Return by how much the fraction of the motion can be increased without a meeting of the hulls (a lower bound).
+    """Return by how much the fraction of the motion can increase before the hulls may meet (a lower bound).
 
-    The bound is the time until any two corners can meet along the present normal. separation [px]: separation of the
-    hulls at `fraction`; no pair of corners is regarded as nearer. radii [px]: sum of both radii. O(corners of A ·
-    corners of B). workspace: see AdvanceWorkspace.
+    The bound is the time until any two corners can meet along the present normal. a_count, b_count: numbers of corners;
+    radii [px]: sum of both radii; separation [px]: separation of the hulls at `fraction`, and least distance that is
+    assumed for a pair of corners. O(corners of A · corners of B). workspace: see AdvanceWorkspace.
     """
     nx, ny = workspace.gap.gap[NX], workspace.gap.gap[NY]
     x, y = workspace.motion_a[CENTER_X], workspace.motion_a[CENTER_Y]
@@ -371,8 +373,8 @@ def approach_at(a_count, b_count, fraction, band, workspace):
     """Return the greatest approach speed [px per motion] along the normal of two touching hulls.
 
     If two faces touch, within `band` [px], the speed is greatest at an end of their common part, so only the ends are
-    tested. a_count, b_count: numbers of corners. workspace: holds the normal and corners at `fraction`, written by
-    separate_at.
+    tested. a_count, b_count: numbers of corners. workspace: after separate_at, with the normal and corners at
+    `fraction`.
     """
     nx, ny = workspace.gap.gap[NX], workspace.gap.gap[NY]
     a_low, a_high = touching_span(workspace.a, a_count, nx, ny, 1.0, band)
@@ -398,10 +400,10 @@ def approach_at(a_count, b_count, fraction, band, workspace):
 def advance(a_count, a_radius, b_count, b_radius, workspace):
     """Return the first fraction of the motion at which two moving hulls meet, or MISS.
 
-    workspace: the caller writes local_a, local_b, motion_a and motion_b. On return gap.gap holds normal and points at
-    the impact, and the counters in `totals` are increased. a_radius, b_radius [px]: roundings. If the hulls touch or
-    overlap at the start, the result is 0 if they approach; otherwise the search continues until they approach. If
-    ADVANCE_CAP iterations are not enough, the result is a fraction before the impact.
+    workspace: the caller writes local_a, local_b, motion_a and motion_b. On return, gap.gap holds normal and points at
+    the impact, and the counters in `totals` are increased. a_count, b_count: numbers of corners; a_radius, b_radius
+    [px]: roundings. If the hulls touch or overlap at the start, the result is 0 if they approach; otherwise the search
+    continues until they approach. If ADVANCE_CAP iterations are not enough, the result is a fraction before the impact.
     """
     turn_a, turn_b = abs(workspace.motion_a[TURN]), abs(workspace.motion_b[TURN])
     reach_a, reach_b = reach_of(workspace.local_a, a_count), reach_of(workspace.local_b, b_count)
