@@ -238,8 +238,7 @@ def stop_at_impacts(shapes, candidates, impacts, bodies_inout):
 
 @subkernel
 def first_meeting(mover, other, slack, sweep_inout):
-    """Return the first impact (fraction of the step, nx, ny, feature) of two shapes. The fraction is MISS without an
-    impact.
+    """Return the first impact (fraction of the step, nx, ny, feature) of two shapes; the fraction is MISS for none.
 
     mover, other: row numbers in SHAPE; the normal points from `other` to `mover`; feature: id of the tile or link, or
     -1. Each body moves along its path up to its BODY.fraction of the step, and then rests. slack [px]: see Mover.
@@ -333,8 +332,8 @@ def is_swept(moving, a, b, sweep_inout):
 def is_first_mover(a, b, bodies, fast):
     """Return whether the sweep of two SHAPE rows treats A as the moving shape, and B as the obstacle.
 
-    If only one body is dynamic, it is the mover, because it can be stopped. Otherwise A is the mover if it is fast.
-    fast: see Sweep.fast.
+    If only one body is dynamic, it is the mover, because it can be stopped. Otherwise A is the mover if its body is
+    fast. fast: see Sweep.fast.
     """
     is_dynamic = bodies[a.body_row].kind == DYNAMIC
     return fast[a.body_row] if is_dynamic == (bodies[b.body_row].kind == DYNAMIC) else is_dynamic

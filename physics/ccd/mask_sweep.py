@@ -46,10 +46,9 @@ NO_SQUARES = Squares(np.zeros((0, 2), np.int64), np.zeros((0, 4)))
 
 
 def squares_of(library: Library, masks: np.ndarray, known: Squares) -> Squares:
-    """Return Squares that contain the rectangles of these masks: `known`, or an extended copy if masks are missing in
-    it.
+    """Return Squares that contain the rectangles of the masks `masks`, which are row numbers in the library.
 
-    masks: row numbers of the masks in the library.
+    The result is `known`, or an extended copy of `known` if rectangles are missing in it.
     """
     missing = [row for row in masks.tolist() if row >= len(known.spans) or known.spans[row, 0] < 0]
     if not missing:

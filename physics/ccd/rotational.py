@@ -253,12 +253,11 @@ def feet_of(mover, local_y, workspace):
 
 @subkernel
 def place_tile(geometry, grid, line, column, local, stood, workspace):
-    """Write the corners of a tile to workspace.advance.local_b. Return their number, 0 if the tile cannot stop the
-    mover.
+    """Write the corners of a tile to workspace.advance.local_b. Return their number, or 0 for no obstacle.
 
-    grid: row of geometry.grids; line, column: row and column of the cell; local: see sweep_tiles. stood [px]: y of the
-    mover's lowest point at the start, minus its slack. Only the top line of a one-way tile is written, and only if the
-    mover started above it.
+    Only the top line of a one-way tile is written, and only if the mover started above it. grid: row of geometry.grids;
+    line, column: row and column of the cell; local: see sweep_tiles. stood [px]: y of the mover's lowest point at the
+    start, minus its slack.
     """
     g = geometry.grids[grid]
     kind = geometry.cells[g.offset + line * g.columns + column].kind

@@ -74,12 +74,11 @@ def way_of(bodies, paths, row):
 @kernel
 def find_fast(rows, bodies, paths, fast_out):
     """Flag the bodies to sweep. Return (number of bodies whose pairs must be tested, number swept without rotation).
-    O(rows).
 
     A moving body in mode "toi", "ray" or "swept" is always flagged. A body in mode "auto" is flagged if one of its
     points may move by more than its inradius. The first number also includes bodies without a flag if a kinematic body
     may pass through them, see impacts.is_fast. rows: row numbers in BODY; paths: see list_paths; fast_out (bodies,)
-    bool.
+    bool. O(rows).
     """
     found = 0
     straight = 0
@@ -314,8 +313,7 @@ FORESEEN = ("effects", "stacks", "tolerances", "dt", "awake", "bodies", "shapes"
 
 @stage("time_of_impact", reads=FORESEEN, writes=("impacts", "library", "work", "workspace", "bodies.fraction"))
 def foresee_impacts(state: StepState) -> None:
-    """Predict the impacts of the coming motion, and write BODY.fraction: the part of its motion that each body may
-    make.
+    """Predict the impacts of the coming motion, and write to BODY.fraction how far each body may move in the step.
 
     This stage is for worlds without a stacking solver.
     """

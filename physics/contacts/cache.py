@@ -29,7 +29,8 @@ SAME = 2.0**-20  # distance below which a point counts as a corner, as a fractio
 def core_radius(shape):
     """Return the distance [px] from the core of a SHAPE row to its surface.
 
-    It is the radius of a circle, the rounding of a hull, and 0 for other shapes.
+    The core is the shape without its rounding. The distance is the radius of a circle, the rounding of a hull, and 0
+    for other shapes.
     """
     return shape.radius if is_hull(shape.kind) and shape.kind != BOUNDS else 0.0
 
@@ -38,7 +39,7 @@ def core_radius(shape):
 def is_ground(shape):
     """Return whether a SHAPE row is a tile grid or a chain.
 
-    Their feature ids also contain the number of a tile run or link.
+    Feature ids of these shapes also contain the number of a tile run or link.
     """
     return shape.kind == TILES or shape.kind == CHAIN
 

@@ -302,9 +302,7 @@ class Found(NamedTuple):
 
 
 class ContactCache:
-    """Two tables for the contacts of one world: one holds the present contacts, and the next contacts go into the
-    other.
-    """
+    """Two tables for the contacts of one world, used in turn: one holds the present contacts, the other the next."""
 
     def __init__(self) -> None:
         self.tables = [zeros_in_lines(16, CONTACT) for _ in range(2)]

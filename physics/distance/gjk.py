@@ -40,9 +40,7 @@ def new_gap_workspace() -> GapWorkspace:
 
 @subkernel
 def support(corners, count, x, y):
-    """Return the index of the corner farthest along the direction (x, y), the lowest index if several are equal.
-    O(count).
-    """
+    """Return the index of the corner farthest along the direction (x, y), the first of equal corners. O(count)."""
     best = 0
     most = 0.0
     for k in range(1, count):
@@ -350,8 +348,7 @@ def start_polytope(a, a_count, b, b_count, polytope_out):
 
 @subkernel
 def shallowest_edge(polytope, count):
-    """Return the row of the polytope in which the edge nearest to the origin starts, the first row if several are
-    equal.
+    """Return the row of the polytope in which the edge nearest to the origin starts, the first of equal edges.
 
     count: number of corners of the polytope.
     """

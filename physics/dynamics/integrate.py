@@ -64,9 +64,7 @@ def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool) ->
 
 
 def make_position_pass(rotation: bool) -> Callable:
-    """Return the kernel that integrates the poses of bodies. rotation: whether bodies rotate about their centres of
-    mass.
-    """
+    """Return the kernel that integrates the poses of bodies. rotation: whether bodies rotate about their centres."""
 
     @kernel
     def integrate_positions(rows, dt, bodies_inout, work_inout):
@@ -139,8 +137,8 @@ def refresh_centers(rows, bodies_inout):
 def write_center(bodies: Table, at: int) -> None:
     """Write the world centre of mass [px] of one body at its present pose, faster than refresh_centers.
 
-    at: row number in BODY. Memory views read and write single numbers faster, so the kernel is called only for a body
-    with an angle.
+    at: row number in BODY. Memory views read and write single numbers faster, so the kernel is called only if the angle
+    of the body is not 0.
     """
     columns = bodies.columns
     x, y, angle = columns["x"][at], columns["y"][at], columns["angle"][at]
@@ -299,7 +297,7 @@ def is_finite_character(character):
 
 
 class Course(NamedTuple):
-    """The parameters with which the motion of bodies in a step is predicted, without contacts."""
+    """Parameters for predicting the motion of bodies in a step without contacts."""
 
     gravity_x: float  # [px/s2]
     gravity_y: float

@@ -23,8 +23,9 @@ NONE = np.zeros(0, np.int64)
 
 @inlined
 def is_active(body):
-    """Return whether a BODY row can change a contact: a dynamic body that is awake, or another body that moves or was
-    moved.
+    """Return whether a body can change a contact. body: BODY row.
+
+    A dynamic body can change contacts if it is awake. Another body can change them if it moves or was moved.
     """
     if body.kind == DYNAMIC:
         return body.awake
@@ -355,9 +356,8 @@ def is_free(body):
 @kernel
 def start_groups(rows, bodies, fall, groups_out):
     """Make each body a group of its own, and write the force on the body in free fall: mass times acceleration.
-    O(rows).
 
-    rows: awake body rows; bodies: BODY table; fall: see FreeFall; groups_out: Groups.
+    rows: awake body rows; bodies: BODY table; fall: see FreeFall; groups_out: Groups. O(rows).
     """
     g = groups_out
     for k in range(len(rows)):
@@ -497,10 +497,9 @@ def stop_groups(bodies, joints, groups_inout):
 @kernel
 def join_jointed_groups(bodies, joints, groups_inout):
     """Join free bodies (see is_free) into groups by their joints, and write how joints to resting bodies hold them.
-    O(joints).
 
     The position of a pivot, or the direction of a rail, is written to Groups.hold_x, hold_y at the row of the held
-    body.
+    body. O(joints).
     """
     g = groups_inout
     for i in range(len(joints)):
@@ -653,10 +652,10 @@ def mark_blocked(root, nx, ny, fall, groups_inout):
 
 @kernel
 def find_surfaces(rows, bodies, contacts, fall, groups_inout):
-    """Find the surface on which each group presses most, and remove the group's acceleration into it. Mark blocked
-    groups.
+    """Find the surface on which each group presses most, and remove the acceleration into this surface.
 
-    rows: awake body rows. O(rows + contacts). groups_inout: Groups; fall: see FreeFall.
+    Groups that another surface stops are marked, see mark_blocked. rows: awake body rows. O(rows + contacts).
+    groups_inout: Groups; fall: see FreeFall.
     """
     g = groups_inout
     for turn in range(2):

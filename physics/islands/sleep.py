@@ -51,7 +51,7 @@ class SleepingSet:
         self.sensing_pairs = np.zeros(0, EVENT)
 
     def put(self, key: int, island: Island) -> None:
-        """Add a sleeping Island to the set. key: the lowest id of its bodies."""
+        """Add a sleeping Island to the set. key: the lowest id of the island's bodies."""
         self.islands[key] = island
         self._link(self._named(island), [key])
 
@@ -69,7 +69,7 @@ class SleepingSet:
             self.links.setdefault(identity, set()).update(keys)
 
     def take(self, key: int) -> Island:
-        """Remove the island with this key and return it."""
+        """Remove the island with this key from the set, and return the island."""
         island = self.islands.pop(key)
         for identity in self._named(island):
             keys = self.links[identity]
@@ -166,8 +166,7 @@ def in_order(manifolds: np.ndarray) -> np.ndarray:
 
 
 def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
-    """Wake the islands of bodies, and the islands that touch these bodies, before the bodies are moved, edited or
-    removed.
+    """Wake the islands of bodies, and islands that touch them, before the bodies are moved, edited or removed.
 
     ids: ids of the bodies; bodies that joints link to them are included. The next step visits these bodies, and their
     sleep time is reset to 0. No effect without sleeping. tables: a World or StepState.
@@ -184,12 +183,11 @@ def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
 
 
 def disturb_one(world: Any, identity: int, row: int) -> int:
-    """Wake the island of one body, as `disturb` does, but faster and only between steps. Return the body's new row
-    number.
+    """Wake the island of one body, as `disturb` does, but faster and only between steps.
 
-    identity, row: id and row number of the body. If an island wakes or the world has joints, the rows of bodies that
-    were removed before are deleted, which may change the row number. Otherwise the call is fast, because it processes
-    no arrays. world: a World, annotated Any because its module imports this one.
+    Return the body's row number afterwards. It may change if an island wakes or the world has joints, because the rows
+    of bodies that were removed before are then deleted. Otherwise the call is fast, because it processes no arrays.
+    identity, row: id and row number of the body; world: a World, annotated Any because its module imports this one.
     """
     awake, sleeping_set = world.awake, world.sleeping_set
     if not awake.sleeping:
@@ -218,7 +216,7 @@ def with_partners(joints: np.ndarray, ids: list[int]) -> list[int]:
 
 
 def stir(tables: WorldTables, ids: list[int], rows: np.ndarray) -> None:
-    """Include bodies in the next step, and reset their sleep time. ids, rows: their ids and row numbers in BODY."""
+    """Include bodies in the next step, and reset their sleep time. ids, rows: their ids and BODY row numbers."""
     tables.sleeping_set.return_reported(tables, ids)
     tables.awake.mark_dirty(ids)
     tables.bodies["sleep_time"][rows] = 0.0
@@ -268,9 +266,7 @@ def disturb_shapes(tables: WorldTables, identity: int, shapes: np.ndarray) -> bo
 
 
 def _islands_beside(tables, manifolds, identity):
-    """Return the keys of the sleeping islands that touch a body according to CONTACT rows `manifolds`. identity: its
-    id.
-    """
+    """Return the keys of the sleeping islands that touch a body. manifolds: CONTACT rows; identity: body id."""
     own = manifolds[(manifolds["body_a"] == identity) | (manifolds["body_b"] == identity)]
     others = np.union1d(own["body_a"], own["body_b"])
     rows = rows_of(tables.bodies, others)
@@ -284,9 +280,7 @@ def wake_all(tables: WorldTables) -> None:
 
 
 def wake(tables: WorldTables, keys: Iterable[int]) -> None:
-    """Wake the islands with these keys: move their bodies, and the sleeping contacts of the bodies, to the awake
-    tables.
-    """
+    """Wake the islands with these keys: move their bodies, and the bodies' sleeping contacts, to the awake tables."""
     sleeping_set = tables.sleeping_set
     keys = [key for key in sorted(keys) if key in sleeping_set.islands]
     if not keys:

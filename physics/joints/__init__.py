@@ -1,1 +1,1 @@
-"""The kinds of joints."""
+"""Kinds of joints, as dataclasses with the arguments of World.add_joint."""

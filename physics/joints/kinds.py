@@ -211,7 +211,7 @@ class Kind:
 @explained_class
 @dataclass(frozen=True)
 class Revolute(Kind):
-    """A hinge: it holds the anchors of both bodies together at one point. Its coordinate is the angle of B to A.
+    """A hinge, which holds the anchors of both bodies together. Its coordinate is the angle of B relative to A.
 
     a, b: Bodies or ids; None for one of them: the world.
     at: the anchor of both bodies (x, y) [px].

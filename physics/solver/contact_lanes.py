@@ -161,7 +161,7 @@ ALIKE = math.sqrt(0.5 + 0.5 * FACING) + 1e-6
 
 @inlined
 def traits_of(row_a, row_b, lists):
-    """Return the traits of two bodies on which the colour of their contact depends, as the bits of one number.
+    """Return the traits of two bodies, which determine the colour of their contact, as the bits of one number.
 
     The traits of a body are its rank and whether it has finite mass, see graph.color_edges. row_a, row_b: indices of
     MOTION rows; lists: MotionLists.
@@ -264,10 +264,11 @@ def list_joint_edges(joints, count, edges_out):
 
 @subkernel
 def share_halves(joints, motions_inout):
-    """Clear MOTION.halves of bodies that a gear or rope couples to a dynamic body without it. O(joints).
+    """Clear MOTION.halves of two dynamic bodies coupled by a gear or rope, if it is clear for one of them. O(joints).
 
-    Otherwise half of the load on a rope would act on a body on the ground after its contacts have been solved. joints:
-    result of joint_rows.list_joints.
+    A body with MOTION.halves gets half of its acceleration after it has moved, see motions.accelerate_again. Half of
+    the load on a rope would otherwise act on a body on the ground after its contacts have been solved. joints: result
+    of joint_rows.list_joints.
     """
     for k in range(len(joints)):
         a, b = motions_inout[joints[k, 1]], motions_inout[joints[k, 2]]
@@ -316,8 +317,7 @@ def list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, pla
 
 @subkernel
 def order_joints(joints, classes, starts_out, rows_out):
-    """Write the indices of JOINT rows, stably sorted by class. A class stands for a number of substeps, see
-    Plan.classes.
+    """Write the indices of JOINT rows, sorted by class (stable). A class is the index of a number of substeps.
 
     The class of a joint is the greater class of its two bodies. O(classes · joints). joints: result of
     joint_rows.list_joints; classes (motions,): class of each MOTION row. starts_out: index of the first joint of each
@@ -435,8 +435,8 @@ def add_estimates(blocks, count, substeps, rules, motions_inout):
     """Raise MOTION.estimate of each body to the square of the number of substeps that its contacts need. O(contacts).
 
     Also set MOTION.capped if a load needs more substeps than both `substeps` and rules.most_by_load. blocks, count: the
-    contacts, in the first `count` blocks; substeps: their number in this step; rules: see LoadRules. motions_inout:
-    MOTION rows.
+    contacts, in the first `count` blocks; substeps: number of substeps in this step; rules: see LoadRules.
+    motions_inout: MOTION rows.
     """
     reach = max(substeps, rules.most_by_load)
     reach_squared = float(reach * reach)

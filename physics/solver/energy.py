@@ -93,8 +93,7 @@ def note_direction(nx, ny, rubs, motion, balance_inout):
 
 @inlined
 def energy_along(motion, balance):
-    """Return the kinetic energy of a body along the single normal of its contacts, or 0 if contacts act in all
-    directions.
+    """Return the kinetic energy of a body along the single normal of its contacts; 0 if they act in all directions.
 
     motion, balance: MOTION and BALANCE row of the body, see note_direction.
     """
@@ -195,8 +194,8 @@ def balance_bodies(group, degrees, floor, lift, keep, motions, balance_inout):
     """Write the energy that each body of a group gained. Return whether a body in contact gained more than allowed.
 
     The allowed gain per mass is the greater of `floor` [px2/s2] and the gain that the body may take from its energy
-    reserve. It may take at most SHARE_BACK of its energy or, if greater, the energy of a lift by `lift` [px] against
-    its acceleration. A body with a joint always counts as having gained more than allowed.
+    reserve. The body may take at most SHARE_BACK of its energy or, if greater, the energy of a lift by `lift` [px]
+    against its acceleration. A body with a joint always counts as having gained more than allowed.
 
     group: see contact_lanes.Group; degrees: number of contacts of each body; keep: fraction of the reserve that remains
     after this step; motions, balance_inout: MOTION and BALANCE rows.
@@ -316,8 +315,7 @@ def add_momentum(motion, balance, root_inout):
 
 @subkernel
 def energy_in_common(balance_inout):
-    """Replace the sums of add_momentum by the common motion of the set as one rigid body. Return the energy of this
-    motion.
+    """Replace the sums of add_momentum by the set's motion as one rigid body. Return the energy of this motion.
 
     balance_inout: BALANCE row of the set's root.
     """
@@ -409,8 +407,7 @@ def draw_on_reserve(slop, balance_inout):
 
 @subkernel
 def limit_squeezed(most, before, motion_inout):
-    """Limit the speed of a body squeezed between faces to `most` [px/s], or to its speed before the step if that is
-    greater.
+    """Limit the speed of a body squeezed between faces to the greater of `most` [px/s] and its speed before the step.
 
     The limit applies to the kinetic energy, so that rotation is included. most: 0 for no limit; before: kinetic energy
     of the body before the step, plus the work done on it in the step; motion_inout: MOTION row.
@@ -599,13 +596,13 @@ def note_faces(edges, count, lists, slop, parents, squeeze_out):
 
 @subkernel
 def find_squeezed(edges, count, lists, motions, limits, parents_out, squeeze_out):
-    """Find the islands without room, and write bounds on their contact impulses to the SQUEEZE rows. O(count +
-    motions).
+    """Find the islands without room, and write bounds on their contact impulses to the SQUEEZE rows.
 
     Return whether such an island exists. A face is the side of a body of infinite mass at a contact. An island has no
     room if it overlaps deeply, and if overlapping faces point in different directions or a moving face is opposite to
     another face. edges, count: the constraints, in the first `count` graph edges; lists: MotionLists; motions: MOTION
-    rows; limits: see settings.Limits; parents_out (motions) int32: the root of the island of each body.
+    rows; limits: see settings.Limits; parents_out (motions) int32: the root of the island of each body. O(count +
+    motions).
     """
     for i in range(len(motions)):
         s = squeeze_out[i]

@@ -1,10 +1,10 @@
 """Gears, pulleys and ratchets in the passes of the stacking solvers.
 
-A gear holds the coordinate of A plus ratio times the coordinate of B at a constant sum. A coordinate is the angle or
-the translation of another joint, or the angle of a body. A pulley bounds a sum of two lengths of rope in the same way
-(Catto, Box2D v2, b2GearJoint and b2PulleyJoint). A gear or pulley is one constraint row on up to four bodies, solved
-after the other joints and before the trees. A ratchet is an angle limit that moves with the teeth from step to step
-(Chipmunk, cpRatchetJoint). The pass of the other joints solves this limit.
+A gear keeps a sum constant: coordinate of A + ratio · coordinate of B. A coordinate is the angle or the translation of
+another joint, or the angle of a body. A pulley bounds a sum of two lengths of rope in the same way (Catto, Box2D v2,
+b2GearJoint and b2PulleyJoint). A gear or pulley is one constraint row on up to four bodies, solved after the other
+joints and before the trees. A ratchet is an angle limit that moves with the teeth from step to step (Chipmunk,
+cpRatchetJoint). The pass of the other joints solves this limit.
 """
 
 import math
@@ -184,8 +184,8 @@ def jacobian_of_side(row, motion, at_b, joints):
 def product_of_sides(row, motion, other_row, other_motion, joints, motions):
     """Return J W Kᵀ, the change of the rate of one side's coordinate by a unit impulse on the other side of a gear.
 
-    J, K: Jacobians of the two sides; W: inverse masses. If both arguments are the same side, the result is its inverse
-    effective mass. row, motion, other_row, other_motion: see jacobian_of_side; motions: MOTION rows.
+    J, K: Jacobians of the two sides; W: inverse masses. For one side passed twice, the result is its inverse effective
+    mass. row, motion, other_row, other_motion: see jacobian_of_side; motions: MOTION rows.
     """
     total = 0.0
     for k in range(4):
@@ -237,11 +237,10 @@ def push_gear(coupling, impulse, joints, motions_inout):
 
 @subkernel
 def place_pulley(joint, a, b, coupling_inout):
-    """Write to a COUPLING row a pulley's rope length and directions at the present poses, and its inverse effective
-    mass.
+    """Write the rope length, the rope directions and the inverse effective mass of a pulley at the present poses.
 
-    An anchor at the position of its wheel has no direction, and is not pulled. joint: JOINT row after place_joint; a,
-    b: MOTION rows; coupling_inout: COUPLING row.
+    The result goes to the COUPLING row coupling_inout. An anchor at the position of its wheel has no direction, and is
+    not pulled. joint: JOINT row after place_joint; a, b: MOTION rows.
     """
     j, c = joint, coupling_inout
     ax, ay = c.rope_ax + a.dx + (j.ax - j.arm_ax), c.rope_ay + a.dy + (j.ay - j.arm_ay)
@@ -262,8 +261,7 @@ def place_pulley(joint, a, b, coupling_inout):
 
 @subkernel
 def push_ropes(joint, coupling, on_a, on_b, a_inout, b_inout):
-    """Apply the impulses on_a and on_b to the rope lengths of a pulley at A and B. A positive impulse lengthens the
-    rope.
+    """Apply impulses to the rope lengths of a pulley: on_a at A and on_b at B. A positive impulse lengthens the rope.
 
     joint, coupling: JOINT and COUPLING row; a_inout, b_inout: MOTION rows.
     """
@@ -366,10 +364,10 @@ def warm_couplings(couplings_inout, joints_inout, motions_inout):
 
 @inlined
 def inverse_mass_of_sum(joint, coupling):
-    """Return the inverse effective mass of the sum that a gear or pulley constrains. joint, coupling: JOINT and
-    COUPLING row.
+    """Return the inverse effective mass of the sum that a gear or pulley constrains.
 
-    An anchor that is stopped at its wheel counts as immovable, because stop_at_pulleys removes its speed again.
+    An anchor that is stopped at its wheel counts as immovable, because stop_at_pulleys removes its speed again. joint,
+    coupling: JOINT and COUPLING row.
     """
     j, c = joint, coupling
     if j.hold == GEARED or (j.point_x == 0.0 and j.point_y == 0.0):
@@ -464,11 +462,10 @@ def sum_couplings(couplings_inout, joints_inout):
 
 @inlined
 def arm_of_side(row, joints, motion):
-    """Return the arm [px] that converts the error of a gear's side to a length: 1 for a translation, else a radius of
-    gyration.
+    """Return the arm [px] that converts an error of a gear's side to a length.
 
-    row: index of the JOINT row of the side, NO_JOINT for a body; joints: all JOINT rows; motion: MOTION row of the
-    side.
+    The result is 1 for a translation, otherwise the radius of gyration of the body. row: index of the JOINT row of the
+    side, NO_JOINT for a body; joints: all JOINT rows; motion: MOTION row of the side.
     """
     if row >= 0 and not turns(joints[row]):
         return 1.0

@@ -273,13 +273,12 @@ def write_targets(joint, rate, context, a, b, first, rows_inout):
 @subkernel
 def add_inertia(rows, order, h, joints_inout, motions_inout):
     """Raise the inertia of light bodies in trees under tension, so that substeps can resolve their oscillations.
-    O(order).
 
     A light link between heavy bodies oscillates like a string. A tension F at an arm r turns the link back by a torque
     F r per radian. With an inertia of at least h² Σ F r, the oscillation advances by at most one radian in a substep of
     h [s]. F is the greatest recent force. It fades within a quarter of a second, because a jerking chain is slack
     between jerks. Source: geometric stiffness, Andrews, Teichmann and Kövecses, 2017. rows, order: see JointSet;
-    joints_inout: JOINT rows; motions_inout: MOTION rows.
+    joints_inout: JOINT rows; motions_inout: MOTION rows. O(order).
     """
     fade = max(1.0 - h / FADING, 0.0)
     for k in range(len(order)):

@@ -12,14 +12,14 @@ from physics.tables.table import row_of
 
 @subkernel
 def place_anchor(body, x, y):
-    """Return the world position (x, y) [px] of a point whose coordinates (x, y) [px] are relative to a BODY row."""
+    """Return the world position (x, y) [px] of a point of a body. body: BODY row; x, y [px]: point in body space."""
     c, s = rotation_of(body.angle)
     return body.x + c * x - s * y, body.y + s * x + c * y
 
 
 @subkernel
 def velocity_at(body, x, y):
-    """Return the velocity (x, y) [px/s] of a BODY row at a point (x, y) [px] of the world."""
+    """Return the velocity (x, y) [px/s] of a body at a point (x, y) [px] of the world. body: BODY row."""
     w = body.angular_velocity
     return body.vx - w * (y - body.center_y), body.vy + w * (x - body.center_x)
 
@@ -49,8 +49,7 @@ def side_after_step(identity, body_row, bodies, joints):
 
 @subkernel
 def report_gear(bodies, joints, joint_inout):
-    """Write to a gear's JOINT row the sum of coordinates that it holds, its rate, its error, and the faster side's
-    speed.
+    """Write a gear's sum of coordinates, the rate and the error of this sum, and the speed of its faster side.
 
     bodies: BODY rows; joints: JOINT rows, reported up to the gear; joint_inout: JOINT row of the gear.
     """
@@ -82,8 +81,7 @@ def rope_after_step(body_row, x, y, ground_x, ground_y, bodies):
 
 @subkernel
 def report_pulley(bodies, joint_inout):
-    """Write to a pulley's JOINT row the length of its rope, the rate and error of this length, and the faster side's
-    speed.
+    """Write a pulley's rope length, the rate and the error of this length, and the speed of its faster side.
 
     bodies: BODY rows; joint_inout: JOINT row.
     """

@@ -108,7 +108,7 @@ def list_joints(motion_of, motions_inout, joints_inout, links_out, work_inout):
 
 @inlined
 def arm_of(body, x, y):
-    """Return the vector (x, y) [px] in the world from a body's centre of mass to a point of the body. body: BODY row.
+    """Return the vector (x, y) [px] in world axes from a body's centre of mass to a point of the body. body: BODY row.
 
     x, y [px]: the point in the space of the body.
     """
@@ -317,14 +317,15 @@ def softness_of(hertz, damping, h):
 
 @inlined
 def spring_of(hertz, damping, h):
-    """Return (rate [1/s], carry, give) of a spring on a coordinate, over a substep of h [s]. It is stable at any hertz.
+    """Return (rate [1/s], carry, give) of a spring on a coordinate, over a substep of h [s]. Stable at any frequency.
 
     Let c be the coordinate's distance from rest, v its velocity at the start of the substep, and w its inverse
-    effective mass. The spring solves: new velocity + give · w · impulse = carry · v - rate · c. An undamped spring has
-    the stiffness of the implicit midpoint rule, and keeps its energy (Hairer, Lubich and Wanner, Geometric Numerical
-    Integration, 2006, chapter 6). With a damping ratio of 1 or more, or if its swing is too fast for the substeps, it
-    is an implicit Euler step (Catto, Soft Constraints, GDC 2011), which does not overshoot. hertz [1/s]: frequency;
-    damping: damping ratio.
+    effective mass. The spring solves: new velocity + give · w · impulse = carry · v - rate · c.
+
+    An undamped spring has the stiffness of the implicit midpoint rule, and keeps its energy (Hairer, Lubich and Wanner,
+    Geometric Numerical Integration, 2006, chapter 6). A spring with a damping ratio of 1 or more, or with an
+    oscillation too fast for the substeps, is an implicit Euler step, which does not overshoot (Catto, Soft Constraints,
+    GDC 2011). hertz [1/s]: frequency; damping: damping ratio.
     """
     x = h * math.tau * hertz
     implicit = max(min(damping, 1.0), 1.0 - RESOLVED / x if x > RESOLVED else 0.0)
@@ -394,7 +395,7 @@ def has_spring(joint):
 
 @inlined
 def is_coordinate_free(joint):
-    """Return whether neither a spring nor a motor nor a limit acts on the coordinate of a joint, if it has one."""
+    """Return whether no spring, motor or limit acts on a joint's coordinate. True also for a joint without one."""
     j = joint
     unlimited = j.lower == -math.inf and j.upper == math.inf
     return j.coordinate == NO_COORDINATE or (j.spring_hertz == 0.0 and j.motor_max == 0.0 and unlimited)
@@ -402,7 +403,7 @@ def is_coordinate_free(joint):
 
 @inlined
 def has_limits(joint):
-    """Return whether limits bound a joint's coordinate and leave it a range. False for gears and pulleys."""
+    """Return whether a joint's coordinate has limits and can move between them. False for gears and pulleys."""
     bounded_side = joint.lower > -math.inf or joint.upper < math.inf
     return joint.coordinate != NO_COORDINATE and joint.hold < GEARED and joint.lower != joint.upper and bounded_side
 

@@ -1,11 +1,11 @@
 """Rows beside the trees of joints, solved exactly: loop closures, limits and motors of joints between bodies of a tree.
 
-joint_trees.py solves only the joints of a tree. Three kinds of rows are not part of the tree: rows of a joint that
-closes a loop (Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter 8), the limits on the coordinate of a joint,
-and its motor. The Schur complement S of the tree describes how these rows respond to impulses, with the tree attached:
-column i holds the velocity changes of all rows by a unit impulse along row i. A column costs one solve of the tree, and
-is computed when its row first needs an impulse. The equations in S are then solved by factors L D Lᵀ, in O(k³) for k
-rows with an impulse.
+A row is one scalar equation of a joint. joint_trees.py solves only the rows of the tree itself. Three kinds of rows are
+not part of the tree: rows of a joint that closes a loop (Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter
+8), the limits on the coordinate of a joint, and its motor. The Schur complement S of the tree describes how these rows
+respond to impulses, with the tree attached: column i holds the velocity changes of all rows by a unit impulse along row
+i. A column costs one solve of the tree, and is computed when its row first needs an impulse. The equations in S are
+then solved by factors L D Lᵀ, in O(k³) for k rows with an impulse.
 
 Impulses of limits and motors are bounded. Block principal pivoting finds which of these impulses are at a bound (Júdice
 and Pires, A block principal pivoting algorithm for large-scale strictly monotone linear complementarity problems,
@@ -143,9 +143,7 @@ def tree_of_body(motion, motions, schur):
 
 @inlined
 def tree_of_joint(joint, motions, schur):
-    """Return the root slot of the tree that contains both bodies of a JOINT row. It is negative if there is no such
-    tree.
-    """
+    """Return the root slot of the tree that contains both bodies of a JOINT row, or a negative number for no tree."""
     a, b = tree_of_body(joint.motion_a, motions, schur), tree_of_body(joint.motion_b, motions, schur)
     if a == ANY_TREE:
         return b
@@ -337,10 +335,9 @@ def limit_target(gap, biased, most, inverse_h):
 @subkernel
 def aim_schur(rows, biased, context, joints, tree_rows_inout, schur_inout):
     """Write the target velocities of the rows beside the trees, and the bounds of the changes of their impulses.
-    O(rows).
 
     Impulses of joints that close loops are reset to 0. biased: True to also remove errors of position; context: see
-    StepContext; tree_rows_inout: JOINT_ROW rows with their targets; other arguments: see begin_schur.
+    StepContext; tree_rows_inout: JOINT_ROW rows with their targets; other arguments: see begin_schur. O(rows).
     """
     s = schur_inout
     for i in range(s.counts[0]):
@@ -365,7 +362,10 @@ def aim_schur(rows, biased, context, joints, tree_rows_inout, schur_inout):
 
 @inlined
 def velocity_along(row, bodies, motions):
-    """Return the velocity of a SCHUR_ROW. bodies: TREE_BODY rows; motions: MOTION rows, for bodies of infinite mass."""
+    """Return the velocity along a SCHUR_ROW: its Jacobian times the velocities of its bodies.
+
+    bodies: TREE_BODY rows; motions: MOTION rows, used for bodies of infinite mass.
+    """
     r = row
     a, b = motions[r.motion_a], motions[r.motion_b]
     ax, ay, aw, bx, by, bw = a.vx, a.vy, a.angular_velocity, b.vx, b.vy, b.angular_velocity
@@ -381,8 +381,7 @@ def velocity_along(row, bodies, motions):
 
 @inlined
 def bound_motor(row_inout):
-    """Limit how much a solve may change the impulse of a motor. row_inout: SCHUR_ROW of the motor, whose bounds are
-    reduced.
+    """Limit how much one solve may change the impulse of a motor. row_inout: SCHUR_ROW, whose bounds are reduced.
 
     The limit is the present impulse plus LOCAL_CHANGES times the impulse that the joint alone would need. The impulse
     then adapts to a load within a few solves. It stays small in a singular pose of a mechanism, in which the motor's
@@ -435,9 +434,8 @@ def respond(child, first, rows, parent_inout, violations_out):
 @subkernel
 def compute_column(index, tree, motions, forest_inout, schur_inout):
     """Compute a column of the Schur complement: the velocities of a tree's rows after a unit impulse along one row.
-    O(slots).
 
-    index: number of this row in the tree; tree: SCHUR_TREE row; motions: MOTION rows.
+    index: number of this row in the tree; tree: SCHUR_TREE row; motions: MOTION rows. O(slots).
     """
     f, s = forest_inout, schur_inout
     r = s.rows[tree.first + index]
@@ -497,10 +495,9 @@ def list_free(tree, motions, forest_inout, schur_inout):
 @subkernel
 def solve_free(count, tree, schur_inout):
     """Solve the equations of the free rows of a tree by factors L D Lᵀ, and write the changes of their impulses.
-    O(count³).
 
     A row is redundant if its pivot is 0 after the elimination of other rows. Its scale (the pivot without other joints)
-    is then used as compliance. count: number of free rows, see list_free; tree: SCHUR_TREE row.
+    is then used as compliance. count: number of free rows, see list_free; tree: SCHUR_TREE row. O(count³).
     """
     s = schur_inout
     for p in range(count):
@@ -578,12 +575,11 @@ def change_states(only_last, tree, schur_inout):
 
 @subkernel
 def pivot_rows(tree, motions, forest_inout, schur_inout):
-    """Find the changes of the impulses of a tree's rows by block principal pivoting. Return 1 if it did not finish,
-    else 0.
+    """Find the changes of the impulses of a tree's rows by block principal pivoting. Return 1 for a failure, else 0.
 
     All rows in a wrong state change their states at once, as long as the number of such rows decreases. Otherwise only
-    the last of them changes, which always terminates (Murty, 1974). tree: SCHUR_TREE row, after begin_states; motions:
-    MOTION rows.
+    the last of them changes, which always terminates (Murty, 1974). The search fails if its rounds do not suffice.
+    tree: SCHUR_TREE row, after begin_states; motions: MOTION rows.
     """
     s = schur_inout
     fewest, patience, wrong = tree.count + 1, PATIENCE, 1

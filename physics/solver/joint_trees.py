@@ -106,8 +106,7 @@ TREE_ROW = in_lines(
 
 
 class Forest(NamedTuple):
-    """The trees of joints with their bodies and factors, and scratch arrays for building the trees. The arrays are
-    reused.
+    """The trees of joints with their bodies and factors, and scratch arrays for building them. The arrays are reused.
 
     (joints) and (motions) in the fields below are capacities for joints and MOTION rows. A half-edge is one side of a
     joint: 2 · joint for body A, 2 · joint + 1 for body B.
@@ -138,8 +137,7 @@ def new_forest(joints: int, motions: int) -> Forest:
 def with_room(forest: Forest, joints: int, motions: int) -> Forest:
     """Return the forest if its capacities suffice, otherwise an empty forest with greater capacities.
 
-    joints, motions: required numbers of joints and of MOTION rows. A capacity that is too small grows to the required
-    one, but at least doubles.
+    joints, motions: required capacities for joints and MOTION rows. A capacity that is too small is at least doubled.
     """
     has_joints, has_motions = len(forest.nexts) // 2, len(forest.parents)
     if joints <= has_joints and motions <= has_motions:
@@ -291,8 +289,7 @@ def load_row(joint_row, parent_is_a, parent_mass, child_mass, inertia, number):
 
 @inlined
 def moves_more(row, other):
-    """Return whether the child contributes more to the pivot of `row` than to the pivot of `other` (tuples of
-    load_row).
+    """Return whether the child contributes more to the pivot of `row` than to that of `other` (tuples of load_row).
 
     Each contribution is divided by the pivot that its row has without other joints.
     """
@@ -447,8 +444,8 @@ def factor_trees(
 ):
     """Factor the equations of all trees, from the leaves to the roots. Return the number of redundant rows. O(joints).
 
-    A row is redundant if its pivot is 0 after the elimination of other rows, or if no body responds to it. Its
-    compliance is then set to the pivot that it has without other joints, which keeps its impulse finite. joint_rows
+    A row is redundant if its pivot is 0 after the elimination of other rows, or if no body responds to the row. Its
+    compliance is then set to the row's pivot without other joints, which keeps the impulse finite. joint_rows
     (MOST_ROWS joints,): JOINT_ROW with Jacobians and compliances; row_counts (joints,): int32, 0..3; motions: MOTION
     rows with inverse masses and inertias; forest_inout: result of build_forest, receives the factors.
     """
@@ -508,9 +505,9 @@ def gather_violations(child, first, rows, joint_rows_inout, parent_inout, violat
 def follow_parent(parent, first, rows, violations, body_inout):
     """Write the final velocity of a child, given the final velocity of its parent (pass from root to leaves).
 
-    The velocity is computed from the violations that remain at the parent's final velocity, not from the impulses.
-    Joints then hold to the last digit, even if impulses with long arms nearly cancel. parent, body_inout: TREE_BODY
-    rows of parent and child; first: index of the joint's first row in `rows` (TREE_ROW) and `violations` (see
+    The velocity is computed from the violations that remain at the parent's final velocity, not from the impulses. The
+    child then satisfies the joint to the last digit, even if impulses with long arms nearly cancel. parent, body_inout:
+    TREE_BODY rows of parent and child; first: index of the joint's first row in `rows` (TREE_ROW) and `violations` (see
     gather_violations).
     """
     p, c = parent, body_inout

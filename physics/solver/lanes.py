@@ -148,7 +148,7 @@ class Blocks(NamedTuple):
 
 
 def make_blocks(count: int) -> Blocks:
-    """Return a Blocks with cleared arrays for `count` blocks."""
+    """Return Blocks with cleared arrays for `count` blocks."""
     lanes = (count, LANES)
     return Blocks(
         contact=np.zeros(lanes, np.int32),
@@ -163,7 +163,7 @@ def make_blocks(count: int) -> Blocks:
 
 
 def blocks_needed(contacts: int, uncolored: int) -> int:
-    """Return an upper bound on the blocks that contacts need. uncolored: how many of them have no graph colour."""
+    """Return an upper bound on the blocks that contacts need. uncolored: how many contacts have no graph colour."""
     return contacts // LANES + COLORS + 1 + uncolored  # the last block of a colour may be partly empty
 
 
@@ -172,8 +172,7 @@ def lay_out(starts, blocks_out):
     """Assign blocks to the contacts of each graph colour, and clear the unused lanes. Return the number of blocks.
 
     starts (colours + 2) int64: index of the first contact of each slot, and finally the end of the last slot. Slot 0
-    holds the contacts without a colour, each of which gets a block of its own. Slot k + 1 holds the contacts of colour
-    k. O(blocks). blocks_out: see Blocks.
+    holds the contacts without a colour, which get one block each. Slot k + 1 holds the contacts of colour k. O(blocks).
     """
     found = 0
     for slot in range(len(starts) - 1):
@@ -230,10 +229,10 @@ def solve_two(change_1, change_2, off_diagonal_1, off_diagonal_2, factor, old_1,
     """Return the new accumulated normal impulses (>= 0) of two contact points that are solved together (block solver).
 
     Each point reaches its required velocity, or separates with impulse 0. change_1, change_2: change of impulse that
-    each point would need without the other. off_diagonal_1, off_diagonal_2: k_12 / k_11 and k_12 / k_22 of the matrix k
-    of inverse effective masses. factor: see block_factor. old_1, old_2: impulses before. Both, either or neither point
-    has an impulse: all four cases are computed, and one is selected without branches, for vectorisation. Point 2 is
-    solved after point 1 if the points nearly coincide, or if no case fits because of rounding.
+    each point would need if the other were unchanged. off_diagonal_1, off_diagonal_2: k_12 / k_11 and k_12 / k_22 of
+    the matrix k of inverse effective masses. factor: see block_factor. old_1, old_2: impulses before. Both, either or
+    neither point has an impulse: all four cases are computed, and one is selected without branches, for vectorisation.
+    Point 2 is solved after point 1 if the points nearly coincide, or if no case fits because of rounding.
     """
     only_1 = old_1 + change_1 + off_diagonal_1 * old_2
     only_2 = old_2 + change_2 + off_diagonal_2 * old_1
@@ -260,7 +259,7 @@ def solve_two(change_1, change_2, off_diagonal_1, off_diagonal_2, factor, old_1,
 
 @inlined
 def gather_velocities(a, b, lane, s_out):
-    """Copy the velocities of bodies A and B (MOTION rows a, b) into a lane of s_out. Its layout: see GATHERED."""
+    """Copy the velocities of bodies A and B (MOTION rows a, b) to a lane of s_out. Layout of s_out: see GATHERED."""
     s_out[VX_A + lane] = a.vx
     s_out[VY_A + lane] = a.vy
     s_out[W_A + lane] = a.angular_velocity
@@ -271,7 +270,7 @@ def gather_velocities(a, b, lane, s_out):
 
 @inlined
 def gather_poses(a, b, lane, s_out):
-    """Copy the displacements and rotations of MOTION rows a and b into a lane of s_out. Its layout: see GATHERED."""
+    """Copy the displacements and rotations of MOTION rows a and b to a lane of s_out. Layout of s_out: see GATHERED."""
     s_out[DX_A + lane] = a.dx
     s_out[DY_A + lane] = a.dy
     s_out[COS_A + lane] = a.cosine
@@ -324,8 +323,7 @@ def arms_of(x, y, radius, cosine, sine, start_nx, start_ny, nx, ny):
     """Return the moment arms [px] of a contact point on a rotated body: (for normal impulses, for tangential impulses).
 
     x, y [px]: the point relative to the centre of mass, before the rotation by (cosine, sine). radius [px]: radius of
-    the rounded shape, negative for body B. (start_nx, start_ny), (nx, ny): contact normal before and after the
-    rotation.
+    the rounded shape, negative for body B. (start_nx, start_ny), (nx, ny): normal before and after the rotation.
     """
     x -= radius * start_nx
     y -= radius * start_ny
@@ -338,9 +336,8 @@ def arms_of(x, y, radius, cosine, sine, start_nx, start_ny, nx, ny):
 def write_arms(lane, cos_a, sin_a, cos_b, sin_b, c_inout):
     """Write the moment arms of both points of a contact to its lane, after the bodies have rotated in the step.
 
-    (cos_a, sin_a), (cos_b, sin_b): rotations of A and B since the start of the step. The core of a shape (the shape
-    without its radius) rotates with its body. The surface stays one radius away from the core along the normal. lane:
-    lane of the contact in the block c_inout.
+    (cos_a, sin_a), (cos_b, sin_b): rotations of A and B since the start of the step. The surface follows the rotated
+    core of its shape, see measure_gaps. lane: lane of the contact in the block c_inout.
     """
     c = c_inout
     nx = c[NX + lane]
@@ -424,7 +421,10 @@ def make_friction(second: bool, rotation: bool, sums: bool) -> Any:
 
 @inlined
 def resist_rolling(lane, wa, wb, normal_impulse, c_inout):
-    """Apply the rolling resistance of a lane of c_inout. Return the new angular velocities (wa, wb) [rad/s]."""
+    """Apply rolling resistance to the bodies of a contact. Return the new angular velocities (wa, wb) [rad/s].
+
+    lane: lane of the contact in the block c_inout; normal_impulse: sum over both points, which limits the resistance.
+    """
     c = c_inout
     old = c[ROLLING + lane]
     impulse = clamp(old - c[ROLLING_MASS + lane] * (wb - wa), c[ROLLING_LIMIT + lane] * normal_impulse)
@@ -587,8 +587,8 @@ def speed_of_drift(a, b, rate, slop, contact_inout):
 def how_it_turns(contact, a, b, dt, lane, c):
     """Return how the solver updates the normal and arms of a contact within a step: FIXED, ARMS or NORMAL_OF_….
 
-    It is FIXED if no shape is round, or the bodies (MOTION rows a, b) hardly rotate in dt [s]. An elastic impact is
-    also FIXED, because restitution uses the arms at the start of the step. c, lane: see relative_speed.
+    The result is FIXED if no shape is round, the bodies (MOTION rows a, b) hardly rotate in dt [s], or the impact is
+    elastic. Restitution uses the arms at the start of the step. c, lane: see relative_speed.
     """
     m = contact
     elastic = m.restitution > 0.0 and (c[LOADED + lane] == 0.0 or c[BOUNCING + lane] > 0.0)
@@ -602,7 +602,7 @@ def how_it_turns(contact, a, b, dt, lane, c):
 
 @inlined
 def rocks(body):
-    """Return whether a body may be kept from rocking: it is static, or has rocked in place for ROCKING_TIME."""
+    """Return whether a BODY row may be kept from rocking: it is static, or has rocked in place for ROCKING_TIME."""
     return body.kind == STATIC or (body.kind == DYNAMIC and body.rocking_time >= ROCKING_TIME)
 
 
@@ -618,7 +618,7 @@ def rolling_limit(contact, p, q, limits):
 def write_softness(contact, sticking, a, b, degrees, context, lane, c_out):
     """Write the fields of a lane that determine how softly its contact is pushed apart.
 
-    They are PUSH_OUT_SHARE, BIAS_RATE, IMPULSE_SCALE, STRIKE_LIMIT and STIFFNESS, then RESTING, LOADED and BOUNCING.
+    The fields are PUSH_OUT_SHARE, BIAS_RATE, IMPULSE_SCALE, STRIKE_LIMIT, STIFFNESS, RESTING, LOADED and BOUNCING.
     sticking: result of sticks; a, b: MOTION rows; degrees: numbers of contacts of A and of B; context: see StepContext.
     """
     m = contact

@@ -41,8 +41,8 @@ def forget_below(rows, size, bodies, blow, stamp, lists_inout, contacts_inout):
     """Clear the cached contact forces of bodies under groups of bodies that are about to be removed or moved.
 
     A body outside a group is affected if a body of the group presses on it with a force per mass above `blow` [px/s2].
-    All contacts of the affected body lose their cached forces. The same happens to all contacts of the dynamic bodies
-    that contacts connect to it.
+    The contacts of the affected body lose their cached forces, and so do the contacts of all dynamic bodies that are
+    connected to the affected body by contacts.
 
     Return the greatest stamp used. rows: row numbers in BODY of the groups, `size` per group; bodies: all BODY rows;
     stamp: a number not less than any mark in lists_inout (see Lists); contacts_inout: CONTACT rows. O(contacts of the
@@ -86,7 +86,7 @@ def forget_below(rows, size, bodies, blow, stamp, lists_inout, contacts_inout):
 
 
 class Lists(NamedTuple):
-    """Arrays of ContactLists, all int64. (rows): as many entries as BODY rows."""
+    """Arrays of a ContactLists object, all int64. In the fields below, (rows) is a capacity for BODY rows."""
 
     heads: np.ndarray  # (rows) first side of each body, NO_SIDE: no contact
     nexts: np.ndarray  # (2 · contacts) next side of the same body, NO_SIDE after the last

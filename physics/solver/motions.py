@@ -1,7 +1,6 @@
-"""Motions of bodies within a step: MOTION rows are copied from the awake bodies, advanced by substeps, and written
-back.
+"""Motions of bodies within a step: MOTION rows are copied from awake bodies, advanced by substeps and written back.
 
-The stacking solvers use them. Row 0 of MOTION represents all bodies that do not move in this step: static bodies,
+The stacking solvers use these rows. Row 0 of MOTION represents all bodies that do not move in this step: static bodies,
 sleeping bodies, and kinematic bodies at rest.
 """
 

@@ -175,7 +175,7 @@ class PushSet:
         run(*settings, state.bodies, self.rows, state.work)
 
     def store(self, state: StepState) -> None:
-        """Write the impulses back to the contacts, and update the contacts to the present poses."""
+        """Write the impulses of the PUSH rows to the contacts, and update the contacts to the present poses."""
         store_pushes(self.rows, state.contact_rows)
         update_contacts(state.bodies, state.contact_rows)
 
@@ -217,7 +217,7 @@ def resist_rolling(push_inout, a_inout, b_inout):
 
 
 def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> Callable:
-    """Return the kernel of one pass over the contacts. rotation, friction, restitution: whether the world has them."""
+    """Return the kernel of one pass over the contacts. rotation, friction, restitution: effects that the world has."""
 
     @kernel
     def project(
@@ -335,8 +335,7 @@ def _moves(bodies, rows, before):
 
 
 def _slow_down(bodies, rows, before, reach):
-    """Limit how far contacts have displaced each body in this step. The limit does not depend on the number of
-    contacts.
+    """Limit how far contacts have displaced each body in this step, independent of the number of contacts.
 
     Only the sum over all passes is limited, because pushes in opposite directions cancel. rows: indices of the BODY
     rows; before (n, 2) [px]: their positions before the passes; reach (n,) [px]: greatest displacements.
@@ -349,8 +348,7 @@ def _slow_down(bodies, rows, before, reach):
 
 
 def _hold_back(state, rows, before):
-    """Undo that contacts pushed bodies through a wall: move the bodies back, then forward until a resting body blocks
-    them.
+    """Move bodies back that contacts pushed through a wall, and then forward until a resting body blocks them.
 
     Only bodies that were pushed by more than CORE times their least half extent are tested. rows: indices of the BODY
     rows; before (n, 2) [px]: their positions before the passes.

@@ -143,8 +143,8 @@ def greatest_separation_speed(c, lane, gap_1, gap_2, context):
 def angular_impulses(lane, c):
     """Return the angular impulses (on_a, on_b) of a contact about the centres of A and B, without rolling resistance.
 
-    Subtract on_a from A and add on_b to B: both are moments of the impulse that acts on B. c, lane: the contact's lane
-    in a block.
+    Both are moments of the impulse that acts on B: the angular impulse of A is -on_a, that of B is on_b. c, lane: the
+    contact's lane in a block.
     """
     n_1 = c[at.NORMAL_1 + lane]
     n_2 = c[at.NORMAL_2 + lane]
@@ -237,8 +237,8 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
     """Return the function that solves all contacts once, either with bias or as a relaxing pass.
 
     biased: True for the pass with bias, which separates overlaps. False for the relaxing pass, which measures gaps,
-    applies friction and sums impulses. alone: True if no relaxing pass follows; then the pass with bias does its work
-    too. rotation, friction: whether the world has these effects.
+    applies friction and sums impulses. alone: True if no relaxing pass follows; the pass with bias then also does the
+    work of the relaxing pass. rotation, friction: whether the world has these effects.
     """
     last = alone or not biased
     rubs = friction and last
@@ -451,11 +451,11 @@ def follow_core(lane, s, c_inout):
 
 @noalias
 def turn_arms(count, motions_inout, blocks_inout):
-    """Write the normals, moment arms and effective masses of round contacts at the present poses. O(count).
+    """Write the normals, moment arms and effective masses of contacts with a round shape at the present poses.
 
     The next substep then starts with impulses at the new arms, and along the new normals (see turn_impulses). With the
     former arms and normals, torques and forces would lag behind the motion and add energy. count: number of blocks.
-    motions_inout: MOTION rows; blocks_inout: the contacts, see lanes.Blocks.
+    motions_inout: MOTION rows; blocks_inout: the contacts, see lanes.Blocks. O(count).
     """
     s = blocks_inout.gathered
     for block in range(count):
@@ -492,7 +492,7 @@ def turn_arms(count, motions_inout, blocks_inout):
 
 @noalias
 def turn_impulses(count, motions_inout, blocks_inout):
-    """Rotate the impulses of round contacts to their present normals, after the relaxing pass. O(count).
+    """Rotate the impulses of contacts with a round shape to their present normals, after the relaxing pass. O(count).
 
     The next substep starts with these impulses. The relaxing pass removed part of the impulses along the present
     normals, although they had been applied along the former normals. This error of the velocities is corrected. count:
@@ -525,12 +525,11 @@ def turn_impulses(count, motions_inout, blocks_inout):
 
 @subkernel
 def follow_inertias(count, motions, blocks_inout):
-    """Write the present inverse inertias of the bodies to the lanes of their contacts, and update effective masses.
-    O(lanes).
+    """Write the present inverse inertias of bodies to the lanes of their contacts, and update the effective masses.
 
     Tension in a tree of joints raises the inertia of its links (see joint_direct.add_inertia). Contacts must use the
     same inertia, because passes over constraints with different masses of a body need not converge. count: number of
-    blocks; motions: MOTION rows; blocks_inout: the contacts, see lanes.Blocks.
+    blocks; motions: MOTION rows; blocks_inout: the contacts, see lanes.Blocks. O(lanes).
     """
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
