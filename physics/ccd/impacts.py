@@ -241,7 +241,8 @@ def first_meeting(mover, other, slack, sweep_inout):
     """Return the first impact (fraction of the step, nx, ny, feature) of two shapes; the fraction is MISS for none.
 
     mover, other: row numbers in SHAPE; the normal points from `other` to `mover`; feature: id of the tile or link, or
-    -1. Each body moves along its path up to its BODY.fraction of the step, and then rests. slack [px]: see Mover.
+    -1. Each body moves along its path up to its BODY.fraction of the step, and then rests. slack [px]: see Mover;
+    sweep_inout: see Sweep.
     """
     bodies, paths, cuts = sweep_inout.bodies, sweep_inout.paths, sweep_inout.cuts
     p, q = sweep_inout.shapes[mover].body_row, sweep_inout.shapes[other].body_row
@@ -266,7 +267,7 @@ def first_meeting(mover, other, slack, sweep_inout):
 
 @subkernel
 def stands_still(bodies, paths, row):
-    """Return whether a body is not dynamic and does not move in this step. row: row number in BODY."""
+    """Return whether a body is not dynamic and does not move in this step. row: BODY row number; paths: see Sweep."""
     return bodies[row].kind != DYNAMIC and (
         paths[row, 0] == paths[row, 3] and paths[row, 1] == paths[row, 4] and paths[row, 2] == paths[row, 5]
     )
@@ -330,10 +331,10 @@ def is_swept(moving, a, b, sweep_inout):
 
 @subkernel
 def is_first_mover(a, b, bodies, fast):
-    """Return whether the sweep of two SHAPE rows treats A as the moving shape, and B as the obstacle.
+    """Return whether the sweep of two SHAPE rows a, b treats a as the moving shape, and b as the obstacle.
 
-    If only one body is dynamic, it is the mover, because it can be stopped. Otherwise A is the mover if its body is
-    fast. fast: see Sweep.fast.
+    If only one of the two bodies is dynamic, it is the mover, because it can be stopped. Otherwise the body of a is the
+    mover if it is fast. fast: see Sweep.fast.
     """
     is_dynamic = bodies[a.body_row].kind == DYNAMIC
     return fast[a.body_row] if is_dynamic == (bodies[b.body_row].kind == DYNAMIC) else is_dynamic
@@ -479,7 +480,7 @@ def write_impacts(bodies, shapes, candidates, impacts, dt, response, manifolds_o
     impacts (n, 8): candidate, fraction, normal from A to B, stops, feature, point x and y [px]. If the point is nan,
     impact_point estimates it: for the shape that is swept as a ray, otherwise for the shape with the smaller AABB.
     response 1: the separation [px] is that of the final poses, from the motion after the impact. response 0: the
-    separation is 0. dt [s]: step length. manifolds_out: CONTACT rows.
+    separation is 0. candidates (n, 2): pairs of row numbers in SHAPE; dt [s]: step length; manifolds_out: CONTACT rows.
     """
     found = 0
     for i in range(len(impacts)):

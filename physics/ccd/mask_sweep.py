@@ -36,7 +36,7 @@ from physics.tables.step_state import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
 
 
 class Squares(NamedTuple):
-    """The solid pixels of the masks of a library, grouped into rectangles. They are computed once for each mask."""
+    """The solid pixels of the masks of a library, grouped into rectangles. A mask's rectangles are computed once."""
 
     spans: np.ndarray  # (masks, 2) first row in boxes, number of rows; -1: not computed yet
     boxes: np.ndarray  # (n, 4) left, top, right, bottom [px] in body space
@@ -187,7 +187,8 @@ def sweep_on_ground(geometry, other, body, middle, mover, one_way, workspace, be
     """Sweep one piece of the moving shape against tiles or a chain.
 
     other, body: SHAPE and BODY rows of the tiles or chain; mover: the piece, with its corners in workspace.mover;
-    middle: centre of the whole moving shape, see middle_of_mask. best_out (5,): first impact so far, see sweep_squares.
+    middle: centre of the whole moving shape, see middle_of_mask; one_way: whether one-way tiles stop motion from above.
+    best_out (5,): first impact so far, see sweep_squares.
     """
     local = (body.local_center_x, body.local_center_y)
     if other.kind == TILES:

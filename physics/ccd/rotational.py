@@ -595,7 +595,7 @@ def begin_sweep(workspace, impact_out):
 
 @subkernel
 def keep_first(fraction, nx, ny, impact_out):
-    """Write an impact to impact_out (3,) if it is earlier than the impact stored there."""
+    """Write an impact (fraction, nx, ny) to impact_out (3,) if it is earlier than the impact stored there."""
     if fraction < impact_out[0]:
         impact_out[0] = fraction
         impact_out[1] = nx

@@ -289,7 +289,7 @@ def _look(state, moving, strict=False) -> np.ndarray:
 
 
 def _masks_in(state) -> np.ndarray:
-    """Return the row numbers in the library of all masks among the candidates. Masks are swept by their pixels."""
+    """Return the library row numbers of all masks in the candidate pairs. Masks are swept by their pixels."""
     if not state.library.masks:
         return NO_ROWS
     rows = state.pairs.rows
@@ -313,9 +313,10 @@ FORESEEN = ("effects", "stacks", "tolerances", "dt", "awake", "bodies", "shapes"
 
 @stage("time_of_impact", reads=FORESEEN, writes=("impacts", "library", "work", "workspace", "bodies.fraction"))
 def foresee_impacts(state: StepState) -> None:
-    """Predict the impacts of the coming motion, and write to BODY.fraction how far each body may move in the step.
+    """Predict the impacts of the coming motion, and limit the motion of each body by BODY.fraction.
 
-    This stage is for worlds without a stacking solver.
+    BODY.fraction is the fraction of its motion that the body may make in the step. This stage is for worlds without a
+    stacking solver.
     """
     sweeper, bodies, rows, dt = state.workspace.sweep, state.bodies, state.awake.bodies, state.dt
     found = _look_straight(state, bodies, dt, state.effects.rotation)
@@ -419,7 +420,7 @@ def sweep_piles(state: StepState) -> None:
 
 
 def _cover(state):
-    """Enlarge the broad-phase AABBs that swept bodies have left, and find their new candidate pairs."""
+    """Enlarge the broad-phase AABBs that swept bodies have left, and find the new candidate pairs of these bodies."""
     own, shapes, pairs = state.awake.shapes, state.shapes, state.pairs
     rows = state.workspace.rows_for(len(own))
     found = find_outgrown(own, state.bodies, shapes, pairs.proxies, state.workspace.sweep.fast, rows)

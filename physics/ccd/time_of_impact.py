@@ -130,8 +130,9 @@ def sweep_circle_polygon(corners, count, edges, x, y, dx, dy, radius):
 def half_planes(a, a_count, b, b_count, side, move, slack, clip):
     """Return the time interval in which two moving polygons may overlap, clipped by the faces of the polygon in b.
 
-    a, b (16, 2) [px]: corners; side: 1.0 if `a` holds polygon A and `b` holds B, -1.0 if `a` holds B and `b` holds A.
-    move: motion (x, y) [px] of polygon A. slack [px]: distance by which faces are moved inwards.
+    a, b (16, 2) [px]: corners, a_count and b_count in use; side: 1.0 if `a` holds polygon A and `b` holds B, -1.0 if
+    `a` holds B and `b` holds A. move: motion (x, y) [px] of polygon A. slack [px]: distance by which faces are moved
+    inwards.
 
     clip: the interval before the call. It has the form of the result: (fraction at which the overlap begins or MISS,
     fraction at which it ends, face entered last, nx, ny). The face is k for face k of B, and -1 - k for face k of A.

@@ -1,4 +1,4 @@
-"""Contact cache of worlds with a stacking solver: updates contacts of moved bodies without a new narrow phase."""
+"""Contact cache of worlds with a stacking solver, which updates contacts of moved bodies without a narrow phase."""
 
 import math
 

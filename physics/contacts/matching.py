@@ -322,9 +322,9 @@ class ContactCache:
         """Find the contacts of all pairs without sensors. Contacts whose bodies have hardly moved are kept (recycled).
 
         Return a Found with the new contacts and the stale rows of `previous`, which are not kept. Return None if all
-        contacts are kept and no pair is left to test. batch: candidate pairs; previous: CONTACT rows of the last step,
-        of which kept rows are updated in place; distance [px]: see recycle_contacts; work: counters of work done, see
-        COUNTERS.
+        contacts are kept and no pair is left to test. narrow: narrow phase of the world; batch: candidate pairs;
+        previous: CONTACT rows of the last step, of which kept rows are updated in place; distance [px]: see
+        recycle_contacts; work: counters of work done, see COUNTERS.
         """
         if len(self.stale) < len(previous):
             self.stale = np.zeros(2 * len(previous), np.int32)

@@ -81,7 +81,10 @@ def copy_corner(source, target, simplex_inout):
 
 @subkernel
 def edge_of(a, b, p, q, simplex):
-    """Return the vector [px] from the corner in row p of the simplex to the corner in row q."""
+    """Return the vector [px] from the corner in row p of the simplex to the corner in row q.
+
+    a, b (n, 2) [px]: corners of the hulls.
+    """
     return difference_edge(a, b, int(simplex[p, 0]), int(simplex[p, 1]), int(simplex[q, 0]), int(simplex[q, 1]))
 
 
@@ -329,7 +332,8 @@ def start_polytope(a, a_count, b, b_count, polytope_out):
     """Start the polytope with the two corners of the Minkowski difference that are farthest apart along x.
 
     If the difference has no width, the corners farthest apart along y are used. Return the number of corners: 2, or 1
-    if the difference is a point. polytope_out: array of a GapWorkspace.
+    if the difference is a point. a, b (n, 2) [px]: corners of the hulls; a_count, b_count: numbers of corners in use;
+    polytope_out: array of a GapWorkspace.
     """
     for axis in range(2):
         x, y = 1.0 - axis, float(axis)

@@ -109,7 +109,7 @@ class Awake:
             self.dirty += ids
 
     def all_rows(self, bodies: np.ndarray, shapes: np.ndarray) -> None:
-        """Fill both lists with all row numbers, for a world without sleeping."""
+        """Set both lists, `bodies` and `shapes`, to all row numbers, for a world without sleeping."""
         if len(self.bodies) != len(bodies) or len(self.shapes) != len(shapes):
             most = max(len(bodies), len(shapes))
             if len(self.numbers) < most:
@@ -184,7 +184,7 @@ class Awake:
         return distinct(rows, len(bodies))
 
     def shapes_of(self, rows: np.ndarray) -> np.ndarray:
-        """Return the shape rows, ascending, of distinct body rows `rows`."""
+        """Return the row numbers of the shapes of bodies, ascending. rows: distinct row numbers in BODY."""
         gathered = np.empty(len(self.order), np.int64)
         return np.sort(gathered[: gather_shapes(rows, self.order, self.starts, gathered)])
 
@@ -202,7 +202,7 @@ class Awake:
         self.shapes = self.shapes_of(self.bodies)
 
     def exclude(self, tables: WorldTables, rows: np.ndarray) -> None:
-        """Remove body rows from the lists. Steps do not visit these bodies until they are included again."""
+        """Remove body rows from the lists of awake rows. Steps do not visit these bodies until they are included."""
         self.take_in(tables)
         self._set_active(tables, rows, False)
         flags = tables.bodies["active"]
@@ -439,8 +439,9 @@ def list_joint_edges(bodies, joints, count, edges_out):
 def hold_of(joint):
     """Return how a joint to a resting body holds the other body: LOOSE, PIVOT, RAIL, HELD or STOP.
 
-    A loaded gear or ratchet is a STOP: it holds a body that also has a pivot or a rail. A taut rope or a rod is a
-    PIVOT. A rail with a spring, a motor, equal limits or a loaded limit is HELD; the axis of a Wheel is always a RAIL.
+    LOOSE: not at all. PIVOT: at a point, as do a taut rope and a rod. RAIL: on a line, as does the axis of a Wheel.
+    HELD: completely, as does a rail with a spring, a motor, equal limits or a loaded limit. STOP: a loaded gear or
+    ratchet, which holds a body that also has a pivot or a rail.
     """
     j = joint
     if j.hold == TOOTHED or j.hold == GEARED:

@@ -80,7 +80,7 @@ class SleepingSet:
 
     @staticmethod
     def _named(island) -> list:
-        """Return the ids of the bodies outside an island that its contacts touch."""
+        """Return the ids of the bodies outside an island that touch it, according to its contacts."""
         named = np.union1d(island.contacts["body_a"], island.contacts["body_b"])
         return np.setdiff1d(named, island.bodies).tolist()
 
@@ -114,7 +114,7 @@ class SleepingSet:
             self.islands[key] = self.islands[key]._replace(touching=part)
 
     def naming(self, identity: int, own: int) -> np.ndarray:
-        """Return the sleeping CONTACT rows of a body (id). own: key of the body's own island, -1 if it is in none."""
+        """Return the sleeping CONTACT rows of body `identity`. own: key of the island that contains it, -1 for none."""
         parts = [np.zeros(0, CONTACT)]
         for key in sorted({own, *self.links.get(identity, ())} & self.islands.keys()):
             m = self.islands[key].contacts
@@ -223,7 +223,7 @@ def stir(tables: WorldTables, ids: list[int], rows: np.ndarray) -> None:
 
 
 def islands_at(tables: WorldTables, ids: list[int], rows: np.ndarray) -> set[int]:
-    """Return the keys of the sleeping islands that contain or touch the given bodies.
+    """Return the keys of the sleeping islands that contain or touch the given bodies. A key: see SleepingSet.
 
     ids: ids of the bodies; rows: their row numbers in BODY, -1 for a body that does not exist; tables: a World or
     StepState.
@@ -280,7 +280,10 @@ def wake_all(tables: WorldTables) -> None:
 
 
 def wake(tables: WorldTables, keys: Iterable[int]) -> None:
-    """Wake the islands with these keys: move their bodies, and the bodies' sleeping contacts, to the awake tables."""
+    """Wake islands: move their bodies, and the sleeping contacts of these bodies, to the awake tables.
+
+    keys: the keys of the islands, see SleepingSet; tables: a World or StepState.
+    """
     sleeping_set = tables.sleeping_set
     keys = [key for key in sorted(keys) if key in sleeping_set.islands]
     if not keys:
@@ -627,7 +630,7 @@ def fall_asleep(
 
 
 class IslandWorkspace:
-    """Scratch arrays of the search for islands."""
+    """Scratch arrays for finding the islands that may fall asleep."""
 
     def __init__(self) -> None:
         self.parents, self.least, self.excess = np.zeros(16, np.int32), np.zeros(16), np.zeros(16)

@@ -154,5 +154,5 @@ def solve(state: StepState, contacts: PushSet) -> float:
     ),
 )  # fmt: skip
 def blocking(state: StepState) -> None:
-    """Move bodies that overlap after their motion back to their old poses."""
+    """Move bodies that overlap other bodies after the motion back to the poses that they had before it."""
     solve(state, state.workspace.contacts)

@@ -494,7 +494,8 @@ def estimate_substeps(
 ) -> None:
     """Write the number of substeps of the next step to the MOTION rows of a group, from the loads in this step.
 
-    blocks: the contacts of the group, in `count` blocks; joints: the JointSet of the group, 0 without joints.
+    blocks: the contacts of the group, in `count` blocks; joints: the JointSet of the group, 0 without joints; motions:
+    Motions of the world; plan: see Plan; group: see Group.
     """
     rate = estimate_rate(state)
     rules = LoadRules(

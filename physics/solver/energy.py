@@ -150,7 +150,7 @@ def scale_motion(root, balance, motion_inout):
 
 @inlined
 def note_face(c, lane, a, b, root_inout):
-    """Record a contact's normal, and the speed of its kinematic body if any, for the set of touching bodies.
+    """Record a contact's normal, and the speed of a kinematic body in the contact, for its set of touching bodies.
 
     `oblique` is set in three cases: the normal is neither parallel nor perpendicular to the first recorded normal, the
     contact has restitution, or the kinematic body rotates. c: the fields of a block; lane: lane of the contact in the
@@ -226,7 +226,7 @@ def balance_bodies(group, degrees, floor, lift, keep, motions, balance_inout):
 
 @inlined
 def reset_balance(balance_out):
-    """Clear the fields of a BALANCE row that hold normals of contacts, or sums over a set of touching bodies."""
+    """Clear the fields of a BALANCE row that hold contact normals, or sums over a set of touching bodies."""
     e = balance_out
     e.lift, e.surfaces = 0.0, 0.0
     e.face_x, e.face_y, e.fastest = 0.0, 0.0, 0.0

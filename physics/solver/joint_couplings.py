@@ -123,7 +123,7 @@ def begin_couplings(bodies, h, couplings_inout, joints_inout):
 
 @subkernel
 def side_value(row, start, motion, joints):
-    """Return the coordinate [rad or px] of a side of a gear at the present poses.
+    """Return the coordinate [rad or px] of a gear's side at the present poses.
 
     row: index of the JOINT row of the side, or NO_JOINT if the side is a body; start [rad]: angle of this body at the
     start of the step; motion: MOTION row of the body; joints: all JOINT rows.
@@ -136,7 +136,8 @@ def side_value(row, start, motion, joints):
 
 @subkernel
 def side_speed(row, motion, joints, motions):
-    """Return the rate of the coordinate of a side of a gear. Arguments: see side_value; motions: MOTION rows."""
+    """Return the rate [rad/s or px/s] of the coordinate of a gear's side. motions: MOTION rows; others: see side_value.
+    """
     if row < 0:
         return motion.angular_velocity
     j = joints[row]
@@ -146,7 +147,7 @@ def side_speed(row, motion, joints, motions):
 
 @subkernel
 def push_side(row, impulse, motion, joints, motions_inout):
-    """Apply an impulse to the coordinate of a side of a gear. A positive impulse increases the coordinate.
+    """Apply an impulse to the coordinate of a gear's side. A positive impulse increases the coordinate.
 
     row, joints: see side_value; motion: index of the MOTION row of the body.
     """

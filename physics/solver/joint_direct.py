@@ -1,9 +1,10 @@
-"""Direct tier of joints: writes the parts of joints that trees can solve as rows for the solver in joint_trees.py.
+"""Direct tier of joints, which writes the parts of joints that trees can solve as rows for joint_trees.py.
 
 For a joint in a tree, the parts that hold its anchors and its angle are solved exactly, together with all other joints
 of the tree. Its coordinate is solved in the same way if it is held or has a spring. Joints that close a loop, further
-joints between the same two bodies, limits and motors are rows beside the tree, see joint_schur.py. The passes of
-joint_rows.py solve everything else before the trees: parts with a bounded force, and all parts of meshes.
+joints between the same two bodies, limits and motors are solved beside the tree, see joint_schur.py. The passes of
+joint_rows.py solve everything else before the trees: parts with a bounded force, and all parts of meshes (see
+drop_meshes).
 
 Rigid parts have no spring. A velocity removes an error of position within the next substep, and the solve at the end of
 that substep removes this velocity again. A spring that the user has set is a compliance of its row (Catto, Soft
@@ -104,7 +105,7 @@ def drop_meshes(order, row_counts, motion_a, motion_b, taken, parents_inout, sum
     """Remove the joints of meshes from the list of joints for trees. Return the number of remaining joints.
 
     A connected component is a mesh under two conditions. Its joints outside the tree are more than a quarter of those
-    in the tree, and they have more rows than are solved exactly, see joint_schur.py. In a mesh the iterative passes
+    in the tree, and they have too many rows for the exact solver of joint_schur.py. In a mesh the iterative passes
     converge better without trees, because a tree would undo their corrections of the loops. O(joints + motions).
 
     order, row_counts, motion_a, motion_b, taken: arguments of joint_trees.build_forest and factor_trees; parents_inout:
@@ -521,7 +522,7 @@ class Trees:
         return order[:left], build_forest(order[:left], a, b, motions, self.forest, taken) if left else 0
 
     def _list_schur(self, rows, joints, motions, taken):
-        """Return a Schur with the rows beside the trees, enlarged if needed. Arguments: see count_schur."""
+        """Return a Schur with the Schur rows of the group, enlarged if needed. Arguments: see count_schur."""
         schur = self.schur
         if len(schur.slot_of) < len(motions):
             schur = self.schur = schur._replace(slot_of=np.zeros(2 * len(motions), np.int32))

@@ -146,7 +146,7 @@ def report_joints(bodies, joints_inout):
 
 @stage("joints", reads=("bodies", "joints"), writes=("joints",))
 def measure_joints(state: StepState) -> None:
-    """Measure all joints at the final poses of the step, and mark the joints that broke."""
+    """Write coordinates, speeds and errors of all joints at the final poses of the step, and mark broken joints."""
     report_joints(state.bodies, state.joints)
 
 

@@ -416,7 +416,7 @@ def has_motor(joint):
 
 @inlined
 def turns(joint):
-    """Return whether a gear that acts on this joint acts on its angle (True) or on its translation (False)."""
+    """Return whether a gear uses the angle of this joint (True) or its translation (False)."""
     return joint.coordinate == ANGLE or joint.turns_motor
 
 

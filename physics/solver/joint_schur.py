@@ -1,11 +1,11 @@
-"""Rows beside the trees of joints, solved exactly: loop closures, limits and motors of joints between bodies of a tree.
+"""Schur rows: loop closures, limits and motors of joints between bodies of a tree, solved exactly with the tree.
 
 A row is one scalar equation of a joint. joint_trees.py solves only the rows of the tree itself. Three kinds of rows are
 not part of the tree: rows of a joint that closes a loop (Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter
-8), the limits on the coordinate of a joint, and its motor. The Schur complement S of the tree describes how these rows
-respond to impulses, with the tree attached: column i holds the velocity changes of all rows by a unit impulse along row
-i. A column costs one solve of the tree, and is computed when its row first needs an impulse. The equations in S are
-then solved by factors L D Lᵀ, in O(k³) for k rows with an impulse.
+8), the limits on the coordinate of a joint, and its motor. The Schur complement S of the tree describes how these Schur
+rows respond to impulses, with the tree attached: column i holds the velocity changes of all rows by a unit impulse
+along row i. A column costs one solve of the tree, and is computed when its row first needs an impulse. The equations in
+S are then solved by factors L D Lᵀ, in O(k³) for k rows with an impulse.
 
 Impulses of limits and motors are bounded. Block principal pivoting finds which of these impulses are at a bound (Júdice
 and Pires, A block principal pivoting algorithm for large-scale strictly monotone linear complementarity problems,
@@ -96,7 +96,7 @@ SCHUR_TREE = in_lines(
 
 
 class Schur(NamedTuple):
-    """The rows beside the trees of a group of islands, with scratch arrays. The arrays are reused."""
+    """The Schur rows of a group of islands, which are solved beside the trees, and reusable scratch arrays."""
 
     rows: np.ndarray  # SCHUR_ROW, tree after tree
     trees: np.ndarray  # SCHUR_TREE, one for each root slot
@@ -169,14 +169,14 @@ def count_schur(
     joints_inout,
     schur_out,
 ):
-    """Count the rows beside the trees, and write where the rows of each tree begin. O(MOTION rows + joints).
+    """Count the Schur rows of all trees, and write where the Schur rows of each tree begin. O(MOTION rows + joints).
 
     Return the number of rows. A tree with a gear or pulley has no rows for limits and motors. JOINT.in_open_tree is set
     for the joints of trees without loops, with at most one joint to a body of infinite mass.
 
     rows: indices of the JOINT rows of the group; motions: MOTION rows; forest: result of build_forest; row_counts,
     taken: for each joint of `rows` its number of tree rows, and whether it is in the forest. joints_inout: all JOINT
-    rows.
+    rows; schur_out: see Schur.
     """
     f, s = forest, schur_out
     for i in range(len(motions)):
@@ -212,7 +212,7 @@ def count_schur(
 
 @subkernel
 def place_blocks(size, schur_inout):
-    """Choose the rows of each tree, and write where its rows, slots and matrix begin. Return the number of rows.
+    """Choose the Schur rows of each tree, and write where its rows, slots and matrix begin. Return the number of rows.
 
     A tree with too many rows of one kind (loops, limits or motors) gets none of that kind. This counts as a reached
     cap. size: number of slots. O(slots).
@@ -241,9 +241,10 @@ def place_blocks(size, schur_inout):
 
 @subkernel
 def add_part(index, part, joint, schur_inout):
-    """Append a row to the rows of the tree of a joint. index: index of the joint in JointSet.rows; joint: JOINT row.
+    """Append a Schur row for a joint to the rows of its tree.
 
-    part: LOWER, UPPER or MOTOR, or the number of the joint's own row if the joint closes a loop.
+    index: index of the joint in JointSet.rows; part: LOWER, UPPER or MOTOR, or the number of the joint's own row if the
+    joint closes a loop; joint: JOINT row.
     """
     s = schur_inout
     a, b = s.slot_of[joint.motion_a], s.slot_of[joint.motion_b]
@@ -258,7 +259,7 @@ def add_part(index, part, joint, schur_inout):
 
 @kernel
 def list_schur(rows, motions, forest, row_counts, taken, joints_inout, schur_inout):
-    """Write the rows beside the trees, after count_schur. O(slots + joints).
+    """Write the Schur rows of all trees, after count_schur. O(slots + joints).
 
     JOINT.direct, exact_limits and exact_motor are set for joints whose loop rows, limits or motor are among these rows.
     Arguments: see count_schur.
@@ -293,7 +294,7 @@ def list_schur(rows, motions, forest, row_counts, taken, joints_inout, schur_ino
 
 @subkernel
 def begin_schur(rows, joints, tree_rows, motions, schur_inout):
-    """Write the Jacobians of the rows beside the trees at the present poses. O(rows).
+    """Write the Jacobians of the Schur rows at the present poses. O(rows).
 
     The columns of the Schur complement are marked as not computed. rows: indices of the JOINT rows of the group;
     joints: all JOINT rows, after place_joint; tree_rows: JOINT_ROW rows of the joints of `rows`; motions: MOTION rows.
@@ -334,7 +335,7 @@ def limit_target(gap, biased, most, inverse_h):
 
 @subkernel
 def aim_schur(rows, biased, context, joints, tree_rows_inout, schur_inout):
-    """Write the target velocities of the rows beside the trees, and the bounds of the changes of their impulses.
+    """Write the target velocities of the Schur rows, and the bounds of the changes of their impulses.
 
     Impulses of joints that close loops are reset to 0. biased: True to also remove errors of position; context: see
     StepContext; tree_rows_inout: JOINT_ROW rows with their targets; other arguments: see begin_schur. O(rows).
@@ -394,7 +395,7 @@ def bound_motor(row_inout):
 
 @subkernel
 def begin_states(tree, bodies, motions, schur_inout):
-    """Write the violations of the rows of a tree after a solve of the tree alone, and a first guess of their states.
+    """Write the violations of a tree's Schur rows after a solve of the tree alone, and a first guess of their states.
 
     A row is free if its impulse can reduce its violation, otherwise at a bound. Return whether any row needs a change
     of its impulse. tree: SCHUR_TREE row; bodies: TREE_BODY rows; motions: MOTION rows.
@@ -433,7 +434,7 @@ def respond(child, first, rows, parent_inout, violations_out):
 
 @subkernel
 def compute_column(index, tree, motions, forest_inout, schur_inout):
-    """Compute a column of the Schur complement: the velocities of a tree's rows after a unit impulse along one row.
+    """Compute a column of the Schur complement: velocities of a tree's Schur rows after a unit impulse along one row.
 
     index: number of this row in the tree; tree: SCHUR_TREE row; motions: MOTION rows. O(slots).
     """
@@ -476,7 +477,7 @@ def compute_column(index, tree, motions, forest_inout, schur_inout):
 
 @subkernel
 def list_free(tree, motions, forest_inout, schur_inout):
-    """List the free rows of a tree, whose impulses are not at a bound. Return their number.
+    """List the free Schur rows of a tree, whose impulses are not at a bound. Return their number.
 
     Missing columns of the Schur complement are computed. tree: SCHUR_TREE row; motions: MOTION rows.
     """
@@ -494,7 +495,7 @@ def list_free(tree, motions, forest_inout, schur_inout):
 
 @subkernel
 def solve_free(count, tree, schur_inout):
-    """Solve the equations of the free rows of a tree by factors L D Lᵀ, and write the changes of their impulses.
+    """Solve the equations of a tree's free Schur rows by factors L D Lᵀ, and write the changes of their impulses.
 
     A row is redundant if its pivot is 0 after the elimination of other rows. Its scale (the pivot without other joints)
     is then used as compliance. count: number of free rows, see list_free; tree: SCHUR_TREE row. O(count³).
@@ -530,7 +531,7 @@ def solve_free(count, tree, schur_inout):
 
 @inlined
 def next_state(index, tree, schur):
-    """Return the state that a row of a tree should have according to the present impulses.
+    """Return the state that a Schur row of a tree should have according to the present impulses.
 
     A free row whose impulse is beyond a bound gets the state of that bound. A row at a bound becomes free if its
     impulse must leave the bound to reduce its violation. index: number of the row in the tree; tree: SCHUR_TREE row.
@@ -553,7 +554,7 @@ def next_state(index, tree, schur):
 
 @subkernel
 def change_states(only_last, tree, schur_inout):
-    """Correct the states of a tree's rows that differ from next_state. Return how many were wrong. O(count²).
+    """Correct the states of a tree's Schur rows that differ from next_state. Return how many were wrong. O(count²).
 
     only_last: True to correct only the last of them; tree: SCHUR_TREE row.
     """
@@ -575,7 +576,7 @@ def change_states(only_last, tree, schur_inout):
 
 @subkernel
 def pivot_rows(tree, motions, forest_inout, schur_inout):
-    """Find the changes of the impulses of a tree's rows by block principal pivoting. Return 1 for a failure, else 0.
+    """Find the impulse changes of a tree's Schur rows by block principal pivoting. Return 1 for a failure, else 0.
 
     All rows in a wrong state change their states at once, as long as the number of such rows decreases. Otherwise only
     the last of them changes, which always terminates (Murty, 1974). The search fails if its rounds do not suffice.
@@ -613,7 +614,7 @@ def push_row(row, a_inout, b_inout):
 
 @subkernel
 def push_rows(rows, tree, schur, joints_inout, tree_rows_inout, motions_inout):
-    """Apply the changes of the impulses of the rows of a tree, and add them to the impulses of their joints.
+    """Apply the impulse changes of a tree's Schur rows to the bodies, and add them to the impulses of the joints.
 
     tree: SCHUR_TREE row; other arguments: see solve_schur.
     """
@@ -667,7 +668,7 @@ def solve_tree_again(tree, slots, forest_inout, tree_rows_inout, motions_inout):
 
 @subkernel
 def solve_schur(rows, forest_inout, schur_inout, joints_inout, tree_rows_inout, motions_inout):
-    """Solve the rows beside the trees together with the trees, after a solve of the trees alone.
+    """Solve the Schur rows together with their trees, after a solve of the trees alone.
 
     rows: indices of the JOINT rows of the group; forest_inout: after solve_trees; schur_inout: after aim_schur;
     joints_inout: all JOINT rows, of which the impulses of limits and motors change; tree_rows_inout: JOINT_ROW rows of

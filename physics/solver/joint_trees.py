@@ -153,7 +153,7 @@ def with_room(forest: Forest, joints: int, motions: int) -> Forest:
 
 @inlined
 def has_infinite_mass(motion):
-    """Return whether a MOTION row has neither finite mass nor finite inertia."""
+    """Return whether both the mass and the inertia of a MOTION row are infinite."""
     return not (motion.inverse_mass > 0.0 or motion.inverse_inertia > 0.0)
 
 

@@ -702,7 +702,7 @@ write_first, write_second = make_write_point(False), make_write_point(True)
 
 @inlined
 def copy_first(lane, c_inout):
-    """Fill the second point of a contact with one point: copy the first point, and set the impulses to 0."""
+    """Complete the lane of a contact with one point: copy the first point to the second, with impulses of 0."""
     c = c_inout
     c[AX_2 + lane] = c[AX_1 + lane]
     c[AY_2 + lane] = c[AY_1 + lane]
@@ -729,7 +729,7 @@ def write_all_masses(count, blocks_inout):
 
 
 def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
-    """Return the kernel that writes contacts into lanes, for a world with or without friction and moving surfaces."""
+    """Return the kernel that writes contacts into lanes. friction, conveyor: effects that the world has."""
 
     @kernel
     def prepare_lanes(bodies, motions, plan, group, context, contacts_inout, blocks_out, work_inout):

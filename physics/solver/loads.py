@@ -95,7 +95,7 @@ class Lists(NamedTuple):
 
 
 class ContactLists:
-    """Lists of the contacts of each body between two steps. They are rebuilt when the contacts have changed."""
+    """Lists of each body's contacts, for use between two steps. They are rebuilt after the contacts have changed."""
 
     def __init__(self) -> None:
         self.contacts, self.step = None, -1  # the contacts and the step for which the lists were built
