@@ -347,9 +347,9 @@ def is_before(link, local, middle, fraction, core, workspace):
     """Return whether the mover is in front of a link at a fraction of the motion.
 
     One point of the mover is tested: its centre of mass if `core` is True, else the point `middle`. `middle` is (x, y)
-    [px] relative to the centre of mass at angle 0. If the chain bends towards its front at an end of the link, a point
-    beyond this end must also be in front of the neighbouring link. link: LINK row; local: see sweep_chain; workspace:
-    see RotationalWorkspace.
+    [px] relative to the centre of mass at angle 0. The chain may bend towards its front at an end of the link. A point
+    beyond this end must then also be in front of the neighbouring link. link: LINK row; local: see sweep_chain;
+    workspace: see RotationalWorkspace.
     """
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b

@@ -205,9 +205,9 @@ def start_walk(a, b, i, j, state_out, simplex_out):
 def walk_on(a, a_count, b, b_count, state_inout, simplex_inout):
     """Run one round of GJK: reduce the simplex to its feature nearest to the origin, then add the support point.
 
-    Return SEARCHING if a support point was added, APART if no support point is nearer to the origin than the feature,
-    and TOUCHING if the origin lies in the simplex. O(corners). a, b (n, 2) [px]: corners of the hulls; a_count,
-    b_count: numbers of corners in use; state_inout, simplex_inout: arrays of a GapWorkspace.
+    Return SEARCHING if a support point was added. Return APART if no support point is nearer to the origin than the
+    feature, and TOUCHING if the origin lies in the simplex. O(corners). a, b (n, 2) [px]: corners of the hulls;
+    a_count, b_count: numbers of corners in use; state_inout, simplex_inout: arrays of a GapWorkspace.
     """
     state_inout[ROUNDS] += 1.0
     if reduce_simplex(a, b, state_inout, simplex_inout) == TOUCHING:

@@ -319,7 +319,7 @@ def take_body(row, reason, found, bodies_inout, broken_out):
 
 @subkernel
 def take_broken_bodies(rows, course, bodies_inout, broken_out):
-    """Quarantine bodies whose numbers are not finite or out of range, and list them. Return their number.
+    """Quarantine bodies with numbers that are out of range or not finite, and list them. Return their number.
 
     A body whose pose is out of range is moved back to its last finite pose. rows: row numbers in BODY; broken_out
     (bodies, 2): row number and reason (index of REASONS); course: see Course.
@@ -385,7 +385,7 @@ def take_broken_by_solver(rows, course, bodies_inout, broken_out):
 
 @stage("quarantine", reads=(*READS, "joints", "workspace"), writes=(*WRITES, "workspace"))
 def quarantine(state: StepState) -> None:
-    """Disable and report bodies with numbers that are not finite or out of range, before they affect neighbours."""
+    """Disable and report bodies with numbers that are out of range or not finite, before they affect other bodies."""
     awake, bodies, workspace = state.awake, state.bodies, state.workspace
     gravity = state.gravity if state.effects.gravity else (0.0, 0.0)
     course = Course(*gravity, state.tolerances.speed_limit, state.dt)

@@ -464,7 +464,7 @@ def hang_on_pulleys(joint, a, b, groups_inout):
     """Write the wheels of a taut pulley rope as pivots of the free bodies that hang on the rope.
 
     The bodies stay in separate groups, because each swings about its own wheel. keep_coupled_awake detects ropes that
-    run. joint: JOINT row; a, b: whether each body is free, see is_free.
+    move over their wheels. joint: JOINT row; a, b: whether each body is free, see is_free; groups_inout: Groups.
     """
     j, g = joint, groups_inout
     if not (j.upper_force > 0.0 or j.lower == j.upper):
@@ -642,8 +642,8 @@ def choose_surface(root, nx, ny, groups_inout):
 def mark_blocked(root, nx, ny, fall, groups_inout):
     """Mark a group as blocked if another surface stops it from sliding along the surface on which it presses.
 
-    The other surface stops the group if the sliding motion would lead into it by more than a slop. root: root row of
-    the group; nx, ny: normal of the other surface, towards the group. groups_inout: Groups; fall: see FreeFall.
+    The other surface stops the group if sliding would move the group into this surface by more than a slop. root: root
+    row of the group; nx, ny: normal of the other surface, towards the group. groups_inout: Groups; fall: see FreeFall.
     """
     g = groups_inout
     into = -(g.ax[root] * nx + g.ay[root] * ny)
@@ -749,7 +749,7 @@ def keep_sprung_awake(bodies, joints, slop, islands, least_out):
 
 @kernel
 def keep_coupled_awake(bodies, joints, fall, islands, least_out):
-    """Set the least sleep time of an island to 0 if its gears turn or its ropes run by more than the slop. O(joints).
+    """Set the least sleep time of an island to 0 if its gears or ropes move by more than the slop. O(joints).
 
     The motion is predicted for FREE_TIME at the present speed. bodies: BODY rows; joints: JOINT rows; fall: see
     FreeFall; islands, least_out: see keep_free_awake.

@@ -6,8 +6,8 @@ depend on the broad phase (Catto, Box2D v3, Simulation Islands, 2023). A substep
 substeps.
 
 No two edges of one colour share a node of finite mass. The result is therefore the same to the bit for any order of the
-edges within a colour, and any number of SIMD lanes or threads (Catto, SIMD Matters, 2024). Edges with a static or
-kinematic body get the last colours. They are solved last, and prevail over other edges.
+edges within a colour. It does not depend on the number of SIMD lanes or threads either (Catto, SIMD Matters, 2024).
+Edges with a static or kinematic body get the last colours. They are solved last, and prevail over other edges.
 """
 
 from typing import NamedTuple

@@ -518,7 +518,7 @@ def start_islands(rows, parents_out):
 
 @inlined
 def way_from(body, x, y, angle):
-    """Return an upper bound [px] of the distance that any point of a body has from its position at another pose.
+    """Return an upper bound [px] of the distance that any point of a body has moved since it was at another pose.
 
     x, y [px], angle [rad]: the other pose. The result is NaN if a number of either pose is NaN.
     """

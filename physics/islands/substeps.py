@@ -51,9 +51,9 @@ def class_for(choices, square, least):
 def class_motions(motions, degrees, islands, classes_out):
     """Write the substep class of each MOTION row: the index of its number of substeps in islands.choices. O(motions).
 
-    Return whether there are new bodies with contacts. A body without constraints takes the fewest substeps. A new body
-    takes islands.by_load if it has contacts, and islands.jointed if it has only joints. For every other body, the last
-    step has chosen the number (MOTION.substeps). degrees: number of contacts of each body.
+    Return whether there are new bodies with contacts. A body without constraints gets the fewest substeps. A new body
+    gets the class islands.by_load if it has contacts, and islands.jointed if it has only joints. Every other body keeps
+    the number that the last step chose (MOTION.substeps). degrees: number of contacts of each body.
     """
     unknown = False
     choices, by_load = islands.choices, islands.by_load

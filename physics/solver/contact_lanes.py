@@ -179,9 +179,9 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, plan_
     step are still valid). The colours are valid if the edges connect the same MOTION rows with the same traits, see
     traits_of.
 
-    Sensors, contacts without a body of finite mass, and contacts under a character's feet are left out. Islands may be
-    squeezed if faces of bodies of infinite mass overlap other bodies, and the faces differ in direction or one of them
-    moves.
+    Sensors, contacts without a body of finite mass, and contacts under a character's feet are left out. A face is the
+    side of a body of infinite mass that overlaps another body. Islands may be squeezed if faces differ in direction, or
+    if a face moves.
 
     contacts, bodies, motions: CONTACT, BODY and MOTION rows; dt [s]; limits: see settings.Limits. lists_inout:
     MotionLists, in which a body created inside another gets an energy reserve. plan_out: see Plan.

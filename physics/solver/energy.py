@@ -121,9 +121,9 @@ def scale_motion(root, balance, motion_inout):
     root: BALANCE row with the scale factors for the set of touching bodies that contains this body; balance,
     motion_inout: BALANCE and MOTION row of the body.
 
-    If no body of the set touches a body of infinite mass (`anchored` is False), only the velocity relative to the
-    common motion of the set is scaled. Otherwise root.along_scale is applied to the velocity along the single normal of
-    the body's contacts, and then root.scale to the whole velocity.
+    A set is `anchored` if one of its bodies touches a body of infinite mass. If it is not, only the velocity relative
+    to the common motion of the set is scaled. If it is, root.along_scale is applied to the velocity along the single
+    normal of the body's contacts, and then root.scale to the whole velocity.
     """
     m = motion_inout
     if not root.anchored:
@@ -598,8 +598,8 @@ def note_faces(edges, count, lists, slop, parents, squeeze_out):
 def find_squeezed(edges, count, lists, motions, limits, parents_out, squeeze_out):
     """Find the islands without room, and write bounds on their contact impulses to the SQUEEZE rows.
 
-    Return whether such an island exists. A face is the side of a body of infinite mass at a contact. An island has no
-    room if it overlaps deeply, and if overlapping faces point in different directions or a moving face is opposite to
+    Return whether such an island exists. A face is the side of a body of infinite mass at a contact. An island without
+    room overlaps deeply. In addition, overlapping faces point in different directions, or a moving face is opposite to
     another face. edges, count: the constraints, in the first `count` graph edges; lists: MotionLists; motions: MOTION
     rows; limits: see settings.Limits; parents_out (motions) int32: the root of the island of each body. O(count +
     motions).

@@ -136,7 +136,9 @@ def side_value(row, start, motion, joints):
 
 @subkernel
 def side_speed(row, motion, joints, motions):
-    """Return the rate [rad/s or px/s] of the coordinate of a gear's side. motions: MOTION rows; others: see side_value.
+    """Return the rate [rad/s or px/s] of the coordinate of a gear's side. row, motion, joints: see side_value.
+
+    motions: MOTION rows.
     """
     if row < 0:
         return motion.angular_velocity

@@ -104,9 +104,9 @@ def list_tree_joints(rows, joints, order_out, counts_out, motion_a_out, motion_b
 def drop_meshes(order, row_counts, motion_a, motion_b, taken, parents_inout, sums_out, order_inout):
     """Remove the joints of meshes from the list of joints for trees. Return the number of remaining joints.
 
-    A connected component is a mesh under two conditions. Its joints outside the tree are more than a quarter of those
-    in the tree, and they have too many rows for the exact solver of joint_schur.py. In a mesh the iterative passes
-    converge better without trees, because a tree would undo their corrections of the loops. O(joints + motions).
+    A connected component is a mesh under two conditions. Its joints outside the tree are more than a quarter of the
+    joints in the tree. They also have too many rows for the exact solver of joint_schur.py. In a mesh the iterative
+    passes converge better without trees, because a tree would undo their corrections of the loops. O(joints + motions).
 
     order, row_counts, motion_a, motion_b, taken: arguments of joint_trees.build_forest and factor_trees; parents_inout:
     Forest.parents. sums_out (motions, 3) int32, for the root of each component: number of joints in its tree, number of

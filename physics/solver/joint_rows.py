@@ -35,10 +35,10 @@ def is_idle(joint):
 def side_of_gear(identity, body_row, motion_of, motions, joints):
     """Return (BODY row that represents a side of a gear, whether the side acts).
 
-    If the side is a joint with a dynamic body, the result is the row of that body. In the graph, the edge of the gear
-    then connects all bodies that the gear moves, because the joint's own edge connects the joint's two bodies. A
-    removed or disabled joint does not act. identity: id of the joint, NO_JOINT for a side that is a body; body_row:
-    present BODY row of the side; motion_of, motions: see list_joints; joints: all JOINT rows.
+    If the side is a joint with a dynamic body, the result is the row of that body. In the graph, the gear's edge then
+    connects all bodies that the gear moves: the joint's own edge connects the joint's two bodies. A removed or disabled
+    joint does not act. identity: id of the joint, NO_JOINT for a side that is a body; body_row: present BODY row of the
+    side; motion_of, motions: see list_joints; joints: all JOINT rows.
     """
     if identity == NO_JOINT:
         return body_row, True
@@ -191,9 +191,9 @@ def place_joint(a, b, joint_inout):
 def push(joint, x, y, torque, a_inout, b_inout):
     """Apply an impulse (x, y) at B's anchor and an angular impulse `torque` to B, and the opposite impulses to A.
 
-    The velocities without contact impulses (free_vx, free_vy, free_w) change by the same amounts. So the warm start of
-    contacts does not repeat these impulses; joints have a warm start of their own. joint: JOINT row; a_inout, b_inout:
-    MOTION rows.
+    The velocities without contact impulses (free_vx, free_vy, free_w) change by the same amounts. The warm start of
+    contacts therefore does not repeat these impulses; joints have a warm start of their own. joint: JOINT row; a_inout,
+    b_inout: MOTION rows.
     """
     j = joint
     a, b = a_inout, b_inout
@@ -323,9 +323,9 @@ def spring_of(hertz, damping, h):
     effective mass. The spring solves: new velocity + give · w · impulse = carry · v - rate · c.
 
     An undamped spring has the stiffness of the implicit midpoint rule, and keeps its energy (Hairer, Lubich and Wanner,
-    Geometric Numerical Integration, 2006, chapter 6). A spring with a damping ratio of 1 or more, or with an
-    oscillation too fast for the substeps, is an implicit Euler step, which does not overshoot (Catto, Soft Constraints,
-    GDC 2011). hertz [1/s]: frequency; damping: damping ratio.
+    Geometric Numerical Integration, 2006, chapter 6). With a damping ratio of 1 or more, the spring is an implicit
+    Euler step, which does not overshoot (Catto, Soft Constraints, GDC 2011). So is a spring that oscillates too fast
+    for the substeps. hertz [1/s]: frequency; damping: damping ratio.
     """
     x = h * math.tau * hertz
     implicit = max(min(damping, 1.0), 1.0 - RESOLVED / x if x > RESOLVED else 0.0)

@@ -6,10 +6,10 @@ tree. A tree is eliminated from its leaves to its root, and then solved from the
 Dynamics using Lagrange Multipliers, SIGGRAPH 1996; Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter 7).
 
 The elimination computes articulated inverse inertias. The 3×3 matrix W of a body is the response of its velocity to an
-impulse, with its subtree attached. A joint to a child with the inverse inertia Wc acts on the parent like a measurement
-of the parent's velocity in a Kalman filter, with the covariance S = Γ + Jc Wc Jcᵀ. Γ holds the compliances of the
-joint's rows, and Jc is their Jacobian for the child. The case S = 0, a rigid joint to a body of infinite mass, needs no
-special treatment, because S is never inverted.
+impulse, with its subtree attached. The elimination is a Kalman filter: a joint to a child acts like a measurement of
+the parent's velocity. The covariance of this measurement is S = Γ + Jc Wc Jcᵀ. Wc is the inverse inertia of the child,
+Γ holds the compliances of the joint's rows, and Jc is their Jacobian for the child. The case S = 0, a rigid joint to a
+body of infinite mass, needs no special treatment, because S is never inverted.
 
 W is stored as U D Uᵀ, with U unit upper triangular and D diagonal. S is diagonalised row by row without being formed.
 This loses no digits if a light body carries a heavy body (Bierman, Factorization Methods for Discrete Sequential

@@ -41,8 +41,8 @@ def forget_below(rows, size, bodies, blow, stamp, lists_inout, contacts_inout):
     """Clear the cached contact forces of bodies under groups of bodies that are about to be removed or moved.
 
     A body outside a group is affected if a body of the group presses on it with a force per mass above `blow` [px/s2].
-    The contacts of the affected body lose their cached forces, and so do the contacts of all dynamic bodies that are
-    connected to the affected body by contacts.
+    So are all dynamic bodies that contacts connect to an affected body. All contacts of affected bodies lose their
+    cached forces.
 
     Return the greatest stamp used. rows: row numbers in BODY of the groups, `size` per group; bodies: all BODY rows;
     stamp: a number not less than any mark in lists_inout (see Lists); contacts_inout: CONTACT rows. O(contacts of the
