@@ -46,7 +46,7 @@ def is_ground(shape):
 
 @subkernel
 def has_corners(shape):
-    """Return whether a shape has corners in geometry.polygons: it is a hull, but not a circle and not a BOUNDS."""
+    """Return whether a shape has corners in geometry.polygons, as all hulls have except circles and BOUNDS."""
     return is_hull(shape.kind) and shape.kind != BOUNDS and shape.kind != CIRCLE
 
 

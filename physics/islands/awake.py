@@ -572,10 +572,10 @@ def hold_groups(rows, bodies, groups_inout):
 def way_of_hung(root, body, groups, fall):
     """Return how far [px] a body may still move if its group hangs on one pivot or slides on rails.
 
-    A pivoted group under an acceleration swings like a pendulum: the result is SWING times the amplitude, computed from
-    the present displacement and speed. It is infinite if the centre of mass is above the pivot. Without acceleration,
-    the group is assumed to keep rotating about the pivot. root: root row of the group; body: BODY row; fall: see
-    FreeFall.
+    A pivoted group under an acceleration swings like a pendulum. The result is then SWING times the amplitude, computed
+    from the present displacement and speed. It is infinite if the centre of mass is above the pivot. Without
+    acceleration, the group is assumed to keep rotating about the pivot. root: root row of the group; body: BODY row;
+    groups: see Groups; fall: see FreeFall.
     """
     g = groups
     ax, ay = g.ax[root], g.ay[root]

@@ -36,9 +36,9 @@ def side_of_gear(identity, body_row, motion_of, motions, joints):
     """Return (BODY row that represents a side of a gear, whether the side acts).
 
     If the side is a joint with a dynamic body, the result is the row of that body. In the graph, the gear's edge then
-    connects all bodies that the gear moves: the joint's own edge connects the joint's two bodies. A removed or disabled
-    joint does not act. identity: id of the joint, NO_JOINT for a side that is a body; body_row: present BODY row of the
-    side; motion_of, motions: see list_joints; joints: all JOINT rows.
+    connects all bodies that the gear moves, because the joint has an edge of its own. A removed or disabled joint does
+    not act. identity: id of the joint, NO_JOINT for a side that is a body; body_row: present BODY row of the side;
+    motion_of, motions: see list_joints; joints: all JOINT rows.
     """
     if identity == NO_JOINT:
         return body_row, True
@@ -282,7 +282,7 @@ def spring_inverse_mass(joint, a, b):
     """Return the inverse effective mass that a joint's spring acts on, if the joint's other parts are rigid.
 
     The frequency and the damping ratio of the spring refer to this mass. A door on a spring swings with its inertia
-    about the hinge, and a slider does not rotate. Box2D v3 uses the moments of inertia about the centres instead: a
+    about the hinge, and a slider does not rotate. Box2D v3 uses the moments of inertia about the centres instead. A
     door then swings slower, and overshoots when critically damped. For the axis of a Wheel and for a Distance the
     result is coordinate_inverse_mass. joint: JOINT row; a, b: MOTION rows.
     """

@@ -161,7 +161,7 @@ def has_infinite_mass(motion):
 def take_joints(order, motion_a, motion_b, motions, forest_inout, taken_out):
     """Choose the joints that form the forest, and link the chosen joints of each body into a list. Return their number.
 
-    The elements of these lists are half-edges: a half-edge is one side of a joint, see Forest. Arguments: see
+    The elements of these lists are half-edges. A half-edge is one side of a joint, see Forest. Arguments: see
     build_forest.
     """
     f = forest_inout

@@ -229,9 +229,9 @@ def solve_two(change_1, change_2, off_diagonal_1, off_diagonal_2, factor, old_1,
     """Return the new accumulated normal impulses (>= 0) of two contact points that are solved together (block solver).
 
     Each point reaches its required velocity, or separates with impulse 0. change_1, change_2: change of impulse that
-    each point would need if the other were unchanged. off_diagonal_1, off_diagonal_2: k_12 / k_11 and k_12 / k_22 of
-    the matrix k of inverse effective masses. factor: see block_factor. old_1, old_2: impulses before. Both, either or
-    neither point has an impulse: all four cases are computed, and one is selected without branches, for vectorisation.
+    each point needs if the other is unchanged. off_diagonal_1, off_diagonal_2: k_12 / k_11 and k_12 / k_22 of the
+    matrix k of inverse effective masses. factor: see block_factor. old_1, old_2: impulses before. In the four cases
+    both, either or no point has an impulse. All are computed, and one is selected without branches, for vectorisation.
     Point 2 is solved after point 1 if the points nearly coincide, or if no case fits because of rounding.
     """
     only_1 = old_1 + change_1 + off_diagonal_1 * old_2

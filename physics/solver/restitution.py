@@ -640,7 +640,7 @@ def list_handed_on(blocks_count, count, motions_inout, impacts_inout, blocks_ino
     """Append the contacts that can transmit an impact to other bodies. Return the new number of IMPACT rows.
 
     They are contacts of marked bodies (see mark_bodies) with an impulse in this step. Their bodies are marked too, and
-    the search is repeated until it finds no more. An appended contact does not bounce: its approach speed may remain,
+    the search is repeated until it finds no more. An appended contact does not bounce. Its approach speed may remain,
     but not increase. blocks_count: number of blocks; count: number of IMPACT rows before; motions_inout: MOTION rows.
     """
     blocks = blocks_inout

@@ -289,9 +289,10 @@ def make_push_pass(rotation: bool) -> Callable:
 def stop_impacts(count, motions_inout, blocks_inout):
     """Remove the approach speed that the solver passes left at impacts, which are contacts with the field BOUNCING.
 
-    Only points with a normal impulse are changed: if they still approached, they would hit again in the next step. Slow
-    contacts are excluded: in loaded stacks the passes leave a small approach speed, which the next step removes. count:
-    number of blocks. motions_inout: MOTION rows; blocks_inout: the contacts, see lanes.Blocks. O(lanes).
+    Only points with a normal impulse are changed, because they would hit again in the next step if they still
+    approached. Slow contacts are excluded: in loaded stacks the passes leave a small approach speed, which the next
+    step removes. count: number of blocks. motions_inout: MOTION rows; blocks_inout: the contacts, see lanes.Blocks.
+    O(lanes).
     """
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]

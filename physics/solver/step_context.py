@@ -159,7 +159,7 @@ def restitution_threshold(contact, a, b, degrees, context):
     """Return the approach speed [px/s] up to which a contact does not bounce.
 
     The result is context.restitution_speed, with two exceptions. First, a new contact bounces at any speed if no
-    acceleration presses its bodies together: otherwise a slow ball would stick to a wall in space. Second, a contact
+    acceleration presses its bodies together. Otherwise a slow ball would stick to a wall in space. Second, a contact
     that touched in the last step must exceed the speed that acceleration adds in two steps, if that speed is greater.
 
     Two bodies without other contacts fall together, so only the difference of their accelerations presses them.
