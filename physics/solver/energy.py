@@ -598,11 +598,11 @@ def note_faces(edges, count, lists, slop, parents, squeeze_out):
 def find_squeezed(edges, count, lists, motions, limits, parents_out, squeeze_out):
     """Find the islands without room, and write bounds on their contact impulses to the SQUEEZE rows.
 
-    Return whether such an island exists. A face is the side of a body of infinite mass at a contact. An island without
-    room overlaps deeply. In addition, overlapping faces point in different directions, or a moving face is opposite to
-    another face. edges, count: the constraints, in the first `count` graph edges; lists: MotionLists; motions: MOTION
-    rows; limits: see settings.Limits; parents_out (motions) int32: the root of the island of each body. O(count +
-    motions).
+    Return whether such an island exists. A face is the side of a body of infinite mass at a contact. An island has no
+    room under two conditions. It overlaps deeply. Overlapping faces point in different directions, or a moving face is
+    opposite to another face. edges, count: the constraints, in the first `count` graph edges; lists: MotionLists;
+    motions: MOTION rows; limits: see settings.Limits; parents_out (motions) int32: the root of the island of each body.
+    O(count + motions).
     """
     for i in range(len(motions)):
         s = squeeze_out[i]

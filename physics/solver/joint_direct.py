@@ -332,7 +332,7 @@ def aim_trees(rows, order, rate, context, joints, motions, tree_rows_out):
 
 @subkernel
 def collect_trees(rows, order, tree_rows, joints_inout):
-    """Add the impulses that the trees found to the impulses of their joints. O(order).
+    """Add the impulses from the solve of the trees to the impulses of their joints. O(order).
 
     rows, order: see JointSet; tree_rows: JOINT_ROW rows with the impulses; joints_inout: all JOINT rows.
     """

@@ -324,7 +324,7 @@ def begin_schur(rows, joints, tree_rows, motions, schur_inout):
 def limit_target(gap, biased, most, inverse_h):
     """Return the least velocity [px/s or rad/s] at which a coordinate must move away from its limit.
 
-    A gap may close within the substep, so the result is then negative. gap [px or rad]: distance from the limit,
+    The result is negative for a gap, which may close within the substep. gap [px or rad]: distance from the limit,
     negative for a violation; biased: True to also remove violations, at a speed of no more than `most`; inverse_h
     [1/s]: inverse of a substep.
     """
