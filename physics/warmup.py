@@ -31,7 +31,7 @@ EXACT = PixelMask(np.ones((4, 4), bool), snap=False)
 OPEN = PixelMask(np.ones((4, 40), bool), one_way=True)
 PAIRS = {
     "circles": ((BOX, Circle(4)),),
-    "boxes": ((BOX, Bounds(BOX)),),
+    "boxes": ((BOX, Bounds(BOX)), (Bounds(BOX), Bounds(BOX))),
     "masks": ((MASK, MASK), (MASK, BOX), (MASK, Circle(4))),
     "exact masks": ((EXACT, MASK), (EXACT, BOX)),
     "one-way masks": ((OPEN, BOX),),

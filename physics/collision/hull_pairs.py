@@ -21,6 +21,7 @@ from physics.collision.hulls import (
     write_normals,
 )
 from physics.collision.manifold import (
+    AABBS,
     CIRCLES,
     POLYGON_CIRCLE,
     POLYGONS,
@@ -40,7 +41,7 @@ from physics.collision.manifold import (
 from physics.jit import inlined, subkernel
 from physics.math2d import norm, unit
 from physics.tables.body import DYNAMIC, STATIC
-from physics.tables.shape import BOUNDS, CIRCLE
+from physics.tables.shape import CIRCLE
 
 # ---- speculative contacts --------------------------------------------------------------------------------------------
 # Pairs that meet within the step are evaluated at the predicted contact and not at the start pose.
@@ -533,14 +534,6 @@ def collide_polygon_pair(batch, pair, workspace, manifolds_out, found, work_inou
     row_b = candidates[pair, 1]
     s, o = shapes[row_a], shapes[row_b]
     p, q = bodies[s.body_row], bodies[o.body_row]
-    if s.kind == BOUNDS and o.kind == BOUNDS:
-        points = collide_aabbs(s, o, margin, manifold)
-        if points == 1 and manifold[5] > 0.0:
-            vx, vy = relative_velocity(p, q, manifold[3], manifold[4], manifold[3], manifold[4])
-            a, b = hulls_in(batch, row_a, row_b, workspace)
-            if path_misses(a, b, 0.0, vx, vy):
-                return found
-        return add_points(shapes, candidates, pair, 1.0, manifold, 0, manifolds_out, found)
     a, b = hulls_in(batch, row_a, row_b, workspace)
     deepest = math.inf
     if s.inner != 0 or o.inner != 0:
@@ -567,6 +560,36 @@ def collide_polygon_pair(batch, pair, workspace, manifolds_out, found, work_inou
     return found
 
 
+@inlined
+def aabbs_near(batch, pair):
+    """Return whether the AABBs of two shapes are at most batch.margin [px] apart along both axes."""
+    a = batch.shapes[batch.candidates[pair, 0]]
+    b = batch.shapes[batch.candidates[pair, 1]]
+    m = batch.margin
+    return (a.min_x - m <= b.max_x) & (b.min_x - m <= a.max_x) & (a.min_y - m <= b.max_y) & (b.min_y - m <= a.max_y)
+
+
+@inlined
+def collide_aabb_pair(batch, pair, workspace, manifolds_out, found, work_inout):
+    """Append the contact of two AABBs (Bounds). Return the new number of contacts.
+
+    Arguments: see manifold.make_pass.
+    """
+    shapes, candidates, manifold = batch.shapes, batch.candidates, workspace.points
+    row_a = candidates[pair, 0]
+    row_b = candidates[pair, 1]
+    s, o = shapes[row_a], shapes[row_b]
+    points = collide_aabbs(s, o, batch.margin, manifold)
+    if points == 1 and manifold[5] > 0.0:
+        p, q = batch.bodies[s.body_row], batch.bodies[o.body_row]
+        vx, vy = relative_velocity(p, q, manifold[3], manifold[4], manifold[3], manifold[4])
+        a, b = hulls_in(batch, row_a, row_b, workspace)
+        if path_misses(a, b, 0.0, vx, vy):
+            return found
+    return add_points(shapes, candidates, pair, 1.0, manifold, 0, manifolds_out, found)
+
+
+collide_aabb_pairs = make_pass(AABBS, collide_aabb_pair, aabbs_near)
 collide_circle_pairs = make_pass(CIRCLES, collide_circle_pair)
 collide_polygon_circle_pairs = make_pass(POLYGON_CIRCLE, collide_polygon_circle_pair)
 collide_polygon_pairs = make_pass(POLYGONS, collide_polygon_pair)

@@ -96,9 +96,10 @@ def mixed(geometry, a, b, manifold):
 # ---- manifold --------------------------------------------------------------------------------------------------------
 # Rows of the manifold table: written by the passes over pairs, then sorted in the order of the candidates.
 
-# Kinds of pairs; each pass processes the candidates of one kind.
-CIRCLES, POLYGON_CIRCLE, POLYGONS, MASKS, MASKS_EXACT, MASK_HULL, GRID_ANY, CHAIN_ANY = range(8)  # exact: not snapped
-SURFACE_ANY, NOTHING = 8, 9  # surface: a chain that is the upper side of a one-way mask
+# Kinds of pairs; each pass processes the candidates of one kind. AABBS: two Bounds; MASKS_EXACT: two masks, not both
+# snapped; SURFACE_ANY: a chain that is the upper side of a one-way mask; NOTHING: no test.
+CIRCLES, POLYGON_CIRCLE, AABBS, POLYGONS, MASKS, MASKS_EXACT, MASK_HULL, GRID_ANY, CHAIN_ANY = range(9)
+SURFACE_ANY, NOTHING = 9, 10
 HULLS = 4096  # most hulls that a pass keeps for further pairs, a power of two: 2 MB
 BLOCK = 64  # candidates that a pass lists before it collides them
 POINTS = 11  # floats of a manifold before it is stored: see "clipping" in hulls.py
@@ -248,10 +249,15 @@ def add_points(shapes, candidates, pair, sign, points, part, manifolds_out, foun
 
 @subkernel
 def circle_at(bodies, shapes, row):
-    """Return (x, y, radius) [px] of a CIRCLE shape in the world. row: row number in SHAPE."""
+    """Return (x, y, radius) [px] of a CIRCLE shape in the world. row: row number in SHAPE.
+
+    A circle whose centre is the body's origin needs no sine and cosine.
+    """
     s = shapes[row]
     b = bodies[s.body_row]
-    u, v = rotate(s.local_x, s.local_y, *rotation_of(b.angle))
+    u, v = s.local_x, s.local_y
+    if u != 0.0 or v != 0.0:
+        u, v = rotate(u, v, *rotation_of(b.angle))
     return b.x + u, b.y + v, s.radius
 
 

@@ -4,12 +4,14 @@ import numpy as np
 
 from physics.collision.chains import admit_to_surfaces, collide_chain_pairs
 from physics.collision.hull_pairs import (
+    collide_aabb_pairs,
     collide_circle_pairs,
     collide_polygon_circle_pairs,
     collide_polygon_pairs,
     speculative_distance,
 )
 from physics.collision.manifold import (
+    AABBS,
     CHAIN_ANY,
     CIRCLES,
     GRID_ANY,
@@ -46,7 +48,7 @@ from physics.jit import inlined, kernel, subkernel
 from physics.shapes.library import Library, draw_masks
 from physics.shapes.placement import drawn_beyond, is_drawn_when_asked
 from physics.tables.contact import CONTACT
-from physics.tables.shape import CHAIN, CIRCLE, MASK, PART, TILES
+from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, MASK, PART, TILES
 from physics.tables.step_state import COUNTERS, NARROW_TESTS, SENSOR_TESTS, StepState, stage
 from physics.tables.table import zeros_in_lines
 
@@ -134,6 +136,8 @@ def kind_of_pair(low, high):
     """Return the kind of pair (CIRCLES, POLYGONS, …) of two shapes whose kinds are `low` and `high`, in this order."""
     if low == CIRCLE and high == CIRCLE:
         return CIRCLES
+    if low == BOUNDS and high == BOUNDS:
+        return AABBS
     # Contacts never move grids and chains, so two of them have no contact.
     if high == CHAIN:
         return CHAIN_ANY if low != TILES and low != CHAIN else NOTHING
@@ -281,6 +285,7 @@ class NarrowPhase:
             (CIRCLES, collide_circle_pairs),
             (POLYGON_CIRCLE, collide_polygon_circle_pairs),
             (POLYGONS, collide_polygon_pairs),
+            (AABBS, collide_aabb_pairs),
             (MASKS, masks),
             (MASKS_EXACT, exact),
             (MASK_HULL, collide_mask_hull_pairs),
@@ -384,7 +389,7 @@ class NarrowPhase:
             workspace = workspace._replace(fallback=np.zeros(2 * batch.count + 1, np.int64))
             self.workspace = self.workspace._replace(fallback=workspace.fallback)
 
-        if counts[POLYGONS] or counts[POLYGON_CIRCLE]:
+        if counts[POLYGONS] or counts[POLYGON_CIRCLE] or counts[AABBS]:
             workspace = self._without_hulls(workspace, len(batch.shapes))
 
         def run_all():

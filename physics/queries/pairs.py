@@ -15,8 +15,13 @@ from physics import checks
 from physics.annotations import Pose
 from physics.ccd.rotational import advance_on_ground, advance_parts, new_rotational_workspace, sweep_unions
 from physics.ccd.time_of_impact import MISS, TOLERANCE, sweep_circles
-from physics.collision.hull_pairs import collide_circle_pairs, collide_polygon_circle_pairs, collide_polygon_pairs
-from physics.collision.manifold import CIRCLES, POLYGON_CIRCLE, POLYGONS, Batch, contacts_of, new_workspace
+from physics.collision.hull_pairs import (
+    collide_aabb_pairs,
+    collide_circle_pairs,
+    collide_polygon_circle_pairs,
+    collide_polygon_pairs,
+)
+from physics.collision.manifold import AABBS, CIRCLES, POLYGON_CIRCLE, POLYGONS, Batch, contacts_of, new_workspace
 from physics.collision.narrow_phase import NarrowPhase, kind_of_pair, no_work
 from physics.distance.gjk import AX, AY, BX, BY, NX, NY, ROUNDS, new_gap_workspace, separate_parts, shape_separation
 from physics.jit import kernel, subkernel
@@ -163,11 +168,12 @@ def kept_pair(shape_a: Shape, shape_b: Shape) -> KeptPair:
 
 # Arguments of a pass over one pair; the pass only reads them.
 PAIRS = {False: np.array([[0, 1]], np.int64), True: np.array([[1, 0]], np.int64)}
-KINDS = {kind: np.array([kind], np.int64) for kind in (CIRCLES, POLYGON_CIRCLE, POLYGONS)}
+KINDS = {kind: np.array([kind], np.int64) for kind in (CIRCLES, POLYGON_CIRCLE, POLYGONS, AABBS)}
 HULL_PASSES = {
     CIRCLES: collide_circle_pairs,
     POLYGON_CIRCLE: collide_polygon_circle_pairs,
     POLYGONS: collide_polygon_pairs,
+    AABBS: collide_aabb_pairs,
 }
 NAMES = CONTACT.names or ()
 
