@@ -54,6 +54,7 @@ DAILY = (
         f"tests/scenes/test_scenes.py::test_one_digest_however_it_is_run_and_the_goals_are_reached[{name}]"
         for name in ("shooter", "platformer", "lander")
     ),
+    "tests/scenes/test_platformer_bot.py::test_the_bot_finds_the_secrets_and_the_goal",
     "tests/scenes/test_takeover.py::",
     "tests/test_packaging.py::",
     "tests/test_wheel_layout.py::",

@@ -17,6 +17,9 @@ HOLD = 40  # steps that jump is held
 FLIGHT = 0.63  # [s] from a full jump's start to an enemy's back
 REACH = (100, 128)  # [px] range of a full jump in that time
 CLOSE, FAST_CLOSE = 34, 54  # [px] distance at which the bot jumps over an enemy on the ground, over a flying one
+CRATE_AHEAD, BESIDE_CRATE = 150, 60  # [px] distance within which a flying crate is waited for; distance kept from it
+CRATE_FLIES = 40.0  # [px/s] vertical speed of a crate that is thrown or falls
+PATIENCE = 240  # steps for which the bot waits for flying crates on the way to one hint
 RUN_UP = 62  # [px] run-up needed for a jump over a hedgehog
 PAUSE, LONGEST_PAUSE = 37, 90  # steps of waiting before a new life: PAUSE more for each life, modulo LONGEST_PAUSE
 DOCK = 1.5  # [px] distance from an end of its path within which a platform counts as docked
@@ -52,6 +55,7 @@ class Runner:
         self.boarded = None  # the platform that the hero rides
         self.thrown = False  # a spring has thrown the hero towards this hint
         self.dropped = False
+        self.patience = PATIENCE  # remaining steps of waiting for a flying crate
 
     def keys(self, scene):
         """Return the actions that the bot holds in the next step, a frozenset of names."""
@@ -62,6 +66,7 @@ class Runner:
         while self.next < len(hints) and self._there(scene, hints[self.next]):
             self.next += 1
             self.fresh, self.boarded, self.thrown, self.dropped = True, None, False, False
+            self.patience = PATIENCE
         if self.next >= len(hints):
             return frozenset()
         hint = hints[self.next]
@@ -107,6 +112,10 @@ class Runner:
             return _keys(-way), False
         if self._waits_at_edge(scene, hero, hint, way):
             return frozenset(), False
+        crate = self._flying_crate(scene, hero, way)
+        if crate is not None and self.patience:
+            self.patience -= 1
+            return _keys(-way if abs(crate - hero.character.position[0]) < BESIDE_CRATE else 0), False
         return _keys(way), self._must_jump(scene, hero, hint, way)
 
     def _needs_a_run_up(self, scene, hero, way):
@@ -140,6 +149,19 @@ class Runner:
             and -20 < (enemy.place_after(0.4) - x) * way < RUN_UP
             for enemy in scene.things.enemies.values()
         )
+
+    def _flying_crate(self, scene, hero, way):
+        """Return the x [px] of a large crate ahead that flies and may land on the hero; None if there is none.
+
+        way: direction of the run, -1 or 1.
+        """
+        x, feet = hero.character.position[0], hero.box[3]
+        for crate in scene.things.crates:
+            ahead = (crate.body.position[0] - x) * way
+            flies = abs(crate.body.velocity[1]) > CRATE_FLIES and crate.box[1] < feet
+            if flies and crate.size[0] > 16 and -crate.size[0] < ahead < CRATE_AHEAD:
+                return crate.body.position[0]
+        return None
 
     def _landing_aside(self, scene, hero):
         """Return the direction (-1, 1) in which to steer in order not to land on a hedgehog; 0 if none is there."""
@@ -268,7 +290,7 @@ class Runner:
         return _keys(way), hero.grounded and (hero.wall == way or self._must_jump(scene, hero, hint, way))
 
     def _place_on(self, scene, platform, x):
-        """Return the x [px] at which to land on a platform: on the large crate that it carries, or else in its middle.
+        """Return the x [px] at which to land on a platform: on the large crate or the enemy on it, else in its middle.
 
         x: not used.
         """
@@ -276,6 +298,10 @@ class Runner:
         for crate in scene.things.crates:
             at, _ = crate.body.position
             if crate.size[0] > 16 and left < at < right and abs(crate.box[3] - top) < 4:
+                return at
+        for enemy in scene.things.enemies.values():
+            at = enemy.character.position[0]
+            if enemy.stompable and left < at < right and abs(enemy.bottom - top) < 4:
                 return at
         return (left + right) / 2
 
