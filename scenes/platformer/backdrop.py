@@ -1,4 +1,4 @@
-"""Background of the level: a sky and parallax layers for each act, with a cross-fade from act to act."""
+"""Background of the level: a sky and parallax layers for each act, with a cross-fade between acts."""
 
 from typing import Any
 
@@ -43,9 +43,9 @@ class Backdrops:
         self.scratch = pygame.Surface(CANVAS_SIZE)
 
     def draw(self, surface, look, left, top):
-        """Draw the background for a view whose top left corner is the world point (left, top).
+        """Draw the background for a view whose top left corner is the world point (left, top) [px].
 
-        look: the scene's Look, which has the act and the time since it began.
+        look: the scene's Look, which has the current act and the time since it began.
         """
         share = min(look.act_age / FADE, 1.0)
         if share < 1.0 and look.last_act != look.act:
@@ -73,7 +73,7 @@ class Backdrops:
 
 
 def lowest_view(level, act):
-    """Return the y [px] of the picture's top edge when the camera is at the lowest place of an act."""
+    """Return the y [px] of the view's top edge when the camera is at the lowest position in an act."""
     bottoms = [
         zone.y + zone.height for zone in level.zones if zone.properties["act"] == act and zone.width >= CANVAS_SIZE[0]
     ]
@@ -81,9 +81,9 @@ def lowest_view(level, act):
 
 
 def tile_along(surface, picture, way, y):
-    """Draw copies of a picture side by side across the canvas, with their top edges at `y`.
+    """Draw copies of a picture side by side across the whole canvas width, with their top edges at `y`.
 
-    way: shift of the row to the left [px].
+    way: shift of the row of copies to the left [px].
     """
     width = picture.get_width()
     x = -whole(way) % width - width

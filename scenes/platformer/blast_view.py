@@ -25,7 +25,7 @@ class BlastView:
         self.bombs = [RotatedPicture(view.things[f"bomb_{look}"]) for look in (0, 1)]
 
     def draw_walls(self, canvas, scene):
-        """Draw the parts of walls that still stand, and the stands for bombs."""
+        """Draw the remaining parts of the walls, and the stands of the bombs."""
         for wall in scene.things.walls:
             if wall.body is not None:
                 picture = self._picture(wall.body, wall, 0, 0)
@@ -70,7 +70,7 @@ class BlastView:
         self.bombs[hot].draw(canvas.surface, x - self.view.left, y - PICTURE_UP - self.view.top, angle)
 
     def _draw_aim(self, canvas, scene):
-        """Draw dots along the path on which the carried bomb would fly if thrown now, up to the first obstacle."""
+        """Draw dots along the path that the carried bomb would take if it were thrown now, up to the first obstacle."""
         hero = scene.hero
         for number, (x, y) in enumerate(arc(hero.character.position, hero.facing, hero.vx, False)):
             if scene.level.blocks(x - 2, y - 2, 4, 4) or any(
@@ -82,7 +82,7 @@ class BlastView:
                 canvas.surface.fill(AIM, (whole(x) - self.view.left, whole(y) - self.view.top, size, size))
 
     def draw_bursts(self, canvas, look):
-        """Draw the explosions of bombs. look: the scene's Look, which has a list of them."""
+        """Draw the explosions of bombs, which are listed in the scene's Look, `look`."""
         for x, y, age in look.blasts:
             image = self.view.things.animation("blast").at(age, loop=False)
             canvas.sprite(image, x - self.view.left, y - self.view.top)

@@ -1,8 +1,7 @@
-"""Bombs, which the hero finds, carries and throws, and the walls that they blow open.
+"""Bombs, which the hero finds, carries and throws, and the walls that they break.
 
 A wall is a pixel mask. An explosion carves a disc out of the mask, and may break the rest along cracks. Loose pieces
-become rubble: dynamic bodies with the outline of their pixels, which fall, come to rest, and can be pushed and walked
-on.
+become rubble: dynamic bodies with the outline of their pixels. The hero can push rubble and walk on it.
 """
 
 from dataclasses import dataclass
@@ -38,10 +37,10 @@ WAITING, CARRIED, THROWN, GONE = "waiting", "carried", "thrown", "gone"
 
 
 class Bomb:
-    """A bomb. count: steps in its current phase.
+    """A bomb of the platformer.
 
-    phase: WAITING at its stand, CARRIED by the hero, THROWN with a burning fuse, or GONE from its explosion until a new
-    one appears.
+    phase: WAITING at its stand, CARRIED by the hero, THROWN with a burning fuse, or GONE from its explosion until a
+    new bomb appears; count: number of steps in the current phase.
     """
 
     kind = "bomb"
@@ -62,13 +61,14 @@ class Bomb:
         return box[0] - RADIUS < x < box[2] + RADIUS and box[1] < y < box[3] + RADIUS
 
     def take(self):
-        """Let the hero carry the bomb."""
+        """Change the bomb's phase to CARRIED: from now on the hero carries it."""
         self._begin(CARRIED)
 
     def carry(self, place):
-        """Move the carried bomb with the hero. place: his position [px].
+        """Move the carried bomb with the hero, whose position is `place` (x, y) [px].
 
-        Return True if he has carried it too far from its stand. In that case the bomb is back on the stand.
+        Return True if the hero is too far from the bomb's stand; then the bomb is moved back to the stand. Otherwise
+        return False.
         """
         self.place = (place[0], place[1] - ABOVE)
         if hypot(place[0] - self.home[0], place[1] - self.home[1]) < LEFT_BEHIND:
@@ -77,9 +77,10 @@ class Bomb:
         return True
 
     def throw(self, way, speed, down):
-        """Throw the bomb and light its fuse. down: lay it down instead of throwing it.
+        """Throw the bomb and light its fuse.
 
-        way: -1 to the left, 1 to the right; speed: the hero's speed along x [px/s].
+        way: -1 to the left, 1 to the right; speed: the hero's speed along x [px/s]; down: True if the bomb is only
+        laid down.
         """
         ahead, up = DROPPED if down else THROW
         self.body = self.world.add_body(
@@ -95,9 +96,10 @@ class Bomb:
         self._begin(THROWN)
 
     def step(self, lowest):
-        """Make one step of the bomb. lowest: y [px] below which it explodes at once.
+        """Make one step of the bomb: update its position, fuse and phase.
 
-        Return "burst" when the bomb explodes, "back" when a new bomb appears at the stand, otherwise None.
+        lowest: y [px] below which it explodes at once. Return "burst" when the bomb explodes, "back" when a new bomb
+        appears at the stand, otherwise None.
         """
         self.count += 1
         if self.phase == THROWN and self.body is not None:
@@ -113,7 +115,7 @@ class Bomb:
         return None
 
     def go_home(self):
-        """Put the bomb back on its stand."""
+        """Move the bomb back to its stand."""
         if self.body is not None:
             self.world.remove_body(self.body)
             self.body = None
@@ -126,10 +128,10 @@ class Bomb:
 
 
 def arc(place, way, speed, down):
-    """Yield points [px] of the free flight of a bomb that the hero throws: one point for every third step.
+    """Yield points (x, y) [px] of the free flight of a bomb that the hero throws: one point for every third step.
 
-    place: the hero's position; way: -1 or 1; speed: his speed along x [px/s]; down: whether the bomb is laid down.
-    Obstacles are ignored.
+    place: the hero's position; way: -1 or 1; speed: the hero's speed along x [px/s]; down: whether the bomb is laid
+    down. Obstacles are ignored.
     """
     ahead, up = DROPPED if down else THROW
     vx = ahead * way + (0.0 if down else LENT * speed)
@@ -140,7 +142,7 @@ def arc(place, way, speed, down):
 
 @dataclass(frozen=True)
 class Rubble:
-    """A loose piece of a wall. `left`, `top`: place of its mask in the wall's picture [px]."""
+    """A loose piece of a wall. left, top: position of its mask's upper left corner in the wall's picture [px]."""
 
     body: Body
     wall: "BlastWall"
@@ -149,17 +151,22 @@ class Rubble:
 
     @property
     def box(self):
-        """Bounding box (left, top, right, bottom) in whole pixels."""
+        """Bounding box (left, top, right, bottom) in integer pixels."""
         left, top, right, bottom = cast(tuple[float, float, float, float], self.body.bounds)
         return floor(left), round(top), ceil(right), round(bottom)
 
     def slides(self, way):
-        """Return whether the piece moves towards `way` (-1 left, 1 right). While it does, the hero keeps his speed."""
+        """Return whether the piece moves towards `way` (-1 left, 1 right).
+
+        While this is so, the hero who pushes it keeps his speed.
+        """
         return self.body.velocity.x * way > 0.0
 
 
 class BlastWall:
-    """A wall that bombs can break. Its shape is a pixel mask. body: the part that stands, or None if none stands."""
+    """A wall that bombs can break. Its shape is a pixel mask. body: the part that still stands, or None if no part
+    does.
+    """
 
     def __init__(self, world, thing):
         self.world, self.left, self.top = world, int(thing.x), int(thing.y)
@@ -175,7 +182,7 @@ class BlastWall:
 
     @property
     def box(self):
-        """Box (left, top, right, bottom) of the wall [px]; all 0 once no part of it stands."""
+        """Box (left, top, right, bottom) [px] of the whole wall; all 0 once no part of it stands."""
         if self.body is None:
             return (0, 0, 0, 0)
         return self.left, self.top, self.left + self.size[0], self.top + self.size[1]
@@ -183,7 +190,7 @@ class BlastWall:
     def blast(self, x, y):
         """Carve the crater of an explosion at (x, y) [px] out of the wall. A deep crater breaks the whole wall.
 
-        Return (list of the Rubble that came loose, whether the wall was hit).
+        Return (list of the Rubble that has come loose, whether the wall was hit).
         """
         if self.body is None:
             return [], False
@@ -205,9 +212,9 @@ class BlastWall:
         return Rubble(body, self, round(x - mask.origin[0]) - self.left, round(y - mask.origin[1]) - self.top)
 
     def _cracks(self, x, y):
-        """Return a PixelMask of cracks, as large as the wall.
+        """Return a PixelMask of cracks that has the size of the wall.
 
-        Some cracks fan out from (x, y) [px]; others run across the wall.
+        Some cracks run from (x, y) [px] in several directions; others run across the wall.
         """
         random, (width, height) = self.world.random, self.size
         solid = np.zeros((height, width), bool)
@@ -221,7 +228,7 @@ class BlastWall:
 
 @lru_cache(maxsize=8)
 def built(width, height):
-    """Return the picture of a wall of width x height [px], filled with copies of the wall's image in the atlas."""
+    """Return a Surface of width x height [px], filled with copies of the wall's image in the atlas."""
     image = load_atlas("things")["blast_wall"]
     out = pygame.Surface((width, height), pygame.SRCALPHA)
     for left in range(0, width, image.get_width()):
@@ -231,7 +238,7 @@ def built(width, height):
 
 
 def shove(body, x, y):
-    """Push a body away from an explosion at (x, y) [px]. Nearer and lighter bodies are pushed more."""
+    """Push a body away from an explosion at (x, y) [px]. Nearer and lighter bodies get a greater change of velocity."""
     dx, dy = body.center.x - x, body.center.y - y
     far = hypot(dx, dy)
     if far >= REACH:

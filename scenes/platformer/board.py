@@ -32,7 +32,7 @@ TITLE_Y = 58  # [canvas px]
 
 
 def draw_board(canvas, scene, view):
-    """Draw the heads-up display. view: world point at the top left corner of the canvas."""
+    """Draw the heads-up display. view: world point (x, y) [px] at the top left corner of the canvas."""
     opened = _opened(scene)
     if opened < 1.0:
         _draw_iris(canvas, scene, view, opened)
@@ -51,7 +51,7 @@ def clock_text(ticks):
 
 
 def stars(scene):
-    """Return (earned, condition) for each of the three stars. earned: bool; condition: its text for the player."""
+    """Return a tuple of (earned, condition) for the three stars. earned: bool; condition: text for the player."""
     return (
         (True, "the flag"),
         (scene.secrets == scene.things.secrets_in_all, "all secrets"),
@@ -91,14 +91,14 @@ def _draw_gems(canvas, scene, x):
 
 @lru_cache(maxsize=4)
 def _empty(icon):
-    """Return a dark silhouette of an icon, which stands for a secret not found yet."""
+    """Return a dark silhouette of an icon as a Surface. It is drawn for a secret that has not been found yet."""
     image = icon.copy()
     image.fill((60, 60, 96, 200), special_flags=pygame.BLEND_RGBA_MULT)
     return image
 
 
 def _draw_title(canvas, look):
-    """Draw the name of the act that the hero has entered. It slides in and fades out.
+    """Draw the name of the act that the hero has entered. The name slides in and fades out.
 
     look: the scene's Look, which has the act and the time since it began.
     """
@@ -117,7 +117,7 @@ def _draw_title(canvas, look):
 
 
 def _draw_signs(canvas, scene):
-    """Draw the text of the sign at which the hero stands, at the bottom of the picture, where it never hides him."""
+    """Draw the text of the sign at which the hero stands, at the bottom of the picture, where it does not cover him."""
     x, y = scene.hero.character.position
     for sign in scene.level.map.things_of("sign"):
         if abs(x - sign.x - sign.width / 2) < SIGN_REACH[0] and abs(y - sign.y) < SIGN_REACH[1]:
@@ -136,7 +136,7 @@ def _draw_signs(canvas, scene):
 
 
 def _opened(scene):
-    """Return how far the iris wipe is open, 0..1.
+    """Return how far the iris wipe is open, from 0 (closed) to 1 (fully open).
 
     The iris closes at the end of a life and opens at the start of the next one.
     """
@@ -187,7 +187,10 @@ def _draw_result(canvas, scene):
 
 
 def _draw_star(canvas, image, x, y, shown, age):
-    """Draw a star of the result, or its silhouette if not `shown`. age: time since the star begins to drop in [s]."""
+    """Draw one star of the result, or its silhouette if `shown` is False.
+
+    image: picture of the star; x, y: its centre on the canvas; age: time since the star began to drop in [s].
+    """
     size = STAR + (whole((STAR_DROP - age) * STAR_GROWTH) if shown and age < STAR_DROP else 0)
     star = pygame.transform.scale(image, (size, size))
     if not shown:

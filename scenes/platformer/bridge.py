@@ -13,7 +13,7 @@ NEAR = 2  # [px] tolerance between the hero's feet and the highest board below t
 
 
 class Bridge:
-    """A rope bridge. `left`, `top`: top left corner of the picture of its boards [px]."""
+    """A rope bridge. left, top: upper left corner of the picture of its boards [px]."""
 
     def __init__(self, world, thing):
         self.left, self.top = int(thing.x), int(thing.y)
@@ -29,7 +29,7 @@ class Bridge:
         )
 
     def height(self, left, right):
-        """Return the y [px] of the highest board between x = left and x = right; None if the bridge is not there."""
+        """Return the y [px] of the highest board between x = left and x = right, or None outside the bridge."""
         under = self.heights[max(left - self.left, 0) : max(right - self.left, 0)]
         return int(under.min()) if len(under) else None
 
@@ -39,9 +39,9 @@ class Bridge:
         return height is not None and abs(bottom - height) <= NEAR
 
     def holds(self, left, right, bottom, reach):
-        """Return whether feet are inside the boards, at most `reach` px below their top.
+        """Return whether feet from x = left to x = right are inside the boards, at most `reach` px below their top.
 
-        left, right, bottom: x and y of the feet [px].
+        bottom: y of the feet [px].
         """
         height = self.height(left, right)
         return height is not None and 0 < bottom - height <= reach

@@ -1,4 +1,4 @@
-"""All objects of a level (platforms, crates, enemies, pick-ups, bombs, ...), and their steps."""
+"""All objects of a level (platforms, crates, enemies, pick-ups, bombs, ...), and the code that steps them."""
 
 from scenes.platformer.blasting import CARRIED, BlastWall, Bomb, Rubble, shove
 from scenes.platformer.bridge import Bridge
@@ -13,7 +13,7 @@ BELOW = 64  # [px] things that fall farther than this below the map are lost
 class Contents:
     """The objects of a level, in lists by kind and in dictionaries {body id: object}.
 
-    Pick-ups that are taken and enemies that are flattened are removed here and from the world.
+    Pick-ups that are taken and enemies that are flattened are removed from these tables and from the world.
     """
 
     def __init__(self, world, level, random):
@@ -41,7 +41,7 @@ class Contents:
         self.coins_in_all, self.secrets_in_all = len(self.of("coin")), len(self.of("secret"))
 
     def _deck_under(self, one):
-        """Return the Platform on which an object starts; None if it starts elsewhere. one: a crate or an enemy."""
+        """Return the Platform on which an object starts, or None if it starts elsewhere. one: a crate or an enemy."""
         x = one.home[0] if one.kind == "crate" else one.start[0]
         bottom = one.home[1] + one.size[1] / 2 if one.kind == "crate" else one.bottom
         for platform in self.platforms:
@@ -56,15 +56,15 @@ class Contents:
 
     @property
     def solid_boxes(self):
-        """Boxes (left, top, right, bottom) [px] of everything that is solid for the hero, except tiles."""
+        """Boxes (left, top, right, bottom) [px] of all objects that are solid for the hero. Tiles are not included."""
         groups = (self.crates, self.platforms, self.belts, self.crumbles, self.walls)
         return tuple(one.box for group in groups for one in group)
 
     def step(self, tick, seen):
-        """Make one step of the platforms, crumbling stones, bombs and enemies.
+        """Make one step of the platforms, crumbling stones, bombs, enemies and crates.
 
-        tick: number of the step; seen: the hero's position [px], to which enemies react. Return a list of events (name,
-        object), such as ("break", stone) or ("wake", bat).
+        tick: number of the step; seen: the hero's position (x, y) [px], to which enemies react. Return a list of
+        events (name, object), such as ("break", stone) or ("wake", bat).
         """
         news = []
         for platform in self.platforms:
@@ -109,7 +109,7 @@ class Contents:
     def blast(self, x, y):
         """Apply an explosion at (x, y) [px] to walls, rubble and crates.
 
-        Return (list of the Rubble that came loose, whether any wall was hit).
+        Return (list of the Rubble that has come loose, whether any wall was hit).
         """
         loose, hit = [], False
         for wall in self.walls:
@@ -122,7 +122,7 @@ class Contents:
         return loose, hit
 
     def press_stones(self, riding, begun):
-        """Let those crumbling stones shake that carry the hero, an enemy or a crate.
+        """Make each crumbling stone shake that carries the hero, an enemy or a crate.
 
         riding: body under the hero, or None; begun: the step's begin events, which include the landings of crates.
         """
@@ -135,7 +135,7 @@ class Contents:
                 crumble.press()
 
     def take(self, trigger):
-        """Remove a coin or a gem, which the hero has taken, from the world. trigger: its Trigger."""
+        """Remove the coin or gem of a Trigger from the world, after the hero has taken it."""
         self.world.remove_body(trigger.body)
         del self.triggers[trigger.body.id]
 
@@ -149,7 +149,7 @@ class Contents:
     def go_home(self):
         """Move crates, enemies and bombs to their starts, and restore crumbling stones, for a new life of the hero.
 
-        Pick-ups that were taken and enemies that were flattened stay away.
+        Pick-ups that were taken and enemies that were flattened do not return.
         """
         for one in (*self.crates, *self.enemies.values()):
             self._send_home(one)
@@ -167,7 +167,7 @@ class Contents:
         one.go_home(moved)
 
     def state(self):
-        """Return the state of all objects outside the physics world, a part of Scene.state()."""
+        """Return the part of Scene.state() that describes all objects outside the physics world, a flat tuple."""
         out: list = [trigger.lit for trigger in self.of("checkpoint")]
         for enemy in self.enemies.values():
             out += enemy.state()

@@ -1,6 +1,7 @@
 """The three enemies: walkers, which can be stomped; hedgehogs, which cannot; bats, which hang and dive.
 
-The hero passes through enemies: his contacts with them are read after the step. A falling crate flattens an enemy.
+The hero passes through enemies. The scene reads his contacts with them after the step. A falling crate flattens an
+enemy.
 """
 
 from math import cos, pi, sin
@@ -47,9 +48,9 @@ class Creature:
 
 
 class Walker(Creature):
-    """A walker or hedgehog. It walks to and fro around the x `home`, and turns at walls and crates.
+    """A walker or hedgehog, which walks to and fro around the x `home`, and turns at walls and crates.
 
-    A platform that carries it moves `home` along.
+    A platform that carries it also moves `home`.
     """
 
     def __init__(self, world, thing, way):
@@ -69,7 +70,7 @@ class Walker(Creature):
         return self.kind == "walker"
 
     def step(self, seen):
-        """Walk for one step. Return False: unlike a bat, a walker reports no event. seen: not used."""
+        """Walk for one step. Return False, because a walker reports no event, unlike a bat. seen: not used."""
         x, _ = self.character.position
         if self.character.surface_speed == 0.0:
             self.home += x - self.left_at  # a platform moves its range along; a belt moves only the walker
@@ -103,13 +104,13 @@ class Walker(Creature):
         return 2.0 * end - there if (there - end) * self.way > 0.0 else there
 
     def go_home(self, moved=(0.0, 0.0)):
-        """Move to the start. moved: (x, y) by which the platform under the start has moved since then [px]."""
+        """Move the enemy to its start. moved: (x, y) by which the platform under the start has moved [px]."""
         self.character.move_to((self.start[0] + moved[0], self.start[1] + moved[1]))
         self.home = self.left_at = self.character.position[0]
         self.way, self.vy, self.riding = self.first_way, 0.0, -1
 
     def remove(self):
-        """Remove the enemy from the world."""
+        """Remove the walker from the world."""
         self.character.remove()
 
     def state(self):
@@ -120,7 +121,7 @@ class Walker(Creature):
 class Bat(Creature):
     """An enemy that hangs until the hero enters its lair, a sensor below it.
 
-    Then it dives to the hero's height, flies on in a wave, and returns to its start.
+    Then it dives to the hero's height, flies on along a wave, and returns to its start.
     """
 
     stompable = True
@@ -172,9 +173,9 @@ class Bat(Creature):
         """Stay in place for one step. Called while the hero is far away. x: not used."""
 
     def _return(self, x, y):
-        """Fly back towards the start for one step.
+        """Fly back towards the start (self.start) for one step from (x, y) [px].
 
-        If the way home is blocked, the bat is moved there 3 FLIGHT seconds after it woke up.
+        If the bat is blocked on its way, it is moved to the start 3 FLIGHT seconds after it woke up.
         """
         way = HOME_SPEED * STEP_SECONDS
         dx, dy = self.start[0] - x, self.start[1] - y
@@ -187,11 +188,11 @@ class Bat(Creature):
             self._hang()
 
     def place_after(self, seconds):
-        """Return the predicted x [px] after `seconds`. Obstacles are ignored."""
+        """Return the bat's predicted x [px] after `seconds`. Obstacles are ignored."""
         return self.character.position[0] + (self.way * FLY_SPEED * seconds if self.phase == FLYING else 0.0)
 
     def go_home(self, moved=(0.0, 0.0)):
-        """Move to the start and hang there. moved: not used, because bats do not ride platforms."""
+        """Move the bat to its start, where it hangs. moved: not used, because bats do not ride platforms."""
         self.seen = False
         self.character.move_to(self.start)
         self._hang()

@@ -1,4 +1,6 @@
-"""Feats of the hero, counted for the goals of the scene: the bot must use each element of the level in time."""
+"""Feats of the hero, counted for the goals of the scene: the bot must use each element of the level before
+a deadline.
+"""
 
 from game.scene import Goal
 from scenes.platformer.feel import HEIGHT, WIDTH
@@ -28,7 +30,7 @@ TILT = 0.1  # rise per px from which ground counts as a slope
 
 
 class Feats:
-    """Counts of the hero's feats (jumps, rides, ladders ...) in a run, from which the goals of the scene follow.
+    """Counts of the hero's feats (jumps, rides, ladders ...) in a run. The scene's goals are based on them.
 
     done: {name of a feat: number of times, or of steps, that the hero did it}.
     """
@@ -72,11 +74,11 @@ class Feats:
             )
 
     def broke(self):
-        """Count a crumbling stone that broke."""
+        """Count one crumbling stone that has broken."""
         self.done["crumbled"] += 1
 
     def goals(self):
-        """Return the goals of the scene, a list of Goal with deadlines and current values."""
+        """Return the goals of the scene, a list of Goal with deadlines and the values reached so far."""
         scene, things = self.scene, self.scene.things
         kinds = {thing.kind for thing in scene.level.map.things}
         lit = sum(trigger.lit for trigger in scene.checkpoints)

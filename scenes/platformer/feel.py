@@ -1,7 +1,7 @@
 """Parameters of the hero's moves, and the functions by which timers and speeds change.
 
 The parameters follow the game Celeste, with lengths doubled: its tiles are 8 px wide, and these are 16 px. Half of the
-parameters forgive inexact play: input that is a few frames or pixels off is accepted.
+parameters allow for inexact play: input that is a few frames or pixels off is accepted.
 """
 
 from game.scene import STEP_SECONDS
@@ -54,7 +54,7 @@ THUD = 90.0  # [px] a fall from this height is audible: more than his own jump
 
 
 def steps(seconds):
-    """Return the number of steps of 1/60 s that is nearest to a time [s]."""
+    """Return the time `seconds` as a number of steps of 1/60 s, rounded."""
     return round(seconds / STEP_SECONDS)
 
 

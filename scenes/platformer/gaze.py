@@ -1,6 +1,6 @@
 """Camera control of the platformer: the camera looks ahead of a run and ignores small jumps.
 
-While the key up or down is held, the camera looks up or down. It stays inside the zone of the level in which the hero
+While the key up or down is held, the camera looks up or down. The view stays inside the level's zone in which the hero
 is.
 """
 
@@ -21,7 +21,7 @@ PEEK, PEEK_AFTER = 62.0, 24  # [px] shift of the view after up or down was held 
 
 
 class Gaze:
-    """Control of the scene's camera."""
+    """Controller of the platformer's camera."""
 
     def __init__(self, scene):
         self.scene = scene
@@ -31,12 +31,12 @@ class Gaze:
         scene.camera.keep_within(0, 0, *scene.level.size)
 
     def arrive(self, x, y):
-        """Center the camera at once on the hero at (x, y) [px]. Called at the start of a life."""
+        """Centre the camera at once on the hero at (x, y) [px]. Called at the start of a life."""
         self.level_y, self.ahead, self.peeking = y, STANDING_AHEAD, 0
         self.scene.camera.center_on(*self._kept(x + self.ahead, y - RAISED))
 
     def step(self, dt):
-        """Let the camera follow the hero for a step of `dt` [s]."""
+        """Move the camera towards the hero for a step of `dt` [s]."""
         scene, hero = self.scene, self.scene.hero
         x, y = hero.character.position
         wanted = AHEAD * hero.vx / RUN_SPEED if abs(hero.vx) > RUNNING else STANDING_AHEAD * hero.facing
@@ -49,7 +49,7 @@ class Gaze:
         scene.camera.follow(*self._kept(x + self.ahead, self.level_y - RAISED + peek), dt, FOLLOW_RATE, DEAD_ZONE)
 
     def _kept(self, x, y):
-        """Return the centre (x, y) of the view, moved so that the view stays inside the hero's zone.
+        """Return the view's centre (x, y) [px], shifted if necessary to keep the view inside the hero's zone.
 
         A zone that is smaller than the view sets no limit in that direction.
         """
@@ -65,8 +65,8 @@ class Gaze:
 
 
 def rows_of(zone):
-    """Return (top, bottom): the y [px] of both limits of the view in a zone.
+    """Return (top, bottom), the y [px] of the view's upper and lower limit in a zone of the level.
 
-    They are the zone's properties "view_top" and "view_bottom" if given, otherwise its edges.
+    They are the zone's properties "view_top" and "view_bottom", or the zone's edges if these are missing.
     """
     return zone.properties.get("view_top", zone.y), zone.properties.get("view_bottom", zone.y + zone.height)

@@ -98,7 +98,7 @@ class Hero:
 
     @property
     def box(self):
-        """Box (left, top, right, bottom) of the hero in whole pixels."""
+        """Box (left, top, right, bottom) of the hero in integer pixels."""
         x, y = self.character.position
         left, top = round(x - WIDTH / 2), round(y - HEIGHT / 2)
         return left, top, left + WIDTH, top + HEIGHT
@@ -127,12 +127,12 @@ class Hero:
     def listen(self, inputs):
         """Record a press of jump, which then stays valid for BUFFER seconds.
 
-        It is also called while the picture is frozen, so that no press is lost.
+        The method is also called while the picture is frozen, so that no press is lost.
         """
         self.buffer = steps(BUFFER) if inputs.pressed("jump") else max(self.buffer - 1, 0)
 
     def rest(self):
-        """Move the hero for one step without input, after he has reached the goal: he slows down and falls."""
+        """Move the hero for one step without input, after he has reached the goal. He slows down and falls."""
         self.news.clear()
         self.before = self.character.position
         self.ladder, self.gazing = None, 0
@@ -215,7 +215,7 @@ class Hero:
     def on_boards(self):
         """Return whether the hero stands on one-way ground (planks or a bridge).
 
-        With the keys down and jump he drops through it.
+        The keys down and jump let him drop through such ground.
         """
         left, _, right, bottom = self.box
         return self.level.on_plank(left, bottom, WIDTH) or any(one.bears(left, right, bottom) for one in self.bridges)
@@ -223,9 +223,10 @@ class Hero:
     # --- ladders ---------------------------------------------------------------------------------------------------
 
     def _grab(self, up, down):
-        """Hold on to a ladder that the hero touches. up, down: whether these keys are held.
+        """Hold on to a ladder that the hero touches, if one of the keys is held.
 
-        Up grabs it from beside or below, down from its top.
+        up: whether the key up is held, which grabs a ladder from beside or below; down: whether the key down is held,
+        which grabs it from its top.
         """
         if up == down or self.vy < 0.0:
             return
@@ -239,9 +240,9 @@ class Hero:
                 return
 
     def _climb(self, way, turn, down):
-        """Climb for one step, or leave the ladder. down: whether the key down is held.
+        """Climb for one step, or leave the ladder.
 
-        way: -1 left, 1 right, 0 none; turn: -1 up, 1 down, 0 none.
+        way: -1 left, 1 right, 0 none; turn: -1 up, 1 down, 0 none; down: whether the key down is held.
         """
         if self.buffer:
             self.ladder, self.coyote = None, 0 if down else 1
@@ -277,7 +278,7 @@ class Hero:
     # --- what happens to him -----------------------------------------------------------------------------------------
 
     def launch(self):
-        """Throw the hero up by a spring. The height does not depend on the keys that are held."""
+        """Throw the hero up by a spring. His height of flight does not depend on the keys that are held."""
         self._rise(SPRING_SPEED)
         self.rise = 0
         self.news.append("launch")
@@ -288,7 +289,7 @@ class Hero:
         self.news.append("stomp")
 
     def throw(self, way):
-        """Throw the hero up and to the side `way` (-1, 1). Called for hits that cost no life."""
+        """Throw the hero up and to the side `way` (-1 left, 1 right). Called for hits that cost no life."""
         self._rise(THROWN[1])
         self.rise, self.kept, self.drop = 0, 0, 0
         self.locked, self.locked_way, self.vx = steps(THROWN_TIME), way, way * THROWN[0]
@@ -329,7 +330,10 @@ class Hero:
         self.grounded = grounded
 
     def _remember_lift(self):
-        """Record the velocity of the platform, crate or belt that carries the hero. A jump soon after adds it."""
+        """Record the velocity of the platform, crate or belt that carries the hero.
+
+        A jump within LIFT_TIME adds this velocity.
+        """
         vx, vy = self.riding.velocity if self.riding is not None else (0.0, 0.0)
         vx += self.character.surface_speed
         if (vx, vy) != (0.0, 0.0):
@@ -337,7 +341,7 @@ class Hero:
             self.lift = steps(LIFT_TIME)
 
     def _nearly_up(self):
-        """Return whether the hero rises through a plank or bridge, with his feet just below its top."""
+        """Return whether the hero rises through a plank or bridge while his feet are just below its top."""
         if self.vy > 0.0 or self.grounded:
             return False
         left, _, right, bottom = self.box
@@ -345,7 +349,7 @@ class Hero:
         return any(within(left, right, bottom, POP_REACH) for within in boards)
 
     def _bump(self, dy):
-        """React to a blocked upward motion: slip past a near corner of the ceiling, or else stop rising.
+        """React to a blocked upward motion: move the hero past a near corner of the ceiling, or else stop his rise.
 
         dy: the motion that was blocked [px].
         """
@@ -362,9 +366,9 @@ class Hero:
         self.news.append("bump")
 
     def _slip_out(self):
-        """Move a squeezed hero to the nearest free place at a side, at most CORNER px away.
+        """Move a squeezed hero to the nearest free position at his left or right, at most CORNER px away.
 
-        Return whether there was one.
+        Return whether there was such a position.
         """
         x, y = self.character.position
         for reach in range(1, CORNER + 1):
@@ -375,7 +379,7 @@ class Hero:
         return False
 
     def _blocked(self, dx, dy):
-        """Return whether the hero's box, moved by (dx, dy) whole pixels, would overlap anything solid."""
+        """Return whether the hero's box, moved by (dx, dy) integer pixels, would overlap anything solid."""
         left, top, right, bottom = self.box
         left, top, right, bottom = left + dx, top + dy, right + dx, bottom + dy
         return self.level.blocks(left, top, WIDTH, HEIGHT) or any(
@@ -392,7 +396,7 @@ class Hero:
         return None
 
     def state(self):
-        """Return the hero's state outside the physics world, a part of Scene.state()."""
+        """Return the part of Scene.state() that describes the hero outside the physics world, a flat tuple."""
         return (
             self.vx,
             self.vy,

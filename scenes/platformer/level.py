@@ -45,7 +45,10 @@ GLOWS = {
 
 
 class Level:
-    """A level: its TileMap, and queries about its solid tiles. All lengths are in whole pixels."""
+    """A level: its TileMap, and queries about its solid tiles. All lengths are in integer pixels.
+
+    map: the TileMap; picture: the sheet of pictures of its tiles.
+    """
 
     def __init__(self, tilemap, picture=None):
         self.map, self.picture = tilemap, picture
@@ -65,7 +68,9 @@ class Level:
         return self  # a Level never changes, and pictures are cached by its identity
 
     def _find_lights(self):
-        """Yield (x [px], y [px], name) of every tile of the decoration that glows."""
+        """Yield (x [px], y [px], name) for every glowing tile of the layer "decor": the position of its light, and its
+        name.
+        """
         names = {number: tile.get("name") for number, tile in self.map.tiles.items() if tile.get("name") in GLOWS}
         layer = self.map.layers.get("decor", np.zeros((0, 0), int))
         for row, line in enumerate(layer.tolist()):
@@ -77,7 +82,7 @@ class Level:
     def zones_at(self, x, y):
         """Return the list of zones that contain the point (x, y) [px], in the order of the map.
 
-        The first zone decides the act.
+        The first zone of the list determines the act.
         """
         return [zone for zone in self.zones if zone.x <= x < zone.x + zone.width and zone.y <= y < zone.y + zone.height]
 
@@ -92,7 +97,7 @@ class Level:
         return world.add_body(grid, kind="static", filter=TILE_FILTER, user="tiles")
 
     def kind(self, column, row):
-        """Return the kind of a tile: EMPTY, SOLID, PLANK or SLOPE.
+        """Return the kind of the tile in this column and row: EMPTY, SOLID, PLANK or SLOPE.
 
         Tiles beside the map are SOLID, tiles above and below it are EMPTY.
         """
@@ -105,7 +110,7 @@ class Level:
         return self.kind(floor(x / self.tile), floor(y / self.tile))
 
     def surface(self, column, row, x):
-        """Return the y [px] of the ground at `x` [px] in a tile; None if the tile is neither solid nor a slope."""
+        """Return the y [px] of the ground at `x` [px] in a tile, or None if the tile is neither solid nor a slope."""
         kind = self.kind(column, row)
         if kind == SOLID:
             return row * self.tile
@@ -119,7 +124,7 @@ class Level:
     def blocks(self, left, top, width, height):
         """Return whether a box with its top left corner at (left, top) [px] overlaps solid tiles or slopes.
 
-        Planks are one-way, so they never block.
+        Planks are one-way tiles, so they never block.
         """
         bottom = top + height
         for row in range(floor(top / self.tile), floor((bottom - 1) / self.tile) + 1):
@@ -136,7 +141,8 @@ class Level:
         return False
 
     def on_plank(self, left, bottom, width):
-        """Return whether feet stand on planks and nothing else.
+        """Return whether all tiles under the feet are planks or empty, with at least one plank, at the height of the
+        feet.
 
         left, bottom: x and y of the feet's left end [px]; width: width of the feet [px].
         """
@@ -150,9 +156,9 @@ class Level:
         return PLANK in under and under <= {PLANK, EMPTY}
 
     def plank_within(self, left, right, bottom, reach):
-        """Return whether feet are inside a plank, at most `reach` px below its top.
+        """Return whether feet from x = left to x = right are inside a plank, at most `reach` px below its top.
 
-        left, right, bottom: x and y of the feet [px].
+        bottom: y of the feet [px].
         """
         row = (bottom - 1) // self.tile
         if not 0 < bottom - row * self.tile <= reach:

@@ -1,4 +1,4 @@
-"""Validation of the maps of the platformer. Each error names the file, the place in it and the reason."""
+"""Validation of the platformer's maps. Each error names the file, the position in the file and the reason."""
 
 from dataclasses import dataclass
 
@@ -14,9 +14,10 @@ FAR = 1e5  # [px] beyond any map
 
 @dataclass(frozen=True)
 class Kind:
-    """Requirements for a kind of object in a map. least, most: allowed number of such objects.
+    """Requirements for one kind of object in a map. least, most: allowed number of such objects.
 
-    properties: tuples (name, type, least value or tuple of the allowed values, greatest value, whether it is required).
+    properties: tuples (name, type, least value or tuple of the allowed values, greatest value, whether the property is
+    required).
     """
 
     least: int = 0
@@ -63,7 +64,7 @@ KINDS = {
 
 
 def check_level(tilemap):
-    """Raise FileError for the first error that makes a map unplayable."""
+    """Check whether a map is a playable level, and raise FileError for the first error."""
     _check_size(tilemap)
     for thing in tilemap.things:
         _check_thing(tilemap, thing)

@@ -1,4 +1,4 @@
-"""Light of the platformer: glows that brighten the picture, and darkness in the cave where no light reaches."""
+"""Light of the platformer: glows that brighten the picture, and the darkness of the cave."""
 
 from functools import lru_cache
 
@@ -31,13 +31,13 @@ SHINES = {
 
 
 class Lighting:
-    """Renderer of light, drawn above the world and below the heads-up display."""
+    """Renderer of light. It draws above the world and below the heads-up display."""
 
     def __init__(self):
         self.cover = pygame.Surface(CANVAS_SIZE)
 
     def draw(self, surface, lights, dark, time):
-        """Darken the picture where no light reaches, and draw the glows.
+        """Darken the parts of the picture that no light reaches, and draw the glows of the lights.
 
         lights: list of (x [canvas px], y [canvas px], name); dark: darkness, 0..1; time: time [s], for the flicker.
         """
@@ -65,17 +65,19 @@ class Lighting:
 
 
 def flickering(radius, share, speed, time, x):
-    """Return the current radius [px] of a flickering light. radius: its full radius [px].
+    """Return the current radius [px] of a flickering light. radius: full radius of the light [px].
 
-    share: part of the radius that flickers, 0..1; speed: angular frequency of the flicker [rad/s]; time [s]; x: place
-    of the light, which shifts its phase.
+    share: part of the radius that flickers, 0..1; speed: angular frequency of the flicker [rad/s]; time: time [s]; x:
+    position of the light [px], which shifts the phase of the flicker.
     """
     return GRAIN * whole(radius * (1.0 - share + share * wave(time * speed / 6.28 + x * 0.013)) / GRAIN)
 
 
 @lru_cache(maxsize=128)
 def glow(radius, warm):
-    """Return the picture of a glow of a radius [px]. warm: False makes a bluish glow, with red and blue exchanged."""
+    """Return a Surface with a glow of this radius [px]. warm: False exchanges red and blue, which makes a
+    bluish glow.
+    """
     image = pygame.transform.scale(load_atlas("things")["lantern_light"], (2 * radius, 2 * radius))
     if not warm:
         pixels = pygame.surfarray.pixels3d(image)
@@ -86,7 +88,7 @@ def glow(radius, warm):
 
 @lru_cache(maxsize=128)
 def disc(radius, color, share):
-    """Return the picture of a round light, in rings that darken outwards.
+    """Return a Surface with a round light of this radius [px] and colour, in rings that darken outwards.
 
     share: strength of the light, 0..1, in proportion to the darkness around it.
     """
@@ -104,6 +106,6 @@ def disc(radius, color, share):
 
 
 def wave(turns):
-    """Return an approximation of sin(2 pi turns) by two parabolas, which is cheaper than a sine."""
+    """Return an approximation of sin(2 pi turns) by two parabolas, which is faster than a sine."""
     part = turns % 1.0
     return 16.0 * part * (0.5 - part) if part < 0.5 else -16.0 * (part - 0.5) * (1.0 - part)

@@ -61,7 +61,7 @@ WINDOW = 20.0, 72.0  # [px] distance (x, y) from a checkpoint within which the g
 class Look:
     """Visible and audible effects of the platformer.
 
-    Each method from hear() on shows one kind of event, with pictures and sound.
+    Each method from hear() on shows one kind of event by pictures and sound.
     """
 
     def __init__(self, scene):
@@ -92,7 +92,7 @@ class Look:
         return self.scene.hero.box[3] + (self.fall if self.scene.phase == "hurt" else 0.0)
 
     def _act(self):
-        """Return the act of the hero's zone, or of the last zone while he is between zones."""
+        """Return the act of the zone in which the hero is. Between zones, return the previous act."""
         zones = self.scene.level.zones_at(*self.scene.hero.character.position)
         return zones[0].properties["act"] if zones else self.act
 
@@ -103,15 +103,17 @@ class Look:
         self.angles = dict(zip(rows["id"].tolist(), rows["angle"].tolist(), strict=True))
 
     def hold(self):
-        """Make one step of the effects while the game is frozen: lights and coins continue, slowly."""
+        """Make one step of the effects while the game is frozen. Lights and coins continue at a quarter of their
+        speed.
+        """
         self.time += HELD_STEP
 
     def before(self, body):
-        """Return the position of a body before the last step [px]."""
+        """Return the position (x, y) [px] of a body before the last step."""
         return self.bodies.get(body.id, body.position)
 
     def step(self, dt):
-        """Make one step of `dt` [s] of all effects, after the world's step."""
+        """Make one step of `dt` [s] of all effects. Call it after the world's step."""
         scene, hero = self.scene, self.scene.hero
         self.time += dt
         back = 1.0 - exp(-STRETCH_RATE * dt)
@@ -168,7 +170,7 @@ class Look:
             self.split = (self.split[0], self.split[1] + dt) if self.split[1] < SPLIT_TIME else None
 
     def _burn_fuses(self):
-        """Emit the sparks of all burning fuses, and play their hiss."""
+        """Emit the sparks of all burning fuses, and play their sound."""
         for bomb in self.scene.things.bombs:
             if bomb.phase == THROWN:
                 bursts.fuse(self.scene.particles, *fuse_end(bomb))
@@ -187,9 +189,9 @@ class Look:
             self.open[number] += (float(inside) - self.open[number]) * (1.0 - exp(-COVER_RATE * dt))
 
     def hidden(self, x, y):
-        """Return whether the point (x, y) [px] is in a hidden room that is still covered.
+        """Return whether the point (x, y) [px] is in a hidden room whose cover is still mostly opaque.
 
-        Its light must not be visible.
+        A light at this point must not be visible then.
         """
         return any(
             seen < 0.5 and cover.x <= x <= cover.x + cover.width and cover.y <= y <= cover.y + cover.height
@@ -197,7 +199,7 @@ class Look:
         )
 
     def _leave_images(self, hero):
-        """Leave afterimages while the hero is faster than by running or falling alone."""
+        """Add an afterimage every second step while the hero is faster than running or falling alone makes him."""
         quick = hero.vy < -QUICK or hero.vy > FALL_SPEED + 20.0 or (abs(hero.vx) > QUICK - 20.0 and not hero.grounded)
         if quick and self.scene.frame % 2 == 0 and self.scene.phase == "playing" and self.scene.trail:
             x, bottom, name, way = self.scene.trail[-1]
@@ -218,7 +220,9 @@ class Look:
     # --- events of the scene -----------------------------------------------------------------------------------------
 
     def hear(self, news):
-        """Show the hero's events of this step by sound, stretch and dust. news: names such as "jump"."""
+        """Show the hero's events of this step by sound, stretch, dust and shaking. news: names of events, such as
+        "jump".
+        """
         for word in news:
             if word in STRETCHES:
                 self.width, self.height = STRETCHES[word]
@@ -237,7 +241,7 @@ class Look:
                 bursts.launch(self.scene.particles, *self._feet())
 
     def show(self, word, thing):
-        """Show an event of a crumbling stone ("shake", "break", "back"), of a bat ("wake") or of a bomb.
+        """Show an event of a crumbling stone ("shake", "break", "back"), of a bat ("wake"), or of a bomb.
 
         word: name of the event; thing: the stone, bat or bomb.
         """
@@ -260,7 +264,7 @@ class Look:
             self._puff("sparkle", x, y)
 
     def _show_bomb(self, word, x, y):
-        """Show that a bomb at (x, y) [px] is taken, thrown or back on its stand. word: name of the event."""
+        """Show that a bomb at (x, y) [px] is taken, thrown, or back on its stand. word: name of the event."""
         if word == "taken":
             self._sound_at("hook", x, 0.5)
             self._puff("sparkle", x, y)
@@ -272,7 +276,10 @@ class Look:
             self._sound_at("blip", x, 0.4)
 
     def burst(self, x, y, loose, hit):
-        """Show the explosion of a bomb at (x, y) [px]. loose: Rubble of walls; hit: whether a wall was hit."""
+        """Show the explosion of a bomb at (x, y) [px].
+
+        loose: list of the Rubble that has come loose; hit: whether a wall was hit.
+        """
         scene = self.scene
         self.blasts.append([x, y, 0.0])
         bursts.blast(scene.particles, x, y)
@@ -287,7 +294,7 @@ class Look:
             self._sound_at("crumble", x, 1.0)
 
     def took(self, trigger):
-        """Show that the hero takes a coin or a gem. trigger: its Trigger."""
+        """Show that the hero takes a coin or a gem. trigger: Trigger of the coin or gem."""
         if trigger.kind == "secret":
             bursts.gem(self.scene.particles, trigger.x, trigger.y)
             self.gem_pulse = 1.0
@@ -300,14 +307,15 @@ class Look:
         self._sound("coin", 0.6)
 
     def threw(self, trigger):
-        """Show that a spring has thrown a crate. trigger: the spring."""
+        """Show that a spring has thrown a crate. trigger: Trigger of the spring."""
         self._sound_at("spring", trigger.x, 0.7)
         bursts.launch(self.scene.particles, trigger.x, trigger.foot[1] - 8)
 
     def lit(self, trigger):
-        """Show that a checkpoint is reached: its lantern is lit.
+        """Show that the hero has reached a checkpoint: its lantern is lit.
 
-        The time is compared with that of the best run at this place. trigger: the checkpoint.
+        The time of the run is compared with the best run's time at this checkpoint. trigger: Trigger of the
+        checkpoint.
         """
         x, bottom = trigger.foot
         bursts.kindle(self.scene.particles, x, bottom - 24)
@@ -337,7 +345,7 @@ class Look:
             self.scene.camera.shake(0.35 * force)
 
     def hurt(self):
-        """Begin to show that the hero is hurt: he is thrown up and falls out of the picture."""
+        """Start the effect for a hurt hero: he is thrown up and falls out of the picture."""
         x, y = self.scene.hero.character.position
         self.fall, self.fall_speed = 0.0, -FALLEN
         bursts.hurt(self.scene.particles, x, y)
@@ -346,17 +354,17 @@ class Look:
         self._sound("hurt", 0.9)
 
     def vanished(self):
-        """Show a puff at the hero's place. Call it before he is moved back to safe ground."""
+        """Show a puff at the hero's position. Call this method before he is moved back to safe ground."""
         bursts.vanish(self.scene.particles, *self.scene.hero.character.position)
         self.scene.camera.shake(0.25)
 
     def won(self, trigger):
-        """Show confetti at the goal. trigger: the goal."""
+        """Show confetti at the goal. trigger: Trigger of the goal."""
         bursts.confetti(self.scene.particles, trigger.x, trigger.y - 10)
         self._sound("goal", 1.0)
 
     def arrive(self):
-        """Move the camera at once to the place where a life starts."""
+        """Move the camera at once to the position where a life starts, and remove all afterimages."""
         self.gaze.arrive(*self.scene.spawn)
         self.afterimages.clear()
         self.width, self.height = 0.5, 1.4

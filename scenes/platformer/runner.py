@@ -1,8 +1,8 @@
-"""The platformer's bot: it follows hints in the map, and presses keys by rules.
+"""The platformer's bot. It follows hints in the map, and presses keys by rules.
 
-A hint is a place in the map and the way to reach it: run (with jumps at obstacles), jump at once, climb, kick from wall
-to wall, ride a platform, drop through a plank, push, fall, throw a bomb, or jump by a spring. The rules find the right
-moment: when a platform is at its end, where an enemy will be, whether there is ground ahead.
+A hint is a point in the map and the way to reach it: run (with jumps at obstacles), jump at once, climb, kick from
+wall to wall, ride a platform, drop through a plank, push, fall, throw a bomb, or jump by a spring. The rules find the
+right moment: when a platform is at its end, where an enemy will be, whether there is ground ahead.
 """
 
 from math import sqrt
@@ -28,7 +28,7 @@ KICK_SPEED = -90.0  # [px/s] vy above which the bot kicks off a wall (up is nega
 
 
 class Runner:
-    """The bot, which follows the hints of the map: points along the hero's path.
+    """The bot, which follows the hints of the map, points along the hero's path.
 
     next: index of the current hint; kept: value of `next` at the last checkpoint.
     """
@@ -39,13 +39,13 @@ class Runner:
         self.start_again()
 
     def remember(self):
-        """Record the current hint, from which the next life starts. Called at a checkpoint."""
+        """Record the current hint as the start of the next life. Called at a checkpoint."""
         self.kept = self.next
 
     def start_again(self):
-        """Begin a new life at the hint of the last checkpoint, after a wait.
+        """Begin a new life at the hint of the last checkpoint, after a pause.
 
-        The wait differs from life to life. Otherwise the same steps would end in the same loss.
+        The pause differs from life to life, because the same steps at the same time would end in the same loss.
         """
         self.next = self.kept
         self.lives += 1
@@ -58,7 +58,7 @@ class Runner:
         self.patience = PATIENCE  # remaining steps of waiting for a flying crate
 
     def keys(self, scene):
-        """Return the actions that the bot holds in the next step, a frozenset of names."""
+        """Return the actions that the bot holds in the next step, a frozenset of names such as "left" and "jump"."""
         hints = scene.level.hints
         if scene.phase != "playing" or self.next >= len(hints) or self.pause:
             self.pause = max(self.pause - 1, 0)
@@ -75,9 +75,11 @@ class Runner:
         return self._press(scene.hero, set(keys), jump)
 
     def _press(self, hero, keys, jump):
-        """Return the actions `keys` as a frozenset, with "jump" while it is to be held. jump: whether a jump is wanted.
+        """Return the actions `keys` as a frozenset, with "jump" added while it is to be held. jump: whether to start a
+        jump.
 
-        Jump is held while the hero rises, and released for one step before the next press: only a new press jumps.
+        Jump is held while the hero rises. It is released for one step before the next press, because only a new press
+        jumps.
         """
         if jump and self.hold == 0:
             self.hold = HOLD
@@ -119,9 +121,9 @@ class Runner:
         return _keys(way), self._must_jump(scene, hero, hint, way)
 
     def _needs_a_run_up(self, scene, hero, way):
-        """Return whether a jump now would end on a hedgehog: one is near ahead, and the hero is slow.
+        """Return whether the hero must step back for a run-up, because a jump now would end on a hedgehog.
 
-        way: direction of the run, -1 or 1.
+        This is so if a hedgehog is near ahead and the hero is slow. way: direction of the run, -1 or 1.
         """
         x, feet = hero.character.position[0], hero.box[3]
         return (
@@ -136,7 +138,7 @@ class Runner:
         )
 
     def _waits_at_edge(self, scene, hero, hint, way):
-        """Return whether to wait at an edge because a hedgehog is below it, where a step down would end.
+        """Return whether to wait at an edge, because a step down would end on or near a hedgehog.
 
         way: direction of the run, -1 or 1.
         """
@@ -164,7 +166,9 @@ class Runner:
         return None
 
     def _landing_aside(self, scene, hero):
-        """Return the direction (-1, 1) in which to steer in order not to land on a hedgehog; 0 if none is there."""
+        """Return the direction (-1, 1) in which to steer in the air in order not to land on a hedgehog; 0 if none is
+        there.
+        """
         x, feet = hero.character.position[0], hero.box[3]
         for enemy in scene.things.enemies.values():
             depth = enemy.top - feet
@@ -232,7 +236,10 @@ class Runner:
         return _keys(way), hero.wall == way or self._enemy_ahead(scene, hero, way)
 
     def _throw(self, scene, hero, hint):
-        """Return (keys, jump) to take the bomb, throw it near the hint, and stay away until it has exploded."""
+        """Return (keys, whether to jump) for a hint "throw".
+
+        The hero takes the bomb, throws it near the hint, and stays away until it has exploded.
+        """
         bomb = min(scene.things.bombs, key=lambda one: abs(one.home[0] - _middle(hint)))
         x = hero.character.position[0]
         if bomb.phase == CARRIED:
@@ -290,7 +297,7 @@ class Runner:
         return _keys(way), hero.grounded and (hero.wall == way or self._must_jump(scene, hero, hint, way))
 
     def _place_on(self, scene, platform, x):
-        """Return the x [px] at which to land on a platform: on the large crate or the enemy on it, else in its middle.
+        """Return the x [px] at which to land on a platform: on its large crate, on its enemy, or else at its centre.
 
         x: not used.
         """
@@ -308,9 +315,9 @@ class Runner:
     # --- obstacles and enemies ---------------------------------------------------------------------------------------
 
     def _must_jump(self, scene, hero, hint, way):
-        """Return whether to jump: because of a wall, spikes, an enemy, or a gap that does not lead down to the hint.
+        """Return whether to jump because of a wall, spikes, an enemy, or a gap.
 
-        way: direction of the run, -1 or 1; 0 if the hero stands.
+        A gap counts unless the hint is lower than the hero. way: direction of the run, -1 or 1; 0 if the hero stands.
         """
         if not way:
             return self._enemy_near(scene, hero)
@@ -343,7 +350,10 @@ class Runner:
         return False
 
     def _enemy_ahead(self, scene, hero, way):
-        """Return whether to jump now: onto an enemy ahead that can be stomped, or over another. way: -1 or 1."""
+        """Return whether to jump now: onto an enemy ahead that can be stomped, or over any other enemy ahead.
+
+        way: direction of the run, -1 or 1.
+        """
         x, bottom = hero.character.position[0], hero.box[3]
         for enemy in scene.things.enemies.values():
             there = (enemy.character.position[0] - x) * way
@@ -357,7 +367,7 @@ class Runner:
         return False
 
     def _enemy_near(self, scene, hero):
-        """Return whether an enemy near the hero approaches him from either side."""
+        """Return whether an enemy within CLOSE px of the hero, at his height, moves towards him."""
         x, bottom = hero.character.position[0], hero.box[3]
         return any(
             0.0 < (x - enemy.character.position[0]) * enemy.way < CLOSE and abs(enemy.bottom - bottom) < 10
@@ -397,9 +407,9 @@ def _docked(platform, place):
 
 
 def _soon(platform, place, tick, within):
-    """Return whether a platform is at the end `place` of its path, or will be there soon.
+    """Return whether a platform is at the end `place` (x, y) [px] of its path, or near this end and approaching it.
 
-    tick: current step; within: number of steps after which it must be nearer than now.
+    tick: number of the current step; within: number of steps over which the platform must come nearer.
     """
     here = platform.place_at(tick)
     far = abs(here[0] - place[0]) + abs(here[1] - place[1])

@@ -1,4 +1,4 @@
-"""The platformer's rules for lives, pick-ups, enemies, bombs and the goal. They read the events of each step."""
+"""The platformer's rules for lives, pick-ups, enemies, bombs and the goal, which read the events of each step."""
 
 from math import hypot
 
@@ -145,7 +145,9 @@ class Platformer(Scene):
             self._lose()
 
     def _handle_bombs(self, inputs):
-        """Let the hero take a bomb that he reaches. On the key `focus`, he throws or lays down the one he carries."""
+        """Let the hero take a bomb that he reaches. At a press of `focus`, he throws or lays down the bomb that he
+        carries.
+        """
         hero, bomb = self.hero, self.things.carried
         if bomb is None:
             for each in self.things.bombs:
@@ -160,7 +162,9 @@ class Platformer(Scene):
             self.look.show("thrown", bomb)
 
     def _burst(self, bomb):
-        """Apply the explosion of a bomb: walls break, enemies are flattened, and a near hero is thrown back unhurt."""
+        """Apply the explosion of a bomb: walls break, and near enemies are flattened. A near hero is thrown back
+        unhurt.
+        """
         x, y = bomb.place
         loose, hit = self.things.blast(x, y)
         self.feats.done["walls blown"] += bool(loose)
@@ -209,7 +213,7 @@ class Platformer(Scene):
                     self.feats.done["crates thrown"] += 1
 
     def _strike(self, hit, me):
-        """Process an impact of a crate. A strong one from above flattens an enemy or hurts the hero.
+        """Process an impact of a crate. A strong impact from above flattens an enemy or hurts the hero.
 
         hit: row of the step's hit events; me: body id of the hero.
         """
@@ -276,7 +280,7 @@ class Platformer(Scene):
             self._hurt(1 if hero.character.position[0] >= enemy.character.position[0] else -1)
 
     def _hurt(self, away):
-        """Let the hero lose a life or, if the assist `invincible` is on, throw him to the side `away` (-1, 1)."""
+        """Let the hero lose a life. If the assist `invincible` is on, throw him to the side `away` (-1, 1) instead."""
         if self.phase != PLAYING or (self.mercy and self.assist["invincible"]):
             return
         if self.assist["invincible"]:
@@ -287,7 +291,9 @@ class Platformer(Scene):
             self._lose()
 
     def _impale(self):
-        """Process a touch of spikes: the hero loses a life, or returns to safe ground if `invincible` is on."""
+        """Process a touch of spikes. The hero loses a life; if `invincible` is on, he is moved to safe
+        ground instead.
+        """
         if not self.assist["invincible"]:
             self._lose()
             return
@@ -332,11 +338,11 @@ class Platformer(Scene):
         return self.feats.goals()
 
     def bot(self):
-        """Return the actions that the bot holds in the next step."""
+        """Return the actions that the bot holds in the next step, a frozenset of names."""
         return self.runner.keys(self)
 
     def state(self):
-        """Return the scene's own state, a flat tuple for the digest. The world's state is hashed separately."""
+        """Return the scene's part of the state hash, a flat tuple. The world is hashed separately."""
         return (
             self.frame,
             self.ticks,
@@ -361,6 +367,6 @@ class Platformer(Scene):
 
 
 def others(rows, identity):
-    """Return the set of ids of the bodies that form a pair with the body `identity` in a table of events."""
+    """Return the set of ids of all bodies that form a pair with the body `identity` in `rows`, a table of events."""
     a, b = rows["body_a"], rows["body_b"]
     return {*b[a == identity].tolist(), *a[b == identity].tolist()}

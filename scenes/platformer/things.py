@@ -37,7 +37,7 @@ BIT_LIFE = 1.6  # [s]
 class Trigger:
     """An object of the level with a sensor: coin, secret, spring, spikes, checkpoint, goal or ladder.
 
-    lit: whether a checkpoint has been reached; touched: step of the last touch, or None.
+    lit: whether this is a checkpoint that has been reached; touched: number of the step of the last touch, or None.
     """
 
     def __init__(self, world, thing):
@@ -81,12 +81,14 @@ class Trigger:
 
     @property
     def foot(self):
-        """Middle (x, y) [px] of the object's lower edge."""
+        """Centre (x, y) [px] of the object's lower edge."""
         return self.thing.x + self.thing.width / 2, self.thing.y + self.thing.height
 
 
 class Platform:
-    """A kinematic box that moves to and fro between two places. It is slow near the ends, so that boarding is easy."""
+    """A kinematic box that moves to and fro between two positions. It is slow near the ends, so that
+    boarding is easy.
+    """
 
     kind = "platform"
 
@@ -115,9 +117,9 @@ class Platform:
         )
 
     def aim(self, tick):
-        """Set the velocity that moves the platform to its place in step `tick` + 1 of the world.
+        """Set the velocity with which the platform reaches its position of step `tick` + 1 of the world.
 
-        It is moved by a velocity so that it carries bodies.
+        The platform is moved by a velocity, so that it carries the bodies on it.
         """
         x, y = self.body.position
         next_x, next_y = self.place_at(tick + 1)
@@ -125,7 +127,9 @@ class Platform:
 
     @property
     def box(self):
-        """Box (left, top, right, bottom) of the platform in whole pixels, rounded as characters see it."""
+        """Box (left, top, right, bottom) of the platform in integer pixels, rounded in the same way as for
+        characters.
+        """
         x, y = self.body.position
         left, top = int(x - self.size[0] / 2 + 0.5), int(y - self.size[1] / 2 + 0.5)
         return left, top, left + int(self.size[0]), top + int(self.size[1])
@@ -159,7 +163,7 @@ class Belt(Block):
 
 
 class Crumble(Block):
-    """A stone that shakes under a load, then breaks into pieces, and is whole again after a while."""
+    """A stone that shakes under a load, then breaks into pieces, and is restored after GONE seconds."""
 
     FREE = Filter(PLATFORM, HERO | ENEMY | CRATE)
 
@@ -186,13 +190,13 @@ class Crumble(Block):
         self.box, self.count, self.shaking = self.whole, 0, False
 
     def press(self):
-        """Let the stone shake. Called when it carries a load."""
+        """Make the stone shake. Called when it carries a load."""
         self.shaking = self.body is not None
 
     def step(self):
         """Make one step of the stone and its pieces.
 
-        Return "shake" when the stone begins to shake, "break" when it breaks, "back" when it is whole again, otherwise
+        Return "shake" when the stone begins to shake, "break" when it breaks, "back" when it is restored, otherwise
         None.
         """
         for bit in self.bits:
@@ -255,20 +259,20 @@ class Crate:
         return (row["x"] - row["previous_x"]) * way > SLIDES
 
     def launch(self):
-        """Throw the crate up by a spring, as high as a spring throws the hero. The crate's mass has no influence."""
+        """Throw the crate up by a spring, as high as the hero. The crate's mass has no influence."""
         vx, vy = self.body.velocity
         mass = self.body.mass
         self.body.apply_impulse(((SPRING_KEEPS - 1.0) * vx * mass, -(SPRING_SPEED + vy) * mass))
 
     def go_home(self, moved=(0.0, 0.0)):
-        """Move to the start, at rest. moved: (x, y) by which the platform under the start has moved since then [px]."""
+        """Move the crate to its start, at rest. moved: (x, y) by which the platform under the start has moved [px]."""
         self.body.move_to((self.home[0] + moved[0], self.home[1] + moved[1]), 0.0)
         self.body.velocity = (0.0, 0.0)
         self.body.angular_velocity = 0.0
 
     @property
     def box(self):
-        """Bounding box (left, top, right, bottom) of the crate in whole pixels."""
+        """Bounding box (left, top, right, bottom) of the crate in integer pixels."""
         x, y = self.body.position
         c, s = abs(cos(self.body.angle)), abs(sin(self.body.angle))
         half_width, half_height = (c * self.size[0] + s * self.size[1]) / 2, (s * self.size[0] + c * self.size[1]) / 2

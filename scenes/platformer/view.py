@@ -40,7 +40,7 @@ SHINING = ("secret", "goal", "coin")
 
 
 class View:
-    """Renderer of a level, with its caches of pictures."""
+    """Renderer of a level, with caches of its pictures."""
 
     def __init__(self, level):
         self.level = level
@@ -59,7 +59,7 @@ class View:
         self.covers = [self._cover(thing) for thing in level.covers]
 
     def _paint_ahead(self):
-        """Draw all tiles once, to fill the cache: 0.2 s at the start, instead of pauses of 10 ms while playing."""
+        """Draw all tiles once to fill the cache: 0.2 s at the start, instead of pauses of 10 ms during the game."""
         canvas, camera = Canvas(), Camera()
         for left in range(0, self.level.size[0], CANVAS_SIZE[0]):
             for top in range(0, self.level.size[1], CANVAS_SIZE[1]):
@@ -71,7 +71,7 @@ class View:
     def _cover(self, thing):
         """Return (picture, left, top) of the tiles that cover a hidden room and its walls.
 
-        thing: the room, an object of the map; left, top: place of the picture in the world [px].
+        thing: the room, an object of the map; left, top: position of the picture in the world [px].
         """
         tile = self.level.tile
         left, top = int(thing.x) - tile, int(thing.y) - tile
@@ -83,7 +83,7 @@ class View:
         return canvas.surface, left, top
 
     def draw(self, scene, canvas, alpha):
-        """Draw the scene. alpha: position (0..1) between the last two steps."""
+        """Draw the scene on the canvas. alpha: position (0..1) between the last two steps."""
         left, top = scene.camera.view(alpha)
         self.left, self.top = left, top
         self.near = [
@@ -117,7 +117,7 @@ class View:
         )
 
     def _stand(self, canvas, image, x, bottom):
-        """Draw an image with the middle of its lower edge at the world point (x, bottom)."""
+        """Draw an image with the centre of its lower edge at the world point (x, bottom) [px]."""
         width, height = image.get_size()
         canvas.surface.blit(image, (whole(x) - width // 2 - self.left, whole(bottom) - height - self.top))
 
@@ -273,7 +273,7 @@ class View:
         self._stand(canvas, image, x, bottom)
 
     def _draw_ghost(self, canvas, scene):
-        """Draw the ghost, half transparent: the hero of the best run at the same time of the run."""
+        """Draw the ghost, half transparent: the hero of the best run, at the same time of his run."""
         if not scene.ghost or scene.clock >= len(scene.ghost) or scene.phase == "won":
             return
         x, bottom, name, way = scene.ghost[max(scene.clock - 1, 0)]
@@ -288,9 +288,9 @@ class View:
         return image if way > 0 else pygame.transform.flip(image, True, False)
 
     def _tinted(self, name, way, color, alpha):
-        """Return a picture of the hero with `color` added. name: name of the picture.
+        """Return a picture of the hero with `color` added.
 
-        way: -1 mirrors it; alpha: opacity, 0..255.
+        name: name of the picture in the atlas; way: -1 mirrors the picture; alpha: opacity, 0..255.
         """
         image = self.shaped(name, way, FRAME, FRAME).copy()
         image.fill((*color, 0), special_flags=pygame.BLEND_RGBA_ADD)
@@ -299,7 +299,7 @@ class View:
 
 
 def hero_frame(scene):
-    """Return (name of the picture, direction -1 or 1) with which the hero is drawn."""
+    """Return (name, direction) of the hero's current picture. direction: 1 to the right, -1 mirrored to the left."""
     hero, look, frames = scene.hero, scene.look, load_atlas("hero")
     if scene.phase == "hurt":
         return "hurt_0", hero.facing
@@ -324,13 +324,13 @@ def hero_frame(scene):
 
 @lru_cache(maxsize=2)
 def level_view(level):
-    """Return the View of a level. It is cached, so that a restart of the scene keeps the pictures."""
+    """Return the View of a level. It is cached, so that a restart of the scene does not draw the pictures again."""
     return View(level)
 
 
 @lru_cache(maxsize=8)
 def deck(width):
-    """Return the picture of a platform of `width` px: both ends of the image, with its middle repeated."""
+    """Return a Surface with a platform of `width` px: both ends of the image, and its middle repeated between them."""
     image = load_atlas("things")["platform"]
     out = pygame.Surface((width, image.get_height()), pygame.SRCALPHA)
     for x in range(16, width - 16, 16):
@@ -342,7 +342,7 @@ def deck(width):
 
 @lru_cache(maxsize=64)
 def flipped(image, mirrored, upside_down=False):
-    """Return a picture, mirrored left to right if `mirrored`, and turned upside down if `upside_down`."""
+    """Return a picture, mirrored left to right if `mirrored` is True, and upside down if `upside_down` is True."""
     return pygame.transform.flip(image, mirrored, upside_down) if mirrored or upside_down else image
 
 
@@ -357,14 +357,16 @@ def cycle(animation, seconds):
 
 
 def strode(animation, way, stride):
-    """Return the name of the picture of a walking animation after a path of `way` px. stride: px per picture."""
+    """Return the name of the picture that a walking animation shows after a path of `way` px. stride: px
+    per picture.
+    """
     return animation.names[int(way / stride) % len(animation.names)]
 
 
 def lowered(level, hero):
-    """Return how far below his box the hero is drawn [px].
+    """Return the distance [px] by which the hero is drawn below his box.
 
-    On a slope the box stands on one of its lower corners, but the middle of the drawn feet touches the ground.
+    On a slope, one of the box's lower corners touches the ground, but the centre of the drawn feet should touch it.
     """
     if hero.slope == 0.0:
         return 0.0
