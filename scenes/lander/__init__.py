@@ -1,1 +1,1 @@
-"""The lander: a ship over a moon. The shapes of both are exact pixel masks, and shells carve craters into the moon."""
+"""The lander: a ship over a moon. Both shapes are exact pixel masks, and shells carve craters into the moon."""

@@ -29,9 +29,9 @@ class Backdrop:
         self.flakes = [random.random((3, FLAKES)) for _ in SNOW]
 
     def draw(self, surface, look, left, top):
-        """Draw the background for a view whose top left corner is the world point (left, top).
+        """Draw the background for a view whose top left corner is the world point (left, top) [px].
 
-        look: the scene's Spectacle.
+        look: the scene's Spectacle, which has the time and the path of the wind.
         """
         surface.blit(self.sky, (0, 0))
         share = min(max((left + CANVAS_SIZE[0] / 2 - STORM[0]) / (STORM[1] - STORM[0]), 0.0), 1.0)
@@ -47,18 +47,20 @@ class Backdrop:
                 surface.fill(color, (0, foot, CANVAS_SIZE[0], CANVAS_SIZE[1] - foot))
 
     def _draw_clouds(self, surface, look, left, share):
-        """Draw banks of cloud that the wind moves. left: x of the view's left edge [px].
+        """Draw banks of cloud that the wind moves.
 
-        look: the scene's Spectacle; share: how far the clouds have come down for the storm, 0..1.
+        look: the scene's Spectacle; left: x of the view's left edge [px]; share: how far the clouds have come down for
+        the storm, from 0 (above the picture) to 1 (lowest).
         """
         for along, carried, low in CLOUDS:
             y = whole(low * share - self.clouds.get_height() * (1.0 - share))
             tile_along(surface, self.clouds, left * along - look.gusted * carried - look.time * 7.0, y)
 
     def draw_snow(self, surface, layer, look, wind, left, top):
-        """Draw one layer of snow: more in a strong wind, less in a cave.
+        """Draw one layer of snow, with more flakes in a strong wind and fewer in a cave.
 
-        look: the scene's Spectacle; wind [px/s]; (left, top): world point at the view's top left corner.
+        layer: index of the layer in SNOW; look: the scene's Spectacle; wind: speed of the wind [px/s]; left, top:
+        world point at the view's top left corner [px].
         """
         share, carried, fall, color, thick = SNOW[layer]
         across, down, speed = self.flakes[layer]

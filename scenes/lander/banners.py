@@ -1,4 +1,4 @@
-"""Banners across the picture: the title of an act, the points of a landing, the bonuses, the result."""
+"""Banners across the picture of the lander: title of an act, points of a landing, bonuses, and the final result."""
 
 from math import inf
 
@@ -18,7 +18,7 @@ SMOKE = 40  # steps for which the last landing stays visible
 
 
 def draw_banners(canvas, scene):
-    """Draw the banner that belongs to the course's current mode, if there is one."""
+    """Draw the banner of the course's current mode, if this mode has one."""
     course = scene.course
     if course.mode == LOST:
         banner(canvas, "GAME OVER", _summary(scene), RED)
@@ -33,7 +33,7 @@ def draw_banners(canvas, scene):
 
 
 def covered(scene):
-    """Return the rectangle of the current banner [canvas px]; its height is 0 if there is none."""
+    """Return the rectangle (left, top, width, height) of the current banner [canvas px]; height 0 means no banner."""
     course = scene.course
     if course.mode == FLYING:
         high = TITLE_HIGH if scene.spectacle.act_since < TITLE else 0
@@ -46,7 +46,7 @@ def covered(scene):
 def _draw_title(canvas, scene):
     """Draw the number of the act, the name of its landing site, and two lines of instructions.
 
-    They slide in from both sides.
+    The texts slide in from both sides.
     """
     course = scene.course
     share = eased(scene.spectacle.act_since, TITLE)
@@ -62,7 +62,7 @@ def _draw_title(canvas, scene):
 
 
 def _draw_landed(canvas, scene):
-    """Draw the points of a landing in columns. They are shown while the ship is refuelled."""
+    """Draw the points of a landing in columns, while the ship is refuelled."""
     course = scene.course
     share = eased(course.since, CHEER)
     band(canvas, canvas.rect, LANDED_TOP, whole(LANDED_HIGH * share))
@@ -76,7 +76,7 @@ def _draw_landed(canvas, scene):
 
 
 def _draw_bonuses(canvas, scene):
-    """Draw the bonuses counted so far at the end of the course, one per line."""
+    """Draw the bonuses that have been counted so far at the end of the course, one per line."""
     course = scene.course
     share = eased(course.since - SMOKE, inf)
     band(canvas, canvas.rect, CLEARED_TOP, whole(178 * share))

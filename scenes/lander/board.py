@@ -29,9 +29,10 @@ EDGE = 18  # [px] from the picture's edge to the arrow towards a site out of sig
 
 
 def draw_words(canvas, scene, view, covered):
-    """Draw the short texts that rise from events. view: world point at the picture's top left corner.
+    """Draw the short texts that rise from events in the world.
 
-    covered: rectangle of a banner, where no text is drawn.
+    view: world point (x, y) [px] at the picture's top left corner; covered: rectangle of a banner, where no text is
+    drawn.
     """
     for rect in (*HELD, covered):
         canvas.reserve(rect)
@@ -42,7 +43,7 @@ def draw_words(canvas, scene, view, covered):
 
 
 def draw_board(canvas, scene, view):
-    """Draw the heads-up display. view: world point at the top left corner of the picture."""
+    """Draw the heads-up display. view: world point (x, y) [px] at the picture's top left corner."""
     _draw_score(canvas, scene)
     _draw_ships(canvas, scene)
     _draw_site(canvas, scene, view)
@@ -80,9 +81,9 @@ def _draw_ships(canvas, scene):
 
 
 def _draw_site(canvas, scene, view):
-    """Draw the name and distance of the landing site at the top.
+    """Draw the name and distance of the landing site at the top of the picture.
 
-    While the site is out of view, draw an arrow to it at the picture's edge.
+    While the site is outside the picture, also draw an arrow at the picture's edge that points to it.
     """
     course, ship = scene.course, scene.ship
     if course.over or scene.spectacle.act_since < NEWS:
@@ -120,7 +121,7 @@ def _draw_arrow(canvas, scene, view):
 
 
 def _draw_stock(canvas, scene):
-    """Draw the panel with the levels of fuel and hull, and the number of shells."""
+    """Draw the panel with the levels of fuel and hull and the number of shells."""
     ship, atlas, gain = scene.ship, load_atlas("lander"), scene.spectacle.gain
     left, top, _, _ = PANEL
     canvas.surface.blit(glass(PANEL[2:]), PANEL[:2])
@@ -147,9 +148,10 @@ def _draw_stock(canvas, scene):
 
 
 def _bar(surface, rect, share, color, gain):
-    """Draw a bar with a tick at each quarter. share: filled part, 0..1.
+    """Draw a bar with a tick at each quarter.
 
-    gain: brightness after a gain, 1 at the gain .. 0.
+    rect: (left, top, width, height) on the surface; share: filled part, 0..1; gain: extra brightness, from 1 just
+    after an increase to 0.
     """
     left, top, width, height = rect
     surface.fill(INK, rect)
@@ -164,7 +166,7 @@ def _bar(surface, rect, share, color, gain):
 
 
 def _draw_dials(canvas, scene):
-    """Draw vertical speed, horizontal speed and lean. Values in red are not safe for a landing."""
+    """Draw the panel with vertical speed, horizontal speed and lean. Values that are not safe for a landing are red."""
     ship = scene.ship
     left, top, _, _ = DIALS
     canvas.surface.blit(glass(DIALS[2:]), DIALS[:2])
@@ -212,7 +214,7 @@ def _draw_wind(canvas, scene):
 def _draw_chart(canvas, scene, view):
     """Draw a map of the whole moon with pads, cargo, ship, and the rectangle of the current view.
 
-    view: world point at the top left corner of the picture.
+    view: world point (x, y) [px] at the picture's top left corner.
     """
     left, top, width, height = CHART
     surface, moon = canvas.surface, scene.moon
@@ -244,7 +246,7 @@ def _draw_chart(canvas, scene, view):
 
 
 def chevron(surface, x, y):
-    """Draw the mark above the pad to land on. (x, y): place of the mark [canvas px]."""
+    """Draw the mark above the pad that is the landing site. x, y: position of the mark [canvas px]."""
     for row in range(6):
         surface.fill(INK, (x - 7 + row, y + row - 1, 15 - 2 * row, 3))
     for row in range(5):
@@ -252,7 +254,10 @@ def chevron(surface, x, y):
 
 
 def hook_mark(surface, x, y, inside):
-    """Draw the mark above a piece of cargo at (x, y) [canvas px]. inside: green, because the line can reach it."""
+    """Draw the mark above a piece of cargo at (x, y) [canvas px].
+
+    inside: True if the line can reach the cargo; then the mark is green.
+    """
     color = GOOD if inside else PAPER
     for row in range(5):
         surface.fill(INK, (x - 5 + row, y + row - 1, 11 - 2 * row, 3))
@@ -262,7 +267,9 @@ def hook_mark(surface, x, y, inside):
 
 @lru_cache(maxsize=8)
 def glass(size):
-    """Return the background of a panel of `size`: dark, half transparent, with a thin edge."""
+    """Return a Surface of `size` (width, height) for the background of a panel: dark, half transparent, with a thin
+    edge.
+    """
     out = pygame.Surface(size, pygame.SRCALPHA)
     out.fill(GLASS)
     pygame.draw.rect(out, (*SLATE, 130), (0, 0, *size), 1)
@@ -271,7 +278,7 @@ def glass(size):
 
 @lru_cache(maxsize=2)
 def chart(size):
-    """Return a small picture of the moon's rock and caves, which is the background of the map."""
+    """Return a Surface of `size` (width, height) with a small picture of the moon's rock and caves, for the map."""
     moon = the_moon()
     out = glass(size).copy()
     width, height = size[0] - 2, size[1] - 2

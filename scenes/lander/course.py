@@ -18,8 +18,8 @@ FLYING, LANDED, CLEARED, WON, LOST = "flying", "landed", "cleared", "won", "lost
 class Course:
     """Progress of the player from landing site to landing site.
 
-    act: number of the current site, 0..2; rest: steps at rest on a pad; mode: FLYING, LANDED, CLEARED, WON or LOST;
-    since: steps in this mode.
+    act: number of the current site, 0..2; mode: FLYING, LANDED, CLEARED, WON or LOST; since: steps in this mode; rest:
+    steps at rest on a pad.
     """
 
     def __init__(self, moon):
@@ -44,7 +44,7 @@ class Course:
         self.mode, self.since = mode, 0
 
     def step(self, scene):
-        """Update the progress after a step of the world."""
+        """Update the progress of `scene` after a step of its world."""
         self.since += 1
         self.clock += self.mode in (FLYING, LANDED)
         if self.mode == LANDED and self.since >= CHEER:
@@ -61,7 +61,7 @@ class Course:
         self.touchdown = max(self.touchdown, speed)
 
     def _watch(self, scene):
-        """Check for a landing, for a ship that is stranded without fuel, and for the loss of the last ship."""
+        """Check whether the ship has landed, is stranded without fuel, or was the last ship and is lost."""
         ship = scene.ship
         self.airborne = 0 if ship.touching else self.airborne + 1
         if self.airborne == FORGOTTEN:
@@ -82,7 +82,7 @@ class Course:
             scene.result = self._result(scene, won=False)
 
     def _serve(self, scene, ship):
-        """Refuel, repair and rearm a ship that rests on a pad, for one step."""
+        """Refuel, repair and rearm the ship for one step, while it rests on a pad."""
         filling = ship.fuel < FUEL or ship.hull < HULL
         ship.fuel, ship.hull = min(ship.fuel + REFUEL, FUEL), min(ship.hull + REPAIR, HULL)
         if self.rest % REARM == 0 and ship.shells < SHELLS:

@@ -39,7 +39,7 @@ CARGO_HARMLESS, CARGO_DAMAGE = 55.0, 0.7  # [px/s] harmless change of velocity; 
 
 
 def steps(seconds):
-    """Return the number of steps of 1/60 s that is nearest to a time [s]."""
+    """Return the time `seconds` as a number of steps of 1/60 s, rounded."""
     return round(seconds / STEP_SECONDS)
 
 

@@ -1,4 +1,4 @@
-"""Camera control of the lander: the camera follows the ship and looks ahead in the direction of its motion."""
+"""Camera control of the lander: the camera follows the ship and looks ahead in the ship's direction of motion."""
 
 from game.drawing.canvas import CANVAS_SIZE
 
@@ -10,7 +10,7 @@ TOP = -150.0  # [px] the highest visible point
 
 
 class Gaze:
-    """Control of the scene's camera."""
+    """Controller of the lander's camera."""
 
     def __init__(self, camera, ship, moon):
         self.camera, self.ship = camera, ship
@@ -34,5 +34,5 @@ def limited(value, most):
 
 
 def sees(camera, x, y, margin):
-    """Return whether the world point (x, y) is in the picture, or at most `margin` [px] outside it."""
+    """Return whether the world point (x, y) [px] is in the picture, or at most `margin` px outside it."""
     return -margin < x - camera.x < CANVAS_SIZE[0] + margin and -margin < y - camera.y < CANVAS_SIZE[1] + margin

@@ -1,4 +1,4 @@
-"""Goals that the bot must reach in a flight, with deadlines, as the scene's check() returns them."""
+"""Goals that the bot must reach in a flight, with deadlines. The scene's check() returns them."""
 
 from game.scene import Goal
 from scenes.lander.course import WON

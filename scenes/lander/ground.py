@@ -1,6 +1,6 @@
-"""The ground: one static body with the pixel mask of the whole moon, into which craters are carved.
+"""The ground: one static body with the pixel mask of the whole moon, into which explosions carve craters.
 
-The picture of the ground and the bot read the body's mask, too, which contains the remaining pixels.
+The picture of the ground and the bot also read the body's mask, because it contains the remaining pixels.
 """
 
 from math import floor
@@ -29,7 +29,10 @@ class Ground:
         self.touched = set()
 
     def carve(self, x, y, radius):
-        """Carve a round crater at (x, y) [px]. Return a list of the bodies that came loose."""
+        """Carve a round crater at (x, y) [px] out of the ground. Return a list of the bodies that came loose.
+
+        radius: radius of the crater [px].
+        """
         carved = self.body.carve(Circle(radius), (x, y), crumb=CRUMB)
         if carved.removed:
             self._touch(x - radius, y - radius, x + radius, y + radius)
@@ -42,9 +45,9 @@ class Ground:
             self.touched.update((column, row) for column in range(floor(left) // TILE, floor(right) // TILE + 1))
 
     def around(self, column, row, border):
-        """Return the remaining pixels of a tile with `border` px around it, a bool array [row, column].
+        """Return the remaining pixels of a tile and of `border` px around it, a bool array [row, column].
 
-        column, row: place of the tile. Return None if the tile and its neighbours have not changed since the start.
+        column, row: numbers of the tile. Return None if the tile and its neighbours have not changed since the start.
         """
         if not any((column + dx, row + dy) in self.touched for dx in (-1, 0, 1) for dy in (-1, 0, 1)):
             return None
@@ -68,9 +71,9 @@ class Ground:
         return bool(self.body.shapes[0].words[row, column // TILE] >> (np.uint64(column) & BITS) & np.uint64(1))
 
     def clear_way(self, x, y, dx, dy, reach):
-        """Return the distance [px] from (x, y) to the first ground in the direction (dx, dy), at most `reach`.
+        """Return the distance [px] from (x, y) to the first ground in the direction (dx, dy), at most `reach` px.
 
-        (dx, dy): unit vector.
+        dx, dy: unit vector.
         """
         far = 0.0
         while far < reach:

@@ -14,7 +14,7 @@ class Gun:
         self.shells = {}
 
     def fire(self, ship):
-        """Fire one shell. Its recoil acts on the ship."""
+        """Fire one shell from the nose of `ship`. The recoil acts on the ship."""
         x, y = ship.nose
         body = self.world.add_body(
             Circle(SHELL_RADIUS),
@@ -29,12 +29,12 @@ class Gun:
         ship.body.apply_impulse((-SHELL_MASS * SHELL_SPEED * x, -SHELL_MASS * SHELL_SPEED * y))
 
     def step(self):
-        """Make one step. Return the ids of the shells whose time is over."""
+        """Make one step of all shells. Return the ids of the shells whose lifetime is over."""
         self.shells = {identity: left - 1 for identity, left in self.shells.items()}
         return [identity for identity, left in self.shells.items() if left <= 0]
 
     def bursts(self, begun):
-        """Return {id of a shell: contact point (x, y) [px]} of the shells that touched a body in this step.
+        """Return {id of a shell: contact point (x, y) [px]} for the shells that touched a body in this step.
 
         begun: the step's begin events.
         """
@@ -52,7 +52,10 @@ class Gun:
 
 
 def blown(body, x, y):
-    """Return (vx, vy, speed) [px/s] that an explosion at (x, y) adds to a body's velocity; all 0 if it is too far."""
+    """Return (vx, vy, speed) [px/s], the change of a body's velocity by an explosion at (x, y) [px].
+
+    speed: magnitude of the change; all 0 if the body is out of range.
+    """
     dx, dy = body.center.x - x, body.center.y - y
     far = hypot(dx, dy)
     speed = PUSH * max(1.0 - far / PUSH_REACH, 0.0)

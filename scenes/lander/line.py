@@ -1,8 +1,8 @@
 """The line: a rope of links between ship and load. It bends around rock, and tears under too great a force.
 
-Each link is a thin capsule, pinned to the next; the ends are pinned to the centres of mass of ship and load, so the
-rope causes no torque there. The pins form a tree, which the solver of joints solves exactly, however heavy the load is.
-Links collide with the ground and with nothing else.
+Each link is a thin capsule, pinned to the next link. The ends are pinned to the centres of mass of ship and load, so
+that the rope causes no torque there. The pins form a tree, for which the solver of joints is exact at any mass of the
+load. Links collide with the ground and with nothing else.
 """
 
 from itertools import pairwise
@@ -16,9 +16,10 @@ THICK = 1.0  # [px] radius of a link
 
 
 class Line:
-    """The rope on which the ship carries a load. load: its body, or None; torn: whether the rope tore in this step.
+    """The rope on which the ship carries a load.
 
-    links: the bodies of the rope, from the ship to the load.
+    load: the carried body, or None; torn: whether the rope tore in this step; links: the bodies of the rope, from the
+    ship to the load.
     """
 
     def __init__(self, world):
@@ -28,7 +29,7 @@ class Line:
         self.links = []
 
     def toggle(self, ship, loose):
-        """Let go of the load or, without a load, catch the nearest of the bodies `loose` that is within REACH.
+        """Release the load or, without a load, catch the nearest of the bodies `loose` that is within REACH.
 
         Return "let go", "caught", or "missed" if no body is in reach.
         """
@@ -44,7 +45,9 @@ class Line:
         return "caught"
 
     def _tie(self, body):
-        """Make the rope between the ship's body and the load: straight, or in a zigzag if they are near each other."""
+        """Build the rope between the ship's body and the load: straight, or in a zigzag if the distance is shorter
+        than the rope.
+        """
         start, end = body.center, self.load.center
         away = hypot(end.x - start.x, end.y - start.y)
         length = max(LINE, away) / LINKS  # of a link
@@ -74,20 +77,20 @@ class Line:
             self.world.add_joint(Revolute(a, b, at=at, breaks=(LINE_STRENGTH, None), contacts=False))
 
     def let_go(self):
-        """Remove the rope."""
+        """Release the load: remove the rope."""
         self.world.remove_bodies([link.id for link in self.links])
         self.load, self.links = None, []
 
     def read(self):
-        """Read from the events of a step whether the rope tore."""
+        """Read from the step's events whether the rope tore, and remove the rest of a torn rope."""
         self.torn = any(row["reason"] in ("force", "torque") for row in self.world.events.broken)
         if self.torn:
             self.let_go()
 
     def points(self, pose):
-        """Return the ends of the links (x, y) [px] from the ship to the load.
+        """Return a list of the ends (x, y) [px] of all links, from the ship to the load.
 
-        pose(id): function that returns the pose (x, y, angle) [px, rad] at which a link is shown.
+        pose(id): function that returns the pose (x, y, angle) [px, rad] at which a link is drawn.
         """
         found = []
         for link in self.links:
@@ -98,7 +101,7 @@ class Line:
         return found
 
     def drop(self, identity):
-        """Let go of the load if it is the body `identity`. Call it before this body is removed."""
+        """Release the load if it is the body `identity`. Call this method before that body is removed."""
         if self.load is not None and self.load.id == identity:
             self.let_go()
 

@@ -1,6 +1,6 @@
-"""The moon at the start: pictures, pads, winds, places of cargo and rocks, and the bot's path.
+"""The moon at the start: pictures, pads, winds, positions of cargo and rocks, and the bot's path.
 
-The Moon is constant. Changes during a game are kept in other objects.
+The Moon is constant. Other objects store the changes during a game.
 """
 
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ LEVEL = LEVELS / "lander.json"
 
 @dataclass(frozen=True)
 class Pad:
-    """A landing pad. x: x of its middle [px]; y: y of its deck [px]. The first pad of the moon is the base."""
+    """A landing pad. x: x of its centre [px]; y: y of its deck [px]. The first pad of the moon is the base."""
 
     name: str
     title: str
@@ -49,9 +49,10 @@ class Wind:
 
 @dataclass(frozen=True)
 class Waypoint:
-    """A point of the bot's path. at: (x, y) [px]; take: number of the cargo to pick up there, or -1.
+    """A point of the bot's path.
 
-    until: (x, y) up to which the path must be free of ground before the bot continues, or () for no check.
+    at: (x, y) [px]; take: number of the piece of cargo to pick up there, or -1; until: point (x, y) up to which the
+    path must be free of ground before the bot continues, or () for no check.
     """
 
     at: tuple
@@ -60,10 +61,10 @@ class Waypoint:
 
 
 class Moon:
-    """The moon: its ground as a mask, and where its caves are.
+    """The moon: its ground and mountain, and the contents of its level file.
 
-    mask: the ground as one PixelMask, at the world's origin. solid: bool array [row, column] of the ground's pixels.
-    massif: bool array of the mountain's pixels, caves included.
+    mask: the ground as one PixelMask, at the world's origin; solid: bool array [row, column] of the ground's pixels;
+    massif: bool array [row, column] of the mountain's pixels, caves included.
     """
 
     def __init__(self):
@@ -89,7 +90,7 @@ class Moon:
         return self
 
     def is_inside(self, x, y):
-        """Return whether (x, y) [px] is inside the mountain, in rock or in a cave, where there is no wind."""
+        """Return whether (x, y) [px] is inside the mountain, in rock or in a cave. There is no wind inside."""
         column, row = int(x), int(y)
         return 0 <= column < self.width and 0 <= row < self.height and bool(self.massif[row, column])
 

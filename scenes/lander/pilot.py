@@ -1,8 +1,8 @@
-"""The lander's bot. It flies from waypoint to waypoint.
+"""The lander's bot, which flies from waypoint to waypoint.
 
-The thrust follows from the velocity that the bot wants, and the ship's angle from the thrust. The engine has no
-throttle: it is on whenever at least half of its thrust is needed. If ice blocks the path, the bot hovers, turns the
-ship's nose to the ice, and fires until the ship fits through.
+The bot computes the thrust from the wanted velocity, and the ship's angle from the thrust. The engine has no throttle:
+it is on whenever at least half of its thrust is needed. If ice blocks the path, the bot hovers, turns the ship's nose
+to the ice, and fires until the ship fits through.
 """
 
 from math import atan2, hypot, sqrt
@@ -34,9 +34,10 @@ WAIT = 22  # steps between two shells
 
 
 class Pilot:
-    """The bot, which flies the ship from waypoint to waypoint. aiming: whether it is about to fire.
+    """The bot, which flies the ship from waypoint to waypoint.
 
-    act, number: indices of the current act, and of the next waypoint in this act.
+    act, number: indices of the current act, and of the next waypoint in this act; aiming: whether the bot is about to
+    fire.
     """
 
     def __init__(self):
@@ -47,7 +48,7 @@ class Pilot:
         self.blocked: Any = None  # point (x, y) of the obstacle in the path, or None
 
     def keys(self, scene):
-        """Return the actions that the bot holds in the next step, a set of names."""
+        """Return the actions that the bot holds in the next step, a frozenset of names."""
         ship, course = scene.ship, scene.course
         if not ship.here or course.over:
             self.number, self.aiming = 0, False
@@ -82,7 +83,7 @@ class Pilot:
         return self.leant > STUCK
 
     def _waits(self, scene):
-        """Return whether the ship waits on a pad: to be refuelled, or while the points of a landing are shown."""
+        """Return whether the ship waits on a pad, either to be refuelled or while the points of a landing are shown."""
         ship, course = scene.ship, scene.course
         if scene.pad_below() is None or not ship.quiet:
             return False
@@ -132,7 +133,7 @@ class Pilot:
     # --- cargo -------------------------------------------------------------------------------------------------------
 
     def _take(self, scene, piece):
-        """Return the keys to pick up a piece of cargo: slow down above it, then catch it with the line."""
+        """Return the keys to pick up a piece of cargo, a frozenset: slow down above it, then catch it with the line."""
         ship = scene.ship
         x, y = piece.body.position
         keys = self._steer(scene, *self._towards(ship, (x, y - OVER_CARGO), last=True))
@@ -143,7 +144,7 @@ class Pilot:
         return keys | {"bomb"}
 
     def _sets_down(self, scene, pad):
-        """Return whether to let go of the cargo in this step, because it is on the pad and at rest."""
+        """Return whether to release the cargo in this step, because it is at rest on the pad."""
         load = scene.line.load
         if load is None or self.wait or pad.y - load.bounds[3] > 2.0 or load.velocity.length > GENTLY:
             return False
@@ -153,7 +154,7 @@ class Pilot:
     # --- keys --------------------------------------------------------------------------------------------------------
 
     def _steer(self, scene, wanted_x, wanted_y):
-        """Return the keys that steer the ship towards the velocity (wanted_x, wanted_y) [px/s]."""
+        """Return the keys that steer the ship towards the velocity (wanted_x, wanted_y) [px/s], a frozenset."""
         ship = scene.ship
         heavy = 1.0 if scene.line.load is None else 1.0 + scene.line.load.mass / SHIP_MASS
         push_x = GAIN * (wanted_x - ship.vx) + DRAG * (ship.vx - scene.weather.wind)
@@ -172,7 +173,7 @@ class Pilot:
         return {"right"} if off > NEARLY else {"left"} if off < -NEARLY else set()
 
     def _shoot(self, scene, point, x, y):
-        """Return the keys to aim at an obstacle at (x, y) [px] and fire.
+        """Return the keys to aim at an obstacle at (x, y) [px] and fire, a frozenset.
 
         Return None if the ship must first slow down or fly back to the waypoint `point`.
         """
@@ -196,7 +197,7 @@ class Pilot:
 
 
 def falls(scene, point):
-    """Return whether rubble is falling into the path behind the waypoint `point`, so that the bot must wait."""
+    """Return whether rubble is falling near the path from the waypoint `point` on, so that the bot must wait."""
     (x, y), (end_x, end_y) = point.at, point.until
     left, right = min(x, end_x) - ROOM, max(x, end_x) + ROOM
     return any(
@@ -206,9 +207,9 @@ def falls(scene, point):
 
 
 def obstacle(ground, start, end):
-    """Return the first point (x, y) [px] at which a ship touches ground on the straight path from start to end.
+    """Return the first point (x, y) [px] at which a ship on the straight path from `start` to `end` touches ground.
 
-    Return None if the ship fits through.
+    Return None if the path is free.
     """
     dx, dy = end[0] - start[0], end[1] - start[1]
     far = hypot(dx, dy)

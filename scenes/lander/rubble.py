@@ -1,4 +1,4 @@
-"""Rubble: loose rocks, and loose pieces of ground and rocks. Each is drawn with the pixels of its original picture."""
+"""Rubble: loose rocks, and loose pieces of ground and rocks. Each piece shows the pixels of its original picture."""
 
 from dataclasses import dataclass
 
@@ -8,9 +8,10 @@ from scenes.lander.feel import CRUMB, LOOSE
 
 @dataclass(frozen=True)
 class Piece:
-    """A loose piece. look: name of its original picture, that of a rock or "ground" for the picture of the moon.
+    """A loose piece of rock or ground.
 
-    source: place (x, y) in that picture [px] of the top left corner of the piece's mask.
+    look: name of its original picture, that of a rock, or "ground" for the picture of the moon; source: position (x,
+    y) in that picture [px] of the top left corner of the piece's mask.
     """
 
     look: str
@@ -20,7 +21,7 @@ class Piece:
 class Rubble:
     """All loose pieces of rock on the moon. pieces: {body id: Piece}.
 
-    At first these are the loose rocks; explosions add pieces of ground and of rocks.
+    At first the pieces are the loose rocks. Explosions add pieces of ground and of rocks.
     """
 
     def __init__(self, world):
@@ -28,11 +29,11 @@ class Rubble:
         self.pieces = {}
 
     def add_rock(self, body, look):
-        """Add a whole loose rock. look: name of its picture."""
+        """Add a loose rock that is still whole. look: name of the rock's picture."""
         self.pieces[body.id] = Piece(look, (0, 0))
 
     def add_ground(self, bodies):
-        """Add pieces that have just come loose from the ground. Call it before they have moved.
+        """Add pieces that have just come loose from the ground. Call this method before they move.
 
         bodies: the bodies of the pieces.
         """
@@ -50,9 +51,9 @@ class Rubble:
         return [self.world.body(identity) for identity in sorted(self.pieces)]
 
     def carve(self, x, y, radius):
-        """Carve the disc of an explosion at (x, y) [px] out of all pieces in its range.
+        """Carve the disc of an explosion at (x, y) [px] with this radius [px] out of all pieces in its range.
 
-        Return the ids of the bodies of which no pixel is left.
+        Return the ids of the bodies that have no pixel left.
         """
         gone = []
         for body in self.bodies():
@@ -74,7 +75,7 @@ class Rubble:
 
 
 def _source(part, before, mask, parent):
-    """Return the `source` of a new fragment, for its Piece. part: body of the fragment.
+    """Return the `source` of the Piece of a new fragment. part: body of the fragment.
 
     before: the Piece from which it was carved; mask: mask of that piece before the carve; parent: body of that piece.
     """

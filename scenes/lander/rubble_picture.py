@@ -14,7 +14,9 @@ KEPT = 300  # pieces in the cache
 
 
 class RubblePictures:
-    """Renderer of rubble, with a cache of pictures. A piece that is carved gets a new mask, and so a new picture."""
+    """Renderer of rubble, with a cache of pictures. A carve replaces a piece's mask, so it also replaces
+    the picture.
+    """
 
     def __init__(self, moon):
         self.moon = moon
@@ -36,7 +38,7 @@ class RubblePictures:
         surface.blit(image, (whole(x + c * u - s * v - width / 2), whole(y + s * u + c * v - height / 2)))
 
     def _cut_out(self, piece, mask):
-        """Return the picture of the pixels of a piece: dark along the fracture, and light where it faces up.
+        """Return a Surface with the pixels of a piece, dark along its fractures and light where a fracture faces up.
 
         mask: the piece's PixelMask.
         """
@@ -68,7 +70,9 @@ class Cut:
         self.turned = lru_cache(maxsize=ANGLES)(self._turned)
 
     def at(self, angle):
-        """Return the picture, rotated clockwise by `angle` [rad]. The angle is rounded to one of ANGLES per turn."""
+        """Return the picture as a Surface, rotated clockwise by `angle` [rad]. The angle is rounded to one of ANGLES
+        per turn.
+        """
         return self.turned(round(angle / (2.0 * pi) * ANGLES) % ANGLES)
 
     def _turned(self, number):
@@ -78,7 +82,7 @@ class Cut:
 def _beside(gone):
     """Return a bool array of the pixels that have a pixel of `gone` above, below, left or right of them.
 
-    gone: bool array of pixels.
+    gone: bool array (height, width); the result has the same shape.
     """
     padded = np.pad(gone, 1)
     return padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2] | padded[1:-1, 2:]

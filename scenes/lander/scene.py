@@ -72,7 +72,7 @@ class Lander(Scene):
         self.gone = []  # ids of bodies that are removed when the next step begins
 
     def change_slider(self, name, value):
-        """Set a slider. The slider of the gravity changes the world's gravity at once."""
+        """Set the slider `name` to `value`. The slider of the gravity changes the world's gravity at once."""
         super().change_slider(name, value)
         if self.world.effects.gravity:
             self.world.gravity = (0.0, self.values["gravity"])
@@ -80,7 +80,7 @@ class Lander(Scene):
     # --- the step ----------------------------------------------------------------------------------------------------
 
     def update(self, inputs):
-        """Steer the ship, step the world, and read the events."""
+        """Remove bodies that are due, steer the ship, step the world, and read its events."""
         self._sweep()
         ship = self.ship
         if ship.here and not self.course.over:
@@ -201,12 +201,12 @@ class Lander(Scene):
                 self._hurt(speed, self.ship.x, self.ship.y)
 
     def _forget(self, identity):
-        """Remove the references of line and ship to the body `identity`, which is removed."""
+        """Remove the references of line and ship to the body `identity`, which is about to be removed."""
         self.line.drop(identity)
         self.ship.touching.discard(identity)
 
     def give_up(self):
-        """Give up the ship, which is stranded without fuel."""
+        """Destroy the ship, which is stranded without fuel."""
         self.spectacle.stranded()
         self.ship.hull = 0.0
         self._crash()
@@ -235,15 +235,15 @@ class Lander(Scene):
     # --- self-check, bot and replay ----------------------------------------------------------------------------------
 
     def check(self):
-        """Return the goals that the bot must reach, such as landings at all three sites, a list of Goal."""
+        """Return the goals that the bot must reach, a list of Goal, such as landings at all three sites."""
         return goals(self)
 
     def bot(self):
-        """Return the actions that the bot holds in the next step."""
+        """Return the actions that the bot holds in the next step, a frozenset of names."""
         return self.pilot.keys(self)
 
     def state(self):
-        """Return the scene's own state, a flat tuple for the digest. The world's state is hashed separately."""
+        """Return the scene's part of the state hash, a flat tuple. The world is hashed separately."""
         parts = (self.ship, self.course, self.score, self.gun, self.line, self.weather, self.yard, self.ground)
         return (
             self.frame,
@@ -254,11 +254,11 @@ class Lander(Scene):
         )
 
     def draw(self, canvas, alpha):
-        """Draw the scene. alpha: position (0..1) between the last two steps."""
+        """Draw the scene on the canvas. alpha: position (0..1) between the last two steps."""
         the_view().draw(self, canvas, alpha)
 
 
 def others(rows, identity):
-    """Return the set of ids of the bodies that form a pair with the body `identity` in a table of events."""
+    """Return the set of ids of all bodies that form a pair with the body `identity` in `rows`, a table of events."""
     a, b = rows["body_a"], rows["body_b"]
     return {*b[a == identity].tolist(), *a[b == identity].tolist()}

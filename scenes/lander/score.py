@@ -1,4 +1,4 @@
-"""Points of the lander, for landings, for deliveries and at the end, and the medals for the total."""
+"""Points of the lander, for landings, for deliveries and at the end, and the medals for the total of points."""
 
 from scenes.lander.feel import FUEL, HARD, HULL, SOFT
 
@@ -11,7 +11,9 @@ OFF_CENTRE = 34.0  # [px] distance from a pad's middle from which there is no bo
 
 
 class Score:
-    """The player's score. points: total; other attributes count landings, deliveries, lost ships, shells and cans."""
+    """The player's score. points: total; the other attributes count landings, deliveries, lost ships,
+    shells and cans.
+    """
 
     def __init__(self):
         self.points = 0
@@ -21,7 +23,7 @@ class Score:
     def land(self, number, speed, off, fuel, hull):
         """Count a landing and add its points. Return a list of (reason, points).
 
-        number: 1 for the first site; speed: speed at touchdown [px/s]; off: distance from the pad's middle [px]; fuel,
+        number: 1 for the first site; speed: speed at touchdown [px/s]; off: distance from the pad's centre [px]; fuel,
         hull: remaining amounts.
         """
         self.landings += 1
@@ -40,7 +42,7 @@ class Score:
     def deliver(self, whole):
         """Count a delivered piece of cargo and add its points. Return these points.
 
-        whole: condition of the cargo, 100 (undamaged) .. 0.
+        whole: condition of the cargo, from 100 (undamaged) to 0.
         """
         self.delivered += 1
         worth = rounded(DELIVERY * (0.25 + 0.75 * whole / 100.0))
@@ -54,9 +56,10 @@ class Score:
         return CAN_WORTH
 
     def final(self, seconds, lives, cargo):
-        """Return the bonuses at the end, a list of (reason, points).
+        """Return the bonuses at the end of the course, a list of (reason, points).
 
-        seconds: time of the run; lives: remaining ships; cargo: number of all pieces of cargo on the moon.
+        seconds: time of the run [s]; lives: remaining ships, with the current one; cargo: number of pieces of cargo on
+        the moon.
         """
         found = [("TIME", rounded(max(PAR - seconds, 0.0) * SECOND)), ("SHIPS LEFT", max(lives - 1, 0) * LIFE)]
         if not self.lost:
@@ -66,12 +69,12 @@ class Score:
         return found
 
     def add(self, points):
-        """Add the points of one bonus of final()."""
+        """Add the points of one bonus that final() has returned."""
         self.points += points
 
     @property
     def medal(self):
-        """Name of the medal for the points: GOLD, SILVER or BRONZE."""
+        """Name of the medal for the current points: "GOLD", "SILVER" or "BRONZE"."""
         return next(name for name, least in MEDALS if self.points >= least)
 
     def state(self):
@@ -80,5 +83,5 @@ class Score:
 
 
 def rounded(points):
-    """Return the points rounded to tens."""
+    """Return the points, rounded to a multiple of ten."""
     return round(points / 10) * 10

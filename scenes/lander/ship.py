@@ -38,9 +38,10 @@ HULL_MATERIAL = Material(friction=0.8, restitution=0.12)
 
 
 class Ship:
-    """The player's ship. body: None between the loss of a ship and the next one; away: steps until the next one.
+    """The player's ship.
 
-    touching: ids of the bodies that are in contact with it.
+    body: its body, or None between the loss of a ship and the next ship; away: steps until the next ship; touching:
+    ids of the bodies in contact with the ship.
     """
 
     def __init__(self, world, moon):
@@ -57,7 +58,7 @@ class Ship:
 
     @property
     def here(self):
-        """True while there is a ship; False between the loss of a ship and the next one."""
+        """True while there is a ship; False between the loss of a ship and the next ship."""
         return self.body is not None
 
     @property
@@ -82,7 +83,7 @@ class Ship:
         )
 
     def arrive(self):
-        """Add a new ship on the pad that was reached last."""
+        """Add a new ship on the pad that was reached last, with full fuel and hull."""
         self.fuel, self.hull, self.shells = FUEL, HULL, max(self.shells, FEWEST_SHELLS)
         self.body = self.world.add_body(
             load_atlas("lander").mask("ship"),
@@ -97,14 +98,14 @@ class Ship:
         self.read()
 
     def read(self):
-        """Copy position, velocity and angle of the body from the world."""
+        """Copy position, velocity and angle from the ship's body."""
         if self.body is not None:
             self.x, self.y = self.body.position
             self.vx, self.vy = self.body.velocity
             self.angle = wrapped(self.body.angle)
 
     def steer(self, inputs):
-        """Turn and thrust for the next step according to the input."""
+        """Turn and thrust for the next step according to the input, and keep the ship inside the moon's limits."""
         body = self.body
         self.turning = inputs.held("right") - inputs.held("left")
         self.thrusting = inputs.held("up") and self.fuel > 0.0
@@ -132,7 +133,7 @@ class Ship:
                 body.apply_impulse((SHIP_MASS * (20.0 * way - self.vx), 0.0))
 
     def fires(self, inputs):
-        """Return whether the ship fires a shell in this step. If so, the stock of shells is reduced."""
+        """Return whether the ship fires a shell in this step. If it does, take the shell from the stock."""
         if not inputs.held("fire") or self.cooldown or not self.shells:
             return False
         self.shells -= 1
@@ -140,13 +141,13 @@ class Ship:
         return True
 
     def knock(self, change):
-        """Damage the hull by an impact. change: change of the ship's velocity [px/s]. Return the loss of hull."""
+        """Damage the hull by an impact, and return the loss of hull. change: change of the ship's velocity [px/s]."""
         cost = min(max(change - HARMLESS, 0.0) * DAMAGE, self.hull)
         self.hull -= cost
         return cost
 
     def lose(self):
-        """Lose the ship and a life. Return the id of its body, which the caller must remove."""
+        """Remove the ship from the game, with one life. Return the id of its body, which the caller must remove."""
         identity = self.body.id
         self.body = None
         self.touching = set()
@@ -156,7 +157,7 @@ class Ship:
         return identity
 
     def wait(self):
-        """Wait one step for the next ship. Return whether it has appeared."""
+        """Wait one step for the next ship, and add it when it is due. Return whether it has appeared."""
         self.away = max(self.away - 1, 0)
         if self.away or not self.lives:
             return False
@@ -191,5 +192,5 @@ class Ship:
 
 
 def wrapped(angle):
-    """Return the equal angle [rad] in the range -pi .. pi."""
+    """Return the equivalent angle [rad] in the range -pi .. pi."""
     return (angle + 3.141592653589793) % 6.283185307179586 - 3.141592653589793

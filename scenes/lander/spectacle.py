@@ -1,4 +1,4 @@
-"""Visual effects and sounds for the scene's events. They never influence the game rules."""
+"""Visual effects and sounds of the lander. They never influence the game rules."""
 
 from math import cos, pi, sin
 
@@ -22,7 +22,7 @@ class Spectacle:
     """Visible and audible effects of the lander.
 
     works: moving decoration (explosions, debris, texts); other attributes are timers. Each method from act_begins() on
-    shows one kind of event, with pictures and sound.
+    shows one kind of event by pictures and sound.
     """
 
     def __init__(self, scene):
@@ -59,7 +59,7 @@ class Spectacle:
     def _engine(self, ship):
         """Emit the engine's fire, and dust from ground that the exhaust reaches.
 
-        For this the ship's height above ground is measured.
+        Also measure the ship's height above the ground.
         """
         scene = self.scene
         x, y = ship.nose
@@ -104,7 +104,7 @@ class Spectacle:
                 )
 
     def _jet(self, ship, side):
-        """Emit a puff of one of the small jets that turn the ship. side: side of the ship, -1 left, 1 right."""
+        """Emit a puff of one of the small jets that rotate the ship. side: side of the ship, -1 left, 1 right."""
         across, down = cos(ship.angle), sin(ship.angle)
         self.scene.particles.burst(
             ship.x + 9 * side * across + 6 * down,
@@ -130,21 +130,21 @@ class Spectacle:
 
     @property
     def sinking(self):
-        """True if the ship sinks too fast near the ground. The alarm then sounds."""
+        """True if the ship sinks too fast near the ground, so that the alarm sounds."""
         return self.scene.ship.here and self.scene.ship.vy > WARN_SPEED and self.height < WARN_HEIGHT
 
     def _at(self, x):
-        """Return the canvas x of a world x, for the stereo position of a sound."""
+        """Return the canvas x of a world x [px], for the stereo position of a sound."""
         return x - self.scene.camera.x
 
     # --- the course --------------------------------------------------------------------------------------------------
 
     def act_begins(self):
-        """Begin to announce the next landing site."""
+        """Start the announcement of the next landing site."""
         self.act_since = 0
 
     def landed(self, pad, last):
-        """Show a landing on a pad. last: whether it is the last landing site."""
+        """Show a landing on a pad. last: whether this is the last landing site."""
         scene = self.scene
         self.pulse = 1.0
         for share in (-0.45, -0.2, 0.2, 0.45):
@@ -154,13 +154,13 @@ class Spectacle:
         scene.play("touchdown", volume=0.9)
 
     def served(self, rest):
-        """Show that the ship is refuelled, repaired or rearmed on a pad. rest: steps at rest on the pad."""
+        """Show that the ship is refuelled, repaired or rearmed on a pad. rest: number of steps at rest on the pad."""
         self.gain = 1.0
         if rest % 12 == 0:
             self.scene.play("blip", self._at(self.scene.ship.x), 0.16)
 
     def arrived(self):
-        """Show that the next ship appears on the pad."""
+        """Show that the next ship has appeared on the pad."""
         ship = self.scene.ship
         self.works.ring(ship.x, ship.y, 50.0)
         self.works.sparks(ship.x, ship.y, 30, BLUE, 130)
@@ -200,7 +200,7 @@ class Spectacle:
     def cargo_knocked(self, piece, x, y, change, cost):
         """Show an impact of a piece of cargo at (x, y) [px].
 
-        change: change of its velocity [px/s]; cost: loss of condition.
+        change: change of the cargo's velocity [px/s]; cost: loss of its condition (of 100).
         """
         if change < KNOCK:
             return
@@ -255,7 +255,7 @@ class Spectacle:
         self.scene.play("hook", self._at(ship.x), 0.5 if outcome != "missed" else 0.2)
 
     def line_torn(self):
-        """Show that the line tore."""
+        """Show that the line has torn."""
         ship = self.scene.ship
         self.works.word("LINE TORN", ship.x, ship.y - 26, TINT["bad"])
         self.scene.play("chain_break", self._at(ship.x), 0.6)
@@ -263,7 +263,7 @@ class Spectacle:
     # --- won and lost ------------------------------------------------------------------------------------------------
 
     def can_taken(self, x, y, worth):
-        """Show that a can of fuel at (x, y) [px] was taken. worth: points for it."""
+        """Show that the ship has taken a can of fuel at (x, y) [px]. worth: points for the can."""
         self.gain = self.pulse = 1.0
         self.works.sparks(x, y, 26, GOLD, 130)
         self.works.ring(x, y, 30.0)
@@ -271,7 +271,7 @@ class Spectacle:
         self.scene.play("powerup", self._at(x), 0.6)
 
     def delivered(self, piece, worth):
-        """Show that a piece of cargo was delivered. worth: points for it."""
+        """Show that a piece of cargo has been delivered. worth: points for the delivery."""
         x, y = piece.body.center
         self.pulse = 1.0
         self.works.sparks(x, y, 40, BLUE, 150)
@@ -280,7 +280,7 @@ class Spectacle:
         self.scene.play("life", self._at(x), 0.7)
 
     def cargo_lost(self, piece):
-        """Show that a piece of cargo broke."""
+        """Show that a piece of cargo has been destroyed."""
         x, y = piece.body.center
         self.works.burst("explosion_small", x, y)
         self.works.sparks(x, y, 30, FIRE, 160)
@@ -307,5 +307,5 @@ class Spectacle:
 
     @property
     def battered(self):
-        """True if the hull is badly damaged."""
+        """True if less than two fifths of the hull are left."""
         return self.scene.ship.hull < 0.4 * HULL

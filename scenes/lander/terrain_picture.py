@@ -1,6 +1,6 @@
-"""The picture of the ground: rock, the wall behind it, and the edges of craters. It is drawn in cached tiles.
+"""The picture of the ground: rock, the wall behind it, and the edges of craters, drawn in cached tiles.
 
-A tile is drawn from its current pixels alone, so that its picture is right after a restart or a rewind, too. Beside
+A tile is drawn from its current pixels alone, so that its picture is also right after a restart or a rewind. Beside
 carved pixels the rock is scorched, and its edge is light or dark like the painted edges.
 """
 
@@ -19,7 +19,7 @@ BORDER = 3  # [px] width of the surroundings on which the picture of a tile depe
 
 
 class TerrainPicture:
-    """Renderer of the ground, with its cache of tiles. All games on one moon share it."""
+    """Renderer of the ground, with a cache of its tiles. All games on one moon share the renderer."""
 
     def __init__(self, moon):
         self.moon = moon
@@ -28,7 +28,7 @@ class TerrainPicture:
         self.plain = {}
 
     def draw(self, surface, ground, left, top):
-        """Draw the ground for a view whose top left corner is the world point (left, top)."""
+        """Draw the ground for a view whose top left corner is the world point (left, top) [px]."""
         pairs = []
         for row in range(max(top // TILE, 0), min((top + CANVAS_SIZE[1]) // TILE + 1, self.rows)):
             for column in range(max(left // TILE, 0), min((left + CANVAS_SIZE[0]) // TILE + 1, self.columns)):
@@ -38,7 +38,7 @@ class TerrainPicture:
         blit_many(surface, pairs)
 
     def tile(self, ground, column, row):
-        """Return the picture of a tile with its current pixels in `ground`; None if the tile is empty."""
+        """Return the picture of a tile with its current pixels in `ground`, a Surface, or None if the tile is empty."""
         around = ground.around(column, row, BORDER)
         version = None if around is None else around.tobytes()
         kept = self.kept.get((column, row))
@@ -63,9 +63,10 @@ class TerrainPicture:
         return out.convert() if covered == TILE * TILE and pygame.display.get_surface() else out
 
     def _holed(self, rock, column, row, around):
-        """Return the picture of a tile's remaining rock, scorched and lit along the edges of craters.
+        """Return a Surface with a tile's remaining rock, scorched and lit along the edges of craters.
 
-        rock: picture of the whole tile; around: remaining pixels of the tile and BORDER px around it.
+        rock: picture of the whole tile; column, row: numbers of the tile; around: bool array of the remaining pixels
+        of the tile and of BORDER px around it.
         """
         before = padded(self.moon.solid, column, row)
         hole = before & ~around
@@ -95,7 +96,7 @@ class TerrainPicture:
 
 
 def padded(solid, column, row):
-    """Return the pixels of a tile with BORDER px around it, a bool array [row, column].
+    """Return the original pixels of a tile and of BORDER px around it, a bool array [row, column].
 
     solid: bool array of the whole moon. Beyond the moon's edge, the pixels of the edge are repeated.
     """

@@ -1,6 +1,6 @@
-"""Drawing of the lander: sky, ground, pads, loose bodies, the ship and its fire, and the heads-up display on top.
+"""Drawing of the lander: sky, ground, pads, loose bodies, the ship and its fire, and the heads-up display.
 
-Drawing changes no state of the scene; pictures are cached.
+Drawing changes no state of the scene. Pictures are cached.
 """
 
 from functools import lru_cache, partial
@@ -32,7 +32,7 @@ LIT = 0.25  # [s] that a burst lights its surroundings
 
 
 class View:
-    """Renderer of the lander, with its caches of pictures. One instance serves all scenes."""
+    """Renderer of the lander, with its caches of pictures. All scenes share one instance."""
 
     def __init__(self):
         self.atlas, self.effects = load_atlas("lander"), load_atlas("effects")
@@ -42,13 +42,13 @@ class View:
         self.white = lru_cache(maxsize=64)(lit)
 
     def picture(self, name):
-        """Return the cached RotatedPicture of the picture called `name`."""
+        """Return the cached RotatedPicture of the atlas picture called `name`."""
         if name not in self.turned:
             self.turned[name] = RotatedPicture(self.atlas[name])
         return self.turned[name]
 
     def draw(self, scene, canvas, alpha):
-        """Draw the scene. alpha: position (0..1) between the last two steps."""
+        """Draw the scene on the canvas. alpha: position (0..1) between the last two steps."""
         self.surface, self.alpha = canvas.surface, alpha
         self.left, self.top = scene.camera.view(alpha)
         look, surface = scene.spectacle, canvas.surface
@@ -78,18 +78,18 @@ class View:
         return tuple((row[name] - (row[name] - row[f"previous_{name}"]) * back).item() for name in ("x", "y", "angle"))
 
     def sees(self, x, y, margin=NEAR):
-        """Return whether the world point (x, y) is in the picture, or at most `margin` [px] outside it."""
+        """Return whether the world point (x, y) [px] is in the picture, or at most `margin` px outside it."""
         return -margin < x - self.left < CANVAS_SIZE[0] + margin and -margin < y - self.top < CANVAS_SIZE[1] + margin
 
     def centred(self, image, x, y, flags=0):
-        """Draw a picture centred on the world point (x, y). flags: pygame's blend flags."""
+        """Draw a picture centred on the world point (x, y) [px]. flags: pygame's blend flags."""
         width, height = image.get_size()
         self.surface.blit(
             image, (whole(x - width / 2) - self.left, whole(y - height / 2) - self.top), special_flags=flags
         )
 
     def add_light(self, image, x, y):
-        """Blit a picture additively, centred on the world point (x, y)."""
+        """Add a picture to the colours of the canvas, centred on the world point (x, y) [px]."""
         self.centred(image, x, y, pygame.BLEND_RGB_ADD)
 
     # --- what stands -------------------------------------------------------------------------------------------------
@@ -154,9 +154,9 @@ class View:
         self.centred(self.atlas["hook"], load_x, load_y)
 
     def _mark_reach(self, scene, x, y):
-        """Draw a mark above each piece of cargo near the ship at (x, y).
+        """Draw a mark above each piece of cargo near the ship at (x, y) [px].
 
-        It is green if the line can reach the cargo.
+        A mark is green if the line can reach the cargo.
         """
         near = [
             (place[0], place[1])
@@ -217,5 +217,5 @@ def the_view():
 
 @lru_cache(maxsize=64)
 def tumbled(image, quarters):
-    """Return a picture of debris, rotated by `quarters` quarter turns."""
+    """Return a picture of debris, rotated counterclockwise by `quarters` quarter turns."""
     return pygame.transform.rotate(image, 90 * quarters)

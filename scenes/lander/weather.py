@@ -1,4 +1,7 @@
-"""The wind: a steady part for each region, and gusts. Gusts are the sum of two slow waves with random phases."""
+"""The wind of the lander: a steady part for each region, and gusts.
+
+The strength of the gusts is the sum of two slow waves with random phases.
+"""
 
 from math import pi, sin
 
@@ -8,10 +11,11 @@ CALMING = 0.04  # share of its distance from the wanted wind by which the wind c
 
 
 class Weather:
-    """The weather at the ship. wind: current wind, positive to the right [px/s]; gust: strength of the gust, 0..1.
+    """The weather at the ship.
 
-    steady: constant part of the wind in this region [px/s]. Only this part is the world's wind. Gusts act as forces on
-    the bodies in the air, because a world wind that changes in every step would keep all bodies awake.
+    wind: current wind, positive to the right [px/s]; gust: strength of the gust, 0..1; steady: constant part of the
+    wind in this region [px/s]. Only the steady part is the world's wind. Gusts act as forces on the bodies in the air,
+    because a world wind that changes in every step would keep all bodies awake.
     """
 
     def __init__(self, random, moon):
@@ -20,7 +24,7 @@ class Weather:
         self.wind = self.steady = self.gust = 0.0
 
     def step(self, seconds, x, y):
-        """Compute the wind at the time `seconds` [s] and the place (x, y) [px]."""
+        """Compute the wind at the time `seconds` [s] and the position (x, y) [px]."""
         region, inside = self.moon.wind_at(x), self.moon.is_inside(x, y)
         first, second = (
             sin(2.0 * pi * seconds / period + phase) for period, phase in zip(PERIODS, self.phases, strict=True)
@@ -31,7 +35,7 @@ class Weather:
         self.wind += (wanted - self.wind) * CALMING
 
     def blow(self, world, *bodies):
-        """Set the world's wind, and apply the force of the gust to some bodies, for the next step."""
+        """Set the world's steady wind, and apply the force of the gust to `bodies`, for the next step."""
         if world.effects.wind and world.wind.x != self.steady:
             world.wind = (self.steady, 0.0)
         for body in bodies:

@@ -26,9 +26,9 @@ HEAVIEST = 500.0  # greatest mass that the line can carry
 
 
 class Cargo:
-    """A piece of cargo. whole: its condition, 100 (undamaged) .. 0.
+    """A piece of cargo.
 
-    over: the Pad below it, or None; rest: steps at rest on this pad.
+    whole: its condition, from 100 (undamaged) to 0; over: the Pad below it, or None; rest: steps at rest on this pad.
     """
 
     def __init__(self, body, look):
@@ -38,7 +38,9 @@ class Cargo:
         self.rest = 0
 
     def knock(self, change):
-        """Damage the cargo by an impact. change: change of its velocity [px/s]. Return the loss of condition."""
+        """Damage the cargo by an impact, and return the loss of condition. change: change of the cargo's velocity
+        [px/s].
+        """
         cost = min(max(change - CARGO_HARMLESS, 0.0) * CARGO_DAMAGE, self.whole)
         self.whole -= cost
         return cost
@@ -47,8 +49,8 @@ class Cargo:
 class Yard:
     """The loose objects and the pads on the moon.
 
-    cargo, cans: {body id: object}; rubble: loose rocks and pieces of ground. pads: {body id of a pad's deck: Pad};
-    zones: {body id of the sensor above a pad's deck: Pad}.
+    cargo: {body id: Cargo}; cans: {body id: (x, y) [px]} of the cans of fuel; rubble: loose rocks and pieces of
+    ground; pads: {body id of a pad's deck: Pad}; zones: {body id of the sensor above a pad's deck: Pad}.
     """
 
     def __init__(self, world, moon):
@@ -91,26 +93,26 @@ class Yard:
 
     @property
     def in_all(self):
-        """Number of all pieces of cargo, including those delivered or broken."""
+        """Number of all pieces of cargo, including those that are delivered or destroyed."""
         return len(self.all_cargo)
 
     def piece(self, number):
-        """Return the Cargo with a number in the moon's list; None if it is delivered or broken."""
+        """Return the Cargo with this number in the moon's list, or None if it has been delivered or destroyed."""
         piece = self.all_cargo[number]
         return piece if piece in self.cargo.values() else None
 
     def light(self):
-        """Return the bodies that are light enough to be carried by the line."""
+        """Return a list of the cargo and rubble bodies that are light enough for the line."""
         return [body for body in self.loose() if body.mass <= HEAVIEST]
 
     def loose(self):
-        """Return the bodies of cargo and rubble, which explosions push."""
+        """Return a list of the bodies of all cargo and rubble, which explosions push."""
         return [*(piece.body for piece in self.cargo.values()), *self.rubble.bodies()]
 
     def meet(self, begun, ended):
-        """Update the pad below each piece of cargo (`over`) from the sensor events of the step.
+        """Update the pad below each piece of cargo (Cargo.over) from the sensor events of the step.
 
-        begun, ended: begin and end events.
+        begun, ended: sensor begin and end events.
         """
         for events, came in ((ended, False), (begun, True)):
             for pair in zip(events["body_a"].tolist(), events["body_b"].tolist(), strict=True):
@@ -119,7 +121,7 @@ class Yard:
                         self.cargo[piece].over = self.zones[zone] if came else None
 
     def delivered(self, held):
-        """Return the ids of the cargo that is delivered in this step: at rest on a pad for long enough.
+        """Return the ids of the cargo bodies that have now rested on a pad for DELIVERED steps.
 
         held: body id of the line's load, which does not count; -1 for none.
         """
