@@ -1,4 +1,4 @@
-"""Banners across the field: the stage's title, the boss warning, bonuses, the offer to continue, and the end."""
+"""Banners across the field of the shooter: stage title, boss warning, bonuses, offer to continue, and result."""
 
 from functools import lru_cache
 from math import inf
@@ -23,7 +23,7 @@ HURRY = 4  # the countdown is red below this digit
 
 
 def draw_banners(canvas, scene):
-    """Draw the banner that belongs to the current mode of the stage or of the ending, if there is one."""
+    """Draw the banner of the current mode of the stage or of its ending, if this mode has one."""
     director, ending = scene.director, scene.ending
     if ending.mode == ASKING:
         _draw_continue(canvas, scene)
@@ -42,7 +42,8 @@ def draw_banners(canvas, scene):
 
 
 def eased(step, whole_time):
-    """Return how far a banner has slid in at step `step` of its `whole_time` steps: 0 is out, 1 is in place.
+    """Return how far a banner has slid in at step `step` of its `whole_time` steps: 0 outside, 1 in its final
+    position.
 
     The banner slides in over the first SLIDE steps, and out over the last SLIDE steps, with easing.
     """
@@ -53,7 +54,7 @@ def eased(step, whole_time):
 def _draw_title(canvas, scene):
     """Draw the stage's title, which slides in from the left, and its name, which slides in from the right.
 
-    At the end of the banner both slide out again.
+    At the end of the banner's time, both texts slide out again.
     """
     director, field = scene.director, scene.field
     share = eased(director.since, READY)
@@ -92,7 +93,7 @@ def _draw_bonus(canvas, scene):
 
 
 def _draw_bonuses(canvas, scene):
-    """Draw STAGE CLEAR, and one line for each bonus counted so far."""
+    """Draw the text STAGE CLEAR, and one line for each bonus that has been counted so far."""
     ending, field = scene.ending, scene.field
     share = eased(ending.since - SMOKE, inf)
     band(canvas, field, 70, whole(112 * share))
@@ -128,9 +129,10 @@ def _summary(scene):
 
 
 def band(canvas, field, top, high):
-    """Draw a dark band across the field, behind a banner's text. top: its y when fully grown; high: its height [px].
+    """Draw a dark band across the field, behind a banner's text.
 
-    The band grows from its middle line. Once it has room for two lines of text, it only grows downwards.
+    top: y of the band's upper edge at full height; high: current height [px]. The band grows in both directions from
+    its middle line. Once it has room for two lines of text, it only grows downwards.
     """
     if high > 0:
         canvas.surface.blit(
@@ -139,7 +141,10 @@ def band(canvas, field, top, high):
 
 
 def text_inside(canvas, field, text, x, y, color, scale):
-    """Draw a text of a sliding banner if it is completely inside the field. (x, y): middle of its upper edge [px]."""
+    """Draw a text of a sliding banner if it is completely inside the field.
+
+    x, y: centre of the text's upper edge [px]; scale: factor on the size of the font.
+    """
     rect = canvas.text_rect(text, x, y, TEXT, scale, "center")
     if field.contains(rect):
         canvas.text(text, x, y, color, TEXT, scale, "center", True)

@@ -1,6 +1,6 @@
-"""Strength of hits, computed as the impulse that each hit would transfer.
+"""Strength of hits in the shooter, computed as the impulse that each hit would transfer.
 
-Damage, sparks, debris and sound are in proportion to it.
+Damage, sparks, debris and sound are proportional to this impulse.
 """
 
 from math import hypot
@@ -17,7 +17,9 @@ class Blow:
 
     @property
     def strength(self):
-        """Size of the impulse relative to a plain shot of the player, limited to 0.5 (a glance) .. 2.5 (ramming)."""
+        """Magnitude of the impulse relative to a plain shot of the player, limited to 0.5 (glancing) ..
+        2.5 (ramming).
+        """
         return min(max(hypot(self.x, self.y) / self.USUAL, 0.5), 2.5)
 
     @property
@@ -31,8 +33,9 @@ class Blow:
 class Blows:
     """The impulses of all hits of one step, by pair of bodies.
 
-    The scene has no collision response, so each impulse is computed from the closing speed and the two masses. weights:
-    {body id: mass to use in place of the body's own}; the player's core gets the mass of the whole plane.
+    The scene has no collision response, so each impulse is computed from the closing speed and the two masses.
+    weights: {body id: mass}, masses to use instead of the bodies' own masses. The player's core gets the mass of the
+    whole plane.
     """
 
     def __init__(self, world, weights=None):
@@ -52,15 +55,15 @@ class Blows:
             self.found[b, a] = (-impulse * nx, -impulse * ny)
 
     def on(self, identity, *others):
-        """Return the Blow on the body `identity`: the sum of the impulses that the bodies `others` (ids) gave to it."""
+        """Return the Blow on the body `identity`: the sum of its impulses from the bodies `others` (ids)."""
         each = [self.found.get((other, identity), (0.0, 0.0)) for other in others]
         return Blow(sum(x for x, _ in each), sum(y for _, y in each), self.mass.get(identity) or 1.0)
 
 
 def push(dx, dy):
-    """Return the Blow of a bomb on a plane at (dx, dy) [px] from the bomb's centre, directed away from the centre.
+    """Return the Blow of a bomb on a plane at (dx, dy) [px] from the bomb's centre, directed away from this centre.
 
-    The blow is as strong as a plain shot on a light body.
+    The blow has the strength of a plain shot at a light plane.
     """
     far = max(hypot(dx, dy), 1.0)
     return Blow(Blow.USUAL * dx / far, Blow.USUAL * dy / far, Blow.USUAL / 90.0)

@@ -1,6 +1,6 @@
 """Heads-up display of the shooter: score, chain, lives, bombs, power, hits, and the boss's health.
 
-Its places are relative to the scene's `field`, the part of the canvas that shows the game.
+All positions are relative to the scene's `field`, the part of the canvas that shows the game.
 """
 
 import pygame
@@ -31,7 +31,10 @@ SLIDE_IN, SLIDE_OUT = 12, 10  # steps in which the name of a wave comes and goes
 
 
 def draw_words(canvas, scene, view):
-    """Draw the short texts that rise from events, such as points. view: world point at the picture's corner."""
+    """Draw the short texts that rise from events, such as points.
+
+    view: world point (x, y) [px] at the picture's top left corner.
+    """
     for place, size in HELD.items():
         rect = pygame.Rect((0, 0), size)
         setattr(rect, place, getattr(scene.field, place))
@@ -44,7 +47,9 @@ def draw_words(canvas, scene, view):
 
 
 def draw_board(canvas, scene):
-    """Draw the heads-up display: score, lives, bombs, power, hits, and the boss's bar or the name of a new wave."""
+    """Draw the heads-up display: score, lives, bombs, power, hits, and either the boss's bar or the name of a new
+    wave.
+    """
     _draw_score(canvas, scene)
     _draw_stock(canvas, scene)
     _draw_hits(canvas, scene)
@@ -87,7 +92,7 @@ def _draw_stock(canvas, scene):
 
 
 def _draw_hits(canvas, scene):
-    """Draw the numbers of hits on the player's core, hull and bounding box. The vulnerable part is written in gold."""
+    """Draw the numbers of hits on the player's core, hull and bounding box. The part that can be hurt is gold."""
     ui, y, x = load_atlas("ui"), scene.field.bottom - 14, scene.field.left + MARGIN
     counts = scene.own_hits
     for part in ("core", "hull"):

@@ -1,6 +1,7 @@
-"""The bomb: a circular sensor that grows around the place where it was dropped.
+"""The bomb: a circular sensor that grows around the point at which it was dropped.
 
-Bullets that it touches are removed, each plane that it touches is damaged once, and the player cannot be hit meanwhile.
+Bullets that it touches are removed, and each plane that it touches is damaged once. The player cannot be hit for a
+while.
 """
 
 from physics import Circle
@@ -14,9 +15,10 @@ DAMAGE, LEADER_DAMAGE = 18.0, 45.0  # damage in plain shots
 
 
 class Bomb:
-    """The player's bomb. body: its sensor, or None while no bomb burns; age: age of the bomb [steps].
+    """The player's bomb.
 
-    struck: ids of the planes that this bomb has damaged already.
+    body: its sensor, or None while no bomb burns; age: age of the bomb [steps]; struck: ids of the planes that this
+    bomb has already damaged.
     """
 
     def __init__(self, world):
@@ -33,7 +35,7 @@ class Bomb:
         return FIRST + (REACH - FIRST) * (1.0 - left * left)
 
     def drop(self, x, y):
-        """Set the bomb off at (x, y) [px]."""
+        """Start the bomb's explosion at (x, y) [px]."""
         self.x, self.y, self.age = x, y, 0
         self.struck = set()
         self.body = self.world.add_body(
@@ -41,7 +43,7 @@ class Bomb:
         )
 
     def step(self):
-        """Let the bomb grow for one step.
+        """Make one step of the bomb, which may grow.
 
         If it has burnt out, return the id of its body, which the caller must remove; otherwise return None.
         """

@@ -1,4 +1,4 @@
-"""Leaders are the mid-boss and the boss. A leader fights in phases, each with its own health, timer, path and guns.
+"""The leaders: mid-boss and boss. A leader fights in phases, each with its own health, timer, path and guns.
 
 Between two phases the leader cannot be hurt and does not fire, and all bullets are removed.
 """
@@ -21,9 +21,10 @@ ALMOST = 5.0  # [s] before the end of a phase: from then on its timer is red and
 
 
 class Leader(Enemy):
-    """A mid-boss or boss. number: index of the current phase; clock: remaining steps of this phase.
+    """A mid-boss or boss.
 
-    beaten: True if the player won the last finished phase, False if its time ran out.
+    number: index of the current phase; clock: remaining steps of this phase; beaten: True if the player won the last
+    finished phase, False if its time ran out.
     """
 
     heavy = leads = True
@@ -38,12 +39,12 @@ class Leader(Enemy):
 
     @property
     def phase(self):
-        """The current Phase of the fight."""
+        """The current Phase of the leader's fight."""
         return self.phases[self.number]
 
     @property
     def last(self):
-        """True if the current phase is the last one."""
+        """True if the leader's current phase is its last one."""
         return self.number + 1 == len(self.phases)
 
     @property
@@ -53,11 +54,11 @@ class Leader(Enemy):
 
     @property
     def seconds_left(self):
-        """Remaining time of the phase [s]."""
+        """Remaining time of the current phase [s]."""
         return self.clock / 60
 
     def _take_up(self):
-        """Begin phase `self.number` of the fight: set its health, timer, guns and picture."""
+        """Start phase `self.number` of the fight: set its health, timer, guns and picture."""
         self.health = self.full = float(self.phase.health)
         self.clock = steps(self.phase.seconds)
         self.guns = [Gun(pattern) for pattern in self.phase.patterns]
@@ -95,12 +96,12 @@ class Leader(Enemy):
             self.vx, self.vy = self.vx * 0.96, max(self.vy - 2.0, -110.0)
 
     def _swing(self):
-        """Set the velocity of a slow figure of eight around the leader's home position."""
+        """Set the velocity for a slow path in the form of an eight around the leader's home position."""
         move, turn = self.phase.move, 2 * pi * self.since / 60 / self.phase.move.seconds
         self.approach(self.home_x + move.across * sin(turn), self.home_y + move.down * sin(2 * turn), SWING_SPEED)
 
     def end_phase(self, beaten):
-        """End the phase. After the last one the leader falls if `beaten` is True, otherwise it flies away."""
+        """End the current phase. After the last phase the leader falls if `beaten` is True; otherwise it flies away."""
         self.beaten = beaten
         if not self.last:
             self.begin("change")

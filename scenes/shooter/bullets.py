@@ -1,4 +1,6 @@
-"""Bullets as table rows: added in volleys, moved by the world, removed in batches. There is no object per bullet."""
+"""Bullets as table rows: added in volleys, moved by the world, removed in batches. No bullet has an object
+of its own.
+"""
 
 from math import cos, pi, sin
 
@@ -29,10 +31,10 @@ BULLET = np.dtype([("id", np.int64), ("look", np.int64), ("met", np.int64)])
 
 
 class Bullets:
-    """The bullets of one side, of the player or of the enemies.
+    """The bullets of one side, the player or the enemies.
 
-    Rows of the table contain the body id, the look, and bits for the parts of the player that the bullet has touched.
-    The positions are in the world.
+    A row of the table contains the body id, the look, and bits for the parts of the player that the bullet has
+    touched. The world contains the positions.
     """
 
     def __init__(self, world, side):
@@ -53,7 +55,7 @@ class Bullets:
         return self.table.rows  # NumPy's stubs allow a column by name for no known dtype
 
     def make_room(self, count):
-        """Let all tables grow to `count` bullets before the first step, so that later steps allocate no memory."""
+        """Make all tables grow to `count` bullets before the first step, so that later steps allocate no memory."""
         apart = 1000.0 + 20.0 * np.arange(count)  # on a diagonal far away, so that no two of them form a pair
         ids = self.world.add_bodies(
             mask_of("small"), np.column_stack((apart, apart)), kind="kinematic", filter=self.side
@@ -65,9 +67,9 @@ class Bullets:
         self.table.keep(np.zeros(count, bool))
 
     def fire(self, look, x, y, headings, speed, out=0.0):
-        """Add one bullet per heading [rad] to the current volley. launch() adds the volley to the world.
+        """Add one bullet for each heading [rad] to the current volley. launch() adds the volley to the world.
 
-        look: key of LOOKS. A bullet starts at (x, y) [px], moved `out` [px] along its heading, with `speed` [px/s].
+        look: key of LOOKS. A bullet starts at (x, y) [px], moved by `out` px along its heading, with `speed` [px/s].
         """
         painted = LOOKS[look][1]
         for heading in headings:
@@ -76,7 +78,7 @@ class Bullets:
             self.volley[look].append((x + out * across, y + out * down, speed * across, speed * down, angle))
 
     def launch(self):
-        """Add the bullets of the current volley to the world, with one call for each look, and begin a new volley."""
+        """Add the bullets of the current volley to the world, with one call for each look, and start a new volley."""
         for look, fired in self.volley.items():
             if not fired:
                 continue
@@ -90,23 +92,23 @@ class Bullets:
             fired.clear()
 
     def places(self):
-        """Return the rows of the bullets in world.bodies, an array in the order of `table`."""
+        """Return the row numbers of the bullets in world.bodies, an array in the order of `table`."""
         return self.world.rows(self.ids)
 
     def has(self, ids):
-        """Return (k,) bool: whether each of the body ids `ids` is one of these bullets.
+        """Return a bool array (k,): whether each of the k body ids `ids` is one of these bullets.
 
-        It takes O(k log n) for n bullets, because the table is sorted by id.
+        The cost is O(k log n) for n bullets, because the table is sorted by id.
         """
         if not len(self):
             return np.zeros(len(ids), bool)
         return self.ids[self._nearest(ids)] == ids
 
     def meet(self, ids, what):
-        """Record that bullets touched a part of the player. what: bit of the part (GRAZED, BOXED, HULLED, CORED).
+        """Record that bullets have touched a part of the player.
 
-        ids: body ids; ids of other bodies are ignored. Return the ids of the bullets that touch that part for the first
-        time.
+        ids: body ids; ids of other bodies are ignored; what: bit of the part (GRAZED, BOXED, HULLED, CORED). Return
+        the ids of the bullets that touch this part for the first time.
         """
         at = self._nearest(ids[self.has(ids)])
         met = self._rows["met"]
@@ -115,7 +117,7 @@ class Bullets:
         return self.ids[new]
 
     def forget(self, ids):
-        """Drop the rows of the bullets with the given body ids. Ids of other bodies are ignored."""
+        """Remove the table rows of the bullets with the given body ids. Ids of other bodies are ignored."""
         there = ids[self.has(ids)]
         if len(there):
             keep = np.ones(len(self), bool)
@@ -123,22 +125,22 @@ class Bullets:
             self.table.keep(keep)
 
     def _nearest(self, ids):
-        """Return the table row of each id.
+        """Return the table row of each id, an array.
 
-        For an unknown id, it is an existing row near its place in the sorted table.
+        For an unknown id, it is the row of a neighbouring id in the sorted table.
         """
         return np.minimum(np.searchsorted(np.ascontiguousarray(self.ids), ids), max(len(self) - 1, 0))
 
     def state(self):
-        """Return the whole table as a hexadecimal string, a part of Scene.state()."""
+        """Return this object's part of Scene.state(): the whole table as a hexadecimal string."""
         return self.table.rows.tobytes().hex()
 
 
 def mask_of(look):
-    """Return the pixel mask of a bullet. look: key of LOOKS."""
+    """Return the PixelMask of a bullet. look: key of LOOKS."""
     return load_atlas("effects").mask(LOOKS[look][0])
 
 
 def outside(x, y):
-    """Return (n,) bool: whether each point (x, y) [px] is so far outside that no sprite there is visible."""
+    """Return a bool array (n,): whether a sprite at each point (x, y) [px] would be completely outside the picture."""
     return (x < -MARGIN) | (x > WIDTH + MARGIN) | (y < -2 * MARGIN) | (y > HEIGHT + MARGIN)

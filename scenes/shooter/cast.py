@@ -1,8 +1,8 @@
 """Collision filters of the shooter. Bodies whose filters exclude each other never become a pair in the broad phase.
 
-Shots never pair with shots, and enemy bullets never pair with bullets or enemy planes. After losing a life, the
-player's plane returns as a ghost: for a while its filter lets it collide with pick-ups only. The game rules need no
-test for this.
+Shots never pair with shots, and enemy bullets never pair with bullets or enemy planes. After the loss of a life, the
+player's plane returns as a ghost: for a while its filter lets it collide with pick-ups only. So the game rules do not
+need to test for this.
 """
 
 from physics import Filter
@@ -43,5 +43,5 @@ GROUND_SPEED = 30.0  # [px/s] downward speed of the ground and of things on it
 
 
 def steps(seconds):
-    """Return the number of steps of 1/60 s that is nearest to a time [s]."""
+    """Return the time `seconds` as a number of steps of 1/60 s, rounded."""
     return round(seconds * 60)

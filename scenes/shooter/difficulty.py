@@ -1,4 +1,4 @@
-"""Difficulty of the shooter: factors that the stage file raises as the stage proceeds."""
+"""Difficulty of the shooter: factors that the stage file increases in the course of a stage."""
 
 from dataclasses import dataclass
 

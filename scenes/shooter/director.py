@@ -1,6 +1,6 @@
 """Director of a stage: it launches the planes when they are due.
 
-The director's clock stops while a leader (mid-boss or boss) is in play.
+The director's clock stops while a leader (mid-boss or boss) is announced or in play.
 """
 
 from dataclasses import replace
@@ -16,10 +16,11 @@ READY = steps(3.0)  # steps of the stage's title, before its clock begins
 
 
 class Director:
-    """The director, which launches the waves and the bosses of a stage. clock: time of the stage [steps].
+    """The director, which launches the waves and the bosses of a stage.
 
-    wave, number: name and number of the latest wave. mode: "ready", then "run"; for a boss or mid-boss "clearing",
-    "warning", "leader", "rest"; after the boss "over". since: steps in the current mode.
+    clock: time of the stage [steps]; wave, number: name and number of the latest wave; mode: "ready", then "run"; for
+    a boss or mid-boss "clearing", "warning", "leader", "rest"; after the boss "over"; since: steps in the current
+    mode.
     """
 
     def __init__(self, stage):
@@ -35,16 +36,16 @@ class Director:
 
     @property
     def ground(self):
-        """Name of the ground that came into view last."""
+        """Name of the ground that has come into view last."""
         return self.grounds[-1][1]
 
     @property
     def announced(self):
-        """The stage's Event of the mid-boss or boss that is announced or fights now, or None if there is none."""
+        """The stage's Event of the mid-boss or boss that is announced or in play, or None if there is none."""
         return self.stage.events[self.next - 1] if self.mode in ("clearing", "warning", "leader") else None
 
     def step(self, sky):
-        """Make one step: begin the events and launch the planes that are due. sky: the scene."""
+        """Make one step: process the events and launch the planes that are due. sky: the scene."""
         self.since += 1
         if self.mode == "run":
             self.clock += 1
@@ -125,7 +126,9 @@ class Director:
             sky.fleet.launch(self._turned(group), share, carries, self.difficulty, wave, sky.scrolled)
 
     def _turned(self, group):
-        """Return the Group, mirrored left to right if the current wave is mirrored, which is random for each wave."""
+        """Return the Group, mirrored left to right if the current wave is mirrored. This is decided at random for each
+        wave.
+        """
         if not self.mirrored:
             return group
         other = {"left": "right", "right": "left"}.get(group.side, group.side)

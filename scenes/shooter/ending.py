@@ -1,6 +1,6 @@
 """The end of a game: a countdown offers to continue after the last life, or bonuses are counted after the stage.
 
-`scene.result` is set once, at the very end. Then the picture is frozen and keys have no effect.
+`scene.result` is set once, at the very end. After that the picture is frozen and keys have no effect.
 """
 
 from game.drawing.number_text import count_text
@@ -17,9 +17,10 @@ PLAYING, ASKING, CLEARED, WON, LOST = "playing", "asking", "cleared", "won", "lo
 
 
 class Ending:
-    """The end of a game. mode: PLAYING, ASKING, CLEARED, WON or LOST; since: steps in this mode.
+    """The end of a game.
 
-    left: remaining steps of the countdown to continue.
+    mode: PLAYING, ASKING, CLEARED, WON or LOST; since: steps in this mode; left: remaining steps of the countdown to
+    continue.
     """
 
     def __init__(self):
@@ -28,11 +29,11 @@ class Ending:
 
     @property
     def digit(self):
-        """Digit that the countdown shows: the remaining whole seconds."""
+        """Digit that the countdown shows: the remaining time in whole seconds."""
         return self.left // 60
 
     def step(self, scene, inputs):
-        """Make one step of the ending. Return whether the game stands still, so that its world must not be stepped."""
+        """Make one step of the ending. Return whether the game is stopped, so that the world must not be stepped."""
         self.since += 1
         if self.mode == PLAYING:
             if scene.plane.lives == 0 and scene.plane.away == 0:
@@ -76,7 +77,7 @@ class Ending:
         scene.result = self._result(scene, won=False)
 
     def clear(self, scene):
-        """Begin to count the bonuses. Called when the boss is gone."""
+        """Start to count the bonuses. Called when the boss is gone."""
         self._enter(CLEARED)
         scene.clear_bullets()
         scene.plane.shelter(steps(60))

@@ -1,7 +1,8 @@
 """Base class of enemy planes, and the three kinds that enter from above: dart, saucer, gunship.
 
-The dart hovers, aims, and dives at the player. The saucer weaves down and fires at the player. The gunship flies to its
-home position, drifts there, and fires fans and rings of bullets. All choose velocity, angle and fire in every step.
+The dart hovers, aims, and dives at the player. The saucer weaves down and fires at the player. The gunship flies to
+its home position, drifts there, and fires fans and rings of bullets. Each kind sets its velocity and angle, and may
+fire, in every step.
 """
 
 from math import atan2, cos, hypot, pi, sin
@@ -19,10 +20,11 @@ EDGE = 40.0  # [px] distance that gunships keep from the sides
 
 
 class Enemy:
-    """An enemy plane. frame: name of its picture, whose mask is its shape; side: its collision filter.
+    """An enemy plane.
 
-    health: number of plain shots that it withstands. A subclass defines think(sky), which sets vx, vy [px/s] and angle
-    for the next step. sky: the scene.
+    frame: name of its picture, whose mask is its shape; side: its collision filter; health: number of plain shots that
+    it withstands. A subclass defines think(sky), which sets vx, vy [px/s] and angle for the next step, and fires. sky:
+    the scene.
     """
 
     kind, frame, health, points = "", "", 1, 0
@@ -45,18 +47,18 @@ class Enemy:
 
     @staticmethod
     def entry(group, share):
-        """Return the point (x, y) [px] at which a plane of the group enters. share: place along the upper edge, 0..1.
+        """Return the point (x, y) [px] at which a plane of the group enters.
 
-        Kinds that enter elsewhere override this method.
+        share: position along the upper edge, 0..1. Kinds that enter elsewhere override this method.
         """
         return WIDTH * share, ENTRY_Y
 
     def begin(self, mode):
-        """Begin a mode of behaviour ("arrive", "fight", ...), and restart the clock `since` of the mode."""
+        """Start a mode of behaviour ("arrive", "fight", ...), and set `since`, the time in this mode, to 0."""
         self.mode, self.since = mode, 0
 
     def approach(self, x, y, most):
-        """Set the velocity towards (x, y) [px], lower when near. Return the remaining distance [px].
+        """Set the velocity towards (x, y) [px], which decreases near this point. Return the remaining distance [px].
 
         most: greatest speed [px/s].
         """
@@ -66,12 +68,16 @@ class Enemy:
         return far
 
     def face(self, heading):
-        """Rotate the plane, with its picture and mask, to a heading [rad], rounded to a multiple of NOTCH."""
+        """Rotate the plane, with its picture and mask, to a heading [rad]. The angle is rounded to a multiple of
+        NOTCH.
+        """
         self.heading = heading
         self.angle = round((heading - DOWN) / NOTCH) * NOTCH
 
     def ahead(self, seconds):
-        """Return (x, y) [px] of the plane after `seconds`, a number or array, if it keeps its velocity."""
+        """Return the position (x, y) [px] of the plane after `seconds`, a number or an array, at its
+        current velocity.
+        """
         return self.x + self.vx * seconds, self.y + self.vy * seconds
 
     def state(self):
@@ -96,7 +102,7 @@ class Enemy:
 
 
 class Dart(Enemy):
-    """A plane that stops, turns towards the player for a moment, and then dives in that direction."""
+    """A plane that stops, turns towards the player for a moment, and then dives in the direction it faces."""
 
     kind, frame, health, points = "dart", "dart_0", 3, 100
     DIVE_SPEED, DIVE_GAIN = 205.0, 190.0  # [px/s], [px/s2]
@@ -124,7 +130,7 @@ class Dart(Enemy):
 
 
 class Saucer(Enemy):
-    """A plane that weaves down the sky and fires at the player while it is well above the player."""
+    """A plane that weaves down the picture. It fires at the player while it is well above the player."""
 
     kind, frame, health, points = "saucer", "saucer_0", 8, 200
     FALL, TURNS = 40.0, 0.36  # [px/s], swings per second
@@ -133,7 +139,8 @@ class Saucer(Enemy):
 
     @staticmethod
     def entry(group, share):
-        """Return the point (x, y) [px] at which the plane enters the upper edge. share: place along it, 0..1.
+        """Return the point (x, y) [px] at which the plane enters the upper edge. share: position along this edge,
+        0..1.
 
         The point is far enough from the sides for the plane to weave.
         """
@@ -168,7 +175,9 @@ class Saucer(Enemy):
 
 
 class Gunship(Enemy):
-    """A plane that flies to its home position, drifts from side to side, fires fans and rings in turn, and leaves."""
+    """A plane that flies to its home position and drifts from side to side. It fires fans and rings alternately, then
+    leaves.
+    """
 
     kind, frame, health, points = "gunship", "gunship_0", 90, 1000
     heavy = True

@@ -1,4 +1,4 @@
-"""Moving decoration: explosions, sparks, debris, smoke, rings, texts. No game rule depends on it."""
+"""Moving decoration of the shooter: explosions, sparks, debris, smoke, rings, texts. No game rule depends on it."""
 
 import numpy as np
 
@@ -22,7 +22,7 @@ BURNING = 0.7  # share of its life in which debris burns and trails sparks
 
 
 class Fireworks:
-    """Decoration without physics, kept as lists of rows. Each row ages, and is removed when its time is over."""
+    """Decoration without physics, stored as lists of rows. Each row ages, and is removed at the end of its lifetime."""
 
     def __init__(self, particles):
         self.particles, self.random = particles, particles.random
@@ -33,7 +33,7 @@ class Fireworks:
         self.scars = []  # [x, y, size px] of fires on the ground
 
     def step(self, dt, still=False):
-        """Make one step of `dt` [s]. still: whether the ground stands still; otherwise scorch marks move with it."""
+        """Make one step of `dt` [s]. still: True if the ground does not scroll; otherwise scorch marks move with it."""
         effects = load_atlas("effects")
         for burst in self.bursts:
             burst[1] += burst[3] * dt
@@ -69,23 +69,23 @@ class Fireworks:
         self.bursts.append([name, x, y, vx, vy, age])
 
     def chain(self, x, y, wide, high, count, apart):
-        """Add `count` small explosions at random places around (x, y) [px], one every `apart` seconds.
+        """Add `count` small explosions at random points around (x, y) [px], one every `apart` seconds.
 
-        wide, high: greatest distance of a place along x and y [px].
+        wide, high: greatest distance of a point along x and along y [px].
         """
         for number in range(count):
             dx, dy = self.random.uniform(-wide, wide), self.random.uniform(-high, high)
             self.burst("explosion_small", x + dx, y + dy, dx * 0.6, dy * 0.6 + 12, -apart * number)
 
     def sparks(self, x, y, count, ramp, speed=150):
-        """Add `count` sparks that fly in all directions, with speeds up to `speed` [px/s].
+        """Add `count` sparks at (x, y) [px] that fly in all directions, with speeds up to `speed` [px/s].
 
-        ramp: their colours over time.
+        ramp: colours of a spark over its life.
         """
         self.particles.burst(x, y, count, ramp, speed=(speed * 0.2, speed), life=(0.25, 0.8), size=(1, 2), drag=2.6)
 
     def embers(self, xs, ys):
-        """Add three sparks at each of the points (xs, ys), arrays [px]."""
+        """Add three sparks at each of the points (xs, ys), two arrays [px]."""
         self.particles.burst(
             np.repeat(xs, 3),
             np.repeat(ys, 3),
@@ -98,16 +98,16 @@ class Fireworks:
         )
 
     def puffs(self, x, y, count):
-        """Add `count` puffs of smoke that drift apart."""
+        """Add `count` puffs of smoke near (x, y) [px] that drift apart."""
         for number in range(count):
             vx, vy = self.random.uniform(-20, 20), self.random.uniform(-14, 26)
             self.burst("smoke", x + vx * 0.6, y + vy * 0.6, vx, vy, -0.12 - 0.05 * number)
 
     def pieces(self, frames, x, y, vx, vy, count, blow):
-        """Add debris of a plane that flies in the direction of `blow`. A harder blow gives more and faster pieces.
+        """Add debris of a destroyed plane at (x, y) [px], which flies in the direction of the Blow `blow`.
 
-        frames: numbers of the debris's two pictures; vx, vy: velocity of the destroyed plane [px/s]; count: number of
-        pieces for a plain shot.
+        A harder blow gives more and faster pieces. frames: numbers of the debris's two pictures; vx, vy: velocity of
+        the destroyed plane [px/s]; count: number of pieces for a plain shot.
         """
         wild = 0.7 + 0.3 * blow.strength
         vx, vy = vx + blow.kick[0], vy + blow.kick[1]
@@ -124,19 +124,19 @@ class Fireworks:
     def piece(self, kind, x, y, vx, vy, life):
         """Add one piece of debris at (x, y) [px] with velocity (vx, vy) [px/s] for `life` [s].
 
-        kind: number of its picture.
+        kind: number of the piece's picture.
         """
         self.debris.append([f"debris_{kind}", x, y, vx, vy, 0.0, life])
 
     def ring(self, x, y, radius):
-        """Add a shock wave at (x, y) that grows to `radius` [px]."""
+        """Add a shock wave at (x, y) [px] that grows to `radius` [px]."""
         self.rings.append([x, y, radius, 0.0])
 
     def scar(self, x, y, size):
-        """Add a scorch mark of `size` [px], which moves with the ground."""
+        """Add a scorch mark of `size` [px] at (x, y) [px], which moves with the ground."""
         self.scars = [*self.scars[1 - MOST_SCARS :], [x, y, size]]
 
     def word(self, text, x, y, color):
-        """Add a text that rises from (x, y) [px], unless another text appeared near there a moment ago."""
+        """Add a text that rises from (x, y) [px], unless another text has appeared near this point within 0.3 s."""
         if not any(abs(w[1] - x) < 26 and abs(w[2] - y) < 8 and w[3] < 0.3 for w in self.words):
             self.words.append([text, x, y, 0.0, color])

@@ -1,6 +1,6 @@
 """Two more kinds of enemies: the hornet, which enters from the sides or from below, and the turret on the ground.
 
-Hornets fly along an arc and aim at the place where the player will be. The turret fires slow rows and fans of bullets;
+Hornets fly along an arc and aim at the player's predicted position. The turret fires slow rows and fans of bullets;
 planes fly over it without a collision.
 """
 
@@ -17,7 +17,7 @@ OUT = 26.0  # [px] outside of the picture, where a hornet enters
 class Hornet(Enemy):
     """A plane that flies straight, then along an arc of the group's `bend` [deg], then straight again.
 
-    It fires twice, each time at the place where the player will be if the player's velocity stays the same.
+    It fires twice, each time at the position that the player will have if the player's velocity stays the same.
     """
 
     kind, frame, health, points = "hornet", "hornet_0", 3, 150
@@ -38,7 +38,7 @@ class Hornet(Enemy):
     def entry(group, share):
         """Return the point (x, y) [px] at which the plane enters.
 
-        share: place down the side, or along the lower edge, 0..1.
+        share: position down the side, or along the lower edge, 0..1.
         """
         if group.side == "below":
             return WIDTH * share, HEIGHT + OUT
@@ -70,7 +70,7 @@ class Hornet(Enemy):
 
 
 class Turret(Enemy):
-    """A gun on the ground. It fires by turns a short row of bullets straight down, and a fan at the player."""
+    """A gun on the ground. It fires a short row of bullets straight down and a fan at the player alternately."""
 
     kind, frame, health, points = "turret", "turret_0", 24, 400
     side = GROUNDED

@@ -1,4 +1,4 @@
-"""All enemies in play: they are launched, stepped, given their shapes, and removed here."""
+"""All enemies in play: this module launches, steps and removes them, and sets their shapes."""
 
 from math import pi
 
@@ -16,7 +16,7 @@ ALL_AROUND = 32  # hornets fly in all directions
 
 
 class Fleet:
-    """The enemies in play. planes: {body id: Enemy}, in the order of launch."""
+    """The enemies in play. planes: {body id: Enemy}, in the order of launch; tier: collision tier of their shapes."""
 
     def __init__(self, world, tier):
         self.world, self.tier = world, tier
@@ -34,8 +34,8 @@ class Fleet:
     def launch(self, group, share, carries="", difficulty=EASY, wave=0, scrolled=0.0):
         """Launch one plane of a Group, and return it.
 
-        share: place along the edge at which it enters, 0..1; carries: item that it drops, or ""; wave: number of its
-        wave; scrolled: distance that the ground has moved [px].
+        share: position along the edge at which it enters, 0..1; carries: item that it drops, or ""; wave: number of
+        its wave; scrolled: distance that the ground has moved [px].
         """
         made = KINDS[group.kind]
         plane = made(*made.entry(group, share), group, difficulty)
@@ -62,7 +62,9 @@ class Fleet:
         return plane
 
     def step(self, sky):
-        """Let every plane choose motion and fire, and write its velocity into the world's columns. sky: the scene."""
+        """Let every plane choose its motion and fire, and write its velocity and angle into world.bodies. sky: the
+        scene.
+        """
         if not self.planes:
             return
         planes = list(self.planes.values())
@@ -84,15 +86,15 @@ class Fleet:
             bodies[column][rows] = [getattr(plane, column) for plane in planes]
 
     def forget(self, ids):
-        """Drop the planes with the given body ids."""
+        """Remove the planes with the given body ids (an array) from the table."""
         for identity in ids.tolist():
             self.planes.pop(identity, None)
 
 
 def dress(world, identity, frame, tier):
-    """Give a plane's body the mask of the picture `frame` as its shape. identity: id of the body.
+    """Set the mask of the picture `frame` as the shape of a plane's body.
 
-    tier: collision tier of the shape.
+    identity: id of the body; tier: collision tier of the shape.
     """
     body = world.body(identity)
     body.set_shapes(load_atlas("planes").mask(frame))
@@ -100,7 +102,7 @@ def dress(world, identity, frame, tier):
 
 
 def draw_turned():
-    """Rotate the masks of planes and bullets that turn, so that they are cached before the first step (1.7 ms each)."""
+    """Rotate the masks of all planes and bullets that turn, to cache them before the first step (1.7 ms each)."""
     planes, effects = load_atlas("planes"), load_atlas("effects")
     for frames, notches in ((("dart_0", "dart_1"), DIVES), (("hornet_0",), ALL_AROUND)):
         for notch in range(-notches, notches + 1):

@@ -1,4 +1,4 @@
-"""Goals that the bot must reach in a stage, with deadlines, as the scene's check() returns them."""
+"""Goals that the bot must reach in a stage, with deadlines. The scene's check() returns them."""
 
 from game.scene import Goal
 from scenes.shooter.cast import steps
@@ -9,7 +9,7 @@ LONGEST = steps(40)  # steps that a plane without a timer of its own may stay in
 
 
 def stage_goals(scene):
-    """Return the list of Goals for the scene's stage."""
+    """Return the goals for the scene's stage, a list of Goal."""
     score, fleet = scene.score, scene.fleet
     kinds = {event.event for event in scene.director.stage.events}
     sent = {group.kind for event in scene.director.stage.events for group in event.groups}

@@ -1,6 +1,6 @@
 """The scrolling ground below the planes, with clouds and rain. The next kind of ground enters from above.
 
-The border between two kinds of ground is a wavy, dithered line. Above the line, the new ground is visible.
+The border between two kinds of ground is a wavy, dithered line. The new ground is above this line.
 """
 
 from functools import cache, lru_cache
@@ -26,9 +26,9 @@ CONTRAST = (150, 150, 158)  # factors, of 255, on the ground for the palette wit
 
 
 def draw_ground(surface, scene, alpha, left, top):
-    """Draw ground, scorch marks, clouds and rain. alpha: position (0..1) between the last two steps.
+    """Draw ground, scorch marks, clouds and rain on the surface.
 
-    left, top: offset of a shaking camera [px].
+    alpha: position (0..1) between the last two steps; left, top: offset of a shaking camera [px].
     """
     spectacle, grounds = scene.spectacle, scene.director.grounds
     scrolled = scene.scrolled_before + (scene.scrolled - scene.scrolled_before) * alpha
@@ -48,7 +48,7 @@ def draw_ground(surface, scene, alpha, left, top):
 
 
 def is_water(scene, x, y):
-    """Return whether the ground visible at the point (x, y) [px] of the picture is water, by its colour."""
+    """Return whether the ground at the point (x, y) [px] of the picture is water. The colour of the picture decides."""
     since, name = scene.director.grounds[-1]
     line = scene.scrolled - since - BORDER / 2
     if y > line and len(scene.director.grounds) > 1:
@@ -67,7 +67,7 @@ def is_water(scene, x, y):
 def storm_share(grounds, scrolled):
     """Return the strength of the storm, 0..1, after the ground has scrolled by `scrolled` px.
 
-    grounds: list of (distance at which it came into view [px], name), as in Director.
+    grounds: list of (scrolled distance [px] at which a ground came into view, name of the ground), as in Director.
     """
     since, name = grounds[-1]
     grown = min(max((scrolled - since) / GROUND_SPEED * 60 / DARKEN, 0.0), 1.0)
@@ -109,13 +109,13 @@ def _draw_air(surface, time, off, storm):
 
 @cache
 def stretch(name):
-    """Return the picture of the ground with the name `name`."""
+    """Return the picture of the ground called `name`, a Surface."""
     return load_backdrop(name)
 
 
 @cache
 def clouds(name, shade):
-    """Return the picture of a layer of clouds, darkened for a storm. shade: 0 (bright) .. SHADES (darkest)."""
+    """Return a Surface with a layer of clouds, darkened for a storm. shade: 0 (bright) .. SHADES (darkest)."""
     picture = load_backdrop(name)
     if shade == 0:
         return picture
@@ -127,7 +127,7 @@ def clouds(name, shade):
 
 @lru_cache(maxsize=1)
 def coast_line():
-    """Return the image of a border between two grounds: white where the upper one is visible, else transparent.
+    """Return a Surface with the border between two grounds: white where the upper one is visible, else transparent.
 
     It is as wide as the canvas and BORDER px high.
     """
@@ -147,7 +147,7 @@ def coast_line():
 
 @lru_cache(maxsize=1)
 def streak():
-    """Return the picture of a wisp of air."""
+    """Return a Surface with a wisp of air, which shows the speed of the flight."""
     image = pygame.Surface((1, 14), pygame.SRCALPHA)
     for row in range(14):
         image.set_at((0, row), (220, 236, 255, 4 + 4 * row))
@@ -156,7 +156,7 @@ def streak():
 
 @lru_cache(maxsize=1)
 def drop():
-    """Return the picture of a slanted drop of rain."""
+    """Return a Surface with a slanted drop of rain."""
     image = pygame.Surface((3, 10), pygame.SRCALPHA)
     for row in range(10):
         image.set_at((row * 3 // 10, row), (186, 208, 240, 18 + 8 * row))
@@ -165,7 +165,7 @@ def drop():
 
 @lru_cache(maxsize=8)
 def scar(size):
-    """Return the picture of a scorch mark, `size` [px] wide: dark, ragged, and transparent towards its edge."""
+    """Return a Surface with a scorch mark of radius `size` [px]: dark, ragged, and transparent towards its edge."""
     reach = 2 * size + 1
     x, y = np.meshgrid(np.arange(reach) - size, np.arange(reach) - size, indexing="ij")
     ragged = 1.0 + 0.16 * np.sin(5 * np.arctan2(y, x) + 1.0) + 0.1 * np.sin(9 * np.arctan2(y, x))
@@ -178,7 +178,7 @@ def scar(size):
 
 
 def tile(surface, picture, x, y):
-    """Fill the surface with copies of a picture side by side. (x, y): corner of one of the copies [px]."""
+    """Fill the surface with copies of a picture side by side. x, y: upper left corner of one of the copies [px]."""
     width, height = picture.get_size()
     wide, high = surface.get_size()
     start = whole(y) % height - height

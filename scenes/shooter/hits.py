@@ -13,9 +13,10 @@ PARTS = {"core": CORED, "hull": HULLED}
 
 
 class Hits:
-    """Numbers of hits of the player's plane. count: {part of the plane: hits so far}.
+    """Numbers of hits of the player's plane.
 
-    now: {part: ids of the bodies whose contact with the core or hull began in this step}.
+    count: {part of the plane: hits so far}; now: {part: ids of the bodies whose contact with this part began in this
+    step}.
     """
 
     def __init__(self):
@@ -25,7 +26,7 @@ class Hits:
     def read(self, world, plane, incoming, fleet):
         """Count the hits of the player's plane in the last step, by enemy bullets (`incoming`) and planes (`fleet`).
 
-        Return the ids of the bullets that enter the plane's graze ring for the first time.
+        Return an array with the ids of the bullets that have entered the plane's graze ring for the first time.
         """
         events = world.events
         for part, bit in PARTS.items():
@@ -48,7 +49,9 @@ class Hits:
 
 
 def partners(events, identity):
-    """Return a list of the ids of all bodies that form a pair with the body `identity` in `events`."""
+    """Return a list of the ids of all bodies that form a pair with the body `identity` in `events`, a
+    table of events.
+    """
     if not len(events):
         return []
     a, b = events["body_a"], events["body_b"]
@@ -56,9 +59,9 @@ def partners(events, identity):
 
 
 def boxes_met(world, identity):
-    """Return an array of the enemies and bullets whose bounding box overlapped that of a body in the last step.
+    """Return an array of the ids of enemies and bullets whose bounding box overlapped that of a body in the last step.
 
-    identity: id of that body. The array contains body ids.
+    identity: id of this body.
     """
     shapes = world.shapes
     box = shapes[np.flatnonzero(shapes["body"] == identity)[0]]  # it has one shape, whatever the tier

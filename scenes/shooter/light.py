@@ -16,7 +16,10 @@ INSIDE = 12  # [px] by which the drawn ring may be smaller than the blast
 
 
 def draw_rings(view, works):
-    """Draw the shock waves of `works`, a Fireworks: thin circles of light that grow, ever more slowly, and fade."""
+    """Draw the shock waves of `works`, a Fireworks: thin circles of light that grow at a falling rate and fade.
+
+    view: the scene's View.
+    """
     for x, y, radius, age in works.rings:
         share = age / RING_LIFE
         grown = max(4, int(radius * (1.0 - (1.0 - share) ** 3)))
@@ -25,7 +28,10 @@ def draw_rings(view, works):
 
 
 def draw_bomb(view, scene):
-    """Draw the bomb's blast: a growing ring filled with light, which fades after the blast has grown."""
+    """Draw the bomb's blast: a growing ring filled with light. The blast fades after it has grown.
+
+    view: the scene's View.
+    """
     bomb = scene.bomb
     if bomb.body is None:
         return
@@ -41,7 +47,7 @@ def draw_bomb(view, scene):
 
 @lru_cache(maxsize=600)
 def wave(radius, bright):
-    """Return the picture of a circle of light. radius [px]; bright: brightness, 0..SHADES."""
+    """Return a Surface with a circle of light. radius: its radius [px]; bright: brightness, 0..SHADES."""
     image = pygame.Surface((2 * radius + 2, 2 * radius + 2))
     color = [c * bright // SHADES // 2 for c in WAVE]
     pygame.draw.circle(image, color, (radius + 1, radius + 1), radius, max(1, min(3, radius // 12)))
@@ -50,7 +56,7 @@ def wave(radius, bright):
 
 @lru_cache(maxsize=12)
 def blast(tenths):
-    """Return the picture of the light inside a bomb's blast, brightest in the middle. tenths: brightness, 0..10."""
+    """Return a Surface with the light inside a bomb's blast, brightest at the centre. tenths: brightness, 0..10."""
     image = pygame.Surface((2 * BLAST, 2 * BLAST))
     for number, radius in enumerate(range(BLAST - 4, 10, -14)):
         level = (6 + 5 * number) * tenths // 10
@@ -68,7 +74,7 @@ def faded(image, alpha):
 
 @lru_cache(maxsize=2)
 def circle_line(radius):
-    """Return the picture of the graze ring, a thin circle. radius [px]."""
+    """Return a Surface with the graze ring, a thin circle. radius: its radius [px]."""
     image = pygame.Surface((2 * radius + 2, 2 * radius + 2), pygame.SRCALPHA)
     pygame.draw.circle(image, (*LINE, 110), (radius + 1, radius + 1), radius, 1)
     return image

@@ -1,6 +1,6 @@
-"""Pick-ups: power, bombs, lives.
+"""Pick-ups of the shooter: power, bombs, lives.
 
-They drift down, fly to the player's plane if it is near, and are taken by its ring.
+They drift down, fly to the player's plane if it is near, and are taken when they touch its ring.
 """
 
 from math import cos, hypot, pi
@@ -20,9 +20,10 @@ PICTURES = {"power": "powerup", "bomb": "bomb_item", "life": "life_item"}
 
 
 class Item:
-    """A pick-up. what: "power", "bomb" or "life"; born: step in which it appeared.
+    """A pick-up.
 
-    tossed: whether it came out of the player's plane when a life was lost; it then flies upwards at first.
+    what: "power", "bomb" or "life"; born: step in which it appeared; tossed: whether it came out of the player's plane
+    at the loss of a life. A tossed pick-up flies upwards at first.
     """
 
     def __init__(self, what, born, tossed):
@@ -65,7 +66,7 @@ class Loot:
             bodies["vx"][row], bodies["vy"][row] = vx, vy
 
     def forget(self, ids):
-        """Drop the pick-ups with the given body ids."""
+        """Remove the pick-ups with the given body ids (an array) from the table."""
         for identity in ids.tolist():
             self.items.pop(identity, None)
 

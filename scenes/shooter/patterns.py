@@ -1,7 +1,8 @@
-"""Fire of the bosses: functions that compute the headings of bullets, and a Gun that fires one Pattern of a stage file.
+"""Fire of the bosses: functions that compute the headings of bullets, and a Gun that fires one Pattern of a stage
+file.
 
-"aimed", "lead" and "fan" target the player; "ring", "spiral" and "wall" fill the sky. All bullets of a "stream" follow
-the heading of the first one.
+The patterns "aimed", "lead" and "fan" target the player; "ring", "spiral" and "wall" fill the whole picture. All
+bullets of a "stream" follow the heading of the first one.
 """
 
 from math import atan2, hypot, pi, radians, sin
@@ -19,9 +20,10 @@ def aimed(x, y, target):
 
 
 def lead(x, y, target, velocity, speed):
-    """Return the heading [rad] at which a bullet from (x, y) hits a target that keeps its velocity.
+    """Return the heading [rad] at which a bullet from (x, y) [px] hits a target that keeps its velocity.
 
-    target: (x, y) [px]; velocity: velocity of the target [px/s]; speed: speed of the bullet [px/s].
+    target: position (x, y) of the target [px]; velocity: velocity of the target [px/s]; speed: speed of the bullet
+    [px/s].
     """
     ahead = 0.0
     for _ in range(3):  # each round halves the error at least, because targets are slower than bullets
@@ -31,21 +33,23 @@ def lead(x, y, target, velocity, speed):
 
 
 def fan(heading, count, spread):
-    """Return `count` headings [rad], evenly spaced around `heading`. spread: angle from the first to the last [rad]."""
+    """Return a list of `count` headings [rad], evenly spaced around `heading`. spread: angle from first to
+    last [rad].
+    """
     if count == 1:
         return [heading]
     return [heading + spread * (number / (count - 1) - 0.5) for number in range(count)]
 
 
 def ring(count, turn=0.0):
-    """Return `count` headings [rad], evenly spaced over the full circle. turn: the first heading [rad]."""
+    """Return a list of `count` headings [rad], evenly spaced over the full circle. turn: the first heading [rad]."""
     return [turn + 2 * pi * number / count for number in range(count)]
 
 
 def wall(spacing, middle, gap, width=WIDTH):
-    """Return the x [px] of the bullets of a row across the sky that has a gap.
+    """Return a list of the x [px] of the bullets in a row that crosses the picture and has a gap.
 
-    spacing: distance between bullets [px]; middle, gap: middle and width of the gap [px]; width: width of the sky
+    spacing: distance between bullets [px]; middle, gap: centre and width of the gap [px]; width: width of the row
     [px].
     """
     count = int(width / spacing) + 1
@@ -55,7 +59,7 @@ def wall(spacing, middle, gap, width=WIDTH):
 
 
 class Gun:
-    """A gun that fires a Pattern, with the state of its fire: time until the next shot, shots so far, and so on."""
+    """A gun that fires a Pattern, with the state of its fire, such as the time until the next shot."""
 
     def __init__(self, pattern):
         self.pattern = pattern
@@ -66,9 +70,9 @@ class Gun:
         self.middle = WIDTH / 2  # x of the middle of the last wall's gap [px]
 
     def step(self, sky, x, y):
-        """Make one step, and fire if a shot is due. Return whether the gun fired.
+        """Make one step, and fire if a shot is due. Return whether the gun has fired.
 
-        sky: the scene; (x, y): centre of the plane that carries the gun [px].
+        sky: the scene; x, y: centre of the plane that carries the gun [px].
         """
         self.age += 1
         self.wait -= 1

@@ -1,7 +1,8 @@
-"""The shooter's bot. It predicts the bullets, compares several plans of flight, and follows the least dangerous one.
+"""The shooter's bot. It predicts the bullets, compares several plans of flight, and chooses the least dangerous one.
 
-A plan is a direction, flown for a number of steps; then the plane stops. One array expression gives the distances of
-all plans from all threats at all predicted moments. The bot drops a bomb if its best plan soon ends in a hit.
+A plan is a direction, flown for a number of steps; after them the plane stops. One array expression gives the
+distances of all plans from all threats at all predicted moments. The bot drops a bomb if its best plan soon ends in a
+hit.
 """
 
 import numpy as np
@@ -27,9 +28,10 @@ CROWD = 1500  # number of enemy bullets at which the bot uses its first bomb in 
 
 
 def directions():
-    """Return the plans among which the bot chooses, a list of (dx, dy, steps, focus). In the first one the plane stays.
+    """Return the plans among which the bot chooses, a list of (dx, dy, steps, focus).
 
-    dx, dy: direction, -1, 0 or 1 each; steps: duration; focus: whether the plane flies slowly.
+    dx, dy: direction, -1, 0 or 1 each; steps: duration; focus: whether the plane flies slowly. In the first plan the
+    plane does not move.
     """
     plans = [(0.0, 0.0, 0.0, False)]
     for focus in (False, True):
@@ -41,7 +43,7 @@ def directions():
 
 
 class Pilot:
-    """The bot, which plays the shooter. keys(scene) returns the actions to hold in the next step."""
+    """The bot, which plays the shooter. keys(scene) returns the actions that it holds in the next step."""
 
     def __init__(self):
         self.plans = directions()
@@ -51,9 +53,9 @@ class Pilot:
         self.way_x, self.way_y = (dx * speed)[:, None] * held, (dy * speed)[:, None] * held
 
     def keys(self, scene):
-        """Return the actions (a frozenset of names) of the plan with the least cost.
+        """Return the actions of the plan with the least cost, a frozenset of names.
 
-        The cost is the danger, plus the distance of the plan's end from the nearest target or pick-up.
+        The cost is the plan's danger, plus the distance of its end from the nearest target or pick-up.
         """
         plane = scene.plane
         if not plane.here:
@@ -79,7 +81,8 @@ class Pilot:
     def _bombs(self, scene, doomed):
         """Return whether to drop a bomb.
 
-        A bomb is dropped just after a hit, before a certain hit (`doomed`), or once when the sky is very full.
+        A bomb is dropped just after a hit, before a hit that cannot be avoided (`doomed`), or once when there are very
+        many bullets.
         """
         if not scene.plane.bombs or scene.bomb.body is not None:
             return False
@@ -87,10 +90,10 @@ class Pilot:
         return scene.stricken > 0 or (not scene.plane.safe and doomed) or crowded
 
     def _danger(self, scene, x, y, place_x, place_y):
-        """Return (cost, doomed), two arrays over the plans: the danger, and whether the plan soon ends in a hit.
+        """Return (cost, doomed), two arrays with a value for each plan: its danger, and whether it soon ends in a hit.
 
-        (x, y): place of the plane [px]; place_x, place_y: its predicted places [px], arrays [plan, time] at the times
-        MOMENTS.
+        x, y: position of the plane [px]; place_x, place_y: predicted positions of the plane [px], arrays [plan,
+        moment] at the moments MOMENTS.
         """
         ahead_x, ahead_y, radius = threats(scene, x, y)
         if not len(radius):
@@ -113,9 +116,10 @@ class Pilot:
         return cost, doomed
 
     def _distance(self, scene, x, y, end_x, end_y):
-        """Return an array over the plans: the cost of the distance between the plan's end and a target or pick-up.
+        """Return an array with a value for each plan: the cost of the distance between its end and a target or
+        pick-up.
 
-        (x, y): place of the plane [px]; end_x, end_y: places at the end of each plan [px].
+        x, y: position of the plane [px]; end_x, end_y: positions at the end of each plan [px].
         """
         goal_x, goal_y, pull = 240.0, LINE_Y, 0.004
         prey = [
@@ -136,10 +140,10 @@ class Pilot:
 
 
 def threats(scene, x, y):
-    """Predict the places of bullets near (x, y) [px] and of enemies in the air.
+    """Predict the positions of the bullets near (x, y) [px] and of all enemies in the air.
 
-    Return (x, y, radius): places, two arrays [time, threat] at the times MOMENTS [px], and the radii of the threats
-    [px].
+    Return (x, y, radius): the positions, two arrays [moment, threat] at the moments MOMENTS [px], and the radii of the
+    threats, an array [px].
     """
     bodies, incoming = scene.world.bodies, scene.incoming
     rows = incoming.places()

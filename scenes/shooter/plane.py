@@ -1,7 +1,7 @@
 """The player's plane: it moves without inertia, banks, fires, is lost and returns.
 
-It has three bodies: a small core; the hull, with the mask of the shown picture; and a larger ring, which is a sensor.
-The world tests all three; the scene decides whether hits of the core or of the hull cost a life.
+It has three bodies: a small core; the hull, with the mask of the current picture; and a larger ring, which is a
+sensor. The world tests all three. The scene decides whether hits of the core or of the hull cost a life.
 """
 
 from math import pi
@@ -39,9 +39,10 @@ VOLLEYS = (
 
 
 class Plane:
-    """The player's plane. bodies: {"core", "hull" and "ring": Body}, empty between two lives.
+    """The player's plane.
 
-    power: level of its volley, 1..TOP_POWER; safe: remaining steps in which it cannot be hit.
+    bodies: {"core", "hull" and "ring": Body}, empty between two lives; power: level of its volley, 1..TOP_POWER; safe:
+    remaining steps in which the plane cannot be hit.
     """
 
     def __init__(self, world, tier):
@@ -69,11 +70,11 @@ class Plane:
 
     @property
     def frame(self):
-        """Name of the picture that is shown. Its mask is the hull's shape."""
+        """Name of the current picture, whose mask is the hull's shape."""
         return BANKS[round(self.bank) + 2]
 
     def arrive(self):
-        """Begin a life: add the bodies below the picture, from where the plane flies in."""
+        """Start a life: add the plane's bodies below the picture, from where the plane flies in."""
         self.bank = 0.0
         self.x, self.y = START_X, ENTRY_Y
         shapes = {
@@ -94,9 +95,9 @@ class Plane:
         self.entering, self.safe, self.cooldown = FLY_IN, FLY_IN + SAFE, 0
 
     def step(self, inputs, shots):
-        """Move, bank and fire. Between two lives, wait and then begin the next life.
+        """Move, bank and fire. Between two lives, wait, then start the next life.
 
-        shots: the player's Bullets, to which shots are added.
+        shots: the player's Bullets, to which new shots are added.
         """
         self.fired = False
         hull = self.body
@@ -156,7 +157,10 @@ class Plane:
         self.cooldown, self.fired = COOLDOWN, True
 
     def lose_life(self):
-        """Lose a life. Return the ids of the plane's bodies, which the caller must remove."""
+        """Take a life from the player and remove the plane from the game.
+
+        Return the ids of the plane's bodies, which the caller must remove from the world.
+        """
         wreck = [body.id for body in self.bodies.values()]
         self.bodies = {}
         self.lives -= 1
@@ -171,9 +175,9 @@ class Plane:
         self.lives, self.bombs, self.away = LIVES, BOMBS, 1
 
     def gain(self, what):
-        """Take the pick-up `what` ("power", "bomb" or "life").
+        """Take the pick-up `what` ("power", "bomb" or "life"): increase this stock by 1, up to its maximum.
 
-        Return False if the plane already has the maximum of it.
+        Return whether the stock was below its maximum.
         """
         held, most = {"power": ("power", TOP_POWER), "bomb": ("bombs", MOST_BOMBS), "life": ("lives", MOST_LIVES)}[what]
         before = getattr(self, held)

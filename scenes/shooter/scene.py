@@ -1,4 +1,4 @@
-"""The plane shooter's rules. Hits, grazes, bomb blasts and pick-ups are read from the contact events of each step."""
+"""The plane shooter's rules, which read hits, grazes, bomb blasts and pick-ups from the contact events of each step."""
 
 import numpy as np
 import pygame
@@ -34,7 +34,7 @@ DROP_EVERY = 45  # kills between two power-ups that no enemy carried
 class Shooter(Scene):
     """The shooter, a scene with one world.
 
-    Collision filters define which bodies can meet; masks and circles decide whether.
+    Collision filters define which bodies can collide; masks and circles decide whether they do.
     """
 
     name = "shooter"
@@ -64,7 +64,7 @@ class Shooter(Scene):
     level_suffix = ".json"
 
     def build(self):
-        """Build the world with the player's plane, and all objects of the game. The first enemies come later."""
+        """Build the world with the player's plane, and all objects of the game. The director adds the enemies later."""
         draw_turned()
         self.music = type(self).music
         stage = load_stage(self.level_file)
@@ -85,16 +85,16 @@ class Shooter(Scene):
         self.beaten = {"midboss": False, "boss": False}
 
     def set_tier(self, name):
-        """Use another collision tier for all sprites, including those added later.
+        """Set the collision tier of all sprites, including those that are added later.
 
-        name: kind of collision shape: pixels, obb, aabb or circle.
+        name: kind of collision shape: "pixels", "obb", "aabb" or "circle".
         """
         super().set_tier(name)
         self.fleet.tier = self.plane.tier = name
 
     @property
     def target(self):
-        """Position (x, y) [px] of the player's plane or, between two lives, the place where it was lost."""
+        """Position (x, y) [px] of the player's plane or, between two lives, the position at which it was lost."""
         return self.plane.x, self.plane.y
 
     @property
@@ -109,17 +109,17 @@ class Shooter(Scene):
 
     @property
     def invincible(self):
-        """Whether hits do not destroy the player's plane: a choice of the player."""
+        """True if hits do not destroy the player's plane, which the player chooses in the settings."""
         return self.assist["invincible"]
 
     @property
     def hit_stop(self):
-        """Whether the game is frozen for a moment after a hit: a choice of the player."""
+        """True if the game is frozen for a moment after a hit, which the player chooses in the settings."""
         return self.assist["hit_stop"]
 
     @property
     def own_hits(self):
-        """Hits of the player's plane so far, by its core, its hull and its bounding box."""
+        """Numbers of hits of the player's plane so far, {"core", "hull" and "box": count}."""
         return self.hits.count
 
     @property
@@ -128,7 +128,7 @@ class Shooter(Scene):
         return None if self.plane.ghost or self.plane.body is None else self.plane.body.id
 
     def update(self, inputs):
-        """Let everything choose its velocity, step the world, and read the events."""
+        """Let all objects choose their velocities, step the world, and read its events."""
         self.scrolled_before = self.scrolled
         self.spectacle.step(STEP_SECONDS)
         if self.ending.step(self, inputs):
@@ -190,7 +190,9 @@ class Shooter(Scene):
         self.spectacle.bomb_dropped(self.bomb)
 
     def _read_events(self):
-        """Read the events of the step. Bodies are removed when the next step begins, so that hits can be inspected."""
+        """Read the events of the step. Bodies that are hit are removed only when the next step begins, for
+        inspection.
+        """
         parts = self.plane.bodies
         self.blows = Blows(self.world, {parts["core"].id: parts["hull"].mass} if parts else None)
         begun, met = self.world.events.begin, self.world.events.sensor_begin
@@ -226,7 +228,7 @@ class Shooter(Scene):
         self.spectacle.player_hit(self.plane, hit_by, LAST_MOMENT)
 
     def stop_time(self):
-        """Freeze the game for FREEZE steps, unless the setting `hit_stop` is off."""
+        """Freeze the game for FREEZE steps, unless `hit_stop` is off."""
         self.freeze = FREEZE if self.hit_stop else 0
 
     def _shots_that_hit(self, begun, a, b):
@@ -244,9 +246,9 @@ class Shooter(Scene):
             self._damage(enemy, self.blows.on(enemy.id, int(shots[each])), place)
 
     def _damage(self, enemy, blow, place, times=1.0):
-        """Reduce the health of an enemy by the strength of `blow` times `times` [plain shots], and show the result.
+        """Reduce the health of an enemy by the strength of the Blow `blow` multiplied by `times`, and show the result.
 
-        place: the contact point (x, y) [px].
+        place: the contact point (x, y) [px]. Health is measured in plain shots.
         """
         if enemy.leads and enemy.sheltered:
             self.spectacle.glanced(enemy, *place)
@@ -266,7 +268,9 @@ class Shooter(Scene):
                 self._damage(enemy, self.blows.on(enemy.id, piece), place, STRIKE)
 
     def _blast(self, met):
-        """Remove the bullets and damage the planes that the bomb touches. met: ids of the bodies that it touches."""
+        """Remove the bullets and damage the planes that the bomb touches. met: ids of the bodies in contact with the
+        bomb.
+        """
         known = self.fleet.planes.keys() | self.gone
         self._burn([identity for identity in met if identity not in known])
         for identity in sorted(set(met) & self.fleet.planes.keys()):
@@ -276,7 +280,7 @@ class Shooter(Scene):
                 self._damage(enemy, blow, (enemy.x, enemy.y), LEADER_DAMAGE if enemy.leads else DAMAGE)
 
     def _burn(self, bullets):
-        """Remove bullets, with sparks and points for each. bullets: list of body ids."""
+        """Remove bullets, and show sparks and add points for each of them. bullets: list of body ids."""
         if not len(bullets):
             return
         self.gone += bullets
@@ -315,9 +319,9 @@ class Shooter(Scene):
             self.gone.append(identity)
 
     def _lose_life(self):
-        """Take a life: remove the player's plane and all enemy bullets.
+        """Take a life from the player: remove the player's plane and all enemy bullets.
 
-        A small plane that rammed the player is destroyed.
+        A small plane that has rammed the player is destroyed.
         """
         self.score.hit()
         self.spectacle.player_lost(self.plane, self.hit_blow)
@@ -333,7 +337,7 @@ class Shooter(Scene):
         self.clear_bullets()
 
     def clear_bullets(self):
-        """Remove all enemy bullets, with points for each."""
+        """Remove all enemy bullets, and add points for each of them."""
         known = set(self.gone)
         self._burn([identity for identity in self.incoming.ids.tolist() if identity not in known])
 
@@ -361,15 +365,15 @@ class Shooter(Scene):
         self._reward()
 
     def bury(self, leader):
-        """Let a boss or mid-boss that has burnt out break into pieces, and drop its item."""
+        """Break a burnt-out boss or mid-boss into pieces, and drop its item."""
         self.wreckage.mark(leader, leader.x, leader.y, Blow())
         self.spectacle.leader_gone(leader)
         self.loot.drop("life" if leader.kind == "midboss" else "power", leader.x, leader.y, self.frame)
 
     def leader_gone(self, event):
-        """End the fight with a boss or mid-boss that has left the sky.
+        """End the fight with a boss or mid-boss that is no longer in the game.
 
-        After the boss, the stage ends. event: its Event.
+        After the boss, the stage ends. event: Event of the boss or mid-boss.
         """
         self.music = "shooter"
         if event.event == "boss":
@@ -378,7 +382,7 @@ class Shooter(Scene):
     # --- bodies ------------------------------------------------------------------------------------------------------
 
     def _sweep(self):
-        """Break the planes that are marked to break. Remove all bodies that were hit or left the sky, at once."""
+        """Break the planes that are marked to break, and remove all bodies that were hit or are outside the picture."""
         for plane, x, y in self.wreckage.break_due(self.fleet):
             self.spectacle.broke(plane, x, y)
         bodies = self.world.bodies
@@ -403,11 +407,11 @@ class Shooter(Scene):
         return stage_goals(self)
 
     def bot(self):
-        """Return the actions that the bot holds in the next step."""
+        """Return the actions that the bot holds in the next step, a frozenset of names."""
         return self.pilot.keys(self)
 
     def state(self):
-        """Return the scene's own state, a flat tuple for the digest. The world's state is hashed separately."""
+        """Return the scene's part of the state hash, a flat tuple. The world is hashed separately."""
         planes = [value for plane in self.fleet.planes.values() for value in plane.state()]
         parts = (self.plane, self.score, self.director, self.hits, self.bomb, self.loot, self.ending, self.wreckage)
         return (
@@ -435,5 +439,5 @@ class Shooter(Scene):
         )
 
     def draw(self, canvas, alpha):
-        """Draw the scene. alpha: position (0..1) between the last two steps."""
+        """Draw the scene on the canvas. alpha: position (0..1) between the last two steps."""
         the_view().draw(self, canvas, alpha)

@@ -1,7 +1,7 @@
 """Points of the shooter: the values of kills and grazes, and the chain that multiplies these values.
 
-The player grazes a bullet that passes close by without a hit. Each kill or graze adds a link to the chain. The chain
-breaks after a while without kills and grazes, or when the player is hit.
+A graze is a bullet that passes close by the player without a hit. Each kill or graze adds a link to the chain. The
+chain breaks after a while without kills and grazes, or when the player is hit.
 """
 
 from scenes.shooter.cast import steps
@@ -15,9 +15,10 @@ LIFE_BONUS, BOMB_BONUS, GRAZE_BONUS, PURE_BONUS = 20_000, 5_000, 50, 100_000
 
 
 class Score:
-    """The points and counts of a game. chain: number of links in the current chain; hold: steps until it breaks.
+    """The points and counts of a game.
 
-    continues: number of times that the player continued after the last life.
+    chain: number of links in the current chain; hold: steps until the chain breaks; continues: number of times that
+    the player has continued after the last life.
     """
 
     def __init__(self, kinds):
@@ -32,9 +33,9 @@ class Score:
         return min(1 + self.chain // CHAIN_STEP, TOP_CHAIN)
 
     def step(self, quiet):
-        """Count down to the end of the chain, unless `quiet` is True (there are no targets in the sky).
+        """Count down to the end of the chain. quiet: True stops the countdown, because there are no targets.
 
-        Return whether a chain with a multiplier above 1 broke in this step.
+        Return whether a chain with a multiplier above 1 has broken in this step.
         """
         if self.hold == 0 or quiet:
             return False
@@ -73,17 +74,18 @@ class Score:
         return self._add(WHOLE_WAVE * self.times)
 
     def phase(self, bonus, left):
-        """Add the points of a won phase of a boss fight: half of `bonus`, and the other half times `left`.
+        """Add the points of a won phase of a boss fight, and return them, rounded to hundreds.
 
-        left: remaining share of the phase's time, 0..1. Return the points, rounded to hundreds.
+        They are half of `bonus`, and the other half multiplied by `left`, the remaining share of the phase's time
+        (0..1).
         """
         self.hold = HOLD if self.chain else 0
         return self._add(round(bonus * (0.5 + 0.5 * left) / 100) * 100)
 
     def take(self, gained):
-        """Count a pick-up. Return the points added for it.
+        """Count a pick-up, and return the points added for it.
 
-        gained: whether the plane could use it. Points are added only for a pick-up that it could not use.
+        gained: whether the plane could use the pick-up. Points are added only if it could not.
         """
         self.taken += 1
         return 0 if gained else self._add(SPARE * self.times)
@@ -94,9 +96,9 @@ class Score:
         self.chain = self.hold = 0
 
     def go_on(self):
-        """Count that the player continues after the last life.
+        """Count one continue after the last life, and start the points again.
 
-        The points start again at the number of continues, so that their last digit shows this number.
+        The new points equal the number of continues, so that their last digit shows this number.
         """
         self.continues += 1
         self.points, self.next_life = self.continues, FIRST_LIFE
@@ -111,11 +113,11 @@ class Score:
         return found + [("NO CONTINUE", PURE_BONUS)] if not self.continues else found
 
     def add_bonus(self, points):
-        """Add the points of one bonus of final()."""
+        """Add the points of one bonus that final() has returned."""
         self._add(points)
 
     def earned_life(self):
-        """Return whether the points have reached the next extra life. Each extra life is reported once."""
+        """Return whether the points have reached the next extra life. Each extra life is reported once only."""
         if self.points < self.next_life:
             return False
         self.next_life += NEXT_LIFE

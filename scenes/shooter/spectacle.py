@@ -1,4 +1,4 @@
-"""Visual effects and sounds for the scene's events. They never influence the game rules."""
+"""Visual effects and sounds of the shooter. They never influence the game rules."""
 
 from math import pi
 
@@ -45,7 +45,7 @@ class Spectacle:
     """Visible and audible effects of the shooter.
 
     works: moving decoration (explosions, debris, texts); other attributes are timers. Each method from wave() on shows
-    one kind of event, with pictures and sound.
+    one kind of event by pictures and sound.
     """
 
     def __init__(self, scene):
@@ -113,19 +113,21 @@ class Spectacle:
                 self.works.burst("smoke", x, y, 0.0, 10.0)
 
     def lean_at(self, alpha):
-        """Return the sideways offset of the parallax [px]. alpha: position (0..1) between the last two steps."""
+        """Return the sideways offset [px] of the parallax. alpha: position (0..1) between the last two steps."""
         return self.lean_before + (self.lean - self.lean_before) * alpha
 
     # --- the stage ---------------------------------------------------------------------------------------------------
 
     def wave(self, director):
-        """Show the name of the director's new wave, with a sound from the second wave on."""
+        """Show the name of the director's new wave. From the second wave on, also play a sound."""
         self.news = NEWS
         if director.number > 1:
             self.scene.play("blip", volume=0.3)
 
     def wave_done(self, enemy, worth):
-        """Show the points for a completely destroyed wave. enemy: its last plane; worth: the points."""
+        """Show the points for a wave that was shot down completely. enemy: the last plane of the wave; worth: the
+        points.
+        """
         self.works.word(f"WAVE +{worth}", enemy.x, enemy.y - 34, PRAISE)
 
     def warning(self, event):
@@ -136,31 +138,31 @@ class Spectacle:
     # --- shots -------------------------------------------------------------------------------------------------------
 
     def player_fires(self, plane):
-        """Show the muzzle flash of the player's plane."""
+        """Show the muzzle flash of the player's plane, and play the sound of its guns."""
         self.muzzle = 0
         self.scene.play("heavy_laser" if plane.power == TOP_POWER else "laser", plane.x, 0.2)
 
     def enemy_fires(self, enemy):
-        """Show the muzzle flash of an enemy plane."""
+        """Show the muzzle flash of an enemy plane, and play the sound of its guns."""
         self.works.burst("muzzle_flash", enemy.x, enemy.y + 8)
         self.scene.play("enemy_shot", enemy.x, 0.35)
 
     def leader_fires(self, leader):
-        """Show the muzzle flash of a mid-boss or boss. The sound is played at most once in SHOT_SOUND steps."""
+        """Show the muzzle flash of a mid-boss or boss, with a sound, at most once in SHOT_SOUND steps."""
         if not self.quiet:
             self.quiet = SHOT_SOUND
             self.works.burst("muzzle_flash", leader.x, leader.y + 22)
             self.scene.play("enemy_shot", leader.x, 0.3)
 
     def dive(self, dart):
-        """Show that a dart begins its dive: flames at its tail."""
+        """Show the start of a dart's dive by flames at its tail."""
         self.scene.particles.burst(
             dart.x, dart.y - 8, 14, FIRE, speed=(30, 120), life=(0.2, 0.5), angle=-pi / 2, spread=1.4
         )
         self.scene.play("enemy_shot", dart.x, 0.3)
 
     def struck(self, enemy, x, y, blow):
-        """Show that a shot damages an enemy at (x, y) [px]. A harder blow gives more sparks."""
+        """Show that a shot damages an enemy at the point (x, y) [px]. A harder Blow `blow` gives more sparks."""
         self.flashes[enemy.id] = FLASH
         self.works.burst("spark", x, y, 0.0, 20.0)
         self.scene.particles.burst(
@@ -177,15 +179,15 @@ class Spectacle:
         self.scene.play("hit", x, min(0.25 * blow.strength, 1.0))
 
     def glanced(self, enemy, x, y):
-        """Show a shot at an enemy that is invulnerable at the moment. (x, y): the contact point [px]."""
+        """Show a shot at an enemy that cannot be hurt at the moment. x, y: the contact point [px]."""
         self.scene.particles.burst(
             x, y, 3, BLUE, speed=(40, 120), life=(0.1, 0.25), angle=pi / 2, spread=2.6, size=(1, 1)
         )
 
     def destroyed(self, enemy, worth, blow):
-        """Show the explosion of an enemy, and the points `worth`. blow: the last hit.
+        """Show the explosion of an enemy, and the points `worth`. blow: the Blow of the last hit.
 
-        The debris keeps a part of the enemy's velocity, and gets that of the blow in addition.
+        The debris gets a part of the enemy's velocity plus the velocity from the blow.
         """
         animation, sound, volume, shake, sparks, pieces = DEATHS[enemy.kind]
         x, y, works = enemy.x, enemy.y, self.works
@@ -214,7 +216,8 @@ class Spectacle:
         self.scene.play("tear", x, 1.0 if plane.leads else 0.7)
 
     def piece_down(self, identity, piece):
-        """Show that a piece of wreckage falls into water or on the ground. Larger pieces give more and louder effects.
+        """Show that a piece of wreckage falls into water or on the ground. A larger piece gives more and louder
+        effects.
 
         identity: body id of the piece; piece: its Piece.
         """
@@ -233,9 +236,10 @@ class Spectacle:
     # --- the player --------------------------------------------------------------------------------------------------
 
     def player_hit(self, plane, hit_by, still):
-        """Show that the player was hit: plane and bullet are white for `still` steps, in which a bomb saves the plane.
+        """Show that the player was hit: plane and bullet are white for `still` steps, in which a bomb can save the
+        plane.
 
-        hit_by: body ids of the bullets or planes that hit.
+        hit_by: body ids of the bullets or planes that hit the player.
         """
         for identity in (plane.body.id, *hit_by):
             self.flashes[identity] = still + 1
@@ -249,7 +253,7 @@ class Spectacle:
         self.scene.play("hurt", plane.x, 0.4)
 
     def player_lost(self, plane, blow):
-        """Show the explosion of the player's plane. blow: the hit that destroyed it."""
+        """Show the explosion of the player's plane. blow: Blow of the hit that destroyed it."""
         x, y, works = plane.x, plane.y, self.works
         works.burst("explosion_large", x, y, 0.0, 12.0)
         works.chain(x, y, 16, 16, 4, 0.12)
@@ -263,7 +267,7 @@ class Spectacle:
         self.scene.play("big_explosion", x, 0.8)
 
     def bomb_dropped(self, bomb):
-        """Show the flash of a bomb that goes off."""
+        """Show the flash of a bomb that explodes."""
         self.works.ring(bomb.x, bomb.y, 150.0)
         self.works.sparks(bomb.x, bomb.y, 60, BLUE, 320)
         self.works.sparks(bomb.x, bomb.y, 30, GOLD, 220)
@@ -272,15 +276,17 @@ class Spectacle:
         self.scene.play("bomb", bomb.x, 0.9)
 
     def bullets_burnt(self, xs, ys):
-        """Show sparks where bullets were removed. xs, ys: their places, arrays [px].
+        """Show sparks at the points (xs, ys), arrays [px], at which bullets were removed.
 
-        Of many places, only about MOST_EMBERS get sparks.
+        If there are many points, only about MOST_EMBERS of them get sparks.
         """
         each = -(-len(xs) // MOST_EMBERS)
         self.works.embers(xs[::each], ys[::each])
 
     def grazed(self, plane, world, ids, worth):
-        """Show sparks between the plane and the bullets that graze it. ids: ids of the bullets; worth: their points."""
+        """Show sparks between the plane and the bullets that graze it. ids: body ids of the bullets; worth: points for
+        them.
+        """
         bodies = world.bodies
         for row in world.rows(ids).tolist():
             x, y = bodies["x"][row].item(), bodies["y"][row].item()
@@ -292,7 +298,7 @@ class Spectacle:
         self.scene.play("graze", plane.x, 0.3)
 
     def chain_broken(self, plane):
-        """Show that the chain of the score broke."""
+        """Show that the chain of the score has broken."""
         self.works.word("CHAIN LOST", plane.x, plane.y - 26, (214, 190, 206))
         self.scene.play("chain_break", plane.x, 0.5)
 
@@ -301,7 +307,7 @@ class Spectacle:
         self.works.sparks(x, y, 14, GOLD, 90)
 
     def loot_taken(self, plane, what, worth):
-        """Show that the player takes the pick-up `what`. worth: points for one that the plane could not use, or 0."""
+        """Show that the player takes the pick-up `what`. worth: points if the plane could not use it, otherwise 0."""
         self.gain = 1.0
         self.works.sparks(plane.x, plane.y, 30, GOLD, 150)
         self.works.ring(plane.x, plane.y, 30.0)
@@ -322,9 +328,9 @@ class Spectacle:
     # --- leaders -----------------------------------------------------------------------------------------------------
 
     def phase_over(self, leader, last, worth):
-        """Show the end of a phase of a boss fight, with explosions.
+        """Show the end of a phase of a boss fight by explosions and a text.
 
-        last: whether the fight ends; worth: bonus points, 0 if time ran out.
+        last: whether the whole fight ends; worth: bonus points, 0 if the time ran out.
         """
         x, y, works = leader.x, leader.y, self.works
         self.bonus = ["PHASE BONUS" if worth else "TIME OUT", worth, BONUS_SHOWN]
@@ -355,7 +361,7 @@ class Spectacle:
             self.flashes[leader.id] = 2
 
     def leader_gone(self, leader):
-        """Show the last and largest explosion of a mid-boss or boss, which breaks it."""
+        """Show the last and largest explosion of a mid-boss or boss, in which it breaks."""
         x, y, works = leader.x, leader.y, self.works
         works.burst("explosion_large", x, y)
         for dx, dy in ((-40, -10), (40, -8), (-20, 22), (22, 20), (0, -24)):

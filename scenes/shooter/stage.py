@@ -1,7 +1,7 @@
-"""Stage files of the shooter: the records of the format, and the reader.
+"""Stage files of the shooter: the records of the format, and the functions that read a file.
 
 A stage is a list of events in the order of their times. The clock of the stage [s] stops while a mid-boss or boss
-fights. Lengths are pixels of the sky (480 x 270), speeds px/s, angles degrees: 0 to the right, 90 down.
+fights. Lengths are in pixels of the picture (480 x 270), speeds in px/s, angles in degrees: 0 to the right, 90 down.
 """
 
 from dataclasses import dataclass
@@ -29,10 +29,10 @@ MOST_FIRE = 1000  # bullets per second of a phase, over all its patterns
 class Group:
     """Planes of one kind that enter one after another.
 
-    places: for each plane, its place along the edge at which it enters (0..1); after: time of the first plane [s];
-    every: time between planes [s]; carries: item that the last plane drops, or "". Some kinds use further fields.
-    hover: y at which a plane stops [px]; sway: amplitude of its weaving [px]; side: edge at which it enters; bend:
-    angle of its arc [deg].
+    kind: their kind; places: for each plane, its position along the edge at which it enters (0..1); after: time of the
+    first plane [s]; every: time between planes [s]; carries: item that the last plane drops, or "". Only some kinds
+    use the other fields. hover: y at which a plane stops [px]; sway: amplitude of its weaving [px]; side: edge at
+    which it enters; bend: angle of its arc [deg].
     """
 
     kind: str
@@ -48,11 +48,12 @@ class Group:
 
 @dataclass(frozen=True)
 class Pattern:
-    """The firing pattern of one gun. shoot: kind of fire ("aimed", "fan", ...); it decides which other fields are used.
+    """The firing pattern of one gun. shoot: kind of fire ("aimed", "fan", ...), which decides which other fields are
+    used.
 
-    The first shot comes after `after` [s], the next ones every `every` [s]. After a burst of `shots` shots, the gun
-    rests for `rest` [s] in addition. faster: added to the speed from each shot of a burst to the next [px/s].
-    muzzles: points relative to the plane's centre [px]; bullets start at distance `out` [px] from a muzzle.
+    The first shot is fired after `after` [s], the next ones every `every` [s]. After a burst of `shots` shots, the gun
+    waits for another `rest` [s]. faster: increase of the speed from each shot of a burst to the next [px/s]. muzzles:
+    points relative to the plane's centre [px]; bullets start at distance `out` [px] from a muzzle.
     """
 
     shoot: str
@@ -84,9 +85,9 @@ class Pattern:
 
 @dataclass(frozen=True)
 class Move:
-    """The path of a mid-boss or boss: a figure of eight around its home position.
+    """The path of a mid-boss or boss, in the form of an eight around its home position.
 
-    across, down: amplitudes [px]; seconds: duration of one round.
+    across, down: amplitudes [px]; seconds: time for one round.
     """
 
     across: float
@@ -98,7 +99,8 @@ class Move:
 class Phase:
     """A phase of a boss fight. It ends after `seconds`, or earlier when shots have used up its `health` [plain shots].
 
-    bonus: points if the health was used up; patterns: fire of the leader's guns.
+    name: name on the screen; bonus: points if the health was used up; move: path of the leader; patterns: fire of its
+    guns.
     """
 
     name: str
@@ -111,10 +113,10 @@ class Phase:
 
 @dataclass(frozen=True)
 class Event:
-    """An event of a stage, at time `at` [s]. event: its kind, which decides which other fields are used.
+    """An event of a stage, at time `at` [s]. event: kind of the event, which decides which other fields are used.
 
     "wave": groups; "midboss" and "boss": phases; "backdrop": ground; "item": item, across (0..1 of the width); "pace":
-    factors of the difficulty.
+    the factors of the difficulty (speed, patience, armour, extra).
     """
 
     event: str
@@ -133,7 +135,7 @@ class Event:
 
 @dataclass(frozen=True)
 class Stage:
-    """One stage of the shooter: its events in the order of time. `title` and `name` are shown at its start."""
+    """One stage of the shooter: its events in the order of time. Its `title` and `name` are shown at the start."""
 
     title: str
     name: str
@@ -225,7 +227,7 @@ FILE = {
 def load_stage(path=None):
     """Return the Stage of a file, or the game's own stage if `path` is None.
 
-    Raises FileError, which names the file, the place and the reason.
+    Raises FileError, which names the file, the position in it and the reason.
     """
     return _own() if path is None else read_stage(path)
 

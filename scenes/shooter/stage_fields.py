@@ -1,7 +1,7 @@
 """Validation of a JSON file: classes for the types of its fields, each with a method read(reader, place, value).
 
-read() returns the value as the game uses it. For an invalid value, read() raises FileError, which names the place in
-the file. `default` is the value of a missing field; REQUIRED: the field must be present.
+read() returns the value as the game uses it. For an invalid value, read() raises FileError, which names the field. The
+attribute `default` is the value of a missing field; REQUIRED means that the field must be present.
 """
 
 from difflib import get_close_matches
@@ -13,7 +13,7 @@ REQUIRED = object()
 
 
 class Number:
-    """A number from `low` to `high`. whole: whether only integers are valid."""
+    """A field type: a number from `low` to `high`. whole: whether only integers are valid."""
 
     def __init__(self, low, high, default=REQUIRED, whole=False):
         self.low, self.high, self.default, self.whole = low, high, default, whole
@@ -21,7 +21,7 @@ class Number:
     def read(self, reader, place, value):
         """Return `value` if it is a valid number. Raises FileError, which names `place`, if it is not.
 
-        reader: Reader of the file; place: place of the field in the file.
+        reader: Reader of the file; place: position of the field in the file, such as "events[2].at".
         """
         kind = "a whole number" if self.whole else "a number"
         whole = isinstance(value, int) and not isinstance(value, bool)
@@ -33,7 +33,7 @@ class Number:
 
 
 class Text:
-    """A text of printable ASCII characters, at least 1 and at most `most`."""
+    """A field type: a text of printable ASCII characters, at least 1 and at most `most`."""
 
     def __init__(self, most, default=REQUIRED):
         self.most, self.default = most, default
@@ -41,7 +41,7 @@ class Text:
     def read(self, reader, place, value):
         """Return `value` if it is a valid text. Raises FileError, which names `place`, if it is not.
 
-        reader: Reader of the file; place: place of the field in the file.
+        reader: Reader of the file; place: position of the field in the file, such as "events[2].at".
         """
         if not isinstance(value, str):
             reader.fail(place, f"must be text (got {value!r:.60})")
@@ -54,16 +54,16 @@ class Text:
 
 
 class Choice:
-    """One of the texts `names`."""
+    """A field type: one of the texts `names`."""
 
     def __init__(self, names, default=REQUIRED):
         self.names, self.default = tuple(names), default
 
     def read(self, reader, place, value):
-        """Return `value` if it is one of the texts.
+        """Return `value` if it is one of the texts `names`.
 
-        Raises FileError otherwise; the message suggests the most similar one. reader: Reader of the file; place: place
-        of the field in the file.
+        Raises FileError otherwise; the message suggests the most similar text. reader: Reader of the file; place:
+        position of the field in the file, such as "events[2].at".
         """
         if value not in self.names:
             reader.fail(place, f"must be one of {', '.join(self.names)} (got {value!r:.60}){guess(value, self.names)}")
@@ -71,7 +71,7 @@ class Choice:
 
 
 class List:
-    """A list of `fewest` to `most` entries, each of the field type `entry`."""
+    """A field type: a list of `fewest` to `most` entries, each of the field type `entry`."""
 
     def __init__(self, entry, fewest, most, default=REQUIRED):
         self.entry, self.fewest, self.most, self.default = entry, fewest, most, default
@@ -79,7 +79,7 @@ class List:
     def read(self, reader, place, value):
         """Return the entries of the list `value` as a tuple. Raises FileError if the list or an entry is invalid.
 
-        reader: Reader of the file; place: place of the field in the file.
+        reader: Reader of the file; place: position of the field in the file, such as "events[2].at".
         """
         if not isinstance(value, list):
             reader.fail(place, f"must be a list (got {value!r:.40})")
@@ -90,7 +90,7 @@ class List:
 
 
 class Record:
-    """A JSON object with the given fields. Their values are passed to `make(**fields)`."""
+    """A field type: a JSON object with the given fields {name: field type}. make(**values) builds the result."""
 
     def __init__(self, make, default=REQUIRED, **fields):
         self.make, self.fields, self.default = make, fields, default
@@ -98,25 +98,27 @@ class Record:
     def read(self, reader, place, value):
         """Return the object that make() builds from the fields of the JSON object `value`.
 
-        Raises FileError if a field is invalid, missing or unknown. reader: Reader of the file; place: place of the
-        field in the file.
+        Raises FileError if a field is invalid, missing or unknown. reader: Reader of the file; place: position of the
+        object in the file, such as "events[2]".
         """
         return self.make(**reader.fields(place, value, self.fields))
 
 
 class Variant:
-    """A JSON object whose field `tag` decides which other fields it has.
+    """A field type: a JSON object whose field `tag` decides which other fields it has.
 
-    records: {value of the tag: Record}; shared: {name: type} of fields that all variants have.
+    records: {value of the tag: Record}; shared: {name: field type} of the fields that all variants have.
     """
 
     def __init__(self, tag, records, **shared):
         self.tag, self.shared, self.records = tag, shared, records
 
     def read(self, reader, place, value):
-        """Read the JSON object `value` with the Record that its tag selects. Return the object that the Record builds.
+        """Read the JSON object `value` with the Record that its tag selects. Return the object that this Record
+        builds.
 
-        Raises FileError if a field is invalid. reader: Reader of the file; place: place of the field in the file.
+        Raises FileError if a field is invalid. reader: Reader of the file; place: position of the object in the file,
+        such as "events[2]".
         """
         tag = Choice(self.records)
         if not isinstance(value, dict) or self.tag not in value:
@@ -128,19 +130,20 @@ class Variant:
 
 
 class Reader:
-    """Reader of one file. Its errors name the file's path."""
+    """Reader of one JSON file. Its errors contain the file's path."""
 
     def __init__(self, path):
         self.path = path
 
     def fail(self, place, reason):
-        """Raise FileError for a place in the file, with a reason."""
+        """Raise FileError for the position `place` in the file, with a reason."""
         raise FileError(self.path, place, reason)
 
     def fields(self, place, value, wanted, others=False):
         """Return {name: value} of the fields of the JSON object `value`.
 
-        place: place of the object in the file; wanted: {name: field type}; others: whether unknown fields are allowed.
+        place: position of the object in the file; wanted: {name: field type}; others: whether unknown fields are
+        allowed.
         """
         if not isinstance(value, dict):
             self.fail(place or "file", f"must be an object with {', '.join(wanted)} (got {value!r:.40})")
@@ -160,11 +163,11 @@ class Reader:
 
 
 def join(place, name):
-    """Return the name of a place in a file, such as "events[2].at": the field `name` of the object at `place`."""
+    """Return the position of the field `name` of the object at `place` in a file, such as "events[2].at"."""
     return f"{place}.{name}" if place else str(name)
 
 
 def guess(name, names):
-    """Return a question that suggests the most similar one of `names`, or "" if none is similar to `name`."""
+    """Return a question that suggests the entry of `names` most similar to `name`, or "" if none is similar."""
     near = get_close_matches(str(name), list(names), n=1)
     return f"; did you mean {near[0]}?" if near else ""

@@ -1,7 +1,7 @@
 """Drawing of the shooter, from the ground up: shadows, planes, fire, and bullets on top.
 
-Drawing changes no state of the scene. Bullets are placed with NumPy and blitted in one call per look. A sprite is drawn
-exactly where the physics has its mask: floor(position - origin + 0.5).
+Drawing changes no state of the scene. NumPy computes the positions of the bullets, and one call per look draws them. A
+sprite is drawn exactly where the physics has its mask: floor(position - origin + 0.5).
 """
 
 from functools import lru_cache
@@ -57,7 +57,7 @@ BLINK = 8  # steps of one blink of a ghost
 
 
 class View:
-    """Renderer of the shooter, with its caches of pictures. One instance serves all scenes."""
+    """Renderer of the shooter, with its caches of pictures. All scenes share one instance."""
 
     def __init__(self):
         self.planes, self.effects = load_atlas("planes"), load_atlas("effects")
@@ -70,9 +70,10 @@ class View:
         self.wrecks = WreckView(self)
 
     def sprite(self, atlas, frame, angle=0.0, mask=None):
-        """Return (image, its origin [px]) of a picture at an angle [rad]. The image covers exactly the rotated mask.
+        """Return (image, origin [px]) of a picture at an angle [rad]. The image covers exactly the rotated mask.
 
-        frame: name of the picture; mask: name of the picture whose mask is the shape, None for `frame` itself.
+        frame: name of the picture; mask: name of the picture whose mask is the shape, None for `frame` itself; origin:
+        point of the image that is at the body's position.
         """
         mask = mask or frame
         if angle == 0.0:
@@ -83,7 +84,7 @@ class View:
         return self.turned[key].at(angle)
 
     def draw(self, scene, canvas, alpha):
-        """Draw the scene. alpha: position (0..1) between the last two steps."""
+        """Draw the scene on the canvas. alpha: position (0..1) between the last two steps."""
         self.surface, self.alpha = canvas.surface, alpha
         self.left, self.top = scene.camera.view(alpha)
         self.time = scene.spectacle.time
@@ -115,9 +116,9 @@ class View:
         banners.draw_banners(canvas, scene)
 
     def places(self, scene, ids):
-        """Return arrays of x, y [px] and angle [rad] of bodies. ids: their ids.
+        """Return (x, y, angle), three arrays [px, px, rad] of the poses of bodies. ids: their ids.
 
-        Positions are interpolated between the last two steps.
+        Positions are interpolated between the last two steps; angles are not.
         """
         rows, bodies = scene.world.rows(ids), scene.world.bodies
         x, y = bodies["x"][rows], bodies["y"][rows]
@@ -129,11 +130,14 @@ class View:
         )
 
     def at(self, x, y, origin):
-        """Return the top left corner (x, y) [canvas px] of a picture whose point `origin` is at (x, y) in the world."""
+        """Return the top left corner [canvas px] of a picture whose point `origin` is at the world point
+        (x, y) [px].
+        """
         return (int(np.floor(x - origin[0] + 0.5)) - self.left, int(np.floor(y - origin[1] + 0.5)) - self.top)
 
     def shadow(self, image, place, high=1.0):
-        """Return (picture, place on the canvas) of the shadow of a picture that is centred on the world point `place`.
+        """Return (picture, position [canvas px]) of the shadow of a picture that is centred on the world point
+        `place`.
 
         high: height above the ground, relative to that of the planes.
         """
@@ -142,14 +146,15 @@ class View:
         return dark, self.at(x, y, middle(dark))
 
     def add_light(self, image, x, y):
-        """Blit a picture additively, centred on the world point (x, y)."""
+        """Add a picture to the colours of the canvas, centred on the world point (x, y) [px]."""
         self.surface.blit(image, self.at(x, y, middle(image)), special_flags=pygame.BLEND_RGB_ADD)
 
     def _planes(self, scene):
-        """Return two lists: (picture, place) of enemies on the ground, and (picture, place, whiteness) of planes.
+        """Return two lists: (picture, position) of enemies on the ground, and (picture, position, whiteness) of
+        planes.
 
-        whiteness: strength of the white flash after a hit, 0 for none. The player's plane is the last of the second
-        list.
+        position: upper left corner [canvas px]; whiteness: strength of the white flash after a hit, 0 for none. The
+        player's plane is the last entry of the second list.
         """
         ground, air = [], []
         fleet, flashes = scene.fleet.planes, scene.spectacle.flashes
@@ -175,7 +180,7 @@ class View:
     def _frame(self, plane):
         """Return the name of the current picture of an enemy plane.
 
-        A dart has one picture for each mode; other kinds have an animation whose pictures share one mask.
+        A dart has one picture for each mode. Other kinds have an animation whose pictures share one mask.
         """
         if plane.kind == "dart":
             return plane.frame
@@ -229,7 +234,7 @@ class View:
     def _stamp(self, image, origin, x, y, flags=0):
         """Draw one picture at many world points. x, y: arrays [px].
 
-        origin: point of the picture that lies there; flags: pygame's blend flags.
+        origin: point of the picture that is at the world point; flags: pygame's blend flags.
         """
         across = (np.floor(x - origin[0] + 0.5).astype(np.int64) - self.left).tolist()
         down = (np.floor(y - origin[1] + 0.5).astype(np.int64) - self.top).tolist()
@@ -247,7 +252,8 @@ class View:
         blit_many(self.surface, pairs)
 
     def _draw_player_marks(self, scene):
-        """Draw the marks on the player's plane: muzzle flash, core, and the hull's outline if the hull is vulnerable.
+        """Draw the marks on the player's plane: muzzle flash, core, and the hull's outline if hits of the hull cost a
+        life.
 
         While the player flies slowly ("focus"), the core is opaque and the graze ring is visible.
         """
@@ -309,7 +315,7 @@ def middle(image):
 
 
 def shade(image):
-    """Return the shadow of a picture: its silhouette at 3/4 of the size, dark and transparent."""
+    """Return the shadow of a picture, a Surface: its silhouette at 3/4 of the size, dark and transparent."""
     silhouette = pygame.mask.from_surface(image).to_surface(setcolor=SHADOW, unsetcolor=(0, 0, 0, 0))
     width, height = image.get_size()
     return pygame.transform.scale(silhouette, (max(1, width * 3 // 4), max(1, height * 3 // 4)))
@@ -318,7 +324,7 @@ def shade(image):
 def ghostly(image):
     """Return a bright, transparent copy of a plane's picture.
 
-    A plane that cannot be hit blinks: its picture and this copy are drawn by turns.
+    A plane that cannot be hit blinks: its picture and this copy are drawn alternately.
     """
     copy = lit(image, 90)
     copy.fill((255, 255, 255, FAINT), special_flags=pygame.BLEND_RGBA_MULT)
@@ -326,9 +332,9 @@ def ghostly(image):
 
 
 def outline(image):
-    """Return a picture of the line of pixels around an image's solid pixels.
+    """Return a Surface with the line of pixels around an image's solid pixels.
 
-    The picture is one pixel larger than the image on each side.
+    It is one pixel larger than the image on each side.
     """
     width, height = image.get_size()
     mask = pygame.Mask((width + 2, height + 2))
@@ -340,13 +346,16 @@ def outline(image):
 
 
 def stretched(image, more):
-    """Return a picture that is stretched: `more` px wider and `more` px less high."""
+    """Return the picture stretched to be `more` px wider and `more` px less high."""
     width, height = image.get_size()
     return pygame.transform.scale(image, (width + more, height - more)) if more else image
 
 
 def tumbled(image, quarters, small):
-    """Return a picture of debris, rotated by `quarters` quarter turns. small: whether it is reduced to two thirds."""
+    """Return a picture of debris, rotated counterclockwise by `quarters` quarter turns.
+
+    small: whether it is reduced to two thirds.
+    """
     image = pygame.transform.rotate(image, 90 * quarters)
     if small:
         image = pygame.transform.scale(image, (image.get_width() * 2 // 3, image.get_height() * 2 // 3))

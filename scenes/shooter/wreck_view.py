@@ -1,4 +1,4 @@
-"""Pictures of the pieces of broken planes: cut out of the plane's picture, smaller as they fall, with shadows."""
+"""Pictures of the pieces of broken planes: cut out of the plane's picture, with shadows, and smaller as they fall."""
 
 import numpy as np
 import pygame
@@ -20,7 +20,7 @@ class WreckView:
         self.kept = {}  # (body id, hot) -> (mask, FragmentPicture)
 
     def draw(self, scene, shaded=False):
-        """Draw all pieces, the lowest first. shaded: draw their shadows on the ground in place of the pieces."""
+        """Draw all pieces of wreckage, the lowest first. shaded: True draws their shadows on the ground instead."""
         pieces = scene.wreckage.pieces
         if not pieces:
             return

@@ -1,7 +1,7 @@
 """Wreckage: a heavy plane that is shot down breaks along cracks, and its pieces fall.
 
-Each piece is a body made of its own pixels: it is drawn with these pixels, and collides by them at any angle. It starts
-with a part of the plane's velocity and a random rotation, and is slowed by the air, which moves with the ground. The
+Each piece is a body with its own pixels: it is drawn with these pixels, and collides by them at any angle. It starts
+with a part of the plane's velocity and a random rotation. The air, which moves with the ground, slows it down. The
 game is seen from above, so a falling piece shrinks instead of moving down. A piece damages small planes until it is
 well below them; it never hurts the player.
 """
@@ -34,7 +34,7 @@ HARMLESS = 0.55  # share of the planes' height below which pieces strike nothing
 class Due:
     """A plane that will break when the next step begins, so that its last hit can be inspected before.
 
-    identity: its body id; (x, y): place of the last hit [px]; blow: impulse of this hit.
+    identity: its body id; x, y: contact point of the last hit [px]; blow: Blow of this hit.
     """
 
     identity: int
@@ -45,10 +45,11 @@ class Due:
 
 @dataclass
 class Piece:
-    """A piece of a broken plane. mask: its pixels; frame: name of the picture from which it was cut.
+    """A piece of a broken plane.
 
-    left, top: place of `mask` in that picture [px]; life: steps until the piece reaches the ground; strikes: whether it
-    can still hit small planes.
+    mask: its pixels; frame: name of the picture from which it was cut; left, top: position of `mask` in that picture
+    [px]; life: number of steps from the break until the piece reaches the ground; age: steps since the break; strikes:
+    whether it can still hit small planes.
     """
 
     mask: PixelMask
@@ -61,15 +62,14 @@ class Piece:
 
     @property
     def high(self):
-        """Height above the ground: 1 at the planes' height, 0 on the ground.
-
-        It decreases slowly at first, then faster.
+        """Height above the ground: 1 at the planes' height, 0 on the ground. It decreases slowly at first, then
+        faster.
         """
         return 1.0 - (self.age / self.life) ** 2
 
 
 class Wreckage:
-    """All wreckage in the sky. pieces: {body id: Piece}; due: planes that break when the next step begins."""
+    """All wreckage in the game. pieces: {body id: Piece}; due: planes that break when the next step begins."""
 
     def __init__(self, world):
         self.world = world
@@ -79,7 +79,9 @@ class Wreckage:
         return len(self.pieces)
 
     def mark(self, plane, x, y, blow):
-        """Mark a plane to break when the next step begins. (x, y): place of the last hit [px]; blow: its impulse."""
+        """Mark a plane to break when the next step begins. x, y: contact point of its last hit [px]; blow: Blow of
+        this hit.
+        """
         self.due.append(Due(plane.id, x, y, blow))
 
     def is_marked(self, identity):
@@ -135,7 +137,7 @@ class Wreckage:
     def strikes(self, begun, fleet):
         """Yield (id of the piece, plane, contact point (x, y) [px]) for each hit of a piece on a small plane.
 
-        begun: the step's begin events, from which the hits are read.
+        begun: the step's begin events, which contain the hits; fleet: the Fleet of enemy planes.
         """
         columns = (begun[name].tolist() for name in ("body_a", "body_b", "point_x", "point_y"))
         for a, b, x, y in zip(*columns, strict=True):
@@ -145,7 +147,7 @@ class Wreckage:
                 yield piece, enemy, (x, y)
 
     def forget(self, ids):
-        """Drop the pieces with the given body ids."""
+        """Remove the pieces with the given body ids (an array) from the table."""
         for identity in ids.tolist():
             self.pieces.pop(identity, None)
 
@@ -162,8 +164,8 @@ class Wreckage:
 def cracks(mask, x, y, random):
     """Return a PixelMask of jagged cracks, along which a plane with the given mask breaks.
 
-    Two cracks cross at (x, y) [px], relative to the mask's origin; a wide mask gets further cracks. The result has the
-    size and origin of `mask`, so that it covers the same pixels at the same pose.
+    Two cracks cross at (x, y) [px], relative to the mask's origin. A wide mask gets additional cracks. The result has
+    the size and origin of `mask`, so that it covers the same pixels at the same pose.
     """
     height, width = mask.solid.shape
     solid = np.zeros((height, width), bool)
