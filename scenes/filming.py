@@ -36,7 +36,7 @@ MOST = 20000  # frames within which every moment of a game must occur
 
 @dataclass(frozen=True)
 class Shot:
-    """A picture to take: the frame number, or the Moment (event) of a run, and the part of the canvas to show.
+    """A picture to take: the frame number or the Moment (event) of a run, and the part of the canvas to show.
 
     The part is 160 x 90 px times `zoom`, with its top left corner at (left, top) [canvas px].
     """
@@ -49,7 +49,7 @@ class Shot:
 
     @property
     def part(self):
-        """The part of the canvas as (left, top, width, height) [px]."""
+        """The shown part of the canvas as (left, top, width, height) [px]."""
         return self.left, self.top, SIZE[0] * self.zoom, SIZE[1] * self.zoom
 
 
@@ -89,9 +89,9 @@ SHOTS = {
 
 @dataclass(frozen=True)
 class Clip:
-    """A part of the moving picture: the game of the bot, from a moment on, with overlays that come on one by one.
+    """A part of the moving picture: the bot's game from a moment on, with overlays that are switched on one by one.
 
-    parts: (number of steps, names of the overlays that are on) for each part.
+    parts: a tuple of (number of steps, names of the overlays that are on).
     """
 
     scene: str
@@ -122,7 +122,9 @@ QUALITY = 42  # of WebP, 0..100: the file stays below 3 MB
 
 
 class Film:
-    """A scene played by its bot. Each picture is the presented frame, an array (810, 1440, 3) uint8."""
+    """A scene played by its bot. Each picture is the frame as it is shown on a screen, an array (810,
+    1440, 3) uint8.
+    """
 
     def __init__(self, name, seed, layers=()):
         start_dummy_display()
@@ -135,7 +137,9 @@ class Film:
         self.overlays.note(self.scene)
 
     def run_to(self, moment):
-        """Step until `moment.after` steps after the moment. Raises ValueError, naming a moment that does not come."""
+        """Step until `moment.after` steps after the moment. Raises ValueError, which names the moment, if it does not
+        occur.
+        """
         while not moment.when(self.scene):
             if self.scene.frame >= MOST:
                 raise ValueError(
@@ -153,9 +157,9 @@ class Film:
 
 
 def film(name, seed, frames, layers=()):
-    """Run a scene with some overlays. Return {frame number: picture}.
+    """Run a scene, played by its bot, and return {frame number: picture} for the wanted frames.
 
-    frames: the wanted frame numbers; layers: names of the overlays.
+    seed: seed of the scene; frames: the wanted frame numbers; layers: names of the overlays that are on.
     """
     running, wanted, taken = Film(name, seed, layers), set(frames), {}
     for number in range(1, max(wanted) + 1):
@@ -166,7 +170,7 @@ def film(name, seed, frames, layers=()):
 
 
 def film_moments(name, seed, moments):
-    """Run a scene, and take a picture at each of the `moments` (see scenes/moments.py). Return the list of pictures.
+    """Run a scene, and return a list with a picture of each of the `moments` (see scenes/moments.py).
 
     The moments must occur in the given order. Raises ValueError, which names the first moment that does not occur.
     """
@@ -178,7 +182,7 @@ def film_moments(name, seed, moments):
 
 
 def reduced(pixels, part=(0, 0, *FRAME), zoom=1):
-    """Return a part of a presented picture, reduced to one pixel per `zoom` x `zoom` canvas pixels.
+    """Return a part of a frame's picture, reduced to one pixel per `zoom` x `zoom` canvas pixels.
 
     part: (left, top, width, height) [canvas px]. The averages use integers, so they are equal on every machine.
     """
@@ -188,7 +192,7 @@ def reduced(pixels, part=(0, 0, *FRAME), zoom=1):
 
 
 def averaged(pixels, share):
-    """Return a picture (height, width, 3) uint8 with one pixel, the mean, for each square of `share` px per side."""
+    """Return a reduced picture (height, width, 3) uint8: each pixel is the mean of a square of `share` px per side."""
     height, width = pixels.shape[:2]
     blocks = pixels.astype(np.int64).reshape(height // share, share, width // share, share, 3)
     return ((blocks.sum(axis=(1, 3)) + share * share // 2) // (share * share)).astype(np.uint8)
@@ -216,9 +220,9 @@ def write_pictures(folder):
 
 
 def write_moments(game, folder):
-    """Write the pictures of a game's moments (events, see scenes/moments.py) into a folder as 00.png, 01.png, ...
+    """Write pictures of a game's moments (events, see scenes/moments.py) into a folder as 00.png, 01.png, ...
 
-    Their captions are written as the list captions.json.
+    Also write their captions as a list into captions.json.
     """
     for number, picture in enumerate(film_moments(game, SEED, MOMENTS[game])):
         (folder / f"{number:02}.png").write_bytes(png.encode(reduced(picture)))
@@ -227,7 +231,7 @@ def write_moments(game, folder):
 
 
 def reel(name, seed, first, last, every, columns=8):
-    """Return a contact sheet of a run, from which frames can be chosen: small pictures in rows of `columns`.
+    """Return a contact sheet of a run, an array: small pictures in rows of `columns`, from which frames can be chosen.
 
     It shows every `every`-th frame from `first` to `last`.
     """

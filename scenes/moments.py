@@ -1,4 +1,4 @@
-"""Twelve moments of each game, found while its bot plays (filming.py) and shown in docs/moments.png.
+"""Twelve moments of each game, which filming.py finds while the bot plays, and which docs/moments.png shows.
 
 A moment is defined by an event in the game, not by a frame number, so that it is found again after the game has
 changed. Moments are searched for one after the other, in the order given here.
@@ -12,7 +12,7 @@ SEED = 1
 
 @dataclass(frozen=True)
 class Moment:
-    """An event in a game of which a picture is taken, `after` steps after when(scene) has become true."""
+    """An event in a game. A picture is taken `after` steps after when(scene) has become true."""
 
     caption: str
     when: Callable
@@ -20,7 +20,7 @@ class Moment:
 
 
 def flying(kind, least):
-    """Return a function of the scene: whether at least `least` planes of a kind are in the picture."""
+    """Return a function of the scene that returns whether at least `least` planes of a kind are in the picture."""
     return lambda scene: (
         sum(plane.kind == kind and 16 < plane.y < 200 and 20 < plane.x < 460 for plane in scene.fleet.planes.values())
         >= least
@@ -28,9 +28,10 @@ def flying(kind, least):
 
 
 def leader(frame, bullets=0):
-    """Return a function of the scene: whether a boss or mid-boss fights amid at least `bullets` enemy bullets.
+    """Return a function of the scene that returns whether a leader fights while there are `bullets` enemy bullets or
+    more.
 
-    frame: name of the picture of the boss or mid-boss.
+    frame: name of the picture of the leader (boss or mid-boss).
     """
     return lambda scene: (
         len(scene.incoming) >= bullets
@@ -39,16 +40,16 @@ def leader(frame, bullets=0):
 
 
 def falling(kind):
-    """Return a function of the scene: whether a mid-boss or boss of that kind is burning and falling."""
+    """Return a function of the scene that returns whether a mid-boss or boss of that kind is burning and falling."""
     return lambda scene: any(
         plane.leads and plane.kind == kind and plane.mode == "fall" for plane in scene.fleet.planes.values()
     )
 
 
 def over(ground, bullets, planes=0):
-    """Return a function of the scene: whether the stage is over that ground, with enough bullets and planes.
+    """Return a function of the scene that returns whether the stage has reached a ground and is crowded enough.
 
-    bullets, planes: their least numbers.
+    ground: name of the ground; bullets, planes: least numbers of enemy bullets and planes.
     """
     return lambda scene: (
         scene.director.ground == ground and len(scene.incoming) >= bullets and len(scene.fleet.planes) >= planes
@@ -56,32 +57,32 @@ def over(ground, bullets, planes=0):
 
 
 def bombed(frame):
-    """Return a function of the scene: whether a bomb was just dropped in a fight against a boss or mid-boss.
+    """Return a function of the scene that returns whether a bomb was just dropped in a fight against a leader.
 
-    frame: see leader().
+    frame: name of the picture of the leader (boss or mid-boss).
     """
     fights = leader(frame)
     return lambda scene: scene.bomb.body is not None and scene.bomb.age < 3 and fights(scene)
 
 
 def done(feat, times=1):
-    """Return a function of the scene: whether the hero has done the feat (see Feats) at least `times` times.
+    """Return a function of the scene that returns whether the hero has done a feat at least `times` times.
 
-    feat: its name.
+    feat: name of the feat, as in Feats.
     """
     return lambda scene: scene.feats.done[feat] >= times
 
 
 def flown(act, number):
-    """Return a function of the scene: whether the lander's bot is in act `act` and has come far enough.
+    """Return a function of the scene that returns whether the lander's bot has come far enough in act `act`.
 
-    That is when it heads for waypoint `number` or a later one.
+    That is when it flies to waypoint `number` or a later one.
     """
     return lambda scene: scene.pilot.act == act and scene.pilot.number >= number
 
 
 def landing(name, high):
-    """Return a function of the scene: whether the lander comes down to site `name` and is nearly there.
+    """Return a function of the scene that returns whether the lander is just above the site `name`.
 
     high: greatest height above the site [px], approximately.
     """
@@ -93,7 +94,9 @@ def landing(name, high):
 
 
 def landed(count, mode):
-    """Return a function of the scene: whether `count` landings have been made, and the course is in mode `mode`."""
+    """Return a function of the scene that returns whether `count` landings have been made and the course
+    is in `mode`.
+    """
     return lambda scene: scene.score.landings == count and scene.course.mode == mode
 
 

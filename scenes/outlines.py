@@ -26,7 +26,7 @@ SHEETS = ("planes", "hero", "things", "lab", "lander")
 
 
 def fit_all() -> dict[bytes, kept.Parts]:
-    """Fit the outlines of all masks of the scenes and sheets anew. Return {mask key: outline parts}."""
+    """Fit the outlines of all masks of the scenes and sheets again. Return {mask key: outline parts}."""
     start_dummy_display()
     kept.forget()
     kept.recorded = {}

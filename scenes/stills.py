@@ -3,7 +3,7 @@
 python -m scenes.stills docs/pictures            all of them; needs a minute for each that shows measured times
 python -m scenes.stills docs/pictures masks      the named ones
 
-A bot plays each scene up to its moment. Then the scene stands still until everything that the screen shows is measured.
+A bot plays each scene up to its moment. Then the scene is paused until everything that the screen shows is measured.
 """
 
 import argparse
@@ -34,7 +34,7 @@ SETTINGS = re.compile(r"(\d+) of (\d+) settings measured")
 class Still:
     """A picture to take: the scene, the frame number or the Moment (event) of its run, and the overlays that are on.
 
-    costs: with the plot of accuracy and cost, which M opens; measured: wait for the numbers that are missing.
+    costs: whether to show the plot of accuracy and cost (key M); measured: whether to wait for all measurements.
     """
 
     scene: str
@@ -59,7 +59,7 @@ STILLS = {
 
 
 def played(still: Still) -> Play:
-    """Return the screen on which the bot has played the scene of a still up to its moment."""
+    """Return the Play screen of a still, on which the bot has played the scene up to the still's moment."""
     start_dummy_display()
     scene = Registry(SCENES).scene_class(still.scene)(SEED)
     play = Play(scene, DeviceSource(), Sounds(silent=True), bot=True, overlays=still.layers)
@@ -93,7 +93,7 @@ def take(still: Still, file: Path) -> None:
 
 
 def missing(text: str) -> bool:
-    """Return whether a text is shown in place of a number that is not measured yet, or counts those that are."""
+    """Return whether a text replaces a number that is not measured yet, or says that some settings are not measured."""
     counted = SETTINGS.search(text)
     return text == DASH or MEASURING in text or (counted is not None and counted[1] != counted[2])
 
