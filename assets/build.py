@@ -39,10 +39,10 @@ PRODUCTS = {
 
 
 def make(name):
-    """Return the files of one product without writing them, by path relative to assets/.
+    """Return the files of one product without writing them, {path relative to assets/: content}.
 
-    A value is the bytes of the file, or a Recording that is to be encoded. Raises KeyError, which names the valid
-    products, for an unknown name.
+    A content is the bytes of the file, or a Recording that is still to be encoded. Raises KeyError, which names the
+    valid products, for an unknown name.
     """
     if name not in PRODUCTS:
         raise KeyError(f"no product {name!r}; choose one of {', '.join(PRODUCTS)}")
@@ -51,10 +51,11 @@ def make(name):
 
 
 def differences(name):
-    """Return the paths of one product that are missing from the folder or differ from the script's result.
+    """Return the paths of one product's files that are missing from the folder or differ from the script's result.
 
-    A PNG is compared by header and inflated rows, because another build of zlib packs the same picture differently. A
-    tune is compared by the hash of its samples, stored beside it, and by decoding the file (craft/ogg.py).
+    A PNG is compared by header and inflated rows, because another build of zlib compresses the same picture
+    differently. A tune is compared by the hash of its samples, stored beside it, and by decoding the file
+    (craft/ogg.py).
     """
     wrong = []
     for path, made in make(name).items():
@@ -78,9 +79,9 @@ def _same(path, kept, made):
 
 
 def write(name):
-    """Write one product's files. Return their relative paths.
+    """Write one product's files. Return a list of their paths relative to assets/.
 
-    An existing recording of the same samples is kept: encoding the same samples again gives other bytes.
+    An existing recording of the same samples is kept, because encoding the same samples again gives other bytes.
     """
     files = make(name)
     for path, content in files.items():

@@ -52,7 +52,7 @@ class Chord(NamedTuple):
 
     @property
     def classes(self):
-        """The pitch classes of the chord, including its bass note."""
+        """The pitch classes of the chord, including its bass note, a frozenset."""
         return frozenset((self.root + tone) % 12 for tone in self.tones) | {self.bass}
 
     def moved(self, semitones):
@@ -61,7 +61,7 @@ class Chord(NamedTuple):
 
 
 def pitch(name):
-    """Return the MIDI number of a note such as F#4. Raises ValueError for any other text."""
+    """Return the MIDI number of a note such as "F#4". Raises ValueError for any other text."""
     match = re.fullmatch(r"([A-G])([#b]?)([0-8])", name)
     if not match:
         raise ValueError(f"no note {name!r}; notes are a letter A..G, # or b if wanted, and an octave, such as F#4")
@@ -70,7 +70,7 @@ def pitch(name):
 
 
 def chord(name):
-    """Return the Chord of a symbol such as F#m7 or C/E. Raises ValueError for any other text."""
+    """Return the Chord of a symbol such as "F#m7" or "C/E". Raises ValueError for any other text."""
     match = re.fullmatch(r"([A-G])([#b]?)([a-z0-9]*)(?:/([A-G])([#b]?))?", name)
     if not match or match.group(3) not in QUALITIES:
         raise ValueError(
@@ -82,7 +82,7 @@ def chord(name):
 
 
 def scale(text):
-    """Return the pitch classes of a key such as "D mixolydian". Raises ValueError for any other text."""
+    """Return the pitch classes of a key such as "D mixolydian", a frozenset. Raises ValueError for any other text."""
     match = re.fullmatch(r"([A-G])([#b]?) (\w+)", text)
     if not match or match.group(3) not in SCALES:
         raise ValueError(f"no key {text!r}; a key is a root and one of {', '.join(SCALES)}")
@@ -93,7 +93,7 @@ def scale(text):
 def degree_pitch(at, degree, floor):
     """Return the MIDI pitch of a degree (1, 3, 5 ...) of the chord `at`, counted upward from the chord's bass note.
 
-    The bass note is the first one at or above the MIDI pitch `floor`. Raises ValueError if the chord has no such
+    The bass note is the lowest one at or above the MIDI pitch `floor`. Raises ValueError if the chord has no such
     degree.
     """
     bass = floor + (at.bass - floor) % 12
@@ -108,15 +108,15 @@ def degree_pitch(at, degree, floor):
 def tone_pitch(at, index, floor):
     """Return the MIDI pitch of the chord tone with number `index`, counted upward from the MIDI pitch `floor`.
 
-    at: the chord. The count begins at the same pitch for all chords, so each tone moves only a short way when the chord
-    changes.
+    at: the chord. The count starts at the same pitch for all chords, so each tone moves only a small interval when the
+    chord changes.
     """
     ladder = sorted(floor + (tone - floor) % 12 for tone in {(at.root + tone) % 12 for tone in at.tones})
     return ladder[index % len(ladder)] + 12 * (index // len(ladder))
 
 
 def scale_over(key, at):
-    """Return the pitch classes of `key` adapted to the chord `at`.
+    """Return the pitch classes of `key` adapted to the chord `at`, a frozenset.
 
     Chord tones that are not in the key replace the key's pitch classes a semitone away.
     """

@@ -4,9 +4,9 @@ from assets.craft.synth import envelope, low_pass, mixed, soft_clip, voice
 
 
 def thrust():
-    """Return the sound of the engine, which swells and fades. The game repeats it every eighth of a second.
+    """Return the sound of the engine, which swells and fades.
 
-    So the repetitions join to one sound.
+    The game repeats it every eighth of a second, so that the repetitions form one continuous sound.
     """
     roar = low_pass(voice("noise", 26, 22, envelope(0.07, 0.06, 0.12), seed=91), 900, 620)
     hiss = low_pass(voice("noise", 160, 140, envelope(0.06, 0.05, 0.11), seed=92), 3_200, 2_400)
@@ -50,7 +50,7 @@ def low_fuel():
 
 
 def hook():
-    """Return the sound of a line that runs out, and of a claw that closes."""
+    """Return the sound of the lander's line: a line that runs out, then a claw that closes."""
     whirr = low_pass(voice("noise", 120, 260, envelope(0.01, 0.05, 0.05), seed=103), 4_000, 2_500)
     click = voice("triangle", 900, 620, envelope(0, 0.004, 0.05))
     return mixed((0, 0.5, whirr), (0.09, 1.0, click), (0.12, 0.5, click))

@@ -1,10 +1,10 @@
 """Render the tunes of assets/tunes to assets/music/<name>.ogg: stereo, 22,050 Hz, looping without a seam.
 
-All sound is added to a ring, a buffer of the tune's length: sound past its end continues at its start, and so do
-filters and echoes. The gain of a tune follows from its loudness, so that all tunes are equally loud.
+All sound is added to a ring buffer of the tune's length: sound past its end continues at its start, and so do filters
+and echoes. The gain of a tune is computed from its loudness, so that all tunes are equally loud.
 
-Bass, kick and snare are in the middle, the other voices at their `pan` and `spread`. Echoes alternate between both
-sides. The gains of the left and the right side always have the same sum, so a mono mix does not depend on a voice's
+Bass, kick and snare are in the middle, the other voices at their `pan` and `spread`. Echoes alternate between the left
+and the right side. The gains of both sides always have the same sum, so a mono mix does not depend on a voice's
 position.
 """
 
@@ -36,7 +36,7 @@ PRODUCTS = {f"music/{name}": (__name__, "music_files", (name,)) for name in (*TU
 
 
 def tune_of(name):
-    """Return the Tune of that name, read from assets/tunes."""
+    """Return the Tune called `name`, read from assets/tunes."""
     return read_tune(FOLDER / "tunes" / f"{name}.txt")
 
 
@@ -56,7 +56,7 @@ def render(tune):
 
 
 def _sing(tune, notes, voice):
-    """Add the notes of a pulse or triangle voice to the ring buffer of its samples, `voice` (2, length)."""
+    """Add the notes of a pulse or triangle voice to the voice's ring buffer `voice`, samples (2, length)."""
     made, before = {}, None
     for note in notes:
         instrument = note.instrument
@@ -74,9 +74,9 @@ def _sing(tune, notes, voice):
 
 
 def _drums(tune, notes, voice):
-    """Add the strokes of a tune's drums to the ring buffer of their samples, `voice` (2, length).
+    """Add the strokes of a tune's drums to the ring buffer `voice`, samples (2, length).
 
-    Each drum has TAKES variants, which are used in turn.
+    Each drum has TAKES variants, which are used in rotation.
     """
     takes, struck = {}, {}
     for note in notes:
@@ -89,20 +89,23 @@ def _drums(tune, notes, voice):
 
 
 def _gain(note):
-    """Return the factor on a note's samples, from its volume and its position in the beat. note: see tune.Note."""
+    """Return the factor on a Note's samples, from its volume and its position in the beat."""
     return note.volume * STRESS[note.start % STEPS_PER_BEAT]
 
 
 def _sides(place):
-    """Return the gains of the left and the right side, (2, 1). place: position, -1 left .. 1 right."""
+    """Return the gains of the left and the right side, an array (2, 1). place: position, from -1 (left) to
+    1 (right).
+    """
     place = max(-1.0, min(1.0, place))
     return np.array([[1 - place], [1 + place]])
 
 
 def _add(ring, start, samples, gain, place):
-    """Add mono samples to a ring (2, length) from index `start` on. Samples past its end continue at its start.
+    """Add mono samples to a ring buffer (2, length) from index `start` on.
 
-    gain: factor on the samples; place: position, -1 left .. 1 right.
+    Samples past its end continue at its start. gain: factor on the samples; place: position, from -1 (left) to 1
+    (right).
     """
     length, gains = ring.shape[1], gain * _sides(place)
     start %= length
@@ -113,10 +116,10 @@ def _add(ring, start, samples, gain, place):
 
 
 def _echo(tune, voice, instrument):
-    """Add the echoes of a voice to the ring buffer of its samples, `voice` (2, length).
+    """Add the echoes of a voice to the voice's ring buffer `voice`, samples (2, length).
 
     Each echo is duller than the voice and softer than the echo before. The echoes alternate between the sides, and the
-    first is opposite to the voice.
+    first one is on the side opposite to the voice.
     """
     shift = round(instrument.delay * (60.0 / STEPS_PER_BEAT) / tune.tempo * FINE)
     dull, gain, number = low_pass(voice.mean(axis=0), ECHO_CORNER, around=True), instrument.echo, 1
@@ -145,7 +148,7 @@ def _mastered(samples, loop):
 
 
 def _level(samples):
-    """Return the root mean square of samples (2, n), measured without rests.
+    """Return the root mean square of samples (2, n), without the parts that are nearly silent.
 
     The sum is over integers, so that the order of summing has no effect.
     """
@@ -158,9 +161,10 @@ def _level(samples):
 
 
 def music_files(name):
-    """Return {relative path: bytes or Recording} of one tune: its Recording, and a file with the hash of its samples.
+    """Return the two files of one tune, {path relative to assets/: content}.
 
-    Raises ValueError if a note does not fit its chord.
+    They are its Recording, and a JSON file with the hash of its samples. Raises ValueError if a note does not fit its
+    chord.
     """
     tune = tune_of(name)
     wrong = complaints(tune)

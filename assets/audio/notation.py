@@ -42,7 +42,7 @@ DRUM_TOKEN = re.compile(rf"(?P<what>[{DRUMS}]+)(?P<marks>[!?]*)")
 
 
 class TuneError(ValueError):
-    """A tune that cannot be read. It has the file, the line and the reason."""
+    """A tune that cannot be read. The error has the file, the line number and the reason."""
 
     def __init__(self, path, line, reason):
         super().__init__(f"{path}: line {line}: {reason}")
@@ -51,7 +51,7 @@ class TuneError(ValueError):
 
 @dataclass
 class Section:
-    """One section of a tune: the contents of its lines, with their line numbers."""
+    """One section of a tune: the contents of its lines in the file, with their line numbers."""
 
     line: int
     chords: list = field(default_factory=list)  # a list of Chord per bar
@@ -60,12 +60,12 @@ class Section:
 
 
 def read_tune(path):
-    """Return the Tune in a file."""
+    """Return the Tune in a file. Raises TuneError for a mistake."""
     return parse_tune(path.read_text(encoding="utf-8"), path.name)
 
 
 def parse_tune(text, source="tune"):
-    """Return the Tune in a text; `source` names the file in errors."""
+    """Return the Tune in a text. Raises TuneError for a mistake. source: name of the file in errors."""
     return _Reader(source).read(text)
 
 
@@ -217,7 +217,7 @@ class _Reader:
         self.section.changes.setdefault(name, {}).update(changes)
 
     def _bars(self, text):
-        """Return the bars of a line as [(text of one bar, line number)], with phrases and repeats expanded."""
+        """Return the bars of a line, a list of (text of one bar, line number), with phrases and repeats expanded."""
         bars = []
         for bar in _split(text):
             repeated = re.search(r"\s\*(\d+)$", bar)
@@ -246,7 +246,8 @@ class _Reader:
     def _append(self, name, move, mutes, line):
         """Append the section `name` to the tune.
 
-        move: transposition in semitones; mutes: voices to leave out; line: number of the line, for errors.
+        move: transposition in semitones; mutes: names of the voices to leave out; line: number of the line, for
+        errors.
         """
         section, tune = self.sections[name], self.tune
         bar_steps = tune.beats * STEPS_PER_BEAT
@@ -268,7 +269,8 @@ class _Reader:
                 tune.notes[voice] += self._notes(voice, bars, instrument, first, move)
 
     def _notes(self, voice, bars, instrument, first, move):
-        """Return the notes of one voice in one section. Degrees and chord tones are replaced by pitches.
+        """Return the notes of one voice in one section, a list of Note. Degrees and chord tones are replaced by
+        pitches.
 
         bars: [(text of a bar, line number)]; instrument: the voice's instrument in this section; first: step at which
         the section begins; move: transposition in semitones.
@@ -315,5 +317,7 @@ class _Reader:
 
 
 def _split(text):
-    """Return the texts of a line's bars, which are separated by |. A | at its start or end is ignored."""
+    """Return a list of the texts of a line's bars, which are separated by |. A | at the line's start or end is
+    ignored.
+    """
     return [bar.strip() for bar in text.strip().strip("|").split("|") if bar.strip()]

@@ -1,6 +1,7 @@
-"""The sound effects. Each is a function that returns its samples; they are written to assets/sounds/<name>.wav.
+"""The sound effects. Each is a function that returns its samples, which are written to assets/sounds/<name>.wav.
 
-They are short and share a style: pulse waves for the player and rewards, noise for damage, sine and saw for enemies.
+The sounds are short and share a style: pulse waves for the player and rewards, noise for damage, sine and saw for
+enemies.
 """
 
 from assets.audio import breaking_sounds, lander_sounds
@@ -253,5 +254,5 @@ PRODUCTS = {f"sounds/{name}": (__name__, "sound_files", (name,)) for name in SOU
 
 
 def sound_files(name):
-    """Return {relative path: bytes} of one sound. name: name of its function."""
+    """Return {path relative to assets/: bytes} of one sound. name: name of the function that returns its samples."""
     return {f"sounds/{name}.wav": to_wav(finish(SOUNDS[name]()))}

@@ -46,10 +46,10 @@ RANGES: dict[str, tuple[float, float]] = {
 
 @dataclass(frozen=True)
 class Note:
-    """One note, from step `start` on for `steps` steps.
+    """One note, which starts at step `start` and lasts `steps` steps.
 
-    pitches: its MIDI pitches, of which several make a rapid arpeggio; drums: letters of the drums in its place; marks:
-    see notation.py; line: line number in the file.
+    pitches: its MIDI pitches, of which several make a rapid arpeggio; drums: letters of its drums, if it is a stroke
+    on drums; marks: see notation.py; line: line number in the file.
     """
 
     start: int
@@ -67,10 +67,10 @@ class Note:
 
     @property
     def place(self):
-        """Position in the stereo field, -1 left .. 1 right.
+        """Position in the stereo field, from -1 (left) to 1 (right).
 
-        The pitch an octave above the instrument's `floor` is at its `pan`; higher pitches are farther right, lower ones
-        farther left, by its `spread`.
+        The pitch an octave above the instrument's `floor` is at its `pan`. Higher pitches are farther right and lower
+        ones farther left, in proportion to its `spread`.
         """
         octaves = (self.pitches[0] - self.instrument.floor) / 12 - 1
         return self.instrument.pan + self.instrument.spread * max(-1.0, min(1.0, octaves))
@@ -78,7 +78,10 @@ class Note:
 
 @dataclass
 class Tune:
-    """A whole tune, step by step. parts: [(name of the section, first step, number of steps)], in order."""
+    """A whole tune, step by step.
+
+    parts: list of (name of the section, first step, number of steps), in order.
+    """
 
     name: str = ""
     tempo: float = 0.0

@@ -1,7 +1,8 @@
-"""The instruments of the tunes, at four times the rate of the file: pulses, triangles and drums.
+"""The instruments of the tunes, at four times the sample rate of the file: pulses, triangles and drums.
 
 Edges are averaged over one sample, and the sum is filtered before every fourth sample is kept. Both prevent aliasing.
-Only elementwise arithmetic and rounded tables are used, as in synth.py: the bytes are the same on every machine.
+Only elementwise arithmetic and rounded tables are used, as in synth.py, so that the bytes are the same on every
+machine.
 """
 
 import math
@@ -29,7 +30,7 @@ def hertz(midi):
 
 
 def falling(seconds, constant):
-    """Return exp(-seconds / constant) from a table, for an array of times; 0 beyond the table."""
+    """Return exp(-seconds / constant) from a table, for an array of times; 0 beyond the end of the table."""
     place = np.minimum(seconds * (FALL_STEPS / FALL_REACH / constant), FALL_STEPS - 1)
     left = place.astype(np.int64)
     return (FALL[left] + (FALL[left + 1] - FALL[left]) * (place - left)) * (place < FALL_STEPS - 1)
@@ -80,7 +81,7 @@ def _oscillate(wave, phase, time):
 def low_pass(samples, corner, rate=FINE, around=False):
     """Return samples after a one-pole low-pass filter along the last axis, exact to a millionth.
 
-    corner [Hz]: corner frequency; rate: samples per second; around: whether the samples are a loop, whose end precedes
+    corner: corner frequency [Hz]; rate: samples per second; around: whether the samples are a loop, whose end precedes
     its start. The filter is computed in a few whole-array steps: (1 + az)(1 + a^2 z^2)(1 + a^4 z^4) ...
     """
     share = round(math.exp(-2 * math.pi * corner / rate), 9)
@@ -97,7 +98,9 @@ def low_pass(samples, corner, rate=FINE, around=False):
 
 
 def decimated(samples):
-    """Return every fourth sample of a loop, after a filter that removes frequencies above the lower rate's limit."""
+    """Return every fourth sample of a loop, after a filter that removes frequencies too high for the lower sample
+    rate.
+    """
     half = TAPS // 2
     taps = []
     for i in range(-half, half + 1):
@@ -113,7 +116,7 @@ def decimated(samples):
 
 
 def drum(name, seed=0):
-    """Return the samples of a drum at the rate FINE. Each seed gives another stroke.
+    """Return the samples of one stroke on a drum at the rate FINE. Each seed gives a slightly different stroke.
 
     name: k, s, h, o, t or c for kick, snare, hat, open hat, tom or crash.
     """
@@ -125,9 +128,9 @@ def _time(seconds):
 
 
 def _noise(seed, time, rate):
-    """Return random levels at the times `time` [s].
+    """Return random levels (-1..1) at the times `time` [s].
 
-    Each level is held for 1 / rate [s], which sets the noise's pitch. seed: seed of the random numbers.
+    Each level is held for 1 / rate [s], which determines the pitch of the noise. seed: seed of the random numbers.
     """
     place = (time * rate).astype(np.int64)
     return np.random.default_rng(seed).random(int(place[-1]) + 1)[place] * 2 - 1
@@ -143,7 +146,7 @@ def _faded(samples):
 def _drop(time, start, end, constant):
     """Return a sine at the times `time` [s] whose frequency falls exponentially from `start` to `end` [Hz].
 
-    constant [s]: time constant of the fall.
+    constant: time constant of the fall [s].
     """
     return sine(np.cumsum(end + (start - end) * falling(time, constant)) / FINE)
 

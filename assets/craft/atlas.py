@@ -1,4 +1,4 @@
-"""Sprite sheets: many frames in one picture, and a JSON file that says where each frame is.
+"""Sprite sheets: many frames in one picture, and a JSON file with the position of each frame.
 
 The JSON: {"frames": {name: {"x", "y", "w", "h"}}, "animations": {name: {"frames": [names], "fps": n}}}, in pixels.
 """
@@ -23,7 +23,7 @@ class Sheet:
         self.animations = {}  # name -> {"frames": [...], "fps": n}
 
     def add(self, name, pixels):
-        """Add one frame. pixels: (h, w, 4) uint8. Raises ValueError for a used name."""
+        """Add one frame. pixels: (h, w, 4) uint8. Raises ValueError if the name is already used."""
         if name in self.frames:
             raise ValueError(f"sheet {self.name!r} already has a frame {name!r}")
         self.frames[name] = pixels
@@ -49,7 +49,7 @@ class Sheet:
         self.animate(name, names, fps)
 
     def files(self):
-        """Return {relative path: bytes} of the picture and its JSON."""
+        """Return {path relative to assets/: bytes} of the sheet's picture and of its JSON file."""
         places, size = _shelves(self.frames, self.gap)
         picture = np.zeros((size[1], size[0], 4), np.uint8)
         for name, (x, y) in places.items():
@@ -68,8 +68,8 @@ class Sheet:
 def _shelves(frames, gap):
     """Pack the frames of a sprite sheet in rows (shelves) from left to right, tallest first.
 
-    Return ({name: (x, y)}, (width, height)) [px]: the place of each frame, and the size of the sheet. frames: {name:
-    pixels}; gap [px]: clear pixels between frames.
+    Return ({name: (x, y)}, (width, height)) [px]: the position of each frame, and the size of the sheet. frames:
+    {name: pixels}; gap: clear pixels between frames.
     """
     width = max([WIDTH] + [frame.shape[1] + 2 * gap for frame in frames.values()])
     order = sorted(frames, key=lambda name: -frames[name].shape[0])  # stable: equal heights keep their order
@@ -85,7 +85,9 @@ def _shelves(frames, gap):
 
 
 def to_json(table):
-    """Return a dict as JSON bytes, with one entry per line at depth two: small, and with readable diffs."""
+    """Return a dict as JSON bytes, with one entry per line at depth two, so that the file is small and its diffs
+    readable.
+    """
     lines = []
     for key, value in table.items():
         if isinstance(value, dict) and value:

@@ -4,10 +4,11 @@ import numpy as np
 
 
 def read_parts(text, letters, source):
-    """Return {name: (h, w, 4) uint8} of every part of a drawing. letters: {letter: (r, g, b)}; "." is clear.
+    """Return {name: picture} of every part of a drawing; a picture is an array (h, w, 4) uint8.
 
-    Raises ValueError for an unknown letter, an uneven row, a name used twice or a part without rows. The message
-    contains `source`, the name of the drawing, the part and the row.
+    letters: {letter: (r, g, b)}; "." is clear. Raises ValueError for an unknown letter, an uneven row, a name used
+    twice or a part without rows. The message contains `source`, which is the name of the drawing, the part and the
+    row.
     """
     parts, rows, name = {}, [], None
     for line in text.splitlines() + ["= "]:
@@ -45,9 +46,9 @@ def _picture(rows, letters, where):
 
 
 def lay(target, picture, x, y):
-    """Copy the solid pixels of a picture onto another, both (h, w, 4) uint8.
+    """Copy the solid pixels of a picture onto another one. Both are (h, w, 4) uint8.
 
-    x, y: place of the picture's top left corner in `target`. Pixels outside the target are left out.
+    x, y: position of the picture's top left corner in `target`. Pixels outside the target are left out.
     """
     left, top = max(0, x), max(0, y)
     right, bottom = min(target.shape[1], x + picture.shape[1]), min(target.shape[0], y + picture.shape[0])

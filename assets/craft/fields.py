@@ -1,8 +1,8 @@
 """Signed distance fields of simple shapes, and noise for the texture of surfaces.
 
 A field is an array (h, w) with the distance [px] of each pixel's centre from the edge of a shape; it is negative
-inside. The functions take x, y: the pixel centres (see grid). Only +, -, *, / and sqrt are used, which round the same
-on every machine, so a picture is reproduced to the bit.
+inside. The arguments x, y of the functions are the positions of the pixel centres (see grid). Only +, -, *, / and sqrt
+are used, which round the same on every machine, so a picture is reproduced exactly.
 """
 
 import numpy as np
@@ -11,18 +11,20 @@ BAYER = np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]])
 
 
 def grid(width, height):
-    """Return (x, y) of all pixel centres, (height, width) each."""
+    """Return (x, y), the positions of all pixel centres [px], two arrays (height, width)."""
     y, x = np.mgrid[0:height, 0:width]
     return x + 0.5, y + 0.5
 
 
 def length(x, y):
-    """Return the Euclidean length of (x, y). It is rounded equally everywhere; hypot differs between C libraries."""
+    """Return the Euclidean length of (x, y). It is the same on every machine, unlike hypot, which depends on the C
+    library.
+    """
     return np.sqrt(x * x + y * y)
 
 
 def dither(height, width):
-    """Return the Bayer matrix for ordered dithering, repeated to (height, width), with values centred on 0."""
+    """Return the Bayer matrix for ordered dithering, repeated to an array (height, width), with values centred on 0."""
     return np.tile(BAYER, (height // 4 + 1, width // 4 + 1))[:height, :width] - 15 / 32
 
 
@@ -40,7 +42,10 @@ def ellipse(x, y, center_x, center_y, radius_x, radius_y):
 
 
 def capsule(x, y, start, end, start_radius, end_radius=None):
-    """Return the distance field of a thick line from start to end. Its radius changes along the line."""
+    """Return the distance field of a thick line from `start` (x, y) to `end` (x, y).
+
+    Its radius changes from start_radius to end_radius along the line. end_radius: None for a constant radius.
+    """
     end_radius = start_radius if end_radius is None else end_radius
     along_x, along_y = end[0] - start[0], end[1] - start[1]
     t = np.clip(((x - start[0]) * along_x + (y - start[1]) * along_y) / (along_x**2 + along_y**2), 0, 1)
@@ -56,7 +61,10 @@ def box(x, y, left, top, right, bottom, corner=0.0):
 
 
 def polygon(x, y, points):
-    """Return the distance field of a simple polygon with the corners `points`. The crossing rule decides the sign."""
+    """Return the distance field of a simple polygon with the corners `points`, a list of (x, y).
+
+    The crossing rule decides which pixels are inside.
+    """
     nearest = np.full(x.shape, 1e9)
     inside = np.zeros(x.shape, bool)
     for i, (ax, ay) in enumerate(points):
@@ -71,7 +79,7 @@ def polygon(x, y, points):
 
 
 def noise(width, height, cells_x, cells_y, seed):
-    """Return smooth value noise 0..1, (height, width), seamless in x and y.
+    """Return smooth value noise 0..1, an array (height, width), seamless in x and y.
 
     cells_x, cells_y: number of random values along x and y, between which the noise is interpolated; seed: seed of the
     random numbers.
@@ -90,10 +98,10 @@ def noise(width, height, cells_x, cells_y, seed):
 
 
 def layered_noise(width, height, cells_x, cells_y, octaves, seed, gain=0.5):
-    """Return a sum of several layers (octaves) of seamless noise, scaled to 0..1.
+    """Return a sum of several layers (octaves) of seamless noise, scaled to 0..1, an array (height, width).
 
-    The first has cells_x x cells_y cells. Each further octave is twice as fine and `gain` times as strong as the one
-    before. seed: seed of the random numbers.
+    The first layer has cells_x x cells_y cells. Each further layer is twice as fine and `gain` times as strong as the
+    layer before. seed: seed of the random numbers.
     """
     total, weight, strength = np.zeros((height, width)), 0.0, 1.0
     for octave in range(octaves):

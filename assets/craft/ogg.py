@@ -2,7 +2,7 @@
 
 The encoder is part of soundfile, which the extra "assets" installs; the game reads such files without it. Vorbis is
 lossy, and no two encodings have the same bytes. A file is up to date if it decodes to the same number of frames and
-differs from the samples by no more than LOSS.
+its difference from the samples is at most LOSS.
 """
 
 import io
@@ -33,7 +33,7 @@ def _needed():
 
 
 def encode(samples, rate):
-    """Return the bytes of an Ogg file with the given samples, (frames, channels) int16.
+    """Return the bytes of an Ogg file with the given samples, an array (frames, channels) int16.
 
     rate: samples per second. Raises RuntimeError if soundfile is not installed.
     """
@@ -47,7 +47,7 @@ def encode(samples, rate):
 
 
 def decode(ogg):
-    """Return (samples, rate) of an Ogg file; the samples are (frames, channels) int16.
+    """Return (samples, rate) of an Ogg file given as bytes; the samples are (frames, channels) int16.
 
     Raises ValueError for a damaged file, RuntimeError if soundfile is not installed.
     """
@@ -58,7 +58,7 @@ def decode(ogg):
 
 
 def frame_count(ogg):
-    """Return the number of frames of an Ogg file, read from its last page.
+    """Return the number of frames of an Ogg file given as bytes, read from its last page.
 
     Raises ValueError if the bytes are not whole Ogg pages.
     """
@@ -75,7 +75,10 @@ def frame_count(ogg):
 
 
 def loss(kept, samples):
-    """Return the root mean square of `kept` - `samples`, divided by that of `samples`. Both are int16 of one shape."""
+    """Return the root mean square of `kept` - `samples`, divided by the root mean square of `samples`.
+
+    Both are int16 arrays of the same shape.
+    """
     power = float(np.mean(np.square(samples.astype(np.float64))))
     lost = float(np.mean(np.square(kept.astype(np.float64) - samples)))
     return (lost / power) ** 0.5
@@ -93,9 +96,9 @@ class Recording:
         return encode(self.samples, self.rate)
 
     def is_kept_in(self, ogg):
-        """Return whether an Ogg file contains these samples.
+        """Return whether an Ogg file, given as bytes, contains these samples.
 
-        It is decoded if soundfile is installed; otherwise only its length is compared.
+        The file is decoded if soundfile is installed; otherwise only its length is compared.
         """
         try:
             if frame_count(ogg) != len(self.samples):

@@ -1,7 +1,7 @@
 """The palette: ramps of six colours from shadow to light, made in OKLCH with the hue shifted along the ramp.
 
-Shadows lean to violet and lights to warm yellow, so that neighbouring ramps match. A ramp is an array (6, 3) of uint8;
-index 0 is the darkest. The outline is a dark violet, never pure black.
+Shadows tend to violet and lights to warm yellow, so that the colours of different ramps match. A ramp is an array (6,
+3) of uint8; index 0 is the darkest. The outline is a dark violet, never pure black.
 """
 
 import math
@@ -15,9 +15,9 @@ SHADOW_LEAN, LIGHT_LEAN = 0.45, 0.35  # share of the shift to those hues at the 
 
 
 def oklch(lightness, chroma, hue):
-    """Return a colour, (3,) uint8. lightness: OKLab lightness 0..1; chroma: about 0..0.3; hue in degrees.
+    """Return a colour, (3,) uint8. lightness: OKLab lightness 0..1; chroma: about 0..0.3; hue: in degrees.
 
-    Matrices from Ottosson, "A perceptual color space for image processing" (2020). Colours out of gamut are clipped.
+    Matrices from Ottosson, "A perceptual color space for image processing" (2020). Colours outside sRGB are clipped.
     """
     a = chroma * math.cos(math.radians(hue))
     b = chroma * math.sin(math.radians(hue))
@@ -38,7 +38,7 @@ def oklch_all(*values):
 
 
 def _encode(linear):
-    """Return a linear light value 0..1 as 0..255, by the sRGB transfer curve."""
+    """Return a linear light value 0..1 as an integer 0..255, by the sRGB transfer curve."""
     linear = min(1.0, max(0.0, linear))
     if linear <= 0.0031308:
         return round(255 * 12.92 * linear)
@@ -46,9 +46,9 @@ def _encode(linear):
 
 
 def ramp(hue, chroma, low=DARKEST, high=LIGHTEST):
-    """Return a ramp of colours from shadow to light around a base hue, (STEPS, 3) uint8.
+    """Return a ramp of colours from shadow to light around a base hue, an array (STEPS, 3) uint8.
 
-    hue in degrees; chroma: see oklch; low, high: lightness of the first and the last colour.
+    hue: in degrees; chroma: see oklch; low, high: lightness of the first and the last colour.
     """
     colours = []
     for i in range(STEPS):
@@ -100,13 +100,13 @@ FIRE = np.array(
 
 
 def mix(first, second, share):
-    """Return the colour `share` (0..1) of the way from first to second, as uint8."""
+    """Return a mix of two colours or arrays of colours as uint8. share: weight of `second`, 0..1."""
     first, second = np.asarray(first, float), np.asarray(second, float)
     return np.floor(first + (second - first) * share + 0.5).astype(np.uint8)
 
 
 def graded(ramp, level):
-    """Return the colour of each pixel, (..., 3), for its level on a ramp.
+    """Return the colour of each pixel, an array (..., 3), for its level on a ramp of colours.
 
     Levels from 0 to 1 have the first colour of the ramp, levels from 1 to 2 the second, and so on. Levels outside the
     ramp have its first or last colour.

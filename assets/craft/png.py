@@ -1,7 +1,7 @@
 """PNG files from arrays, written without an imaging library, so that their bytes depend on zlib alone.
 
 `payload` returns data that do not even depend on zlib: two files show the same picture if their headers and their
-inflated rows are equal.
+decompressed rows are equal.
 """
 
 import struct
@@ -33,7 +33,7 @@ def _chunk(kind, data):
 
 
 def payload(png):
-    """Return (header bytes, inflated row bytes) of a PNG, which do not depend on the way it is compressed.
+    """Return (header bytes, decompressed row bytes) of a PNG, which do not depend on its compression.
 
     Raises ValueError if the bytes are not a whole PNG.
     """

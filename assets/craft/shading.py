@@ -1,7 +1,7 @@
 """Sprites built from parts: each part is a distance field, shaded as a soft bulge and coloured by a ramp.
 
-Parts are drawn back to front. Each part first darkens a thin band around itself on the parts below (contact shadow). It
-then takes colours of its ramp, from the slope of its bulge towards the light. The rim light and the dark outline come
+Parts are drawn back to front. Each part first darkens a thin band around itself on the parts below (contact shadow).
+Then the slope of its bulge towards the light selects colours of its ramp. The rim light and the dark outline are drawn
 last.
 """
 
@@ -16,7 +16,7 @@ SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1))
 
 
 def shifted(solid, dx, dy):
-    """Return the mask `solid` (h, w) bool moved by (dx, dy) px. Pixels that come in from outside are clear."""
+    """Return the mask `solid` (h, w) bool, moved by (dx, dy) px. Pixels that enter from outside are False."""
     height, width = solid.shape
     out = np.zeros_like(solid)
     out[max(0, dy) : height + min(0, dy), max(0, dx) : width + min(0, dx)] = solid[
@@ -26,7 +26,7 @@ def shifted(solid, dx, dy):
 
 
 class Sprite:
-    """A picture while it is drawn: rgb (h, w, 3) uint8, and solid (h, w) bool, which is False where it is clear.
+    """A picture while it is drawn: rgb (h, w, 3) uint8, and solid (h, w) bool, which is False for clear pixels.
 
     x, y (h, w): centres of the pixels [px]. Distance fields (assets/craft/fields.py) are computed at these positions.
     The drawing methods return the sprite, so that calls can be chained.
@@ -38,11 +38,11 @@ class Sprite:
         self.x, self.y = grid(width, height)
 
     def part(self, field, ramp, bulge=4.0, base=0.5, gain=0.42, grain=0.5, shadow=0.55):
-        """Add a part that is lit as a soft bulge.
+        """Add a part that is shaded as a soft bulge.
 
-        field: distance [px]; ramp: colours from dark to light; bulge: distance [px] from the edge to the top of the
-        bulge; base: brightness 0..1 of a flat top; gain: how much the slope changes the brightness; grain: strength of
-        the dither; shadow: brightness that remains in the contact shadow, 1 for none.
+        field: distance field of the part [px]; ramp: colours from dark to light; bulge: distance [px] from the edge to
+        the top of the bulge; base: brightness 0..1 of a flat top; gain: effect of the slope on the brightness; grain:
+        strength of the dither; shadow: brightness that remains in the contact shadow, 1 for none.
         """
         inside = field < 0
         height_map = np.sqrt(np.clip(-field / bulge, 0, 1)) * bulge
@@ -73,15 +73,15 @@ class Sprite:
         return self
 
     def dot(self, x, y, colour):
-        """Set one pixel to a colour."""
+        """Set the pixel (x, y) to a colour, and make it solid."""
         self.rgb[y, x] = colour
         self.solid[y, x] = True
         return self
 
     def stamp(self, rows, x, y, tones):
-        """Set the pixels of a drawing with its top left at (x, y).
+        """Set the pixels of a small drawing whose top left pixel is at (x, y).
 
-        rows: texts, a letter for each pixel; tones: {letter: colour}; other letters are clear.
+        rows: texts with one letter for each pixel; tones: {letter: colour}; pixels with other letters do not change.
         """
         for down, row in enumerate(rows):
             for across, letter in enumerate(row):
@@ -95,7 +95,7 @@ class Sprite:
         return self
 
     def rim(self, colour=RIM, share=0.6):
-        """Mix a colour into the pixels whose neighbour above or on the left, towards the light, is clear.
+        """Mix a colour into the pixels that have a clear neighbour above or on the left, towards the light.
 
         share: 0..1, weight of the colour.
         """
@@ -104,7 +104,9 @@ class Sprite:
         return self
 
     def outline(self):
-        """Add a dark outline: each clear pixel that touches the shape at one of its four sides becomes dark."""
+        """Add a dark outline: each clear pixel with a solid neighbour above, below, left or right becomes dark and
+        solid.
+        """
         around = np.zeros_like(self.solid)
         for dx, dy in SIDES:
             around |= shifted(self.solid, dx, dy)
@@ -124,23 +126,24 @@ def opaque(rgb):
 
 
 def cut_out(rgb, solid):
-    """Return (h, w, 4) uint8: the picture `rgb` (h, w, 3) where `solid` (h, w) is True, zeros elsewhere."""
+    """Return a picture (h, w, 4) uint8: `rgb` (h, w, 3), opaque where `solid` (h, w) is True, zeros elsewhere."""
     out = opaque(rgb)
     out[~solid] = 0
     return out
 
 
 def flashed(pixels):
-    """Return a frame (h, w, 4) as a flat white silhouette, which is shown after a hit."""
+    """Return the white silhouette of a frame (h, w, 4), which is shown after a hit."""
     out = pixels.copy()
     out[..., :3][out[..., 3] > 0] = WHITE
     return out
 
 
 def glow(size, ramp, brightest=0.70):
-    """Return a disc of light, to be drawn by addition: opaque, black outside, with a dithered falloff.
+    """Return the picture of a disc of light, (size, size, 4) uint8, which the game adds to the colours below it.
 
-    size [px]: size of the square picture; ramp: name of its colours; brightest: brightness of its middle, 0..1.
+    It is opaque, and black outside the disc, with a dithered falloff. size: in px; ramp: name of its colours;
+    brightest: brightness of its centre, 0..1.
     """
     x, y = grid(size, size)
     fall = np.clip(1 - length(x - size / 2, y - size / 2) / (size / 2), 0, 1)

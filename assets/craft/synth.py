@@ -1,7 +1,7 @@
-"""A small synthesiser in the manner of sfxr: an oscillator whose pitch glides, an envelope, a filter, and a finish.
+"""A small synthesiser similar to sfxr: an oscillator whose pitch glides, an envelope, a filter, and a finish.
 
 The oscillator runs at 4 times the sample rate. Sines come from a rounded table and powers from `math`, so the samples
-do not depend on NumPy's vector instructions: the same script writes the same bytes.
+do not depend on NumPy's vector instructions: the same script writes the same bytes on every machine.
 """
 
 import io
@@ -32,7 +32,7 @@ def triangle(phase):
 
 
 def sweep(start, end, count):
-    """Return `count` pitches that glide exponentially from `start` to `end`, both > 0."""
+    """Return `count` pitches that glide exponentially from `start` to `end`, an array. Both must be greater than 0."""
     ratio = end / start
     knots = [start * math.pow(ratio, i / KNOTS) for i in range(KNOTS + 1)]
     return np.interp(np.linspace(0, KNOTS, count), np.arange(KNOTS + 1), np.round(knots, 6))
@@ -41,7 +41,8 @@ def sweep(start, end, count):
 def envelope(attack, sustain, decay, punch=0.0, curve=2.0):
     """Return an envelope at RATE: it rises for `attack`, holds for `sustain` and decays for `decay` seconds.
 
-    punch: the hold starts this much above 1 and falls back to 1. curve: power of the decay, 1 for a straight line.
+    punch: amount above 1 at which the hold starts; it falls back to 1. curve: power of the decay, 1 for a straight
+    line.
     """
     rise, hold, fall = (max(1, int(seconds * RATE)) for seconds in (attack, sustain, decay))
     tail = np.linspace(1, 0, fall)
@@ -85,7 +86,7 @@ def _oscillate(kind, phase, duty, seed):
 
 
 def low_pass(samples, start, end):
-    """Return samples after a one-pole low-pass filter whose corner frequency glides from start to end [Hz]."""
+    """Return the samples after a one-pole low-pass filter, whose corner frequency glides from `start` to `end` [Hz]."""
     corners = sweep(start, end, KNOTS + 1)
     shares = [1 - math.exp(-2 * math.pi * hertz / RATE) for hertz in corners]
     share = np.interp(np.linspace(0, KNOTS, len(samples)), np.arange(KNOTS + 1), np.round(shares, 9))
@@ -97,7 +98,7 @@ def low_pass(samples, start, end):
 
 
 def remove_dc(samples, corner=30.0):
-    """Return samples after a one-pole high-pass filter, which removes their constant part. corner [Hz]."""
+    """Return the samples without their constant part, by a one-pole high-pass filter. corner: corner frequency [Hz]."""
     share = round(1 - math.exp(-2 * math.pi * corner / RATE), 9)
     out, level = np.empty_like(samples), 0.0
     for i, value in enumerate(samples.tolist()):
@@ -107,7 +108,7 @@ def remove_dc(samples, corner=30.0):
 
 
 def mixed(*layers):
-    """Return the sum of several layers, each given as (start in seconds, gain, samples)."""
+    """Return the sum of several layers, each given as (start [s], gain, samples)."""
     length = max(int(at * RATE) + len(samples) for at, _, samples in layers)
     total = np.zeros(length)
     for at, gain, samples in layers:
@@ -123,7 +124,7 @@ def soft_clip(samples, drive):
 
 
 def finish(samples):
-    """Return finished int16 samples: without a constant part, with faded ends, peak at -3 dB."""
+    """Return finished int16 samples: without a constant part, with faded ends, and with a peak of -3 dB."""
     samples = remove_dc(samples)
     fade = np.linspace(0, 1, int(FADE * RATE))
     samples[: len(fade)] *= fade

@@ -1,4 +1,4 @@
-"""The ground of lab/carving: hills, a bridge, a rock on a thin neck, an overhang. Also the wall behind them."""
+"""The ground of lab/carving: hills, a bridge, a rock on a thin neck, an overhang; and the wall behind them."""
 
 import numpy as np
 
@@ -17,7 +17,7 @@ HILLS += ((300, 184), (330, 198), (352, 196), (372, 176), (392, 118), (480, 112)
 
 
 def solid():
-    """Return which pixels are earth, bool (240, 480)."""
+    """Return a bool array (240, 480) that is True for the pixels of earth."""
     x, y = grid(*SIZE)
     field = polygon(x, y, HILLS)
     bridge = np.minimum(box(x, y, 112, 136, 232, 149, 3.0), box(x, y, 222, 136, 238, 204, 2.0))
@@ -35,9 +35,9 @@ def solid():
 
 
 def depth_of(earth):
-    """Return the distance of each pixel of earth from the nearest open pixel [px], up to DEEPEST.
+    """Return the distance of each pixel of earth from the nearest pixel without earth [px], up to DEEPEST.
 
-    Beyond the sides of the picture, the pixels of its edge are repeated.
+    earth: bool array (h, w); the result has the same shape. Beyond the picture, the pixels of its edge are repeated.
     """
     left, found = np.pad(earth, 1, mode="edge"), np.zeros(earth.shape, int)
     for _ in range(DEEPEST):
@@ -50,7 +50,7 @@ def depth_of(earth):
 
 
 def painted():
-    """Return the pictures (the earth, the wall behind it), (h, w, 4) uint8 each."""
+    """Return two pictures (h, w, 4) uint8: the earth, and the wall behind it."""
     earth = solid()
     height, width = earth.shape
     edge, facing = (np.tile(each, (1, 2))[:height, :width] for each in boulders(SEED, 190))
@@ -70,7 +70,7 @@ def painted():
 
 
 def _grow_turf(rgb, earth):
-    """Draw grass on earth under open sky into the picture `rgb`, with blades of several lengths. earth (h, w) bool."""
+    """Draw grass with blades of several lengths into the picture `rgb`, on earth under open sky. earth: (h, w) bool."""
     height, width = earth.shape
     open_above = np.logical_and.accumulate(~earth, axis=0)
     top = np.argmax(~open_above, axis=0)
@@ -83,6 +83,6 @@ def _grow_turf(rgb, earth):
 
 
 def earth_files():
-    """Return {relative path: bytes} of both pictures."""
+    """Return {path relative to assets/: bytes} of the pictures of the earth and of the wall behind it."""
     earth, wall = painted()
     return {"images/lab_earth.png": png.encode(earth), "images/lab_earth_wall.png": png.encode(wall)}

@@ -1,6 +1,6 @@
 """The sprite sheet "lab": pictures of the bodies in the lab: crates, blocks, balls, dominoes, and the billiard table.
 
-A piece fills its picture to the last pixel, outline included, so that picture and collision shape have the same size.
+A piece fills its picture completely, outline included, so that picture and collision shape have the same size.
 """
 
 import math
@@ -18,7 +18,10 @@ POCKET = 9.0  # [px] radius of a hole
 
 
 def crate(size, look):
-    """Return a wooden crate, size x size px. look: 0 with braces, 1 with planks, 2 dark with a cross."""
+    """Return the picture of a wooden crate, (size, size, 4) uint8.
+
+    look: 0 with a diagonal brace, 1 with planks, 2 dark with a cross.
+    """
     sprite = Sprite(size, size)
     x, y, edge = sprite.x, sprite.y, max(2, size // 7)
     wood = RAMPS["wood"] if look < 2 else RAMPS["dirt"]
@@ -41,7 +44,9 @@ def crate(size, look):
 
 
 def block(width, height, ramp):
-    """Return a painted toy block with a bevelled rim. ramp: name of its colours."""
+    """Return the picture of a painted toy block with a bevelled rim, (height, width, 4) uint8. ramp: name of its
+    colours.
+    """
     sprite = Sprite(width, height)
     x, y = sprite.x, sprite.y
     sprite.part(box(x, y, 1, 1, width - 1, height - 1), RAMPS[ramp], bulge=2, base=0.5, gain=0.3, grain=0.3)
@@ -51,7 +56,7 @@ def block(width, height, ramp):
 
 
 def disc(radius, ramp):
-    """Return a disc with a bright spoke, which shows its rotation. ramp: name of its colours."""
+    """Return the picture of a disc with a bright spoke, which shows the disc's rotation. ramp: name of its colours."""
     size = 2 * radius
     sprite = Sprite(size, size)
     x, y = sprite.x, sprite.y
@@ -62,7 +67,10 @@ def disc(radius, ramp):
 
 
 def pill(length, radius, ramp):
-    """Return a capsule lying along x. length [px]: between the centres of its ends; ramp: name of its colours."""
+    """Return the picture of a capsule along x.
+
+    length: distance between the centres of its ends [px]; radius: in px; ramp: name of its colours.
+    """
     sprite = Sprite(length + 2 * radius, 2 * radius)
     x, y, end = sprite.x, sprite.y, length + radius
     sprite.part(
@@ -78,7 +86,7 @@ def pill(length, radius, ramp):
 
 
 def gem(points, size, ramp):
-    """Return a convex piece with the corners `points` [px], in a picture of size x size px.
+    """Return the picture of a convex piece with the corners `points` [px], (size, size, 4) uint8.
 
     ramp: name of its colours.
     """
@@ -88,9 +96,9 @@ def gem(points, size, ramp):
 
 
 def corners(count, size, start):
-    """Return the corners of a regular polygon with `count` corners that fills size x size px.
+    """Return the corners (x, y) [px] of a regular polygon inscribed in the largest circle of a size x size px square.
 
-    start: angle of the first corner in degrees.
+    count: number of corners; start: angle of the first corner in degrees.
     """
     angles = [math.radians(start + i * 360 / count) for i in range(count)]
     # Rounded, as in synth.py: the last bits of sines differ between machines.
@@ -98,7 +106,7 @@ def corners(count, size, start):
 
 
 def metal_ball(radius, ramp):
-    """Return a polished ball lit from above left, with a hard highlight. ramp: name of its colours."""
+    """Return the picture of a polished ball, lit from above left, with a hard highlight. ramp: name of its colours."""
     size = 2 * radius
     sprite = Sprite(size, size)
     x, y = sprite.x, sprite.y
@@ -109,7 +117,7 @@ def metal_ball(radius, ramp):
 
 
 def iron_ball(radius):
-    """Return the wrecking ball: cast iron with a band and rivets."""
+    """Return the picture of the wrecking ball: cast iron with a band and rivets. radius: in px."""
     size = 2 * radius
     sprite = Sprite(size, size)
     x, y = sprite.x, sprite.y
@@ -122,7 +130,7 @@ def iron_ball(radius):
 
 
 def billiard_ball(number):
-    """Return billiard ball `number`, 10 x 10 px: 0 is the cue ball, 9 to 15 have stripes."""
+    """Return the picture of billiard ball `number`, 10 x 10 px: 0 is the cue ball, 9 to 15 have stripes."""
     sprite = Sprite(10, 10)
     x, y = sprite.x, sprite.y
     ramp = "steel" if number == 0 or number > 8 else "gunmetal" if number == 8 else BALLS[number - 1]
@@ -137,9 +145,9 @@ def billiard_ball(number):
 
 
 def domino(width, height, pips):
-    """Return an ivory domino standing upright, with a line across its middle.
+    """Return the picture of an upright ivory domino with a line across its centre, width x height px.
 
-    pips: number of pips in the upper and in the lower half.
+    pips: numbers of pips in the upper and in the lower half.
     """
     sprite = Sprite(width, height)
     x, y = sprite.x, sprite.y
@@ -154,7 +162,9 @@ def domino(width, height, pips):
 
 
 def card(length, thickness, ramp):
-    """Return a playing card seen from its edge, lying along x, length x thickness px. ramp: name of its colours."""
+    """Return the picture of a playing card seen from its edge, along x, length x thickness px. ramp: name of its
+    colours.
+    """
     sprite = Sprite(length, thickness)
     sprite.flat(box(sprite.x, sprite.y, 0, 0, length, thickness), RAMPS["steel"][5])
     sprite.paint(box(sprite.x, sprite.y, 0, thickness - 2, length, thickness), RAMPS[ramp][3])
@@ -165,7 +175,9 @@ def card(length, thickness, ramp):
 
 
 def floor(width, height):
-    """Return a polished table top seen from the side, width x height px: boards with grain and a lit edge."""
+    """Return the picture of a polished table top seen from the side, width x height px: boards with grain and a lit
+    edge.
+    """
     sprite = Sprite(width, height)
     x, y, wood = sprite.x, sprite.y, RAMPS["wood"]
     sprite.flat(box(x, y, 0, 0, width, height), wood[1])
@@ -180,7 +192,7 @@ def floor(width, height):
 
 
 def table():
-    """Return the billiard table from above: wooden frame, cushions, cloth, six pockets."""
+    """Return the picture of the billiard table from above: wooden frame, cushions, cloth, six pockets."""
     width, height = TABLE
     sprite = Sprite(width, height)
     x, y = sprite.x, sprite.y
@@ -211,7 +223,7 @@ def table():
 
 
 def sword():
-    """Return a broad sword lying along x, its point on the right."""
+    """Return the picture of a broad sword along x, with its point on the right."""
     sprite = Sprite(38, 11)
     x, y = sprite.x, sprite.y
     sprite.part(polygon(x, y, ((11, 3), (31, 3.4), (37, 5.5), (31, 7.6), (11, 8))), RAMPS["steel"], bulge=2, base=0.7)
@@ -223,7 +235,7 @@ def sword():
 
 
 def shot():
-    """Return a brass bullet that flies to the right."""
+    """Return the picture of a brass bullet that flies to the right."""
     sprite = Sprite(9, 6)
     x, y = sprite.x, sprite.y
     sprite.part(capsule(x, y, (2.6, 3), (5.8, 3), 1.9, 1.5), RAMPS["gold"], bulge=1.8, base=0.66, gain=0.4)
@@ -232,7 +244,10 @@ def shot():
 
 
 def bracket(ramp):
-    """Return an L of iron. It is concave, so its convex hull contains empty space. ramp: name of its colours."""
+    """Return the picture of an L-shaped iron bracket. ramp: name of its colours.
+
+    It is concave, so its convex hull contains empty space.
+    """
     sprite = Sprite(32, 24)
     x, y = sprite.x, sprite.y
     corner = polygon(x, y, ((1, 1), (10, 1), (10, 14), (31, 14), (31, 23), (1, 23)))
@@ -244,7 +259,7 @@ def bracket(ramp):
 
 
 def star(ramp):
-    """Return a five-pointed star with blunt points. ramp: name of its colours."""
+    """Return the picture of a five-pointed star with blunt points. ramp: name of its colours."""
     sprite = Sprite(26, 26)
     angles = [math.radians(-90 + i * 36) for i in range(10)]
     points = [
@@ -256,7 +271,7 @@ def star(ramp):
 
 
 def tray():
-    """Return a stone floor with a low rim at both ends, on which bodies roll."""
+    """Return the picture of a stone floor with a low rim at both ends."""
     sprite = Sprite(94, 24)
     x, y = sprite.x, sprite.y
     stone = RAMPS["stone"]
@@ -271,7 +286,7 @@ def tray():
 
 
 def lab_files():
-    """Return {relative path: bytes} of the sprite sheet "lab"."""
+    """Return {path relative to assets/: bytes} of the sprite sheet "lab"."""
     sheet = Sheet("lab")
     for size in (11, 16, 24):
         for look in range(3):

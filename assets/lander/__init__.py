@@ -1,1 +1,1 @@
-"""Pictures of the lander's moon: its ground, its stations and loose things, the sky behind it."""
+"""Pictures of the lander's moon: its ground, its stations and loose things, and the sky behind it."""

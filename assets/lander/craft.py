@@ -1,4 +1,4 @@
-"""The lander and its parts: hull, legs, flame, shell, hook. Also small pictures for the display of the game (HUD)."""
+"""Pictures of the lander and its parts (flame, shell, hook), and small pictures for its heads-up display (HUD)."""
 
 from assets.craft.fields import box, capsule, circle, ellipse, polygon
 from assets.craft.palette import OUTLINE, RAMPS, WHITE, mix
@@ -10,7 +10,9 @@ FLAME = (12, 22)  # [px]
 
 
 def ship():
-    """Return the lander, (32, 30, 4) uint8: a round cabin on a tank, an engine bell, two legs with broad feet."""
+    """Return the picture of the lander, (32, 30, 4) uint8: a round cabin on a tank, an engine bell, two legs with
+    broad feet.
+    """
     sprite = Sprite(WIDTH, HEIGHT)
     for side in (-1, 1):
         _leg(sprite, side)
@@ -68,7 +70,7 @@ def _cabin(sprite):
 
 
 def flame(frame):
-    """Return the flame of the engine, which is drawn under the bell. frame: 0..3."""
+    """Return the picture of the engine's flame, which is drawn under the bell. frame: number of the frame, 0..3."""
     width, height = FLAME
     sprite = Sprite(width, height)
     x, y, middle = sprite.x, sprite.y, width / 2
@@ -81,7 +83,9 @@ def flame(frame):
 
 
 def shell(frame):
-    """Return a shell that the ship fires: a hot ball with a dark rim, visible before rock and ice. frame: 0..1."""
+    """Return the picture of a shell that the ship fires: a hot ball with a dark rim. frame: number of the
+    frame, 0..1.
+    """
     sprite = Sprite(7, 7)
     sprite.flat(circle(sprite.x, sprite.y, 3.5, 3.5, 2.5), RAMPS["gold"][4 - frame])
     sprite.flat(circle(sprite.x, sprite.y, 3.5, 3.5, 1.3), WHITE)
@@ -89,7 +93,7 @@ def shell(frame):
 
 
 def hook():
-    """Return the claw at the end of the ship's line."""
+    """Return the picture of the claw at the end of the ship's line."""
     rows = ("..d..", ".dsd.", "dsdsd", "s.d.s", "d...d")
     return Sprite(5, 5).stamp(rows, 0, 0, {"d": OUTLINE, "s": RAMPS["steel"][4]}).pixels()
 
@@ -113,7 +117,7 @@ ICONS = {
 
 
 def icons():
-    """Return {name: pixels} of the small pictures for the HUD."""
+    """Return {name: picture (h, w, 4) uint8} of the small pictures for the HUD."""
     tones = {
         "w": WHITE,
         "s": RAMPS["steel"][4],

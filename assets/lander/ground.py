@@ -41,10 +41,10 @@ GEMS, CLUSTER = 62, 9  # clusters of crystals, and the extent of each [px]
 
 
 def boulders(seed, count):
-    """Return (edge, facing), (CELL, CELL) each, of a seamless pattern of `count` boulders.
+    """Return (edge, facing), two arrays (CELL, CELL), of a seamless pattern of `count` boulders.
 
-    edge: distance from the nearest crack between boulders [px]; facing: how far the side of the boulder faces the
-    light; seed: seed of the random numbers.
+    edge: distance from the nearest crack between boulders [px]; facing: how far the boulder's side at a pixel faces
+    the light [px], negative for sides that face away; seed: seed of the random numbers.
     """
     random = np.random.default_rng(seed)
     middles = random.random((count, 2)) * CELL
@@ -62,12 +62,15 @@ def boulders(seed, count):
 
 
 def tiled(pattern, height, width):
-    """Return a pattern (CELL, CELL) repeated over (height, width)."""
+    """Return a pattern (CELL, CELL), repeated to an array (height, width)."""
     return np.tile(pattern, (height // CELL + 1, width // CELL + 1))[:height, :width]
 
 
 def depths(solid):
-    """Return how deep [px] each solid pixel lies below the surface, up to DEEPEST; 0 for pixels that are not solid."""
+    """Return the depth [px] of each solid pixel below the surface, up to DEEPEST; 0 for pixels that are not solid.
+
+    solid: bool array (h, w); the result has the same shape.
+    """
     depth, left = np.zeros(solid.shape, np.int16), solid.copy()
     for layer in range(DEEPEST):
         depth += left
@@ -83,9 +86,9 @@ def depths(solid):
 
 
 def facings(solid, reach=4):
-    """Return (towards the light, upwards), -1..1 each: how far the ground at each pixel faces in these directions.
+    """Return (light, up), two arrays -1..1: how far the ground at each pixel faces the light, and upwards.
 
-    It is computed from the slope of `solid`, blurred by `reach` px.
+    They are computed from the slope of `solid` (h, w) bool, blurred by `reach` px.
     """
     total = np.zeros(solid.shape, np.int32)
     for axis in (1, 0):
@@ -125,9 +128,9 @@ def painted(moon):
 
 
 def _edges(picture, moon, depth, light):
-    """Draw the outermost pixels of the moon's ground: bright on the side of the light, dark on the other.
+    """Draw the outermost pixels of the moon's ground into `picture`: bright towards the light, dark on the other side.
 
-    moon: Landscape; depth: result of depths; light: first result of facings.
+    moon: Landscape; depth: result of depths(); light: first result of facings().
     """
     rim = moon.solid & (depth == 1)
     ramp = np.where(moon.ice[..., None], ICE[7], ROCK[6])
@@ -139,7 +142,10 @@ def _edges(picture, moon, depth, light):
 
 
 def _snow(picture, moon, up, light):
-    """Draw snow on all ground under open sky that is not too steep. moon: Landscape; up, light: results of facings."""
+    """Draw snow into `picture` on all ground under open sky that is not too steep.
+
+    moon: Landscape; up, light: results of facings().
+    """
     height, width = moon.solid.shape
     top = np.argmax(moon.solid, axis=0)  # first solid row of each column
     y = np.mgrid[0:height, 0:width][0]
@@ -156,7 +162,7 @@ def _snow(picture, moon, up, light):
 
 
 def _gems(picture, moon, depth):
-    """Draw crystals in the walls of the moon's caves. moon: Landscape; depth: result of depths."""
+    """Draw crystals into `picture`, in the walls of the moon's caves. moon: Landscape; depth: result of depths()."""
     random = np.random.default_rng(77)
     cave = moon.massif & ~moon.solid
     near = cave.copy()
@@ -176,7 +182,10 @@ def _gems(picture, moon, depth):
 
 
 def _gem(picture, solid, row, column, size):
-    """Draw one cut crystal around (column, row), lit from the upper left, only where `solid` is True. size [px]."""
+    """Draw one cut crystal around (column, row) into `picture`, lit from the upper left, only where `solid` is True.
+
+    size: extent of the crystal from its centre [px].
+    """
     height, width = solid.shape
     for dy in range(-size - 1, size + 2):
         half = size - abs(dy) * size // (size + 1) - (abs(dy) == size + 1)
@@ -187,9 +196,9 @@ def _gem(picture, solid, row, column, size):
 
 
 def wall(moon):
-    """Return the picture of the rock face that is visible where ground was removed: the same boulders, darker.
+    """Return the picture of the rock face that is visible where ground was removed, (height, width, 4) uint8.
 
-    It is (height, width, 4) uint8. moon: Landscape.
+    It has similar boulders as the ground, but darker. moon: Landscape.
     """
     height, width = moon.solid.shape
     edge, boulder = (tiled(pattern, height, width) for pattern in boulders(57, 60))
@@ -202,6 +211,6 @@ def wall(moon):
 
 
 def ground_files():
-    """Return {relative path: bytes} of the pictures of the ground and of the wall behind it."""
+    """Return {path relative to assets/: bytes} of the pictures of the ground and of the wall behind it."""
     moon = landscape()
     return {"images/lander_ground.png": png.encode(painted(moon)), "images/lander_wall.png": png.encode(wall(moon))}

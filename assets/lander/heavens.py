@@ -47,7 +47,7 @@ STARS = 170
 
 
 def sky():
-    """Return the night sky, (270, 480, 4) uint8."""
+    """Return the picture of the night sky, (270, 480, 4) uint8."""
     x, y = grid(WIDTH, HEIGHT)
     level = y / HEIGHT
     steps = np.clip(np.floor(level * level**0.5 * BANDS + dither(HEIGHT, WIDTH) + 0.5), 0, BANDS - 1).astype(int)
@@ -75,7 +75,9 @@ def _stars(picture):
 
 
 def _aurora(picture):
-    """Draw the aurora: two curtains of light, bright along the lower edge, with streaks that fade upwards."""
+    """Draw the aurora into `picture`: two curtains of light, bright along the lower edge, with streaks that fade
+    upwards.
+    """
     y = np.mgrid[0:HEIGHT, 0:WIDTH][0] + 0.5
     grain = np.tile(BAYER, (HEIGHT // 4 + 1, WIDTH // 4 + 1))[:HEIGHT, :WIDTH]
     for hem, sway, tall, seed, strength in ((150, 60, 96, 61, 1.0), (108, 44, 66, 64, 0.7)):
@@ -91,7 +93,10 @@ def _aurora(picture):
 
 
 def _planet(picture, x, y):
-    """Draw the planet: banded, lit from the left, with rings before and behind it. x, y: its middle."""
+    """Draw the planet into `picture`: banded, lit from the left, with rings in front of it and behind it.
+
+    x, y: positions of the pixel centres, as of fields.grid().
+    """
     dx, dy = x - PLANET[0], y - PLANET[1]
     across, down = dx + LEAN * dy, (dy - LEAN * dx) * FLAT
     ring = length(across, down) / RADIUS
@@ -115,7 +120,7 @@ def _planet(picture, x, y):
 
 
 def heavens_files():
-    """Return {relative path: bytes} of the pictures of all layers."""
+    """Return {path relative to assets/: bytes} of the pictures of all layers."""
     far = oklch_all((0.40, 0.070, 235), (0.455, 0.075, 225), (0.54, 0.078, 210), (0.64, 0.070, 190))
     far_snow = oklch_all((0.52, 0.072, 222), (0.66, 0.060, 200))
     mid = oklch_all((0.275, 0.066, 262), (0.325, 0.072, 254), (0.40, 0.078, 240), (0.50, 0.075, 222))

@@ -1,4 +1,4 @@
-"""The shape of the lander's moon: the pixels of rock, of ice that a shell breaks, and of the wall behind holes.
+"""The shape of the lander's moon: the pixels of rock, of ice that a shell can break, and of the wall behind holes.
 
 The plan in assets/levels/lander.json has straight lines. Noise bends these lines, so that edges look natural.
 """
@@ -24,7 +24,7 @@ ACROSS, DOWN = ((1, 0), (-1, 0)), ((0, 1), (0, -1))
 
 @dataclass
 class Landscape:
-    """The moon as (height, width) bool arrays.
+    """The moon as three bool arrays (height, width).
 
     solid: rock and ice; ice: ice alone; massif: rock before caves were hollowed out.
     """
@@ -74,9 +74,9 @@ def _bend(width, height, seed):
 
 
 def _inside(x, y, points):
-    """Return which pixels are inside the polygon `points`, by the crossing rule. x, y: positions of the pixels.
+    """Return a bool array that is True for the pixels inside the polygon `points`, by the crossing rule.
 
-    Each edge is applied only to the rows that it can reach.
+    x, y: positions of the pixels, arrays (h, w). Each edge is applied only to the rows that it can reach.
     """
     inside = np.zeros(x.shape, bool)
     for i, (ax, ay) in enumerate(points):
@@ -92,8 +92,8 @@ def _inside(x, y, points):
 def _near(solid, x, y, points, reach, change):
     """Change only the part of a mask near some points: call change(solid, x, y) with this part of the three arrays.
 
-    The part is the box of the points (list of (x, y) [px]), enlarged by `reach` [px]. change: function that changes the
-    mask in place; solid (h, w) bool: the mask; x, y (h, w): positions of its pixels.
+    points: list of (x, y) [px]. The part is their bounding box, enlarged by `reach` [px]. change: function that
+    changes the mask in place; solid (h, w) bool: the mask; x, y (h, w): positions of its pixels.
     """
     reach += MARGIN
     left, right = (max(0, int(f(p[0] for p in points) + s * reach)) for f, s in ((min, -1), (max, 1)))
@@ -117,7 +117,10 @@ def _filled(points):
 
 
 def _around(pixels, far=1, ways=(*ACROSS, *DOWN)):
-    """Return `pixels`, and the pixels `far` px away from them in one of the directions `ways`: masks (h, w) bool."""
+    """Return `pixels` extended by copies of itself, shifted by `far` px in each direction (dx, dy) of `ways`.
+
+    pixels: mask (h, w) bool; the result has the same shape.
+    """
     out = pixels.copy()
     for dx, dy in ways:
         out |= shifted(pixels, far * dx, far * dy)
@@ -125,10 +128,10 @@ def _around(pixels, far=1, ways=(*ACROSS, *DOWN)):
 
 
 def _crack(rock, ice):
-    """Return the pixels of a crack in the ice, one pixel wide, between a hanging mountain and the ground below.
+    """Return a mask of a crack in the ice, one pixel wide, between a hanging mountain and the ground below it.
 
     A hanging mountain touches the ground only through ice. Because of the crack it is a separate piece from the start,
-    so it stays in place when all the ice is shot away.
+    so it stays in place when all the ice is shot away. rock, ice: masks (h, w) bool.
     """
     hanging = _hanging(rock)
     open_ice = ice & ~rock
@@ -143,7 +146,7 @@ def _crack(rock, ice):
 
 
 def _hanging(rock):
-    """Return the pixels of hanging rock, from which no path through rock leads to the lower edge of the picture."""
+    """Return a mask of hanging rock, from which no path through rock leads to the lower edge of the picture."""
     surface = pygame.Surface(rock.T.shape, pygame.SRCALPHA)
     pygame.surfarray.pixels_alpha(surface)[:] = rock.T * np.uint8(255)
     found = np.zeros_like(rock)
@@ -155,9 +158,9 @@ def _hanging(rock):
 
 
 def _level(solid, ice, massif, pad):
-    """Make level ground for the feet of a landing pad, and clear rock and ice from the air over it.
+    """Make level ground for the feet of a landing pad, and remove rock and ice from the space above it.
 
-    If the pad is under open sky, this air is also removed from `massif`.
+    pad: its entry in the plan. If the pad is under open sky, this space is also removed from `massif`.
     """
     left, right = pad["x"] - pad["width"] // 2 - SHOULDER, pad["x"] + pad["width"] // 2 + SHOULDER
     floor = pad["floor"]

@@ -1,4 +1,4 @@
-"""The sheet "lander": the ship, its shots and flame, and the things on the moon."""
+"""The sprite sheet "lander": the ship, its shots and flame, and the things on the moon."""
 
 from assets.craft.atlas import Sheet
 from assets.craft.shading import glow
@@ -7,7 +7,7 @@ from assets.lander.landscape import plan
 
 
 def lander_files():
-    """Return {relative path: bytes} of the sprite sheet "lander"."""
+    """Return {path relative to assets/: bytes} of the sprite sheet "lander"."""
     sheet = Sheet("lander")
     sheet.add("ship", craft.ship())
     sheet.add_sequence("flame", [craft.flame(i) for i in range(4)], 24)

@@ -1,4 +1,4 @@
-"""Things on the lander's moon: landing pads and their masts, cargo, loose rocks, fuel cans."""
+"""Pictures of things on the lander's moon: landing pads and their masts, cargo, loose rocks, fuel cans."""
 
 import numpy as np
 
@@ -13,7 +13,7 @@ MAST = (18, 44)  # [px]
 
 
 def pad(width):
-    """Return a landing deck, `width` px wide: plates, a lit stripe, hazard marks at its ends, struts."""
+    """Return the picture of a landing deck, `width` px wide: plates, a lit stripe, hazard marks at its ends, struts."""
     sprite = Sprite(width, DECK)
     x, y = sprite.x, sprite.y
     for foot in range(STRUT // 2, width, STRUT):
@@ -40,9 +40,9 @@ def pad(width):
 
 
 def mast(lit):
-    """Return a mast that stands beside a pad, with a dish half way up. lit: whether its lamp is on.
+    """Return the picture of a mast that stands beside a pad, with a dish half way up. lit: whether its lamp is on.
 
-    Its foot is at the lower edge of the picture.
+    The foot of the mast is at the lower edge of the picture.
     """
     sprite = Sprite(*MAST)
     x, y = sprite.x, sprite.y
@@ -69,9 +69,9 @@ def mast(lit):
 
 
 def crate():
-    """Return cargo in a steel box with orange corners, 18 x 18 px.
+    """Return the picture of cargo in a steel box with orange corners, 18 x 18 px.
 
-    It fills the square, so that it slides and tips like a box.
+    The box fills the square, so that its pixel mask slides and tips like a box.
     """
     sprite = Sprite(18, 18)
     x, y = sprite.x, sprite.y
@@ -89,7 +89,7 @@ def crate():
 
 
 def drum():
-    """Return cargo in a round drum, seen from its end, 18 x 18 px. It rolls."""
+    """Return the picture of cargo in a round drum, seen from its end, 18 x 18 px."""
     sprite = Sprite(18, 18)
     x, y = sprite.x, sprite.y
     sprite.part(circle(x, y, 9, 9, 8), RAMPS["orange"], bulge=4, base=0.50)
@@ -102,7 +102,9 @@ def drum():
 
 
 def rock(seed, size):
-    """Return a loose boulder with a little snow on it, about size x size px. seed: seed of the random numbers."""
+    """Return the picture of a loose boulder with a little snow on it, size x size px. seed: seed of the random
+    numbers.
+    """
     sprite = Sprite(size, size)
     x, y = sprite.x, sprite.y
     random = np.random.default_rng(700 + seed)
@@ -118,7 +120,7 @@ def rock(seed, size):
 
 
 def can(frame):
-    """Return a can of fuel with a moving light. frame: 0..3."""
+    """Return the picture of a can of fuel with a moving light. frame: number of the frame, 0..3."""
     sprite = Sprite(14, 16)
     x, y = sprite.x, sprite.y
     sprite.part(box(x, y, 5, 1, 9, 4, 1), RAMPS["gunmetal"], bulge=2, base=0.5)

@@ -1,1 +1,1 @@
-"""The hero, his enemies and things, the tiles, the level and its background."""
+"""Pictures of the platformer: the hero, his enemies and things, the tiles, the level and its background."""

@@ -12,6 +12,6 @@ from assets.platformer.skyline import backdrop_layers
 
 
 def backdrop_files():
-    """Return {relative path: bytes} of the pictures of all layers."""
+    """Return {path relative to assets/: bytes} of the pictures of all layers."""
     layers = backdrop_layers() | cave_layers() | {"keep_far": keep()}
     return {f"images/{name}.png": png.encode(pixels) for name, pixels in layers.items()}

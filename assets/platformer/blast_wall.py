@@ -33,7 +33,7 @@ CRACKS = (
 
 
 def wall():
-    """Return the wall, 32 x 64 px, opaque. Visible cracks show that it can be broken."""
+    """Return the picture of a wall, 32 x 64 px, opaque. Visible cracks show that it can be broken."""
     sprite = Sprite(*WALL)
     x, y = sprite.x, sprite.y
     sprite.flat(box(x, y, -1, -1, WALL[0] + 1, WALL[1] + 1), RAMPS["stone"][0])
@@ -61,7 +61,7 @@ def wall():
 
 
 def bomb(look):
-    """Return a round bomb with its fuse up, 14 x 16 px. look: 0 cold, 1 about to burst."""
+    """Return the picture of a round bomb with its fuse up, 14 x 16 px. look: 0 cold, 1 about to explode."""
     sprite = Sprite(14, 16)
     x, y = sprite.x, sprite.y
     sprite.flat(capsule(x, y, (7.4, 5), (8.6, 2.6), 0.8), RAMPS["wood"][3])
@@ -74,7 +74,7 @@ def bomb(look):
 
 
 def stand():
-    """Return the iron ring on which a bomb waits, 16 x 5 px."""
+    """Return the picture of the iron ring on which a bomb waits, 16 x 5 px."""
     sprite = Sprite(16, 5)
     x, y = sprite.x, sprite.y
     sprite.part(
@@ -84,7 +84,7 @@ def stand():
 
 
 def add_blast_wall(sheet):
-    """Add the pictures of this module to a sprite sheet."""
+    """Add the pictures of the wall, the bomb, its stand and its explosion to a sprite sheet."""
     sheet.add("blast_wall", wall())
     sheet.add("bomb_0", bomb(0))
     sheet.add("bomb_1", bomb(1))

@@ -17,10 +17,10 @@ WALL_DARK = (18, 17, 38)
 
 
 def _cells(seeds):
-    """Divide a tile into cells around points. Return (own, next, slope), (TILE, TILE) each.
+    """Divide a tile into cells around points. Return (own, next, slope), three arrays (TILE, TILE).
 
-    own, next [px]: distance of a pixel from the nearest and the second nearest of the points `seeds`; slope: how far
-    the pixel faces the light.
+    seeds: the points, (x, y) each [px]; own, next: distance of a pixel from the nearest and the second nearest point
+    [px]; slope: how far the pixel faces the light [px], negative if it faces away.
     """
     y, x = np.mgrid[0:TILE, 0:TILE] + 0.5
     nearest, second, facing = np.full(x.shape, 99.0), np.full(x.shape, 99.0), np.zeros(x.shape)
@@ -36,9 +36,9 @@ def _cells(seeds):
 
 
 def boulders(variant):
-    """Return the inside of the rock, (16, 16, 3) uint8: boulders that fill the tile.
+    """Return the picture of the inside of the rock, (16, 16, 3) uint8: boulders that fill the tile.
 
-    variant: 0..3; all have the same layout of boulders, so they fit together.
+    variant: 0..3; all variants have the same layout of boulders, so they fit together.
     """
     ramp = RAMPS["rock"]
     nearest, second, facing = _cells(SEEDS)
@@ -64,7 +64,7 @@ def boulders(variant):
 
 
 def clods(ramp, seed):
-    """Return packed earth, (16, 16, 3) uint8: clods shaped like boulders, but softer and with little contrast.
+    """Return the picture of packed earth, (16, 16, 3) uint8: clods shaped like boulders, but with little contrast.
 
     ramp: array of its colours; seed: seed of the random numbers.
     """
@@ -86,7 +86,7 @@ def clods(ramp, seed):
 
 
 def back_cave(variant):
-    """Return the rough wall behind the cave, (16, 16, 4) uint8, opaque: the boulders of the rock, darkened.
+    """Return the picture of the rough wall behind the cave, (16, 16, 4) uint8, opaque: boulders, darkened.
 
     variant: 0..1.
     """
@@ -94,7 +94,10 @@ def back_cave(variant):
 
 
 def dripstone(hanging):
-    """Return a stalactite, or a stalagmite if `hanging` is False. Its broad end touches the edge of the tile."""
+    """Return the picture of a stalactite (`hanging` is True) or of a stalagmite, 16 x 16 px.
+
+    Its broad end touches the edge of the tile.
+    """
     sprite = Sprite(TILE, TILE)
     ways = ([(2.6, -2), (7.6, -2), (5.4, 13.6)], [(8.4, -2), (13.4, -2), (11.2, 8.6)])
     for points in ways[::-1]:
@@ -108,7 +111,7 @@ def dripstone(hanging):
 
 
 def crystal(variant):
-    """Return a cluster of glowing crystals on the ground, 16 x 16 px. variant: 0..1."""
+    """Return the picture of a cluster of glowing crystals on the ground, 16 x 16 px. variant: 0..1."""
     sprite = Sprite(TILE, TILE)
     ramp = RAMPS["teal"]
     spears = (
@@ -145,7 +148,7 @@ def crystal(variant):
 
 
 def glowcap():
-    """Return two glowing mushrooms, 16 x 16 px."""
+    """Return the picture of two glowing mushrooms, 16 x 16 px."""
     sprite = Sprite(TILE, TILE)
     x, y = sprite.x, sprite.y
     for middle, top, radius in ((10.6, 9.4, 3.2), (5.4, 6, 4.2)):
@@ -160,7 +163,9 @@ def glowcap():
 
 
 def banner():
-    """Return a long cloth on the back wall: red with a gold wing, cut into two points at its lower end."""
+    """Return the picture of a long cloth on the back wall: red with a gold wing, cut into two points at
+    its lower end.
+    """
     picture = back_wall(0)
     sprite = Sprite(TILE, TILE)
     x, y = sprite.x, sprite.y
@@ -175,7 +180,7 @@ def banner():
 
 
 def window():
-    """Return an arrow slit in the back wall with warm light behind it."""
+    """Return the picture of an arrow slit in the back wall with warm light behind it."""
     picture = back_wall(1)
     sprite = Sprite(TILE, TILE)
     x, y = sprite.x, sprite.y
@@ -208,7 +213,9 @@ def chain():
 
 
 def cave_tiles():
-    """Return {name: (pixels, properties)} of the tiles here that do not collide, in the order of the tileset."""
+    """Return {name: (pixels, properties)} of the tiles of this module, which do not collide, in the order of the
+    tileset.
+    """
     table = {f"back_cave_{i}": back_cave(i) for i in range(2)}
     table |= {"stalactite": dripstone(True), "stalagmite": dripstone(False)}
     table |= {f"crystal_{i}": crystal(i) for i in range(2)}

@@ -44,7 +44,7 @@ LEAVES = {"tree_green": "olive", "tree_autumn": "orange", "tree_small": "pink", 
 
 
 def scenery(name):
-    """Return a tree or bush in one piece, (16 * rows, 16 * columns, 4) uint8. name: key of SCENERY."""
+    """Return the picture of a tree or bush in one piece, (16 * rows, 16 * columns, 4) uint8. name: key of SCENERY."""
     columns, rows = SCENERY[name]
     width, height = columns * TILE, rows * TILE
     sprite = Sprite(width, height)
@@ -95,7 +95,7 @@ def scenery(name):
 
 
 def back_wall(variant):
-    """Return dark masonry behind a shaft or cellar, 16 x 16 px. variant: 0..1."""
+    """Return the picture of dark masonry behind a shaft or cellar, 16 x 16 px. variant: 0..1."""
     ramp = [mix(RAMPS["stone"][i], (30, 22, 52), 0.62) for i in range(6)]
     picture = np.full((TILE, TILE, 3), ramp[1])
     for row, offset in ((0, 4), (8, 12)):
@@ -109,7 +109,9 @@ def back_wall(variant):
 
 
 def torch():
-    """Return a wall torch on a piece of back wall, 16 x 16 px. The light that it casts is not included."""
+    """Return the picture of a wall torch on a piece of back wall, 16 x 16 px. The light that it casts is
+    not included.
+    """
     sprite = Sprite(TILE, TILE)
     sprite.part(polygon(sprite.x, sprite.y, [(5, 8), (11, 8), (9, 15), (7, 15)]), RAMPS["wood"], bulge=2, base=0.5)
     sprite.part(circle(sprite.x, sprite.y, 8, 5.4, 3.2), RAMPS["orange"], bulge=3, base=0.7, grain=0)

@@ -1,4 +1,4 @@
-"""The platformer's cave behind the tiles: a far wall with faint crystals, and near pillars of dripstone.
+"""The background of the platformer's cave: a far wall with faint crystals, and near pillars of dripstone.
 
 Both are 480 x 270 px and seamless in x. The far wall is opaque; the near layer is clear between its pillars.
 """
@@ -42,7 +42,9 @@ SPIKES = (
 
 
 def far_wall():
-    """Return the back of the cave, (270, 480, 3) uint8: layers of rock, hollows with blue haze, dim crystals."""
+    """Return the picture of the cave's far wall, (270, 480, 3) uint8: layers of rock, hollows with blue haze, dim
+    crystals.
+    """
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH] + 0.5
     rough = layered_noise(WIDTH, HEIGHT, 6, 4, 5, 810, 0.55)
     slope_y = np.roll(rough, -2, 0) - np.roll(rough, 2, 0)
@@ -63,7 +65,10 @@ def far_wall():
 
 
 def _cluster(picture, middle_x, middle_y, size):
-    """Draw a few crystals in a fan around (middle_x, middle_y), and their light on the wall. size [px]."""
+    """Draw a few crystals in a fan around (middle_x, middle_y) into `picture`, and their light on the wall.
+
+    size: length of the crystals [px].
+    """
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH] + 0.5
     dx = (x - middle_x + WIDTH / 2) % WIDTH - WIDTH / 2
     dy = y - middle_y
@@ -87,9 +92,9 @@ def _cluster(picture, middle_x, middle_y, size):
 
 
 def near_pillars():
-    """Return pillars of dripstone that stand before the far wall, (270, 480, 4) uint8.
+    """Return the picture of pillars of dripstone in front of the far wall, (270, 480, 4) uint8.
 
-    The ceiling and the floor are closed by rock.
+    The picture also has a ceiling and a floor of rock.
     """
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH] + 0.5
     wobble = (noise(WIDTH, HEIGHT, 60, 68, 870) - 0.5) * 3.4
@@ -115,5 +120,5 @@ def near_pillars():
 
 
 def cave_layers():
-    """Return {name: pixels} of the two background layers of the cave: the far wall and the near pillars."""
+    """Return {name: picture} of the two background layers of the cave: the far wall and the near pillars."""
     return {"cave_far": far_wall(), "cave_near": near_pillars()}

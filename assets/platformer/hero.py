@@ -1,7 +1,7 @@
 """The platformer's hero: parts drawn by hand in drawings/hero.txt, combined into frames.
 
-Every frame is 24 x 24 px and faces right. The feet stand on the bottom row, centred on column 12. So a frame is drawn
-at (box centre x - 12, box bottom - 24). The scarf flies behind and does not collide.
+Every frame is 24 x 24 px and faces right. The feet are on the bottom row, centred on column 12. So the game draws a
+frame at (box centre x - 12, box bottom - 24). The scarf extends backwards and does not collide.
 """
 
 import numpy as np
@@ -89,7 +89,10 @@ ANIMATIONS = {
 
 
 def compose(frame, parts):
-    """Return one frame, (24, 24, 4) uint8. frame: key of FRAMES; parts: {name: picture}, read from the drawing."""
+    """Return the picture of one frame, (24, 24, 4) uint8.
+
+    frame: key of FRAMES; parts: {name: picture}, read from the drawing.
+    """
     body, (head, dx, dy), (scarf, scarf_x, scarf_y) = FRAMES[frame]
     out = np.zeros((SIZE, SIZE, 4), np.uint8)
     lay(out, parts[scarf], scarf_x, scarf_y)
@@ -100,7 +103,7 @@ def compose(frame, parts):
 
 
 def hero_files():
-    """Return {relative path: bytes} of the sprite sheet "hero"."""
+    """Return {path relative to assets/: bytes} of the sprite sheet "hero"."""
     path = FOLDER / "drawings" / "hero.txt"
     parts = read_parts(path.read_text(encoding="utf-8"), LETTERS, path.name)
     sheet = Sheet("hero")

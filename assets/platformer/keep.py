@@ -1,6 +1,7 @@
 """The keep (castle) of the platformer in the distance: towers and walls at dusk, 480 x 150 px, seamless in x.
 
-Like the mountains it is drawn along the bottom of the screen. The light comes from the upper left, as everywhere.
+Like the mountains, it is drawn along the bottom of the screen. The light comes from the upper left, as in all
+pictures.
 """
 
 import numpy as np
@@ -52,7 +53,7 @@ def _put(out, x, y, colour):
 def _part(out, stone, left, width, height, kind):
     """Draw a wall or a tower into `out`, from its top down to the edge of the picture.
 
-    left, width, height [px]; kind: "wall", "tower" with battlements or "spire" with a pointed roof; stone: noise
+    left, width, height: in px; kind: "wall", "tower" with battlements, or "spire" with a pointed roof; stone: noise
     (HEIGHT, WIDTH).
     """
     top = HEIGHT - height
@@ -81,9 +82,9 @@ def _part(out, stone, left, width, height, kind):
 
 
 def _roof(out, left, width, top):
-    """Draw a steep roof into `out`, on a tower whose top is at y = top.
+    """Draw a steep roof into `out`, on a tower whose top is at y = `top`.
 
-    It overhangs by two pixels, and its left side is lit.
+    left, width: position and width of the tower [px]. The roof overhangs by two pixels, and its left side is lit.
     """
     reach = width + 4
     for i in range(reach + 6):
@@ -99,7 +100,7 @@ def _roof(out, left, width, top):
 
 
 def _fog(out):
-    """Fade the lower part of the picture `out` into the haze of the valley, dithered."""
+    """Fade the lower part of the picture `out` into the haze of the valley, by dithering."""
     y = np.mgrid[0:HEIGHT, 0:WIDTH][0]
     share = (y - HEIGHT * 0.62) / (HEIGHT * 0.38) + dither(HEIGHT, WIDTH) * 0.45
     for limit, strength in ((0.35, 0.3), (0.6, 0.55), (0.85, 0.8)):

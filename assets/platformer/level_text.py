@@ -8,7 +8,9 @@ ACTS = ("meadow", "cave", "keep")
 
 
 class Map:
-    """A level: the letters of its tiles, and its other sections."""
+    """A level, read from a text: the letters of its tiles, and its other sections. source: name of the file, for
+    errors.
+    """
 
     def __init__(self, text, source):
         sections = _sections(text, source)
@@ -36,15 +38,19 @@ class Map:
         }  # open tiles under covers
 
     def at(self, x, y):
-        """Return the letter of a tile. Outside the map it is GROUND, so that the map's edges look like its inside."""
+        """Return the letter of the tile (x, y). Outside the map it is GROUND, so that the map's edges look like its
+        inside.
+        """
         return self.rows[y][x] if 0 <= x < self.width and 0 <= y < self.height else GROUND
 
     def buried(self, x, y):
-        """Return the letter of a tile as if all covered rooms were filled with ground."""
+        """Return the letter of the tile (x, y) as if all covered rooms were filled with ground."""
         return Filled(self, self.rooms).at(x, y)
 
     def places(self, letter):
-        """Return all tiles (x, y) with a letter, column by column from the left, each from top to bottom."""
+        """Return a list of all tiles (x, y) with this letter, column by column from the left, each from
+        top to bottom.
+        """
         return [(x, y) for x in range(self.width) for y in range(self.height) if self.rows[y][x] == letter]
 
 
@@ -63,7 +69,7 @@ def _sections(text, source):
 
 
 def _numbers(line, count, source, rule):
-    """Return the `count` whole numbers in a line, as a tuple.
+    """Return the `count` integers in a line, as a tuple.
 
     Raises ValueError with the text `rule` if the line has other contents. source: name of the file, for errors.
     """
@@ -85,10 +91,10 @@ def _platform(line, source):
 
 
 def _zone(line, source):
-    """Return (act, rectangle, rows) of a zone. rectangle: (x, y, width, height) in tiles.
+    """Return (act, rectangle, rows) of a zone, read from a line.
 
-    act: one of ACTS, the look of the zone; rows: (top, bottom) in tiles that the camera may show, () if not given;
-    source: name of the file, for errors.
+    act: one of ACTS, the look of the zone; rectangle: (x, y, width, height) in tiles; rows: (top, bottom) in tiles
+    that the camera may show, or () if the line has none; source: name of the file, for errors.
     """
     act, _, rest = line.partition(" ")
     if act not in ACTS:
@@ -111,7 +117,7 @@ class Filled:
         self.level, self.rooms = level, rooms
 
     def at(self, x, y):
-        """Return the letter of a tile."""
+        """Return the letter of the tile (x, y), with covered rooms filled."""
         while (x, y) in self.rooms:
             y -= 1
         return self.level.at(x, y)

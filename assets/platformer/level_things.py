@@ -1,4 +1,4 @@
-"""The objects of a level, as rows for Tiled's object layers. They are made from letters and sections that are no tiles.
+"""The objects of a level, as rows for Tiled's object layers. They are made from the letters that are not tiles.
 
 A row is (type, x, y, width, height, properties) in px; (x, y) is the top left corner.
 """
@@ -29,10 +29,10 @@ SPIKES_INSET = (3, 7)  # [px] smaller than drawn: the points' outer pixels do no
 
 
 def objects(level):
-    """Return the objects of a level for the map file: rows (kind, x, y, width, height, properties) [px].
+    """Return the objects of a level for the map file, a list of rows (kind, x, y, width, height, properties) [px].
 
-    Objects on the map come first, column by column from the left, each from top to bottom. Then follow zones and
-    covers. level: see level_text.Map.
+    Objects on the map come first, column by column from the left, each from top to bottom. Zones and covers follow.
+    level: the level, a level_text.Map.
     """
     out, signs, platforms = [], iter(level.signs), iter(level.platforms)
     for x in range(level.width):
@@ -70,9 +70,9 @@ def objects(level):
 
 
 def hints(level):
-    """Return the points that guide the scripted player (bot) along its path, in order, as rows like those of `objects`.
+    """Return the points that guide the bot along its path, in order, as rows like those of objects().
 
-    level: see level_text.Map.
+    level: the level, a level_text.Map.
     """
     return [
         ("hint", x * TILE, y * TILE, TILE, TILE, {"order": number, "act": act})
@@ -92,9 +92,9 @@ def _standing(level, letter, x, y, signs):
 
 
 def _extent(level, x, y):
-    """Return (columns, rows) of the block of equal letters whose top left tile is at (x, y).
+    """Return (columns, rows), the size of the block of equal letters whose top left tile is at (x, y).
 
-    level: see level_text.Map.
+    level: the level, a level_text.Map.
     """
     letter = level.at(x, y)
     width = next(i for i in range(1, level.width + 1) if level.at(x + i, y) != letter)
@@ -115,10 +115,10 @@ def _pixels(rect):
 
 
 def walking_range(level, x, y, most=4):
-    """Return the distance [px] that a walker who starts at a tile may go to either side, at most `most` tiles.
+    """Return the distance [px] that a walker who starts at a tile may walk to either side, at most `most` tiles.
 
-    The ground must be level and free that far on both sides. On a platform the walker may go as far as the platform
-    reaches. level: see level_text.Map; x, y: the tile.
+    The ground must be level and free over this distance on both sides. On a platform, the walker must stay on the
+    platform. level: the level, a level_text.Map; x, y: the tile.
     """
     deck = _deck(level, x, y + 1)
     for step in range(1, most + 1):
@@ -131,9 +131,10 @@ def walking_range(level, x, y, most=4):
 
 
 def _deck(level, x, y):
-    """Return the tile (column, row) with the letter of the platform whose deck covers a tile; None without one.
+    """Return the tile (column, row) with the letter of the platform that covers the tile (x, y), or None if there is
+    none.
 
-    level: see level_text.Map; x, y: the tile to look at.
+    level: the level, a level_text.Map.
     """
     for (column, row), (_, _, _, width) in zip(level.places("P"), level.platforms, strict=True):
         if row == y and 0 <= x - column < width // TILE:

@@ -1,4 +1,6 @@
-"""Choice of a level's tiles: the letter determines the material, its neighbours determine the picture."""
+"""Choice of the pictures for a level's tiles: the letter determines the material, its neighbours determine the
+picture.
+"""
 
 from assets.platformer.decoration import SCENERY
 from assets.platformer.level_text import GROUND, SOLIDS, Filled
@@ -36,7 +38,7 @@ GROWTH = (("tuft_0", 30), ("tuft_1", 55), ("flower_0", 62), ("flower_1", 67))  #
 
 
 def tile_name(level, x, y):
-    """Return the name of the tile at (x, y) if it collides, else None. level: see level_text.Map."""
+    """Return the name of the tile at (x, y) if it collides, otherwise None. level: the level, a level_text.Map."""
     letter = level.at(x, y)
     if letter in SLOPE_LETTERS:
         return SLOPE_LETTERS[letter]
@@ -51,7 +53,7 @@ def tile_name(level, x, y):
 def solid_name(level, x, y):
     """Return the name of the ground, rock or stone tile at (x, y), which depends on its neighbours.
 
-    level: see level_text.Map.
+    level: the level, a level_text.Map.
     """
     letter = level.at(x, y)
     if level.at(x, y - 1) in SLOPE_LETTERS:
@@ -70,9 +72,9 @@ def solid_name(level, x, y):
 
 
 def cover_names(level):
-    """Return {(x, y): tile name} of the layer that hides covered rooms, and the walls around them, as ground.
+    """Return {(x, y): tile name} of the layer that covers hidden rooms and the walls around them with ground.
 
-    level: see level_text.Map.
+    level: the level, a level_text.Map.
     """
     rooms = level.rooms
     if not rooms:
@@ -83,9 +85,9 @@ def cover_names(level):
 
 
 def _depth(level, x, y):
-    """Return how many solid tiles lie between a tile and the nearest open one, at most DEEP.
+    """Return the number of solid tiles between the tile (x, y) and the nearest open tile, at most DEEP.
 
-    A covered room does not count as open, so that the tiles do not reveal it. level: see level_text.Map.
+    A covered room does not count as open, so that the tiles do not reveal the room. level: the level, a level_text.Map.
     """
     for reach in range(1, DEEP + 1):
         ring = [
@@ -104,14 +106,14 @@ def _joins(level, x, y):
 
 
 def _scatter(x, y):
-    """Return a pseudo-random number 0..99 that is always the same for a tile."""
+    """Return a pseudo-random number 0..99 that is always the same for the tile (x, y)."""
     return (x * 7919 + y * 104729 + x * y * 31 + (x ^ y) * 613) % 9973 % 100
 
 
 def decor_names(level):
-    """Return (decor, walls), {(x, y): tile name} each: the decoration layer, and the layer of walls behind it.
+    """Return (decor, walls), two dicts {(x, y): tile name}: the decoration layer, and the layer of walls behind it.
 
-    level: see level_text.Map.
+    level: the level, a level_text.Map.
     """
     out, walls = {}, {}
     for y in range(level.height):
@@ -141,10 +143,11 @@ def decor_names(level):
 
 
 def _wall_behind(level, x, y):
-    """Return the name of the wall that is drawn behind a tile, or None.
+    """Return the name of the wall that is drawn behind the tile (x, y), or None.
 
-    A letter in WALLS stands for a wall. Behind a letter in THINGS (an object, not a tile) the wall is that of the
-    nearest other tile in the row. Behind a plank it may also be that of the tile below. level: see level_text.Map.
+    A letter in WALLS stands for a wall. Behind a letter in THINGS (an object, not a tile), the wall is that of the
+    nearest other tile in the row. Behind a plank it may also be that of the tile below. level: the level, a
+    level_text.Map.
     """
     if level.at(x, y) in WALLS:
         return WALLS[level.at(x, y)]

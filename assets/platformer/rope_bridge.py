@@ -1,4 +1,4 @@
-"""A rope bridge that sags: its boards, on which the hero walks, and the ropes behind the hero."""
+"""A sagging rope bridge: its boards, on which the hero walks, and the ropes behind the hero."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ POST = 3  # [px] width of a post, outlines included
 
 
 def tops():
-    """Return how far the upper side of the boards is below the bridge's ends, in each column: (128,) whole px.
+    """Return the distance of the boards' upper side below the bridge's ends, for each column: (128,) integers [px].
 
     The values follow a parabola.
     """
@@ -21,9 +21,9 @@ def tops():
 
 
 def boards():
-    """Return the boards, 128 x 20 px. The picture is also their collision shape: alpha is 0 above the upper side.
+    """Return the picture of the boards, 128 x 20 px, which is also their collision shape.
 
-    From the upper side down alpha is 255.
+    Above the upper side of the boards alpha is 0; in the boards it is 255.
     """
     wood = RAMPS["wood"]
     picture = np.zeros((SAG + THICK, WIDTH, 4), np.uint8)
@@ -38,7 +38,10 @@ def boards():
 
 
 def ropes():
-    """Return handrails, hangers and posts, 128 x 30 px. The boards' ends are 12 px below the top of the picture."""
+    """Return the picture of handrails, hangers and posts, 128 x 30 px.
+
+    The ends of the boards are 12 px below the top of the picture.
+    """
     wood, rope = RAMPS["wood"], RAMPS["gold"]
     picture = np.zeros((RAIL + SAG + 4, WIDTH, 4), np.uint8)
     levels = tops().tolist()
@@ -58,6 +61,6 @@ def ropes():
 
 
 def add_rope_bridge(sheet):
-    """Add the pictures of this module to a sprite sheet."""
+    """Add the pictures of the boards and of the ropes to a sprite sheet."""
     sheet.add("bridge", boards())
     sheet.add("bridge_ropes", ropes())

@@ -1,6 +1,6 @@
 """The platformer's distance: a sky at dusk, three ranges of mountains and a bank of clouds, all seamless in x.
 
-Far layers are lighter and paler, near ones dark and rich, so that the tiles in front stand out.
+Far layers are lighter and paler, near ones dark and saturated, so that the tiles in front are easy to see.
 """
 
 import numpy as np
@@ -31,7 +31,7 @@ SUN = (338, 196, 21)  # [px] x, y, radius
 
 
 def sky():
-    """Return the sky, (270, 480, 3) uint8: a gradient, stars, and a low sun with haze."""
+    """Return the picture of the sky, (270, 480, 3) uint8: a gradient, stars, and a low sun with haze."""
     x, y = grid(WIDTH, SKY_HEIGHT)
     glow = np.clip(1 - length((x - SUN[0]) * 0.55, y - SUN[1]) / 130, 0, 1)
     level = y / SKY_HEIGHT * 0.92 + glow * glow * 0.17
@@ -63,9 +63,9 @@ def _stars(picture):
 
 
 def ridge_line(cells, octaves, seed, sharp):
-    """Return the heights 0..1 of a ridge, one per column, seamless in x.
+    """Return the heights 0..1 of a ridge, one for each column, seamless in x.
 
-    cells, octaves, seed: see layered_noise; sharp 0..1: from rolling hills to peaks.
+    cells, octaves, seed: see layered_noise; sharp: from 0 (rolling hills) to 1 (peaks).
     """
     rolling = layered_noise(WIDTH, 4, cells, 1, octaves, seed)[0]
     peaks = 1 - abs(layered_noise(WIDTH, 4, cells, 1, octaves, seed + 50)[0] * 2 - 1)
@@ -74,11 +74,11 @@ def ridge_line(cells, octaves, seed, sharp):
 
 
 def mountains(height, low, high, cells, seed, tones, snow=None, haze=None):
-    """Return one range of mountains, (height, 480, 4) uint8.
+    """Return the picture of one range of mountains, (height, 480, 4) uint8.
 
-    low, high [px]: height of rock at the lowest and the highest point; cells: see ridge_line; tones: colours (shade,
-    body, light, edge); snow: two colours of the snow caps, or None; haze: colour into which the foot fades, or None;
-    seed: seed of the random numbers.
+    low, high: height of the rock at the lowest and the highest point [px]; cells: see ridge_line; tones: colours
+    (shade, body, light, edge); snow: two colours of the snow caps, or None; haze: colour into which the foot fades, or
+    None; seed: seed of the random numbers.
     """
     line = ridge_line(cells, 6, seed, 0.75)
     top = height - (low + (high - low) * line)
@@ -107,7 +107,10 @@ def mountains(height, low, high, cells, seed, tones, snow=None, haze=None):
 
 
 def pines(height, seed):
-    """Return the nearest range, (height, 480, 4) uint8: wooded hills in four rows of firs, each nearer and darker."""
+    """Return the picture of the nearest range, (height, 480, 4) uint8: wooded hills in four rows of firs.
+
+    Each row is nearer and darker than the row before. seed: seed of the random numbers.
+    """
     line = ridge_line(3, 4, seed, 0.2)
     out = np.zeros((height, WIDTH, 4), np.uint8)
     y = np.mgrid[0:height, 0:WIDTH][0]
@@ -139,7 +142,7 @@ def pines(height, seed):
 def _pine(out, column, foot, size, tones):
     """Draw one fir into `out`: jagged tiers that widen downwards, lit along the left edge.
 
-    column, foot: place of its foot; size [px]: its height; tones: colours (body, light, edge).
+    column, foot: x and y of its foot [px]; size: its height [px]; tones: colours (body, light, edge).
     """
     body, light, edge = tones
     for i in range(size):
@@ -154,10 +157,11 @@ def _pine(out, column, foot, size, tones):
 
 
 def bank(width, height, seed, base, puffs, tones):
-    """Return a row of cumulus clouds with flat, fading bottoms, (height, width, 4) uint8, seamless in x.
+    """Return the picture of a row of cumulus clouds with flat, fading bottoms, (height, width, 4) uint8, seamless in
+    x.
 
-    base [px]: y of the bottoms; puffs: round parts, ((x, height over the base, radius), ...) [px]; tones: four colours,
-    dark to light; seed: seed of the random numbers.
+    base: y of the bottoms [px]; puffs: round parts, ((x, height over the base, radius), ...) [px]; tones: four
+    colours, dark to light; seed: seed of the random numbers.
     """
     y, x = np.mgrid[0:height, 0:width] + 0.5
     rough = layered_noise(width, height, max(2, width // 24), max(2, height // 24), 3, seed) - 0.5
@@ -175,7 +179,7 @@ def bank(width, height, seed, base, puffs, tones):
 
 
 def backdrop_layers():
-    """Return {name: pixels} of the layers in this module, far to near."""
+    """Return {name: picture} of the layers of this module, far to near."""
     far = oklch_all((0.47, 0.085, 322), (0.53, 0.090, 335), (0.63, 0.095, 5), (0.72, 0.085, 30))
     mid = oklch_all((0.335, 0.080, 300), (0.375, 0.085, 306), (0.445, 0.095, 325), (0.53, 0.100, 345))
     snow = oklch_all((0.66, 0.060, 340), (0.83, 0.055, 40))

@@ -23,9 +23,9 @@ GAPS = ((), ((8, 0, 11, 3),), ((0, 13, 4, 16), (21, 0, 24, 3)), ((14, 12, 18, 16
 
 
 def crumble(look):
-    """Return a crumbling stone slab, 32 x 16 px.
+    """Return the picture of a crumbling stone slab, 32 x 16 px.
 
-    look: 0..3, with more and more cracks and missing bits. The slab remains in one piece.
+    look: 0..3, with increasing numbers of cracks and missing bits. The slab remains in one piece.
     """
     sprite = Sprite(*CRUMBLE)
     x, y = sprite.x, sprite.y
@@ -49,7 +49,7 @@ def crumble(look):
 
 
 def crumble_bit(kind):
-    """Return a fragment of the crumbling stone, 8 x 8 px. kind: 0..2."""
+    """Return the picture of a fragment of the crumbling stone, 8 x 8 px. kind: 0..2."""
     sprite = Sprite(8, 8)
     points = (
         ((1.4, 2), (4.4, 1.2), (6.6, 3.4), (5.6, 6.4), (2.2, 6.4)),
@@ -61,9 +61,9 @@ def crumble_bit(kind):
 
 
 def belt(part, phase):
-    """Return a piece of conveyor belt, 16 x 16 px. part: left_end, mid or right_end.
+    """Return the picture of a piece of conveyor belt, 16 x 16 px.
 
-    phase: 0..3; the top of the belt moves to the right as it rises.
+    part: "left_end", "mid" or "right_end"; phase: 0..3, the belt's motion to the right in quarters of its tread.
     """
     sprite = Sprite(16, 16)
     x, y = sprite.x, sprite.y
@@ -91,7 +91,7 @@ def belt(part, phase):
 
 
 def _wheel(sprite, middle, radius, phase):
-    """Draw a wheel of the belt around x = middle. Its spoke rotates with the phase, 0..3."""
+    """Draw a wheel of the belt around x = `middle` into a sprite. Its spoke rotates with the phase, 0..3."""
     x, y = sprite.x, sprite.y
     sprite.part(circle(x, y, middle, 7, radius), RAMPS["steel"], bulge=2.4, base=0.50, gain=0.5, grain=0)
     turn = ((1.0, 0.0), (0.7, 0.7), (0.0, 1.0), (-0.7, 0.7))[phase]
@@ -106,7 +106,7 @@ def _wheel(sprite, middle, radius, phase):
 
 
 def _open(sprite, column):
-    """Draw the side of a belt piece at which the next piece follows: with an outline only above and below the belt.
+    """Draw the side of a belt piece at which the next piece follows: the outline is only above and below the belt.
 
     column: column of the picture at this side.
     """
@@ -115,7 +115,7 @@ def _open(sprite, column):
 
 
 def gem(frame):
-    """Return a rotating gem, 14 x 14 px. frame: 0..3; the highlight stays in place."""
+    """Return the picture of a rotating gem, 14 x 14 px. frame: 0..3; the highlight does not move."""
     sprite = Sprite(14, 14)
     x, y, half = sprite.x, sprite.y, GEM_WIDTHS[frame]
     ramp = RAMPS["teal"]
@@ -140,7 +140,7 @@ def gem(frame):
 
 
 def add_stonework(sheet):
-    """Add the pictures of this module to a sprite sheet."""
+    """Add the pictures of the stone, its fragments, the belt and the gem to a sprite sheet."""
     for look in range(4):
         sheet.add(f"crumble_{look}", crumble(look))
     for kind in range(3):

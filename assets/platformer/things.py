@@ -1,6 +1,7 @@
-"""The sprite sheet "things": coins, spring, crates, spikes, enemies, platforms, checkpoint, goal, sign and small puffs.
+"""The sprite sheet "things": coins, spring, crates, spikes, enemies, platforms, checkpoint, goal, sign and small
+puffs.
 
-Things that stand on the ground touch it with their bottom row. Enemies are drawn facing left.
+Things that stand on the ground touch it with their bottom row. Enemies face left.
 """
 
 from assets import FOLDER
@@ -49,7 +50,7 @@ FLAG_WAVE = (  # [px] offset of the cloth, along it, per frame
 
 
 def coin(frame):
-    """Return a spinning coin, frame 0..5: 14 x 14 px."""
+    """Return the picture of a spinning coin, 14 x 14 px. frame: 0..5."""
     sprite = Sprite(14, 14)
     x, y, half = sprite.x, sprite.y, COIN_WIDTHS[frame]
     gold = RAMPS["gold"]
@@ -66,7 +67,7 @@ def coin(frame):
 
 
 def sparkle(frame):
-    """Return the sparkle of a taken coin, frame 0..3: 14 x 14 px."""
+    """Return the picture of the sparkle of a taken coin, 14 x 14 px. frame: 0..3."""
     sprite = Sprite(14, 14)
     reach = (2.0, 4.0, 5.6, 6.4)[frame]
     for step_x, step_y in ((1, 0), (-1, 0), (0, 1), (0, -1)):
@@ -87,7 +88,10 @@ def sparkle(frame):
 
 
 def dust(frame):
-    """Return a puff of dust at the feet, 16 x 10 px: two clouds that part, rise and thin. frame: 0..4."""
+    """Return the picture of a puff of dust at the feet, 16 x 10 px: two clouds that separate, rise and thin out.
+
+    frame: 0..4.
+    """
     sprite = Sprite(16, 10)
     x, y = sprite.x, sprite.y
     tones = (RAMPS["dirt"][4], RAMPS["dirt"][5], RAMPS["stone"][5])
@@ -103,7 +107,7 @@ def dust(frame):
 
 
 def crate(size):
-    """Return a wooden crate with a frame and cross braces, size x size px."""
+    """Return the picture of a wooden crate with a frame and a brace, size x size px."""
     sprite = Sprite(size, size)
     x, y, edge = sprite.x, sprite.y, max(3, size // 8)
     sprite.part(box(x, y, 1, 1, size - 1, size - 1, 1), RAMPS["wood"], bulge=2, base=0.36, gain=0.2)
@@ -129,7 +133,9 @@ def crate(size):
 
 
 def platform(width):
-    """Return a moving platform of stone slabs on brackets, width x 16 px. Its top row is the surface to stand on."""
+    """Return the picture of a moving platform, width x 16 px: stone slabs on brackets. Its top row is its
+    upper side.
+    """
     sprite = Sprite(width, 16)
     x, y = sprite.x, sprite.y
     sprite.part(box(x, y, 1, 1, width - 1, 9, 2), RAMPS["stone"], bulge=3, base=0.56)
@@ -148,7 +154,7 @@ def platform(width):
 
 
 def checkpoint(lit, frame):
-    """Return a lamp post, 16 x 32 px. lit: whether the lamp glows; frame: 0..1 of its flicker."""
+    """Return the picture of a lamp post, 16 x 32 px. lit: whether the lamp glows; frame: 0..1 of its flicker."""
     sprite = Sprite(16, 32)
     x, y = sprite.x, sprite.y
     sprite.part(capsule(x, y, (8, 13), (8, 30), 1.4), RAMPS["wood"], bulge=1.5, base=0.5)
@@ -162,7 +168,10 @@ def checkpoint(lit, frame):
 
 
 def goal(frame):
-    """Return a tall pole with a waving flag, frame 0..3: 32 x 48 px. The pole is at x 5 to 8 of the picture."""
+    """Return the picture of a tall pole with a waving flag, 32 x 48 px. frame: 0..3.
+
+    The pole is at x = 5 to 8 of the picture.
+    """
     sprite = Sprite(32, 48)
     x, y = sprite.x, sprite.y
     cloth = FLAG_WAVE[frame]
@@ -182,7 +191,7 @@ def goal(frame):
 
 
 def arrow(frame):
-    """Return an arrow that points down as a hint and moves up and down, 11 x 12 px. frame: 0..1."""
+    """Return the picture of an arrow that points down as a hint and moves up and down, 11 x 12 px. frame: 0..1."""
     sprite = Sprite(11, 12)
     shape = ((4, 1), (7, 1), (7, 5), (9.8, 5), (5.5, 10), (1.2, 5), (4, 5))
     points = [(x, y + frame) for x, y in shape]
@@ -191,7 +200,7 @@ def arrow(frame):
 
 
 def hedgehog(frame):
-    """Return a walker covered with spines, facing left, 20 x 14 px. frame: 0..3. It cannot be stomped."""
+    """Return the picture of a hedgehog, an enemy covered with spines, facing left, 20 x 14 px. frame: 0..3."""
     sprite = Sprite(20, 14)
     x, y = sprite.x, sprite.y
     for i, foot in enumerate((6.2, 9.4, 13.0, 16.0)):  # near and far feet in turn
@@ -228,7 +237,7 @@ def hedgehog(frame):
 
 
 def things_files():
-    """Return {relative path: bytes} of the sprite sheet "things"."""
+    """Return {path relative to assets/: bytes} of the sprite sheet "things"."""
     path = FOLDER / "drawings" / "things.txt"
     drawn = read_parts(path.read_text(encoding="utf-8"), LETTERS, path.name)
     sheet = Sheet("things")

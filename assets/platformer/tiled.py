@@ -3,7 +3,7 @@
 Layers, back to front: "wall", "decor", "solid" (tiles), "cover" (tiles that hide rooms until the hero is inside), then
 "things" and "bot hints" (objects). Objects are rectangles in px, given by their top left corner (x, y). A moving
 platform has to_x, to_y (its corner at the far end [px]) and period (time there and back [s]). Belts have speed [px/s].
-Zones have the act that sets their look.
+Zones have the act that determines their look.
 """
 
 import itertools
@@ -25,7 +25,7 @@ def _properties(values):
 
 
 def tileset(table):
-    """Return the tileset to embed in the map: for each tile its place in images/tiles.png and its kind.
+    """Return the tileset to embed in the map, a dict: for each tile its position in images/tiles.png and its kind.
 
     table: result of tile_table().
     """
@@ -50,7 +50,7 @@ def tileset(table):
 
 
 def tiled_map(level):
-    """Return the whole map as Tiled's JSON structure. level: see level_text.Map."""
+    """Return the whole map as Tiled's JSON structure, a dict. level: the level, a level_text.Map."""
     table = tile_table()
     groups = _object_layers(level)
     layers = _tile_layers(level, table) + groups
@@ -74,9 +74,10 @@ def tiled_map(level):
 
 
 def _tile_layers(level, table):
-    """Return the tile layers, back to front, as Tiled's JSON structure.
+    """Return the tile layers, back to front, as Tiled's JSON structure, a list.
 
-    table: all tiles in the order of the tileset. They are numbered from 1; 0 means no tile. level: see level_text.Map.
+    table: all tiles in the order of the tileset. They are numbered from 1; 0 means no tile. level: the level, a
+    level_text.Map.
     """
     numbers = {name: i for i, name in enumerate(table, 1)}
     cells = [(x, y) for y in range(level.height) for x in range(level.width)]
@@ -96,9 +97,9 @@ def _tile_layers(level, table):
 
 
 def _object_layers(level):
-    """Return the object layers as Tiled's JSON structure. Objects are numbered from 1 across both layers.
+    """Return the object layers as Tiled's JSON structure, a list. Objects are numbered from 1 across both layers.
 
-    level: see level_text.Map.
+    level: the level, a level_text.Map.
     """
     numbers, groups = itertools.count(1), []
     for name, rows in (("things", objects(level)), ("bot hints", hints(level))):
@@ -133,7 +134,9 @@ def _object_layers(level):
 
 
 def to_tmj(structure):
-    """Return a tiled_map() as bytes, with a line per map row, tile and object, so that changes give small diffs."""
+    """Return the result of tiled_map() as bytes, with a line per map row, tile and object, so that changes give small
+    diffs.
+    """
     text = json.dumps(structure, ensure_ascii=False)
     for layer in structure["layers"]:
         if "data" in layer:
@@ -146,7 +149,7 @@ def to_tmj(structure):
 
 
 def level_files():
-    """Return {relative path: bytes} of all levels."""
+    """Return {path relative to assets/: bytes} of all levels."""
     path = FOLDER / "levels" / "platformer.txt"
     level = Map(path.read_text(encoding="utf-8"), path.name)
     return {"levels/platformer.tmj": to_tmj(tiled_map(level))}

@@ -1,9 +1,9 @@
 """The sprite sheet "tiles": 16 px ground, stone, rock, slopes, planks, ladders and decoration, with collision kinds.
 
-The picture of ground, stone and rock depends on which of the eight neighbours are of the same kind. So a map made of
-one letter gets its grass, edges and corners by itself. Such a tile is named `ground_<mask>`. The mask is the sum of the
-neighbours present: N 1, NE 2, E 4, SE 8, S 16, SW 32, W 64, NW 128. A corner counts only if both its sides do (47
-cases).
+The picture of ground, stone and rock depends on which of the eight neighbours are solid. So a map made of one letter
+gets its grass, edges and corners automatically. Such a tile is named `ground_<mask>`. The mask is the sum of the
+neighbours present: N 1, NE 2, E 4, SE 8, S 16, SW 32, W 64, NW 128. A corner counts only if both its sides are present
+(47 cases).
 """
 
 import numpy as np
@@ -60,7 +60,7 @@ BLOBS = sorted({reduced(mask) for mask in range(256)})
 
 
 def texture(material, variant=0):
-    """Return the inside of a material, (16, 16, 3) uint8, plain, with a few clods, stones or cracks.
+    """Return the picture of the inside of a material, (16, 16, 3) uint8: plain, with a few clods, stones or cracks.
 
     material: key of MATERIALS; variant: 0..3; all variants fit together.
     """
@@ -84,7 +84,7 @@ def texture(material, variant=0):
 
 
 def deep(variant):
-    """Return ground far below the surface, (16, 16, 4) uint8: darker and plainer.
+    """Return the picture of ground far below the surface, (16, 16, 4) uint8: darker and plainer.
 
     variant: 0..2 plain, 3 with a bone, 4 with a crystal.
     """
@@ -104,7 +104,7 @@ def deep(variant):
 
 
 def fading(variant):
-    """Return the transition from ground to deep ground, (16, 16, 4) uint8: both mixed in a dither pattern.
+    """Return the picture of the transition from ground to deep ground, (16, 16, 4) uint8: both in a dither pattern.
 
     variant: 0..1.
     """
@@ -115,7 +115,7 @@ def fading(variant):
 def _bricks(picture, ramp, variant):
     """Draw two courses of blocks, offset by half a block, with lit upper and dark lower edges. Return the picture.
 
-    picture (16, 16, 3) uint8; ramp: its colours; variant: 0 plain, 1 and 3 with a crack, 2 worn.
+    picture: (16, 16, 3) uint8, changed in place; ramp: its colours; variant: 0 plain, 1 and 3 with a crack, 2 worn.
     """
     picture[:] = mix(picture, ramp[2], 0.6)
     for row, offset in ((0, 4), (8, 12)):
@@ -138,9 +138,10 @@ def _bricks(picture, ramp, variant):
 
 
 def blob(material, mask, variant=0):
-    """Return one tile of a material, (16, 16, 4) uint8, opaque, with edges and corners where a neighbour is missing.
+    """Return the picture of one tile of a material, (16, 16, 4) uint8, opaque.
 
-    mask: sum of the bits N, NE, E ... of the neighbours of the same material; variant: see texture.
+    It has edges and corners where a neighbour is missing. mask: sum of the bits N, NE, E ... of the solid neighbours;
+    variant: see texture.
     """
     ramp, cap = RAMPS[MATERIALS[material][0]], RAMPS[MATERIALS[material][1]]
     picture = texture(material, variant)
@@ -170,7 +171,7 @@ def _side(picture, ramp, column, inward, light):
 
 
 def _top(picture, cap, material):
-    """Draw the top of a tile: grass with a ragged fringe on ground, a worn edge on stone or rock. cap: its colours."""
+    """Draw the top of a tile into `picture`: ragged grass on ground, a worn edge on stone or rock. cap: its colours."""
     picture[0] = OUTLINE
     if material != "ground":
         picture[1] = cap[5]
@@ -190,7 +191,8 @@ def _top(picture, cap, material):
 
 
 def _inner_corner(picture, corner, cap, grass):
-    """Draw the outline, and the end of the neighbour's grass, in a corner whose diagonal neighbour is missing.
+    """Draw the corner of a tile whose diagonal neighbour is missing: its outline, and the end of the neighbour's
+    grass.
 
     corner: NE, SE, SW or NW; cap: colours of the top; grass: whether the material is ground.
     """
@@ -206,7 +208,7 @@ def _inner_corner(picture, corner, cap, grass):
 
 
 def slope(name):
-    """Return a slope with grass, (16, 16, 4) uint8, clear above the surface. name: key of SLOPES."""
+    """Return the picture of a slope with grass, (16, 16, 4) uint8, clear above the surface. name: key of SLOPES."""
     left, right = SLOPES[name]
     cap = RAMPS["grass"]
     picture = texture("ground", 1)
@@ -224,7 +226,10 @@ def slope(name):
 
 
 def under_slope(name):
-    """Return the opaque ground tile below a slope, with the lower end of the slope's grass. name: key of SLOPES."""
+    """Return the picture of the ground tile below a slope, with the lower end of the slope's grass, (16, 16, 4) uint8.
+
+    name: key of SLOPES.
+    """
     left, right = SLOPES[name]
     picture = texture("ground", 0)
     cap = RAMPS["grass"]
@@ -237,9 +242,9 @@ def under_slope(name):
 
 
 def plank(part):
-    """Return a plank, 16 x 16 px, with its boards in the top 6 rows. part: left, middle, right or single.
+    """Return the picture of a one-way plank, 16 x 16 px, with its boards in the top 6 rows.
 
-    It is one-way: bodies pass through it from below.
+    part: "left", "middle", "right" or "single".
     """
     wood = RAMPS["wood"]
     picture = np.zeros((TILE, TILE, 4), np.uint8)
@@ -258,9 +263,9 @@ def plank(part):
 
 
 def _bracket(picture, column, inward):
-    """Draw a short strut under an end of a plank. column: column of the strut.
+    """Draw a short strut under an end of a plank into `picture`.
 
-    inward: 1 or -1, direction of the plank's middle.
+    column: column of the strut; inward: 1 or -1, direction towards the plank's centre.
     """
     for i in range(5):
         for dx, colour in ((0, RAMPS["wood"][2]), (inward, RAMPS["wood"][1])):
@@ -270,9 +275,9 @@ def _bracket(picture, column, inward):
 
 
 def ladder(top):
-    """Return a piece of a wooden ladder, (16, 16, 4) uint8, seamless when it is repeated downwards.
+    """Return the picture of a piece of a wooden ladder, (16, 16, 4) uint8, seamless when it is repeated downwards.
 
-    top: whether it is the top piece, which has a landing of planks to stand on.
+    top: whether it is the top piece, which has planks to stand on.
     """
     wood = RAMPS["wood"]
     picture = np.zeros((TILE, TILE, 4), np.uint8)
@@ -296,9 +301,9 @@ def ladder(top):
 
 
 def material_tiles(material):
-    """Return {name: (pixels, properties)} of one material.
+    """Return {name: (pixels, properties)} of the tiles of one material.
 
-    There is a tile for every mask of neighbours, then the variants of the material's inside.
+    There is a tile for every mask of neighbours, and then the variants of the material's inside.
     """
     table = {f"{material}_{mask}": (blob(material, mask), {"kind": "solid"}) for mask in BLOBS}
     for variant in range(1, DEPTHS):
@@ -309,7 +314,7 @@ def material_tiles(material):
 def tile_table():
     """Return {name: (pixels, properties)} of all tiles in the order of the tileset.
 
-    The properties are those in the .tmj.
+    properties: dict that the .tmj contains for the tile.
     """
     table = {}
     for material in MATERIALS:
@@ -340,7 +345,7 @@ def tile_table():
 
 
 def tiles_files():
-    """Return {relative path: bytes} of the sprite sheet "tiles"."""
+    """Return {path relative to assets/: bytes} of the sprite sheet "tiles"."""
     sheet = Sheet("tiles", gap=0)
     for name, (pixels, _) in tile_table().items():
         sheet.add(name, pixels)

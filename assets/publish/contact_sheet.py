@@ -47,7 +47,7 @@ PAPER = oklch(0.27, 0.045, 285)
 
 
 def load_frames(name):
-    """Return {frame: (h, w, 4) uint8} of the sprite sheet `name` in assets/images."""
+    """Return {name of a frame: picture (h, w, 4) uint8} of the sprite sheet `name` in assets/images."""
     picture = png.decode((FOLDER / "images" / f"{name}.png").read_bytes())
     table = json.loads((FOLDER / "images" / f"{name}.json").read_text(encoding="utf-8"))
     return {
@@ -57,7 +57,10 @@ def load_frames(name):
 
 
 def section(name, frames):
-    """Return a picture of one sprite sheet's frames in rows under its name, (h, WIDTH, 3) uint8."""
+    """Return a picture of one sprite sheet's frames in rows under the sheet's name, (h, WIDTH, 3) uint8.
+
+    frames: {name: (h, w, 4) uint8}.
+    """
     rows, row, used = [], [], GAP
     for frame in frames.values():
         if used + frame.shape[1] + GAP > WIDTH and row:
@@ -100,7 +103,7 @@ PICTURES = {"sprites": sprites, "moments": moments.sheet}
 
 
 def main(arguments=None):
-    """Write the pictures named in `arguments`, or all. Return the exit code: 0 success, 2 an unknown picture."""
+    """Write the pictures named in `arguments`, or all pictures. Return the exit code: 0 success, 2 an unknown name."""
     names = (sys.argv[1:] if arguments is None else arguments) or list(PICTURES)
     for name in names:
         if name not in PICTURES:

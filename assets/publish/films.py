@@ -1,6 +1,7 @@
 """Pictures of the games, taken while bots play them: the menu's small pictures of all scenes.
 
-The scripts of assets/ do not import the games. The program scenes/filming.py takes the pictures, and is run here.
+The scripts of assets/ do not import the games, so this module runs the program scenes/filming.py, which takes the
+pictures.
 """
 
 import os
@@ -17,7 +18,8 @@ ROOT = FOLDER.parents[len(ABOVE)]  # where the names are looked up
 
 
 def filmed(what, *names):
-    """Run `python -m scenes.filming` with the arguments `what` and `names`. Return {file name: bytes} of its pictures.
+    """Run `python -m scenes.filming` with the arguments `what` and `names`, and return {file name: bytes} of its
+    files.
 
     The dict is in the order of the file names. Raises RuntimeError with the program's output if the program fails.
     """
@@ -31,5 +33,5 @@ def filmed(what, *names):
 
 
 def picture_files():
-    """Return {relative path: bytes} of the menu's pictures, one per scene, 160 x 90 px."""
+    """Return {path relative to assets/: bytes} of the menu's pictures, one for each scene, 160 x 90 px."""
     return {f"images/pictures/{name}": content for name, content in filmed("pictures").items()}

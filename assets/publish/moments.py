@@ -1,4 +1,7 @@
-"""docs/moments.png: twelve moments of each game with captions, three in a row, taken while a bot plays the game."""
+"""docs/moments.png: twelve pictures of remarkable events of each game, with captions, three in a row.
+
+A bot plays the games while the pictures are taken.
+"""
 
 import json
 
@@ -17,21 +20,24 @@ PAPER = oklch(0.22, 0.045, 285)
 
 
 def sheet():
-    """Return one picture, (h, w, 3) uint8, with screenshots of remarkable events (moments) in all games."""
+    """Return one picture, (h, w, 3) uint8, with the screenshots of remarkable events (moments) of all GAMES."""
     return np.concatenate([game_moments(name) for name in GAMES])
 
 
 def game_moments(name):
-    """Return a picture, (h, w, 3) uint8, with the screenshots of one game's events (moments) under the game's name."""
+    """Return a picture, (h, w, 3) uint8, with screenshots of one game's remarkable events (moments) under the game's
+    name.
+    """
     files = filmed("moments", name)
     captions = json.loads(files.pop("captions.json"))
     return laid_out(name, captions, [png.decode(content) for content in files.values()])
 
 
 def laid_out(name, captions, pictures):
-    """Return a picture with a heading, and below it the given pictures in rows, each over its caption.
+    """Return a picture, (h, w, 3) uint8: the name as heading, and the given pictures in rows, each above its caption.
 
-    pictures: FRAME px each. Raises ValueError unless there are COLUMNS * ROWS captions and as many pictures.
+    captions: list of strings; pictures: list of (270, 480, 3) uint8. Raises ValueError unless there are COLUMNS * ROWS
+    captions and as many pictures.
     """
     if not len(captions) == len(pictures) == COLUMNS * ROWS:
         raise ValueError(f"{name}: {COLUMNS * ROWS} moments must be there (got {len(captions)}, {len(pictures)})")

@@ -6,9 +6,9 @@ from assets.shooter import bosses, enemies, large_planes, pickups, planes, raide
 
 
 def planes_files():
-    """Return {relative path: bytes} of the sprite sheet "planes".
+    """Return {path relative to assets/: bytes} of the sprite sheet "planes".
 
-    Frames whose names end in _flash are white silhouettes, which are shown after a hit.
+    A frame whose name ends in _flash is a white silhouette, which is shown after a hit.
     """
     sheet = Sheet("planes")
     for bank in planes.BANKS:

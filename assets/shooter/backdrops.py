@@ -1,6 +1,7 @@
-"""Grounds of the shooter, 480 x 540 px, seamless in both directions, which scroll downwards.
+"""Background pictures of the shooter, 480 x 540 px, which scroll downwards and are seamless in both directions.
 
-The grounds are sea, coast and storm. Over them lie clouds_low with cloud_shadows, clouds_high and clouds_storm.
+The grounds are sea, coast and storm. The cloud layers clouds_low, clouds_high and clouds_storm and the layer
+cloud_shadows are drawn above the grounds.
 """
 
 from assets.craft import png
@@ -14,7 +15,7 @@ LOW_ALPHA, HIGH_ALPHA, STORM_ALPHA, SHADOW_ALPHA = 130, 90, 150, 70
 
 
 def backdrop_files():
-    """Return {relative path: bytes} of the pictures of all layers."""
+    """Return {path relative to assets/: bytes} of the pictures of all grounds, clouds and shadows."""
     low = from_above(901, 0.62, LOW_ALPHA, 5, 5)
     layers = {
         "sea": ground(),

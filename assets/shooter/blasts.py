@@ -15,7 +15,9 @@ WAKE = (0.95, 0.58, 0.38, 0.28, 0.21, 0.15)  # width of the wake behind the fron
 
 
 def bomb_ring(frame):
-    """Return the shock ring of the player's bomb. frame: 0..5."""
+    """Return the picture of the shock ring of the player's bomb, (h, w, 4) uint8. frame: 0..5, an index into
+    RING_SIZES.
+    """
     size = RING_SIZES[frame]
     sprite = Sprite(size, size)
     radius = size / 2 - 1.5
@@ -45,7 +47,7 @@ def bomb_ring(frame):
 
 
 def heavy_shot():
-    """Return the player's shot of full power, flying up, 10 x 22 px."""
+    """Return the picture of the player's shot of full power, 10 x 22 px, which flies upwards."""
     sprite = Sprite(10, 22)
     x, y = sprite.x, sprite.y
     sprite.flat(capsule(x, y, (5, 5), (5, 18.6), 4.6, 1.4), RAMPS["blue"][2])
@@ -58,7 +60,9 @@ def heavy_shot():
 
 
 def graze_spark(frame):
-    """Return the spark of a bullet that just missed: four splinters of light, 12 x 12 px. frame: 0..2."""
+    """Return the picture of the spark of a bullet that just missed: four short rays of light, 12 x 12 px.
+    frame: 0..2.
+    """
     sprite = Sprite(12, 12)
     start, end = ((0.0, 3.0), (1.6, 4.6), (3.4, 5.2))[frame]
     for dx, dy in ((0.7, -0.7), (-0.7, -0.7), (-0.7, 0.7), (0.7, 0.7)):
@@ -79,7 +83,7 @@ def graze_spark(frame):
 
 
 def add_blasts(sheet):
-    """Add the pictures of this module to a sprite sheet."""
+    """Add the bomb's shock ring, the shot of full power and the graze spark to a sprite sheet."""
     sheet.add_sequence("bomb_ring", [bomb_ring(i) for i in range(len(RING_SIZES))], 20)
     sheet.add("heavy_shot", heavy_shot())
     sheet.add_sequence("graze_spark", [graze_spark(i) for i in range(3)], 24)

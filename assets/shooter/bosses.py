@@ -1,7 +1,8 @@
-"""The shooter's two bosses, flying down: the heavy bomber in the middle of the stage, and the fortress at its end.
+"""The shooter's two bosses, which face down: the heavy bomber halfway through the stage, and the fortress at the end.
 
-The fortress has three looks: whole with its eye half shut, with torn armour, and burning with a wing tip gone. Each
-look has two frames (engines and eye pulse) with the same silhouette, so that both frames have one mask.
+The fortress has three looks: whole with its eye half shut, with torn armour, and burning with one wing tip missing.
+Each look has two frames, which differ in the glow of engines and eye. Both have the same silhouette, so that one mask
+serves both.
 """
 
 from assets.craft.fields import box, capsule, ellipse, polygon
@@ -14,7 +15,7 @@ LOOKS = "abc"
 
 
 def midboss(frame):
-    """Return the heavy bomber: a flying wing in rust and iron with four engines and three turrets. frame: 0..1."""
+    """Return the picture of the heavy bomber, a flying wing with four engines and three turrets. frame: 0..1."""
     sprite = Sprite(*MIDBOSS)
     x, y = sprite.x, sprite.y
     for side in (-1, 1):
@@ -43,7 +44,10 @@ def midboss(frame):
 
 
 def _midboss_side(sprite, side, frame):
-    """Draw the wing, tail fin, two engines, turret and gun of one side. side: -1 left, 1 right."""
+    """Draw the wing, tail fin, two engines, turret and gun of one side into `sprite`.
+
+    side: -1 left, 1 right; frame: 0..1, brightness of the engines.
+    """
     x, y = sprite.x, sprite.y
     lit = -side * 0.06
 
@@ -104,7 +108,10 @@ def _midboss_side(sprite, side, frame):
 
 
 def boss(look, frame):
-    """Return the flying fortress. look: one of LOOKS, its states from whole to burning; frame: 0..1."""
+    """Return the picture of the flying fortress, (84, 132, 4) uint8.
+
+    look: one of LOOKS, its states from whole to burning; frame: 0..1, brightness of engines and eye.
+    """
     sprite = Sprite(*BOSS)
     hurt = LOOKS.index(look)
     hot = (0.15, 0.5, 0.85)[hurt] + 0.15 * frame
@@ -121,7 +128,10 @@ def boss(look, frame):
 
 
 def _wing(sprite, side, frame):
-    """Draw the armoured wing of one side, with engines, plates, stripes and two turrets. side: -1 left, 1 right."""
+    """Draw the armoured wing of one side into `sprite`, with engines, plates, stripes and two turrets.
+
+    side: -1 left, 1 right; frame: 0..1, brightness of engines and lens.
+    """
     x, y = sprite.x, sprite.y
     lit = -side * 0.06
 
@@ -188,7 +198,7 @@ def _wing(sprite, side, frame):
 
 
 def _prong(sprite, side):
-    """Draw the claw at the end of a wing, with its heavy gun. side: -1 left, 1 right."""
+    """Draw the claw at the end of a wing, with its heavy gun, into `sprite`. side: -1 left, 1 right."""
     x, y = sprite.x, sprite.y
     lit = -side * 0.06
 
@@ -211,7 +221,10 @@ def _prong(sprite, side):
 
 
 def _hull(sprite, frame):
-    """Draw the middle of the fortress: stern, bridge, armoured neck, and the great gun in the bow."""
+    """Draw the fortress between its wings into `sprite`: stern, bridge, armoured neck, and the large gun in the bow.
+
+    frame: 0..1; the stern's engines are bright in frame 0.
+    """
     x, y = sprite.x, sprite.y
     for side in (-1, 1):
         nozzle(sprite, 66 + side * 7 - 5, 66 + side * 7 + 5, 1.5, 14, 1 - frame)
@@ -252,9 +265,10 @@ def _hull(sprite, frame):
 
 
 def _eye(sprite, hurt, hot):
-    """Draw the core of the fortress: a lens behind an iris of armour.
+    """Draw the eye of the fortress into `sprite`: a lens behind an iris of armour.
 
-    hurt: number of the look, 0..2; the iris is shut in look 0 and gone in look 2; hot: brightness of the glow, 0..1.
+    hurt: number of the look, 0..2; the iris is nearly shut in look 0, torn in look 1 and missing in look 2; hot:
+    brightness of the glow, 0..1.
     """
     x, y = sprite.x, sprite.y
     sprite.part(ellipse(x, y, 66, 42, 14.2, 14.2), RAMPS["gold"], bulge=3, base=0.44, grain=0.4)
@@ -280,9 +294,10 @@ def _eye(sprite, hurt, hot):
 
 
 def _damage(sprite, hurt, hot):
-    """Draw holes, soot and glowing cracks. hurt: number of the look, 1 or 2; hot: brightness of the glow, 0..1.
+    """Draw holes, soot and glowing cracks into `sprite`, and cut off parts of the wings.
 
-    In look 2 the right claw is shot off and the wings are open.
+    In look 2 there are more holes, and the right claw is missing. hurt: number of the look, 1 or 2; hot: brightness of
+    the glow, 0..1.
     """
     wound(sprite, 34, 21, 4.6, 3, hot)
     wound(sprite, 95, 44, 4.0, 5, hot)

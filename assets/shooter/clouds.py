@@ -1,4 +1,4 @@
-"""Clouds over the shooter's grounds, and their shadows: seamless noise above a threshold, in a few tones."""
+"""Clouds above the shooter's grounds, and their shadows: seamless noise above a threshold, in four tones."""
 
 import numpy as np
 
@@ -11,10 +11,10 @@ STORM = oklch_all((0.20, 0.030, 285), (0.26, 0.032, 280), (0.32, 0.030, 272), (0
 
 
 def cover(width, height, cells_x, cells_y, seed, threshold):
-    """Return (thickness, solid), (height, width) each, of a seamless field of clouds.
+    """Return (thickness, solid) of a seamless field of clouds, two arrays (height, width) of float and bool.
 
-    There are clouds (solid) where the thickness is above 0. cells_x, cells_y: cells of the noise; threshold 0..1: the
-    lower it is, the denser the field; seed: seed of the random numbers.
+    solid is True at pixels with clouds, where the thickness is above 0. cells_x, cells_y: numbers of cells of the
+    noise; threshold: 0..1, a lower one gives more clouds; seed: seed of the random numbers.
     """
     field = layered_noise(width, height, cells_x, cells_y, 5, seed, 0.55)
     low, high = field.min(), field.max()
@@ -23,10 +23,10 @@ def cover(width, height, cells_x, cells_y, seed, threshold):
 
 
 def from_above(seed, threshold, alpha, cells_x, cells_y, tones=HIGH):
-    """Return clouds seen from above, (540, 480, 4) uint8, seamless in both directions.
+    """Return a picture of clouds seen from above, (540, 480, 4) uint8, seamless in both directions.
 
-    threshold, cells_x, cells_y: see cover; alpha: opacity 0..255 of thick parts; tones: colours from dark to light;
-    seed: seed of the random numbers.
+    threshold: 0..1, a lower one gives more clouds; cells_x, cells_y: numbers of cells of the noise; alpha: opacity
+    0..255 of thick parts; tones: colours from dark to light; seed: seed of the random numbers.
     """
     thickness, solid = cover(480, 540, cells_x, cells_y, seed, threshold)
     lit = np.roll(thickness, (3, 2), (0, 1)) - thickness  # thicker towards the bottom right: faces the light
@@ -41,7 +41,10 @@ def from_above(seed, threshold, alpha, cells_x, cells_y, tones=HIGH):
 
 
 def shadow_of(clouds, alpha):
-    """Return the shadow of a cloud layer: the same shape in a dark colour. alpha: its opacity, 0..255."""
+    """Return the picture of a cloud layer's shadow: the same shape in a dark colour, (h, w, 4) uint8.
+
+    clouds: picture of the layer, (h, w, 4) uint8; alpha: opacity of the shadow, 0..255.
+    """
     out = np.zeros_like(clouds)
     solid = clouds[..., 3] > 0
     out[solid] = (12, 10, 30, alpha)

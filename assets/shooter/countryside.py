@@ -39,10 +39,10 @@ VILLAGES = ((96, 150), (352, 64), (238, 402), (420, 300))  # [px] middles; those
 
 
 def patchwork(count, seed):
-    """Return (number, edge), (HEIGHT, WIDTH) each, of a seamless patchwork of `count` fields.
+    """Return (number, edge) of a seamless patchwork of `count` fields, two arrays (HEIGHT, WIDTH).
 
-    number: number of the field at each pixel; edge: distance from the next field [px]; seed: seed of the random
-    numbers.
+    number: index of the field at each pixel; edge: a measure of the distance from the nearest other field [px], 0 at
+    the border; seed: seed of the random numbers.
     """
     random = np.random.default_rng(seed)
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH] + 0.5
@@ -62,7 +62,7 @@ def patchwork(count, seed):
 
 
 def countryside():
-    """Return the picture of the ground, (HEIGHT, WIDTH, 3) uint8."""
+    """Return the picture of the coast, (HEIGHT, WIDTH, 3) uint8."""
     height = height_map(4100, 4200)
     light = hill_light(height)
     picture = pick(SEA, np.clip((height - 0.06) / (SHORE - 0.06), 0, 1) ** 2)
@@ -99,9 +99,10 @@ def countryside():
 
 
 def _fields(picture, where, light):
-    """Draw fields where `where` (h, w) is True. Each has its own colour and furrows, and hedges lie between them.
+    """Draw fields into `picture` where `where`, (h, w) bool, is True.
 
-    light: result of hill_light.
+    Each field has its own colour and furrows, and hedges separate the fields. light: result of hill_light(), which
+    darkens fields on slopes that face away from the light.
     """
     number, edge = patchwork(LAND_CELLS, 301)
     random = np.random.default_rng(302)
@@ -122,9 +123,10 @@ def _fields(picture, where, light):
 
 
 def _villages(picture, where, road):
-    """Draw groups of small houses where `where` is True and no `road` is, (h, w) bool each.
+    """Draw groups of small houses into `picture`, each with a shadow and with a lit and a dark half of its roof.
 
-    Each house has a lit and a shaded side of its roof, and a shadow.
+    where: pixels on which houses may be drawn, (h, w) bool; pixels with a house become False. road: pixels of roads,
+    (h, w) bool, where no house is drawn.
     """
     random = np.random.default_rng(731)
     for middle_x, middle_y in VILLAGES:

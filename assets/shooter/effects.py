@@ -1,8 +1,8 @@
 """The sprite sheet "effects": the player's bullets, flashes, sparks, smoke, debris and discs of light.
 
-The player's bullets are cool and long; the enemies' bullets (enemy_bullets.py) are round with a dark ring. So they
-stand out on any background and differ from each other without colour. Discs of light are opaque on black, because they
-are drawn by addition.
+The player's bullets are long, in blue and white; the enemies' bullets (enemy_bullets.py) are round with a dark ring.
+So both are visible on any background, and their shapes differ. Discs of light are opaque on black, because they are
+drawn by adding their colours to the screen's.
 """
 
 import numpy as np
@@ -18,7 +18,7 @@ from assets.shooter.splash import splash
 
 
 def player_bullet(frame):
-    """Return the player's bullet, a cool streak flying up, 6 x 16 px. frame: 0..1."""
+    """Return the picture of the player's bullet, a blue streak that flies upwards, 6 x 16 px. frame: 0..1."""
     sprite = Sprite(6, 16)
     x, y = sprite.x, sprite.y
     tail = (13.5, 11.5)[frame]
@@ -29,7 +29,7 @@ def player_bullet(frame):
 
 
 def side_bullet():
-    """Return the thin bullet of the player's second weapon level, 4 x 10 px."""
+    """Return the picture of the thin bullet of the player's second weapon level, 4 x 10 px."""
     sprite = Sprite(4, 10)
     x, y = sprite.x, sprite.y
     sprite.flat(capsule(x, y, (2, 2), (2, 8), 1.7, 0.8), RAMPS["blue"][3])
@@ -38,7 +38,7 @@ def side_bullet():
 
 
 def muzzle_flash(frame):
-    """Return the star-shaped flash of a gun, 14 x 14 px. frame: 0..2."""
+    """Return the picture of a gun's star-shaped flash, 14 x 14 px. frame: 0..2."""
     sprite = Sprite(14, 14)
     x, y = sprite.x, sprite.y
     reach, waist = ((5.4, 2.6), (6.6, 2.0), (4.2, 1.2))[frame]
@@ -55,7 +55,7 @@ def muzzle_flash(frame):
 
 
 def spark(frame):
-    """Return the spark of an impact, which flies apart, 16 x 16 px. frame: 0..4."""
+    """Return the picture of an impact's sparks, which fly apart, 16 x 16 px. frame: 0..4."""
     sprite = Sprite(16, 16)
     if frame < 2:
         sprite.flat(circle(sprite.x, sprite.y, 8, 8, (3.4, 2.2)[frame]), FIRE[frame])
@@ -71,7 +71,7 @@ def spark(frame):
 
 
 def smoke(frame):
-    """Return a puff of smoke that swells, rises, tears and thins, 20 x 20 px. frame: 0..5."""
+    """Return the picture of a puff of smoke that grows, rises and dissolves, 20 x 20 px. frame: 0..5."""
     sprite = Sprite(20, 20)
     t = frame / 5
     x, y = sprite.x, sprite.y
@@ -89,7 +89,7 @@ def smoke(frame):
 
 
 def debris(kind):
-    """Return one torn piece of plating, 10 x 10 px. kind: 0..5."""
+    """Return the picture of one torn piece of metal plate, 10 x 10 px. kind: 0..5, its shape and colour."""
     random = np.random.default_rng(70 + kind)
     sprite = Sprite(10, 10)
     turns = np.sort(random.random(6)) * 8
@@ -105,7 +105,7 @@ def debris(kind):
 
 
 def hitbox_dot():
-    """Return the dot that marks the plane's core while the player flies slowly, 9 x 9 px."""
+    """Return the picture of the dot that marks the plane's core while the player flies slowly, 9 x 9 px."""
     sprite = Sprite(9, 9)
     distance = length(sprite.x - 4.5, sprite.y - 4.5)
     sprite.flat(distance - 4.2, RAMPS["red"][1]).flat(distance - 3.2, RAMPS["pink"][4]).flat(distance - 2.1, WHITE)
@@ -113,7 +113,7 @@ def hitbox_dot():
 
 
 def effects_files():
-    """Return {relative path: bytes} of the sprite sheet "effects"."""
+    """Return {path relative to assets/: bytes} of the sprite sheet "effects"."""
     sheet = Sheet("effects")
     sheet.add_sequence("player_bullet", [player_bullet(i) for i in range(2)], 20)
     sheet.add("side_bullet", side_bullet())

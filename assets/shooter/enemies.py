@@ -1,7 +1,7 @@
 """The shooter's first three kinds of enemies, seen from above and facing down, each with its own colour and outline.
 
-dart: a red diver, all edges. saucer: round and violet, flies in waves. gunship: a large olive gun platform with rotors.
-Wings extend from the bodies, so that an overlap of boxes is often not a hit of the masks.
+dart: a red angular plane that dives. saucer: round and violet, flies along a wave. gunship: a large olive gun platform
+with rotors. The wings extend far from the bodies, so often the boxes of two sprites overlap while their masks do not.
 """
 
 from assets.craft.fields import box, capsule, circle, ellipse, length, polygon
@@ -13,7 +13,7 @@ RIM_LIGHTS = ((6, 12), (9, 17), (15, 19), (21, 17), (24, 12), (21, 7), (15, 5), 
 
 
 def dart(frame):
-    """Return the dart. frame: 0..1, in which its engine flickers."""
+    """Return the picture of the dart, (26, 24, 4) uint8. frame: 0..1, between which its engine flickers."""
     sprite = Sprite(*DART)
     x, y = sprite.x, sprite.y
     flame = (3.4, 1.2)[frame]
@@ -56,7 +56,7 @@ def dart(frame):
 
 
 def saucer(frame):
-    """Return the saucer. frame: 0..3, in which its lights move around the rim."""
+    """Return the picture of the saucer, (26, 30, 4) uint8. frame: 0..3, over which its lights move around the rim."""
     sprite = Sprite(*SAUCER)
     x, y = sprite.x, sprite.y
     for side in (-1, 1):
@@ -93,7 +93,7 @@ def saucer(frame):
 
 
 def gunship(frame):
-    """Return the gunship. frame: 0..3; its two rotors rotate by an eighth of a turn from frame to frame."""
+    """Return the picture of the gunship, (40, 44, 4) uint8. frame: 0..3, an angle of its two rotors."""
     sprite = Sprite(*GUNSHIP)
     x, y = sprite.x, sprite.y
     for side in (-1, 1):
@@ -119,7 +119,7 @@ def gunship(frame):
 
 
 def _gunship_side(sprite, side, frame):
-    """Draw the boom, rotor, stub wing and cannon of one side. side: -1 left, 1 right."""
+    """Draw the boom, rotor, short wing and cannon of one side into `sprite`. side: -1 left, 1 right; frame: 0..3."""
     x, y = sprite.x, sprite.y
 
     def at(offset, down):

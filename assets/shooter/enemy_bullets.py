@@ -1,7 +1,7 @@
 """Enemy bullets: a dark ring, a saturated ring and a white core, so that a bullet stands out on any ground.
 
-Each kind comes twice with the same silhouette: as NAME_0..1, and as safe_NAME_0..1 in colours of the Okabe-Ito set,
-which stay distinct under colour blindness. The cores of the safe kinds also differ in shape. Each kind has two frames,
+Each kind has two sets of pictures with the same silhouette: NAME, and safe_NAME in colours of the Okabe-Ito set, which
+are distinct under colour blindness. The cores of the safe set also differ in shape. A round bullet has two frames,
 between which it pulses.
 """
 
@@ -35,9 +35,9 @@ RING_DARK = mix(OUTLINE, RAMPS["purple"][0], 0.3)
 
 
 def tones_of(name, safe):
-    """Return the colours (edge, body, light) of a bullet's saturated ring, dark to light.
+    """Return the three colours (edge, body, light) of a bullet's saturated ring, from dark to light.
 
-    name: name of the bullet; safe: whether to use the colours for colour blindness.
+    name: name of the bullet; safe: whether to use the colours that are distinct under colour blindness.
     """
     if safe:
         colour = np.array(SAFE[name][0], np.uint8)
@@ -47,7 +47,10 @@ def tones_of(name, safe):
 
 
 def round_bullet(name, safe, frame):
-    """Return one round bullet. name: key of ROUND; safe: whether in colours for colour blindness; frame: 0..1."""
+    """Return the picture of one round bullet, (size, size, 4) uint8.
+
+    name: key of ROUND; safe: whether to use the colours that are distinct under colour blindness; frame: 0..1.
+    """
     radius, size, _ = ROUND[name]
     sprite = Sprite(size, size)
     dx, dy = sprite.x - size / 2, sprite.y - size / 2
@@ -78,7 +81,10 @@ def round_bullet(name, safe, frame):
 
 
 def needle(safe):
-    """Return the bullet of aimed shots, pointing down, 7 x 14 px. safe: whether in colours for colour blindness."""
+    """Return the picture of the bullet of aimed shots, 7 x 14 px, which points down.
+
+    safe: whether to use the colours that are distinct under colour blindness.
+    """
     sprite = Sprite(7, 14)
     x, y = sprite.x, sprite.y
     edge, body, light = tones_of("bullet_needle", safe)
@@ -91,7 +97,7 @@ def needle(safe):
 
 
 def add_enemy_bullets(sheet):
-    """Add every bullet to a sprite sheet, both in its own colours and in those for colour blindness."""
+    """Add every enemy bullet to a sprite sheet, in its own colours and in those that suit colour blindness."""
     for safe in (False, True):
         prefix = "safe_" if safe else ""
         for name in ROUND:

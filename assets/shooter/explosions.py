@@ -1,7 +1,7 @@
 """Explosions: hot balls fly out, merge, cool through the colours of fire, break into cinders and vanish.
 
-The heat of a pixel is that of its hottest ball plus noise; its colour darkens with lower heat and with time. The balls
-stay inside the frame, so no frame is cut off at its border.
+A pixel's heat is the heat of the hottest ball there, plus noise. Its colour is darker at lower heat and at later
+times. The balls stay inside the frame, so its border cuts off none.
 """
 
 import numpy as np
@@ -16,9 +16,9 @@ RING_FRAMES = range(1, 5)  # frames with the shock ring
 
 
 def directions(count):
-    """Return `count` unit vectors around the circle, equal on every machine.
+    """Return a list of `count` unit vectors (x, y) around the circle, equal on every machine. count: a multiple of 4.
 
-    They are computed from rational points ((1-t²)/(1+t²), 2t/(1+t²)).
+    They are computed from the rational points ((1-t²)/(1+t²), 2t/(1+t²)).
     """
     quarter = []
     for i in range(count // 4):
@@ -33,7 +33,10 @@ def directions(count):
 
 
 def explosion(frames, size, seed):
-    """Return the frames of one explosion, (size, size, 4) uint8 each. frames: their number."""
+    """Return the pictures of an explosion's frames, a list of (size, size, 4) uint8.
+
+    frames: number of the frames; size: width and height [px]; seed: seed of the random numbers.
+    """
     random = np.random.default_rng(seed)
     compass = directions(DIRECTIONS)
     balls = [
@@ -81,7 +84,10 @@ def _frame(t, index, size, balls, grain, compass):
 
 
 def _ring(sprite, radius, index):
-    """Draw the shock ring behind the fire. radius [px]; index: 1..4, later rings are thinner."""
+    """Draw the explosion's shock ring into `sprite` behind the fire.
+
+    radius: radius of the ring [px]; index: 1..4, number of the frame; the ring gets thinner.
+    """
     centre = sprite.solid.shape[0] / 2
     distance = abs(length(sprite.x - centre, sprite.y - centre) - min(radius, centre - 1.5))
     ring = (distance < (0.9, 0.75, 0.6, 0.5)[index - 1]) & ~sprite.solid
@@ -92,9 +98,9 @@ def _ring(sprite, radius, index):
 
 
 def _sparks(sprite, t, compass):
-    """Draw ten glowing specks that fly ahead of the fire.
+    """Draw ten glowing specks, which fly ahead of the fire, into `sprite`.
 
-    t: time 0..1 of the explosion; compass: unit vectors from directions().
+    t: time since the explosion's start as a share of its duration, 0..1; compass: unit vectors from directions().
     """
     size = sprite.solid.shape[0]
     if t > 0.62:

@@ -1,7 +1,7 @@
 """Two large planes for the lab, where the user drags and rotates them over each other.
 
-Their outlines show the differences of the collision tiers: a jet with deep notches between wings, fins and body, and a
-bomber with long thin wings. For both, box, hull and pixels differ over large areas.
+They show how collision tiers differ: a jet with deep notches between wings, fins and body, and a bomber with long thin
+wings. For both planes, box, hull and pixels cover very different areas.
 """
 
 from assets.craft.fields import box, capsule, circle, ellipse, length, polygon
@@ -12,7 +12,7 @@ JET, BOMBER = (112, 112), (128, 104)  # [px] width, height
 
 
 def jet():
-    """Return a twin-tailed jet with swept wings, flying up."""
+    """Return the picture of a jet with two fins and swept wings, flying up, (112, 112, 4) uint8."""
     sprite = Sprite(*JET)
     x, y = sprite.x, sprite.y
     for side in (-1, 1):
@@ -37,7 +37,9 @@ def jet():
 
 
 def _jet_side(sprite, side):
-    """Draw the wing, intake, engine, tail plane and fin of one side. side: -1 left, 1 right."""
+    """Draw the wing, intake, engine, tail plane and fin of one side of the jet into `sprite`. side: -1
+    left, 1 right.
+    """
     x, y = sprite.x, sprite.y
     lit = -side * 0.06
 
@@ -81,16 +83,18 @@ def _jet_side(sprite, side):
 
 
 def _strip(sprite, first, second, corner=0.0):
-    """Return the distance field of the box between two corners (x, y).
+    """Return the distance field (h, w) [px] of the box between two corners (x, y); it is negative inside.
 
-    first: the upper corner, which may be the left or the right one; second: the lower corner; corner: rounding radius.
+    first: the upper corner, left or right; second: the lower corner, left or right; corner: rounding radius [px].
     """
     left, right = min(first[0], second[0]), max(first[0], second[0])
     return box(sprite.x, sprite.y, left, first[1], right, second[1], corner)
 
 
 def bomber():
-    """Return a four-engined propeller bomber with long straight wings, flying up."""
+    """Return the picture of a four-engined propeller bomber with long straight wings, flying up, (104,
+    128, 4) uint8.
+    """
     sprite = Sprite(*BOMBER)
     x, y = sprite.x, sprite.y
     for side in (-1, 1):
@@ -120,7 +124,10 @@ def bomber():
 
 
 def _bomber_side(sprite, side):
-    """Draw a wing with two engines, and the tail plane, of one side. side: -1 left, 1 right."""
+    """Draw the wing with two engines, and the tail plane, of one side of the bomber into `sprite`.
+
+    side: -1 left, 1 right.
+    """
     x, y = sprite.x, sprite.y
     lit = -side * 0.05
 

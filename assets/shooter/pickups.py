@@ -6,7 +6,7 @@ from assets.craft.shading import Sprite
 
 
 def powerup(frame):
-    """Return a capsule with a glowing core that pulses, 18 x 18 px. frame: 0..3."""
+    """Return the picture of a capsule with a pulsing glow and a P for power, 18 x 18 px. frame: 0..3."""
     sprite = Sprite(18, 18)
     x, y = sprite.x, sprite.y
     glow = (0.22, 0.34, 0.46, 0.34)[frame]
@@ -21,7 +21,9 @@ def powerup(frame):
 
 
 def bomb_item(frame):
-    """Return a bomb to pick up, 18 x 18 px: a round teal shell with a band and a burning fuse. frame: 0..3."""
+    """Return the picture of a bomb to pick up, 18 x 18 px: a teal ball with a gold band and a burning fuse. frame:
+    0..3.
+    """
     sprite = Sprite(18, 18)
     x, y = sprite.x, sprite.y
     sprite.part(capsule(x, y, (9, 5), (9, 2.4), 2.2), RAMPS["gunmetal"], bulge=2, base=0.5)
@@ -37,7 +39,7 @@ def bomb_item(frame):
 
 
 def life_item(frame):
-    """Return a life to pick up, 18 x 18 px: a green capsule with a small plane in it. frame: 0..3."""
+    """Return the picture of a life to pick up, 18 x 18 px: a green capsule with a small plane on it. frame: 0..3."""
     sprite = Sprite(18, 18)
     x, y = sprite.x, sprite.y
     sprite.part(box(x, y, 1.5, 3, 16.5, 15, 5), RAMPS["steel"], bulge=4, base=0.58)

@@ -1,4 +1,4 @@
-"""The player's plane, seen from above and flying up: level, four banking frames, its exhaust and its marked core."""
+"""The player's plane, seen from above and flying up: one level and four banking frames, its exhaust and its core."""
 
 from assets.craft.fields import box, capsule, circle, ellipse, polygon
 from assets.craft.palette import OUTLINE, RAMPS, WHITE, mix
@@ -16,7 +16,7 @@ BANKS = {
 
 
 def player(bank):
-    """Return one frame of the player's plane. bank: a key of BANKS, how far it leans to a side."""
+    """Return the picture of the player's plane, (32, 32, 4) uint8. bank: a key of BANKS, the angle of bank."""
     left, right, spine, light_left, light_right = BANKS[bank]
     sprite = Sprite(SIZE, SIZE)
     centre = SIZE / 2
@@ -28,10 +28,10 @@ def player(bank):
 
 
 def _wing(sprite, centre, side, reach, light):
-    """Draw one swept wing with its stripe, gun pod and tail plane.
+    """Draw one swept wing with its stripe, gun pod and tail plane into `sprite`.
 
-    centre: x of the plane's middle; side: -1 left, 1 right; reach: length of the wing as a share of that in level
-    flight; light: added to its brightness.
+    centre: x of the plane's centre; side: -1 left, 1 right; reach: drawn length of the wing as a share of its length
+    in level flight; light: value added to the brightness of the wing.
     """
     x, y = sprite.x, sprite.y
 
@@ -59,7 +59,10 @@ def _wing(sprite, centre, side, reach, light):
 
 
 def _body(sprite, centre, spine):
-    """Draw the fuselage, nose, canopy and engine. centre: x of the plane's middle; spine: lean of the canopy [px]."""
+    """Draw the fuselage, nose, canopy and engine into `sprite`.
+
+    centre: x of the plane's centre; spine: sideways shift of the canopy in a bank [px].
+    """
     x, y = sprite.x, sprite.y
     sprite.part(capsule(x, y, (centre, 3.5), (centre, 23.5), 1.5, 3.5), RAMPS["steel"], bulge=3.4, base=0.6)
     sprite.part(box(x, y, centre - 2.2, 26.5, centre + 2.2, 30, 1), RAMPS["gunmetal"], bulge=2.4, base=0.45)
@@ -87,7 +90,9 @@ def _body(sprite, centre, spine):
 
 
 def exhaust(frame):
-    """Return the flame of the player's engine, 8 x 12 px, which is drawn below the plane's tail. frame: 0..3."""
+    """Return the picture of the flame behind the player's engine, 8 x 12 px, drawn below the plane's tail. frame:
+    0..3.
+    """
     sprite = Sprite(8, 12)
     reach = (6.5, 8.5, 7.2, 9.6)[frame]
     x, y = sprite.x, sprite.y
@@ -98,7 +103,9 @@ def exhaust(frame):
 
 
 def marked_core(frame):
-    """Return the mark of the player's core, 6 x 6 px: a jewel in a dark setting. frame: 0..1, the second brighter."""
+    """Return the picture that marks the player's core, 6 x 6 px: a jewel in a dark frame. frame: 0..1, 1
+    is brighter.
+    """
     rows = (".dddd.", "drwwrd", "dwWWrd", "dwWrrd", "drrrrd", ".dddd.")
     tones = {
         "d": OUTLINE,

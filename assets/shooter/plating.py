@@ -20,9 +20,10 @@ GLOWS = {
 
 
 def seam(sprite, ramp, left, top, right, bottom):
-    """Draw a straight panel line, with the lit edge of the next plate beside it. ramp: name of the plates' colours.
+    """Draw a straight panel line, with the lit edge of the next plate beside it, into `sprite`.
 
-    The line fills the box from (left, top) to (right, bottom), which is one pixel wide or one pixel high.
+    The line fills the box from (left, top) to (right, bottom), which is one pixel wide or one pixel high. ramp: name
+    of the plates' colours, a key of RAMPS.
     """
     x, y = sprite.x, sprite.y
     level = right - left >= bottom - top
@@ -32,9 +33,10 @@ def seam(sprite, ramp, left, top, right, bottom):
 
 
 def rivets(sprite, ramp, places):
-    """Draw rivets at the places [(x, y)]: one dark pixel each, with a light one at its upper left.
+    """Draw rivets into `sprite`: each is one dark pixel, with a light pixel at its upper left.
 
-    ramp: name of the colours.
+    ramp: name of the colours, a key of RAMPS; places: positions of the rivets, [(x, y)] in px. Rivets outside of the
+    sprite's solid pixels are omitted.
     """
     for x, y in places:
         if sprite.solid[int(y), int(x)]:
@@ -44,7 +46,7 @@ def rivets(sprite, ramp, places):
 
 
 def vent(sprite, left, top, right, bottom):
-    """Draw a sunken grille with dark slits into the box from (left, top) to (right, bottom)."""
+    """Draw a grille with dark slits into the box from (left, top) to (right, bottom) of `sprite`."""
     x, y = sprite.x, sprite.y
     sprite.paint(box(x, y, left, top, right, bottom), RAMPS["gunmetal"][1])
     for row in range(int(top) + 1, int(bottom), 2):
@@ -53,7 +55,7 @@ def vent(sprite, left, top, right, bottom):
 
 
 def stripes(sprite, left, top, right, bottom):
-    """Draw warning stripes of gold and iron, leaning to the right, into the box from (left, top) to (right, bottom)."""
+    """Draw gold and grey diagonal warning stripes into the box from (left, top) to (right, bottom) of `sprite`."""
     inside = box(sprite.x, sprite.y, left, top, right, bottom) < 0
     gold = ((sprite.x + sprite.y) // STRIPE).astype(int) % 2 == 0
     inside &= sprite.solid
@@ -62,9 +64,10 @@ def stripes(sprite, left, top, right, bottom):
 
 
 def turret(sprite, x, y, radius, ramp, reach):
-    """Draw a round gun turret on its ring, with two barrels that point down.
+    """Draw a round gun turret on a ring, with two barrels that point down, into `sprite`.
 
-    x, y, radius: its middle and radius; ramp: name of its colours; reach: distance from its middle to the muzzles.
+    x, y: centre of the turret; radius: its radius; ramp: name of its colours, a key of RAMPS; reach: distance from the
+    centre to the muzzles. All lengths are in px.
     """
     px, py = sprite.x, sprite.y
     sprite.part(circle(px, py, x, y, radius + 1.5), RAMPS["gunmetal"], bulge=1.5, base=0.26, gain=0.3)
@@ -80,7 +83,11 @@ def turret(sprite, x, y, radius, ramp, reach):
 
 
 def lens(sprite, x, y, radius, glow, strength):
-    """Draw a glowing lens in a dark socket. glow: key of GLOWS; strength 0..1: extent of the bright colours."""
+    """Draw a glowing lens in a dark socket into `sprite`.
+
+    x, y: centre [px]; radius: radius of the socket [px]; glow: key of GLOWS; strength: 0..1, a higher one makes the
+    bright colours larger.
+    """
     distance = length(sprite.x - x, sprite.y - y)
     sprite.flat(distance - radius, OUTLINE)
     tones = GLOWS[glow]
@@ -95,9 +102,9 @@ def lens(sprite, x, y, radius, glow, strength):
 
 
 def nozzle(sprite, left, right, top, bottom, hot):
-    """Draw the rear end of an engine, seen from above, into the box from (left, top) to (right, bottom).
+    """Draw the rear end of an engine, seen from above, into the box from (left, top) to (right, bottom) of `sprite`.
 
-    Its mouth is at the top. hot: brightness of the glow, 0..1.
+    The opening is at the top. hot: brightness of the glow, 0..1.
     """
     x, y = sprite.x, sprite.y
     sprite.part(box(x, y, left, top, right, bottom, 1.5), RAMPS["gunmetal"], bulge=3, base=0.46)
@@ -107,7 +114,10 @@ def nozzle(sprite, left, right, top, bottom, hot):
 
 
 def scorch(sprite, x, y, radius, seed):
-    """Draw soot around a hit at (x, y), with a ragged edge. seed: seed of the random numbers."""
+    """Draw a patch of soot with a ragged edge around the point (x, y) into `sprite`.
+
+    radius: mean radius of the patch [px]; seed: seed of the random numbers.
+    """
     height, width = sprite.solid.shape
     rough = (noise(width, height, max(2, width // 5), max(2, height // 5), seed) - 0.5) * radius
     field = length(sprite.x - x, sprite.y - y) - radius + rough
@@ -116,9 +126,9 @@ def scorch(sprite, x, y, radius, seed):
 
 
 def wound(sprite, x, y, radius, seed, hot):
-    """Draw a torn hole in the plating: soot, a bright torn edge, and a glow inside.
+    """Draw a torn hole around (x, y) into the plates of `sprite`: soot, a bright ragged edge, and a glow inside.
 
-    hot: brightness of the glow, 0..1. seed: seed of the random numbers.
+    radius: mean radius of the hole [px]; hot: brightness of the glow, 0..1; seed: seed of the random numbers.
     """
     scorch(sprite, x, y, radius * 1.9, seed)
     height, width = sprite.solid.shape
@@ -132,7 +142,10 @@ def wound(sprite, x, y, radius, seed, hot):
 
 
 def cracks(sprite, lines, hot):
-    """Draw glowing fissures one pixel wide, with a dark rim. lines: lists of points; hot: brightness 0..1."""
+    """Draw glowing cracks one pixel wide, with a dark rim, into `sprite`.
+
+    lines: one list of points (x, y) for each crack; hot: brightness of the glow, 0..1.
+    """
     tone = mix(RAMPS["orange"][3], RAMPS["gold"][5], hot)
     for points in lines:
         for start, end in pairwise(points):
@@ -143,7 +156,10 @@ def cracks(sprite, lines, hot):
 
 
 def torn(sprite, points, seed):
-    """Cut away everything inside a polygon, with a ragged and charred edge. points: its corners."""
+    """Remove everything inside a polygon from `sprite`, and leave a ragged and charred edge.
+
+    points: corners (x, y) of the polygon [px]; seed: seed of the random numbers.
+    """
     height, width = sprite.solid.shape
     rough = (noise(width, height, max(2, width // 3), max(2, height // 3), seed) - 0.5) * 4
     field = polygon(sprite.x, sprite.y, points) + rough

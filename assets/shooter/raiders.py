@@ -1,6 +1,6 @@
-"""The shooter's later kinds of enemies: the hornet, which is small and fast, and the gun platform on the ground.
+"""The shooter's later kinds of enemies: the small fast hornet, and the gun platform on the ground.
 
-Like the first three (enemies.py) they face down, and each has its own colour and outline.
+Like the kinds in enemies.py they face down, and each kind has its own colour and outline.
 """
 
 import numpy as np
@@ -14,7 +14,10 @@ HORNET, TURRET = (22, 22), (36, 36)  # [px] width, height of the frames
 
 
 def hornet(frame):
-    """Return the hornet: black and gold bands, blades swept forward. frame: 0..1, in which its jets flicker."""
+    """Return the picture of the hornet, with bands of black and gold and with wings swept forward, (22, 22, 4) uint8.
+
+    frame: 0..1, between which its jets flicker.
+    """
     sprite = Sprite(*HORNET)
     x, y = sprite.x, sprite.y
     for side in (-1, 1):
@@ -48,7 +51,10 @@ def hornet(frame):
 
 
 def gun_platform(frame):
-    """Return the gun platform: a round armoured fort with a twin gun, for sea and land. frame: 0..1 (its lamps)."""
+    """Return the picture of the gun platform, a round armoured fort with a twin gun, (36, 36, 4) uint8.
+
+    frame: 0..1; another of its two lamps is lit in each frame.
+    """
     sprite = Sprite(*TURRET)
     x, y = sprite.x, sprite.y
     for dx, dy in ((-1, -1), (1, -1), (-1, 1), (1, 1)):  # four feet with bollards
@@ -81,6 +87,9 @@ def gun_platform(frame):
 
 
 def _octagon(sprite, radius):
-    """Return the distance field of a regular octagon around the platform's middle."""
+    """Return the distance field (h, w) [px] of a regular octagon around the platform's centre; it is negative inside.
+
+    radius: distance from the centre to the octagon's sides [px].
+    """
     dx, dy = abs(sprite.x - 18), abs(sprite.y - 17)
     return np.maximum(np.maximum(dx, dy), (dx + dy) * 0.7071) - radius

@@ -1,4 +1,4 @@
-"""A splash in the sea, seen from above: foam that flies up, and a ring that spreads and breaks up."""
+"""A splash in the sea, seen from above: foam that flies up, and rings that grow and break up."""
 
 from assets.craft.fields import circle, dither, layered_noise, length
 from assets.craft.palette import RAMPS, WHITE
@@ -10,7 +10,10 @@ FOAM = (WHITE, RAMPS["steel"][5], RAMPS["blue"][4], RAMPS["blue"][3])
 
 
 def splash(size, seed):
-    """Return the frames of a splash, (size, size, 4) uint8 each. seed: seed of the random numbers."""
+    """Return the pictures of a splash's FRAMES frames, a list of (size, size, 4) uint8.
+
+    seed: seed of the random numbers.
+    """
     grain = layered_noise(size, size, 6, 6, 2, seed) - 0.5
     return [_frame(number, size, grain) for number in range(FRAMES)]
 

@@ -1,7 +1,7 @@
 """The shooter's last ground: a fortress of concrete and steel on black rocks in a night sea, 480 x 540 px, seamless.
 
-It is darker than the grounds before it, so that the boss's bullets stand out more. Pads, blocks and tanks are placed at
-random on the paving, with a fixed seed.
+It is darker than the other grounds, so that the boss's bullets are more visible. Landing pads, buildings and tanks are
+placed at random on the paving, with a fixed seed.
 """
 
 import numpy as np
@@ -31,7 +31,7 @@ PADS, TANKS, BLOCKS = 9, 26, 90  # number of attempts for each; those without fr
 
 
 def stronghold():
-    """Return the picture of the ground, (HEIGHT, WIDTH, 3) uint8."""
+    """Return the picture of the fortress on its rocks, (HEIGHT, WIDTH, 3) uint8."""
     height = height_map(6150, 6250)
     light = hill_light(height)
     picture = pick(NIGHT, np.clip((height - 0.10) / (SHORE - 0.10), 0, 1) ** 1.5)
@@ -50,9 +50,10 @@ def stronghold():
 
 
 def _build(picture, paved, random):
-    """Draw landing pads, tanks and buildings on free paving, on a grid of 6 px.
+    """Draw landing pads, buildings and tanks into `picture` at random positions on a grid of 6 px.
 
-    paved: the paved pixels, (h, w) bool; random: generator of random numbers.
+    paved: the paved pixels without a building, (h, w) bool; drawn buildings are removed from it. random: generator of
+    random numbers.
     """
 
     def place(margin):
@@ -72,9 +73,10 @@ def _build(picture, paved, random):
 
 
 def _paving(picture, height):
-    """Draw paving over the middle of the land, and around it a wall with lamps. Return the paved pixels, (h, w) bool.
+    """Draw paving on the higher land, and around it a wall with lamps, into `picture`. Return the paved pixels, (h, w)
+    bool.
 
-    height: heights of the land, see height_map.
+    height: heights of the land, as from height_map().
     """
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH]
     # The yard's edge follows a grid, like a real building's.
@@ -109,7 +111,7 @@ def _paving(picture, height):
 
 
 def _lamp(picture, x, y):
-    """Draw a small lamp at (x, y), and the light around it."""
+    """Draw a small lamp at the pixel (x, y), and the light around it, into `picture`."""
     rows, columns = np.mgrid[y - 4 : y + 5, x - 4 : x + 5]
     near = length(columns - x, rows - y)
     for reach, share in ((4.2, 0.16), (2.4, 0.34)):
@@ -120,7 +122,10 @@ def _lamp(picture, x, y):
 
 
 def _free(paved, left, top, width, depth):
-    """Return whether a rectangle lies completely on paving. paved: the paved pixels; the picture wraps around."""
+    """Return whether all pixels of a rectangle are paved. The picture is periodic in both directions.
+
+    paved: the paved pixels, (h, w) bool; left, top, width, depth: the rectangle [px].
+    """
     rows = np.arange(top, top + depth) % HEIGHT
     columns = np.arange(left, left + width) % WIDTH
     return bool(paved[np.ix_(rows, columns)].all())
@@ -129,8 +134,8 @@ def _free(paved, left, top, width, depth):
 def _block(picture, paved, left, top, width, depth, high, roof):
     """Draw a building, seen from above and slightly from the south: roof, lit rim, side with lit windows, shadow.
 
-    It is drawn only if all pixels in its place are `paved`. left, top, width, depth: rectangle of the roof [px]; high:
-    height of the visible side [px]; roof: index in ROOF.
+    If a pixel in its area is not `paved`, nothing is drawn. Otherwise the building's pixels in `paved` become False.
+    left, top, width, depth: rectangle of the roof [px]; high: height of the visible side [px]; roof: index into ROOF.
     """
     if not _free(paved, left - 1, top - 1, width + 4, depth + high + 3):
         return
@@ -154,7 +159,10 @@ def _block(picture, paved, left, top, width, depth, high, roof):
 
 
 def _tank(picture, paved, x, y, radius):
-    """Draw a round fuel tank with a lit cap, if all pixels in its place are `paved`."""
+    """Draw a round fuel tank with a lit cap around (x, y) if all pixels in its area are `paved`.
+
+    The tank's pixels in `paved` then become False. radius: radius of the tank [px].
+    """
     if not _free(paved, x - radius - 1, y - radius - 1, 2 * radius + 5, 2 * radius + 7):
         return
     rows, columns = np.mgrid[y - radius - 1 : y + radius + 8, x - radius - 1 : x + radius + 6]
@@ -175,7 +183,10 @@ def _tank(picture, paved, x, y, radius):
 
 
 def _pad(picture, paved, x, y, radius):
-    """Draw a landing pad with a painted ring, an H, and lamps at its rim, if all pixels in its place are `paved`."""
+    """Draw a landing pad with a painted ring, an H, and lamps at its rim if all pixels in its area are `paved`.
+
+    The pad's pixels in `paved` then become False. x, y: centre [px]; radius: half of the pad's width [px].
+    """
     if not _free(paved, x - radius, y - radius, 2 * radius, 2 * radius):
         return
     rows, columns = np.mgrid[y - radius : y + radius, x - radius : x + radius]

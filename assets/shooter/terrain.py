@@ -31,7 +31,10 @@ GLINT_CUT = 0.80  # share of the water without glints
 
 
 def height_map(seed=2024, ridge_seed=77):
-    """Return the heights 0..1 of a landscape, (HEIGHT, WIDTH), of which about a quarter is above SHORE. Seamless."""
+    """Return the heights of a seamless landscape, (HEIGHT, WIDTH) of 0..1; about a quarter of them is above SHORE.
+
+    seed, ridge_seed: seeds of the random numbers for the land and for its ridges.
+    """
     rough = layered_noise(WIDTH, HEIGHT, 4, 4, 6, seed, 0.52)
     ridges = 1 - abs(layered_noise(WIDTH, HEIGHT, 3, 4, 4, ridge_seed) * 2 - 1)
     height = rough * 0.78 + ridges * 0.22
@@ -40,9 +43,9 @@ def height_map(seed=2024, ridge_seed=77):
 
 
 def hill_light(height):
-    """Return how far each pixel of a landscape faces the light from the top left, about -1..1.
+    """Return how directly each pixel of a landscape faces the light from the top left, (h, w) of -1..1.
 
-    height: see height_map.
+    height: heights of the landscape, (h, w) of 0..1, as from height_map().
     """
     slope_x = np.roll(height, -1, 1) - np.roll(height, 1, 1)
     slope_y = np.roll(height, -1, 0) - np.roll(height, 1, 0)
@@ -50,7 +53,10 @@ def hill_light(height):
 
 
 def border(land):
-    """Return the pixels just outside of the area `land`, (h, w) bool. The picture wraps around."""
+    """Return the pixels outside of the area `land` that touch it, (h, w) bool. The picture is periodic.
+
+    land: pixels of the area, (h, w) bool.
+    """
     around = np.zeros_like(land)
     for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
         around |= np.roll(land, (dy, dx), (0, 1))
@@ -58,12 +64,15 @@ def border(land):
 
 
 def pick(ramp, level, grain=0.8):
-    """Return the colour of each pixel for its level 0..1 on a ramp, dithered. grain: strength of the dither."""
+    """Return the dithered colour of each pixel, (h, w, 3) uint8, from its level.
+
+    ramp: colours; level: position on the ramp, (h, w) of 0..1; grain: strength of the dither.
+    """
     return graded(ramp, level * (len(ramp) - 1) + 0.5 + dither(*level.shape) * grain)
 
 
 def ground():
-    """Return the picture of the ground, (HEIGHT, WIDTH, 3) uint8."""
+    """Return the picture of the sea with islands, (HEIGHT, WIDTH, 3) uint8."""
     height = height_map()
     light = hill_light(height)
     picture = pick(SEA, np.clip((height - 0.12) / (SHORE - 0.12), 0, 1) ** 2)
@@ -87,9 +96,10 @@ def ground():
 
 
 def glints(picture, water, seed=31, cut=GLINT_CUT):
-    """Draw short horizontal wave crests in patches of the water (h, w) bool.
+    """Draw short horizontal wave crests in patches of the water into `picture`.
 
-    cut: level of noise 0..1 above which a crest is drawn. seed: seed of the random numbers.
+    water: pixels of the water, (h, w) bool; seed: seed of the random numbers; cut: level of noise 0..1 above which a
+    crest is drawn.
     """
     crest = noise(WIDTH, HEIGHT, 40, 270, seed)
     group = layered_noise(WIDTH, HEIGHT, 8, 9, 2, seed + 10)
@@ -100,10 +110,10 @@ def glints(picture, water, seed=31, cut=GLINT_CUT):
 
 
 def plant(picture, where, seed, spacing=(5, 4)):
-    """Draw tree crowns with their shadows, at jittered places of a grid, wherever `where` (h, w) bool allows.
+    """Draw tree crowns with their shadows into `picture`, back to front, one in each cell of a grid.
 
-    They are drawn back to front. spacing: distance between trees along x and along y [px]; seed: seed of the random
-    numbers.
+    Each crown has a random position in its cell. It is drawn if `where`, (h, w) bool, is True at this position.
+    spacing: size of a cell along x and along y [px]; seed: seed of the random numbers.
     """
     random = np.random.default_rng(seed)
     across, down = spacing
@@ -117,7 +127,10 @@ def plant(picture, where, seed, spacing=(5, 4)):
 
 
 def _crown(picture, x, y, radius, lean):
-    """Draw one tree: a lit disc, which wraps around the edges of the picture. lean: its brightness, 0..1."""
+    """Draw one tree into `picture`: a lit disc with a shadow, which continues at the opposite edge of the picture.
+
+    x, y: centre [px]; radius: radius of the crown [px]; lean: brightness of the crown, 0..1.
+    """
     reach = int(radius) + 2
     columns = np.arange(x - reach, x + reach + 1)
     rows = np.arange(y - reach, y + reach + 1)

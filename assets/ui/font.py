@@ -1,9 +1,11 @@
 """Two bitmap fonts of this project, drawn as text in assets/drawings/*.txt.
 
-A drawing consists of bands: a line "= A B C" names the glyphs, and the lines under it show these glyphs side by side,
-with # for ink. A glyph has its drawn width, so text is proportional; all digits are equally wide, so that numbers in a
-column stay aligned. The JSON of a font: {"height", "baseline", "glyphs": {character: {"x", "y", "w"}}}, where w is the
-distance [px] to the next character, one clear column included.
+A drawing consists of bands. A line "= A B C" names the glyphs, and the lines below it show these glyphs side by side,
+with # for ink. The text is proportional: a glyph is as wide as it is drawn. All digits have the same width, so that
+numbers in a column are aligned.
+
+The JSON of a font is {"height", "baseline", "glyphs": {character: {"x", "y", "w"}}}. w is the distance [px] to the
+next character, which includes one clear column.
 """
 
 import numpy as np
@@ -22,9 +24,9 @@ SHEET_WIDTH = 128  # [px]
 def read_drawing(text, height):
     """Return {character: (height, w) bool, True for ink} of a font's drawing.
 
-    text: the drawing, in bands. A band is a line of "=" and characters, followed by the glyphs of these characters,
-    drawn side by side. height: height of every glyph [px]. Raises ValueError, which names the line, for a badly drawn
-    band.
+    text: the drawing, in bands. A band is a line of "=" and characters, followed by lines with the glyphs of these
+    characters side by side. height: height of every glyph [px]. Raises ValueError with the number of the line for an
+    invalid band.
     """
     glyphs, names, rows, start = {}, [], [], 0
     for number, line in enumerate(text.splitlines() + ["="], 1):
@@ -53,7 +55,7 @@ def _band(names, rows, height, line):
 
 
 def load_glyphs(name):
-    """Return {character: (height, w) bool, True for ink} of one font, including the space."""
+    """Return {character: (height, w) bool, True for ink} of one font, including the space. name: a key of FONTS."""
     shape = FONTS[name]
     text = (FOLDER / "drawings" / f"{name}.txt").read_text(encoding="utf-8")
     glyphs = read_drawing(text, shape["height"])
@@ -62,7 +64,10 @@ def load_glyphs(name):
 
 
 def write(target, text, x, y, colour):
-    """Draw one line of text in the larger font on target (h, w, 3) uint8. x, y: top left corner; colour: (r, g, b)."""
+    """Draw one line of text in the larger font into `target`, (h, w, 3) uint8.
+
+    x, y: top left corner of the text [px]; colour: (r, g, b).
+    """
     glyphs = load_glyphs("font5x7")
     for character in text:
         ink = glyphs[character]
@@ -71,7 +76,9 @@ def write(target, text, x, y, colour):
 
 
 def font_files(name):
-    """Return {relative path: bytes} of one font's sheet (white on clear) and its JSON."""
+    """Return {path relative to assets/: bytes} of one font's sheet (white on clear) and its JSON. name: a key of
+    FONTS.
+    """
     glyphs, height = load_glyphs(name), FONTS[name]["height"]
     places, x, y = {}, 0, 0
     for character, ink in glyphs.items():

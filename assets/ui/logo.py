@@ -1,7 +1,6 @@
-"""The title's logo, which shows the subject of the game.
+"""The title's logo, which shows the subject of the game: collisions.
 
-It consists of letters with their bounding boxes. The boxes of the X and the O overlap, and the pixels of this overlap
-are marked as a hit.
+The letters O and X have bounding boxes. The two boxes overlap, and the pixels of this overlap are marked as a hit.
 """
 
 import numpy as np
@@ -18,7 +17,10 @@ BOX_COLOUR, HIT_COLOUR = oklch(0.86, 0.14, 195), oklch(0.72, 0.20, 20)
 
 
 def letter_field(letter, x, y):
-    """Return the distance field of one letter at its place in the logo, (h, w). x, y (h, w): pixel centres [px]."""
+    """Return the distance field of one letter in the logo, (h, w) [px]; it is negative inside the letter.
+
+    letter: a key of LETTER_X; x, y: coordinates of the pixel centres [px], (h, w) each.
+    """
     left = LETTER_X[letter]
     right, middle = left + LETTER_WIDTH[letter], (TOP + BOTTOM) / 2
     if letter == "H":
@@ -88,7 +90,7 @@ def logo():
 
 
 def _boxes(sprite, face):
-    """Draw the bounding boxes of two letters with their corners, and the pixels where the boxes overlap.
+    """Draw the bounding boxes of the letters O and X into `sprite`, and mark the pixels where both boxes overlap.
 
     face: the pixels of the letters, (h, w) bool.
     """

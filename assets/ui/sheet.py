@@ -33,7 +33,8 @@ LETTERS = {
 
 
 def panel(light, body):
-    """Return a 24 x 24 window frame, to be stretched from its 8 px corners.
+    """Return the picture of a window frame, 24 x 24 px. To enlarge it, the parts between its 8 px corners are
+    stretched.
 
     light: colour of its edge; body: colour of its inside.
     """
@@ -47,7 +48,10 @@ def panel(light, body):
 
 
 def bar(ramp):
-    """Return an 8 x 8 piece of a filled bar, which is repeated in x. ramp: name of its colours."""
+    """Return the picture of a piece of a filled bar, (8, 8, 4) uint8, which is repeated in x.
+
+    ramp: name of its colours, a key of RAMPS.
+    """
     out = np.zeros((8, 8, 4), np.uint8)
     out[..., 3] = 255
     for row, tone in enumerate((None, 5, 4, 4, 3, 3, 2, None)):
@@ -56,7 +60,7 @@ def bar(ramp):
 
 
 def ui_files():
-    """Return {relative path: bytes} of the sprite sheet "ui"."""
+    """Return {path relative to assets/: bytes} of the sprite sheet "ui"."""
     sheet, path = Sheet("ui"), FOLDER / "drawings" / "icons.txt"
     sheet.add("logo", logo())
     sheet.add("panel", panel(RAMPS["steel"][3], oklch(0.22, 0.045, 283)))
