@@ -17,7 +17,7 @@ RACK = (1, 9, 2, 10, 8, 3, 4, 11, 5, 12, 13, 6, 14, 7, 15)
 
 
 def cushions():
-    """Return the shapes of the six cushions and of the wooden frame behind the pockets, a list of Polygon."""
+    """Return a list of Polygon: the six cushions, and the four parts of the wooden frame behind the pockets."""
     left, top, right, bottom, middle = CLOTH.left, CLOTH.top, CLOTH.right, CLOTH.bottom, CLOTH.centerx
     shapes = []
     for y, way in ((top, -1), (bottom, 1)):
@@ -38,7 +38,9 @@ def cushions():
 
 
 def rack(random):
-    """Yield (number, place [px]) of the fifteen racked balls, each moved slightly at random from its spot."""
+    """Yield (number, (x, y) [px]) for each of the fifteen racked balls. `random` moves each ball slightly from its
+    spot.
+    """
     step_x, step_y = (2 * BALL + RACK_GAP) * cos(pi / 6), BALL + RACK_GAP / 2
     numbers = iter(RACK)
     for row in range(5):
@@ -49,10 +51,10 @@ def rack(random):
 
 
 def first_in_the_way(start, heading, balls):
-    """Return how far [px] the cue ball can move from `start` before it meets a ball or cushion, and that ball's place.
+    """Return (distance, position): how far [px] the cue ball moves from `start` until it meets a ball or cushion.
 
-    The place is None if a cushion comes first. `heading`: unit vector of the motion; `balls`: places of the other
-    balls.
+    position: centre of the ball that it meets, or None if a cushion comes first. `heading`: unit vector of the motion;
+    `balls`: positions of the other balls [px].
     """
     (x, y), (c, s) = start, heading
     room = CLOTH.inflate(-2 * BALL, -2 * BALL)
@@ -72,9 +74,10 @@ def first_in_the_way(start, heading, balls):
 
 
 def best_point(cue, balls):
-    """Return the canvas point (whole px) at which to aim the cue ball in order to pot a ball.
+    """Return the point (x, y) [canvas px, integers] at which to aim the cue ball in order to pot a ball.
 
-    Of all pairs of a ball and a pocket, the function picks the one with the straightest and shortest shot.
+    The function chooses the ball and the pocket with the straightest and shortest shot. cue: position of the cue ball
+    [px]; balls: positions of the other balls [px].
     """
     x, y = cue
     best = (-2.0, (round(x) + 40, round(y)))

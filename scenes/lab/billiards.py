@@ -76,7 +76,7 @@ class Billiards(Scene):
         self.fill()
 
     def fill(self):
-        """Make a new world with the balls racked."""
+        """Replace the scene's world by a new one with cushions, pockets and racked balls."""
         self.worlds = []
         bounce = self.values["bounce"] / 100.0
         world = self.add_world(drag=self.values["drag"], pixels_per_meter=PIXELS_PER_METER)
@@ -99,7 +99,7 @@ class Billiards(Scene):
         return body
 
     def change_slider(self, name, value):
-        """Set a slider, then rack the balls again."""
+        """Set the slider `name` to `value`, then make a new world with racked balls."""
         super().change_slider(name, value)
         self.fill()
 
@@ -115,7 +115,7 @@ class Billiards(Scene):
         return "racks them again" if len(self.ball_names) == 1 else ""
 
     def update(self, inputs):
-        """Aim and shoot, make one step, then check momentum and energy."""
+        """Process the player's aim and shot, step the world, then measure momentum and energy."""
         if self.resting and not self.drag.holds:
             self.calm += 1
             self._aim(inputs)
@@ -148,7 +148,7 @@ class Billiards(Scene):
             self.shoot()
 
     def shoot(self):
-        """Hit the cue ball along the aim, through its middle."""
+        """Shoot: set the cue ball's velocity along the aim, with a speed in proportion to the power."""
         speed = FASTEST * self.power
         velocity = (speed * cos(self.aim), speed * sin(self.aim))
         self.cue.velocity = velocity
@@ -161,8 +161,8 @@ class Billiards(Scene):
     def _keep_books(self, before):
         """Update the errors of momentum and energy after a step. `before`: kinetic energy before the step.
 
-        Momentum: compare the total momentum with that of the cue ball at the shot, until a ball hits a cushion. Energy:
-        compare the kinetic energy with the energy before the step. The drag of the cloth is taken into account in both.
+        The total momentum is compared with the cue ball's momentum at the shot, until a ball hits a cushion. The
+        kinetic energy is compared with the energy before the step. Both comparisons allow for the drag of the cloth.
         """
         keep = 1.0 / (1.0 + self.values["drag"] * self.world.dt)
         self.energy = kinetic_energy(self.world)
@@ -193,8 +193,9 @@ class Billiards(Scene):
         self.budget = (px, py, steps)
 
     def _three_met(self):
-        """Return whether a body had two contacts in this step. The laws of impact alone do not determine the result
-        then.
+        """Return whether a body had two or more contacts in the last step.
+
+        The laws of impact alone do not determine the result of such a collision.
         """
         contacts = self.world.contacts
         both = np.concatenate((contacts["body_a"], contacts["body_b"]))
@@ -217,7 +218,7 @@ class Billiards(Scene):
             self.play("coin", None, 0.7)
 
     def _free_spot(self):
-        """Return the head spot, or the next free place beside it."""
+        """Return the head spot (x, y) [px], or the nearest position above or below it that no other ball covers."""
         for shift in range(0, CLOTH.height // 2 - 8, 2):
             for y in (HEAD_SPOT[1] + shift, HEAD_SPOT[1] - shift):
                 if all(
@@ -228,7 +229,9 @@ class Billiards(Scene):
         return HEAD_SPOT
 
     def _others(self):
-        """Return the places of all balls except the cue ball, in the order of their creation."""
+        """Return the positions (x, y) [px] of all balls on the table except the cue ball, in the order of their
+        creation.
+        """
         return [self.world.body(ball).position for ball in sorted(self.ball_names) if ball != self.cue.id]
 
     def _stop_the_slow(self):
@@ -237,7 +240,7 @@ class Billiards(Scene):
             bodies["vx"] = bodies["vy"] = 0.0
 
     def draw(self, canvas, alpha):
-        """Draw table, balls, cue, score."""
+        """Draw the table, the balls, the cue and the score."""
         canvas.surface.fill((30, 24, 46))
         canvas.surface.blit(self.table, TABLE)
         for identity in self.ball_names:
@@ -292,7 +295,7 @@ class Billiards(Scene):
         canvas.text(words, 196, 248, FOG, SMALL, align="center")
 
     def draw_on_frame(self, frame):
-        """Draw the line of aim to the first ball, and that ball's path."""
+        """Draw the cue ball's path up to the first ball or cushion, and the path of the ball that it will hit."""
         if not self.resting or self.drag.holds:
             return
         lens = frame.lens(self.camera)
@@ -338,15 +341,15 @@ class Billiards(Scene):
         ]
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         sentence = "Until a ball meets a cushion, a break keeps the momentum it was given."
         number, unit, good = f"{100 * (1 - self.kept):.3f} %", "of the momentum kept", self.kept < 1e-9
         return Headline(sentence, "Space: shoot", number, unit, self.compared, ENOUGH, "steps after a shot", good)
 
     def finding(self):
-        """Return a sentence with the greatest error of momentum before a cushion, and the greatest gain of energy.
+        """Return a sentence with the greatest error of momentum and the greatest gain of energy.
 
-        The gain of energy is that of collisions of two balls only.
+        The momentum is measured until a ball meets a cushion. The gain of energy is that of collisions of two balls.
         """
         if not self.compared:
             return "not yet: a ball has to be hit and to run a step before it meets a cushion"
@@ -364,7 +367,9 @@ class Billiards(Scene):
         return InputFrame(frozenset(), self.last_pointer)
 
     def state(self):
-        """Return the scene's own state for the digest: score and measurements. The worlds are hashed separately."""
+        """Return the scene's part of the state hash, a flat tuple: score and measurements. The worlds are hashed
+        separately.
+        """
         budget = self.budget or (0.0, 0.0, -1)
         return (
             self.frame,

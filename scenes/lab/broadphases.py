@@ -74,7 +74,7 @@ class Broadphases(Scene):
     legend_at = (330, 248)
 
     def build(self):
-        """Make pictures, curves and counts, and let fill() make the four worlds."""
+        """Create the cameras, the curves and the counters, then call fill() to create the four worlds."""
         self.cameras = [Camera((*corner, VIEW_WIDTH, VIEW_HEIGHT), ZOOM) for corner in CORNERS]
         self.curves = [
             Curves(title, {"all four": PAPER} if i == 0 else BROADPHASE_COLORS) for i, (title, _) in enumerate(PLOTS)
@@ -90,18 +90,19 @@ class Broadphases(Scene):
         return LAYOUTS[int(self.values["layout"])]
 
     def fill(self):
-        """Make four new worlds with the same bodies, which follow from the layout, the number of bodies and the scene's
-        seed.
+        """Replace the scene's worlds by four new ones that contain the same bodies.
+
+        The layout, the number of bodies and the scene's seed determine the bodies.
         """
         self.worlds = []
         for strategy in STRATEGIES:
             populate(self.add_world(broadphase=strategy), self.layout, int(self.values["bodies"]), self.seed)
 
     def measured(self):
-        """Return the runs that the measuring process times during the game.
+        """Return a RunRequest: the runs that the measuring process times during the game.
 
-        A run steps a world of the current layout with one broad phase. There is one run for each broad phase and each
-        size: the sizes in SIZES, and the current number of bodies.
+        In each run, one broad phase steps a world of the current layout. There is one run for each broad phase and
+        each number of bodies: the numbers in SIZES, and the current number.
         """
         sizes = sorted({*SIZES, min(int(self.values["bodies"]), LARGEST)})
         names = [(self.layout, size, strategy) for size in sizes for strategy in STRATEGIES]
@@ -113,10 +114,11 @@ class Broadphases(Scene):
         return MeasuredRun([made], strategy, stage="broad_phase")
 
     def growth(self, strategy):
-        """Return the Series of the broad phase `strategy` in this layout.
+        """Return the Series of the broad phase `strategy` in the current layout, for the plot of cost over number of
+        bodies.
 
-        It contains the measured points (number of bodies, cost of a step), and the power law fitted to them, or None
-        while points are missing.
+        It contains the measured points (number of bodies, cost of a step), and the power law fitted to them. The law
+        is None while points are missing.
         """
         known = [(size, self.figures.get((self.layout, size, strategy))) for size in SIZES]
         points = [(size, figures.cost) for size, figures in known if figures is not None]
@@ -125,14 +127,17 @@ class Broadphases(Scene):
         return Series(BROADPHASE_COLORS[strategy], points, law, FITTED)
 
     def change_slider(self, name, value):
-        """Set a slider. After a change of the number of bodies or of the layout, fill the worlds again."""
+        """Set the slider `name` to `value`, then make the four worlds again.
+
+        A new number of bodies also sets the counts of tests to zero.
+        """
         super().change_slider(name, value)
         if name == "bodies":
             self.tests = dict.fromkeys(STRATEGIES, 0)  # among few bodies all need as many as brute force
         self.fill()
 
     def update(self, inputs):
-        """Process keys, reflect bodies at the edges, step all four worlds, and compare their pairs."""
+        """Process keys, reflect bodies at the edges, step all four worlds, and compare their candidate pairs."""
         layout, bodies = self.values["layout"], self.values["bodies"]
         if inputs.pressed("left") or inputs.pressed("right"):
             way = 1 if inputs.pressed("right") else -1
@@ -151,7 +156,9 @@ class Broadphases(Scene):
             self.tests[strategy] += tests_of(world)
 
     def observe(self):
-        """Append this step's number of candidate pairs, and of box tests of each broad phase, to the curves."""
+        """Append the step's number of candidate pairs, and the number of box tests of each broad phase, to
+        the curves.
+        """
         by_name = dict(zip(STRATEGIES, self.worlds, strict=True))
         self.curves[0].note({"all four": len(self.worlds[0].candidates)})
         self.curves[1].note({name: tests_of(w) for name, w in by_name.items()})
@@ -161,8 +168,9 @@ class Broadphases(Scene):
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Draw the headings and the background of each view, and the bodies as dots. Curves and structures are drawn at
-        window resolution.
+        """Draw the heading and background of each view, and the bodies as dots.
+
+        draw_on_frame() and the overlays draw the curves and structures at window resolution.
         """
         canvas.surface.fill(NIGHT)
         for name, world, camera in zip(STRATEGIES, self.worlds, self.cameras, strict=True):
@@ -183,7 +191,7 @@ class Broadphases(Scene):
         draw_growth(frame, GROWTH, "time of a step over bodies [log]", series, int(self.values["bodies"]))
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         tests = {name: tests_of(world) for name, world in zip(STRATEGIES, self.worlds, strict=True)}
         least = min(STRATEGIES[1:], key=tests.__getitem__)
         number = f"{tests['brute'] / max(tests[least], 1):,.1f} x"
@@ -228,7 +236,9 @@ class Broadphases(Scene):
         return InputFrame(frozenset(("right",)) if turn else frozenset())
 
     def state(self):
-        """Return the scene's own state for the digest: the settings and results. The worlds are hashed separately."""
+        """Return the scene's part of the state hash, a flat tuple: the settings and results. The worlds are hashed
+        separately.
+        """
         return (
             self.frame,
             self.values["bodies"],
@@ -240,7 +250,7 @@ class Broadphases(Scene):
 
 
 def bounce(world):
-    """Reverse the velocity of all bodies that leave the world at one of its edges."""
+    """Reverse the velocity component of each body that is beyond an edge of the picture and moves away from it."""
     bodies = world.bodies
     for place, speed, low, high in (("x", "vx", 0.0, WIDTH), ("y", "vy", 0.0, HEIGHT)):
         position, velocity = bodies[place], bodies[speed]
@@ -260,7 +270,7 @@ def tests_of(world):
 def draw_dots(surface, world, camera, color):
     """Draw every body as one canvas pixel in `color`, or in red while it has a contact.
 
-    The one giant body of the layout, if it has one, is drawn as a ring.
+    A giant body, which only the layout "giant" has, is also drawn as a ring.
     """
     bodies, view = world.bodies, camera.viewport
     x, y = camera.to_canvas(bodies["x"], bodies["y"])

@@ -1,4 +1,6 @@
-"""Drawing for lab/effects: the bodies of one yard, and the outlines of bodies that are elsewhere in a second yard."""
+"""Drawing for lab/effects: the bodies of one yard, and the outlines of bodies whose positions differ in a
+second yard.
+"""
 
 import numpy as np
 import pygame
@@ -86,7 +88,7 @@ class BusyPicture:
 
 
 def draw_ghost(frame, camera, yard, numbers, color):
-    """Draw the outlines of some bodies of a yard at window resolution. Pixel masks are drawn as boxes.
+    """Draw the outlines of some bodies of a BusyYard in `color` at window resolution. Pixel masks are drawn as boxes.
 
     numbers: the yard's numbers of these bodies, keys of `yard.ids`.
     """

@@ -1,4 +1,4 @@
-"""The yard of lab/effects: a world with so many kinds of bodies that each effect of the engine acts on some of them."""
+"""The yard of lab/effects: a world with so many kinds of bodies that each effect of the engine acts on at least one."""
 
 from dataclasses import dataclass
 from math import sqrt
@@ -61,8 +61,8 @@ PLACED = 1000000  # first number of things that are there from the start; the st
 class BusyYard:
     """A world to which bodies are added, and from which they are removed, by a schedule.
 
-    ids: {number: body id} of its moving bodies. A number denotes the same body in a yard and in its copies, while their
-    body ids may differ.
+    ids: {number: body id} of the moving bodies. A copy of the yard uses the same numbers for the same bodies, while
+    their body ids may differ.
     """
 
     def __init__(self, world):
@@ -127,9 +127,9 @@ class BusyYard:
         self.rock = self.world.add_body(mask, position=(x, y), kind="static", material=GRIP).id
 
     def beside(self, world):
-        """Return a copy of this yard for another world.
+        """Return a copy of this BusyYard whose bodies are those of another World.
 
-        The bodies of `world` must have the same ids as those of this world.
+        Each body of `world` must have the same id as the same body of this yard's world.
         """
         other = BusyYard(world)
         other.ids, other.kinds, other.ends = dict(self.ids), dict(self.kinds), dict(self.ends)
@@ -185,9 +185,10 @@ class BusyYard:
 
 
 def apart(one, other):
-    """Return (numbers, distances) of the bodies that exist in both of two yards.
+    """Return (numbers, distances) of the bodies that exist in both of two BusyYards.
 
-    numbers: list of keys of `ids`; distances: array (n,) [px] between the two positions of each body.
+    numbers: list of keys of `ids`; distances: array (n,) [px], the distance between a body's positions in the two
+    yards.
     """
     numbers = sorted(one.ids.keys() & other.ids.keys())
     return numbers, np.hypot(*(one.places(numbers) - other.places(numbers)).T) if numbers else np.zeros(0)

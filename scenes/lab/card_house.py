@@ -72,14 +72,14 @@ class CardHouse(Scene):
     legend_at = (342, 88)
 
     def build(self):
-        """Build the table, and let fill() build the house on it."""
+        """Create the picture of the table, then call fill() to build the house and the pairs of cards."""
         self.yard = Yard(FLOOR, 60, table=True)
         self.held = None  # [px] motion of its cards in the ten seconds, or None
         self.slipped = False  # the house fell once with too little friction
         self.fill()
 
     def fill(self):
-        """Make a new world with the house and the two pairs as built."""
+        """Replace the scene's world by a new one with the house and the two pairs as built."""
         self.worlds = []
         self.camera = Camera(((0, 16), (480, 254)), 1.0, y=16.0)
         self.add_world(substeps=int(self.values["substeps"]))
@@ -111,8 +111,9 @@ class CardHouse(Scene):
         )
 
     def _pair(self, x, floor, material):
-        """Add two cards that lean on each other, and return them. x: middle between them [px]; floor: y of their feet
-        [px].
+        """Add two cards that lean on each other, and return a list of these two bodies.
+
+        x: horizontal centre of the pair [px]; floor: y of the cards' feet [px].
         """
         shape = Capsule((-LENGTH / 2, 0), (LENGTH / 2, 0), RADIUS)
         cards = []
@@ -137,12 +138,12 @@ class CardHouse(Scene):
         return cards
 
     def change_slider(self, name, value):
-        """Set a slider, then build everything again."""
+        """Set the slider `name` to `value`, then build the house and the pairs again."""
         super().change_slider(name, value)
         self.fill()
 
     def update(self, inputs):
-        """Process keys, make one step, and check for falls."""
+        """Process keys, make one step, and measure whether the house still stands and how far its cards have moved."""
         for name, forth, back, notch in (("friction", "up", "down", 5), ("storeys", "right", "left", 1)):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
@@ -219,7 +220,7 @@ class CardHouse(Scene):
         canvas.text(word, x, FLOOR - 82, PAPER if still else ORANGE, SMALL, align="center")
 
     def draw_on_frame(self, frame):
-        """Draw a ring at the middle of each card that has moved, which shows where the house gives way."""
+        """Draw a ring at the centre of each card of the house that has moved by more than GIVES but has not fallen."""
         lens = frame.lens(self.camera)
         for card in self.cards:
             moved = self.moved(card)
@@ -247,7 +248,7 @@ class CardHouse(Scene):
         ]
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         fell = sum(self.moved(card) >= REACH / 2 for card in self.cards)
         friction = self.values["friction"] / 100
         sentence = f"Friction alone holds the cards: here it is {friction:.2f}, a pair needs {NEEDED:.3f}."
@@ -279,7 +280,9 @@ class CardHouse(Scene):
         return InputFrame(changes=() if friction is None else (("slider:friction", friction),))
 
     def state(self):
-        """Return the scene's own state for the digest: the measurements. The worlds are hashed separately."""
+        """Return the scene's part of the state hash, a flat tuple: the measurements. The worlds are hashed
+        separately.
+        """
         return (
             self.frame,
             self.since,

@@ -57,7 +57,7 @@ FEWEST = 6  # places of the ground at which a carve is timed
 
 
 class Carving(Scene):
-    """Scene with one world: the ground, toys on it, and the fragments carved off both."""
+    """Scene with one world: the ground, bodies on it, and the fragments carved off both."""
 
     name = "lab/carving"
     title = "Carving"
@@ -87,7 +87,7 @@ class Carving(Scene):
     hides_pointer = False
 
     def build(self):
-        """Build the ground, the bedrock, the walls at both sides of the picture, and the toys."""
+        """Build the ground, the bedrock, the walls at both sides of the picture, and the bodies on the ground."""
         self.sky, self.wall = load_backdrop("sky_dusk"), load_backdrop("lab_earth_wall")
         world = self.add_world()
         for shape, place in (
@@ -120,12 +120,12 @@ class Carving(Scene):
         self.draggable = self.tool.name == "hand"
 
     def change_slider(self, name, value):
-        """Set a slider: the tool or its size."""
+        """Set the slider `name`, the tool or its radius, to `value`."""
         super().change_slider(name, value)
         self._take_tool()
 
     def solid(self):
-        """Return the number of solid pixels in the masks of all bodies, counted pixel by pixel."""
+        """Return the number of solid pixels in the masks of all bodies."""
         masks = (shape for each in self.prints.of for shape in self.world.body(each).shapes)
         return sum(int(np.count_nonzero(mask.solid)) for mask in masks if isinstance(mask, PixelMask))
 
@@ -149,7 +149,7 @@ class Carving(Scene):
     def _carve(self, shape, pose):
         """Carve the tool's shape out of every carvable body within reach, and update the counts.
 
-        pose: (x, y, angle) of `shape`.
+        pose: (x, y, angle) [px, rad] of `shape`.
         """
         x, y = self.pointed
         tiles = self._tiles()
@@ -164,10 +164,10 @@ class Carving(Scene):
             self.particles.burst(x, y, min(10 + taken // 12, 90), DUST, (10, 110), (0.3, 0.9), gravity=200.0)
 
     def _carve_one(self, body, shape, pose):
-        """Carve `shape` out of one body.
+        """Carve `shape` out of one body, and return the number of pixels that the shape removed.
 
-        Fragments become bodies of the scene; a body without pixels left is forgotten. Return the number of pixels that
-        the tool removed. pose: (x, y, angle) of `shape`.
+        Fragments become bodies of the scene. A body without pixels left is removed from the scene's tables. pose: (x,
+        y, angle) [px, rad] of `shape`.
         """
         identity, place, (before,) = body.id, (*body.position, body.angle), body.shapes
         parent = (self.prints.of[identity], before, place)
@@ -184,9 +184,10 @@ class Carving(Scene):
         return carved.removed
 
     def measured(self):
-        """Return the run that the measuring process times during the game, or None without a tool or enough ground.
+        """Return a RunRequest for one run that the measuring process times during the game.
 
-        In this run the current tool carves at up to sixty places of the ground.
+        In this run the current tool carves at up to sixty places of the ground. Return None if the tool does not
+        carve, or if too little ground is left.
         """
         if self.tool.name == "hand" or self.ground not in self.world:
             return None
@@ -231,7 +232,9 @@ class Carving(Scene):
                     body.apply_impulse((gain * dx, gain * dy - 0.25 * gain * far))
 
     def _follow(self):
-        """Update the greatest fall of a loose piece, and play the sound of the strongest impact of this step."""
+        """Update the greatest distance that a loose piece has fallen, and play a sound for the strongest impact of
+        this step.
+        """
         for identity, height in self.loose_at.items():
             self.fell = max(self.fell, self.world.body(identity).center[1] - height)
         hits = self.world.events.hits
@@ -287,7 +290,10 @@ class Carving(Scene):
         pygame.draw.lines(frame.surface, GOLD, True, points, max(1, frame.scale - 1))
 
     def check(self):
-        """Return the scene's goals: no pixel is lost, undermined ground fell, and all comes to rest."""
+        """Return the scene's goals, a list of Goal.
+
+        No pixel is lost, undermined ground falls, and all bodies come to rest.
+        """
         bodies = self.world.bodies
         finite = all(np.isfinite(bodies[name]).all() for name in ("x", "y", "angle", "vx", "vy"))
         inside = bool((bodies["y"][bodies["inverse_mass"] > 0.0] < BOTTOM).all())
@@ -305,14 +311,16 @@ class Carving(Scene):
         ]
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         lost = self.whole - self.left - self.removed - self.crumbs
         sentence = "What is undermined falls as a body of its own pixels; none is lost."
         unit = f"pieces came loose, {lost} pixels lost"
         return Headline(sentence, "click: blast", f"{self.made}", unit, self.carves, 1, "blasts", not lost)
 
     def finding(self):
-        """Return a sentence with the share of the ground that the last carve rebuilt, and whether a pixel was lost."""
+        """Return a sentence with the share of the ground's tiles that the last carve rebuilt, and the number of lost
+        pixels.
+        """
         if not self.carves:
             return "not yet: something has to be carved"
         lost = self.whole - self.left - self.removed - self.crumbs
@@ -322,13 +330,13 @@ class Carving(Scene):
     def bot(self):
         """Return the bot's input for the next step, from the plan in digging_plan.py.
 
-        The bot cuts down the bridge, the rock on its neck and the cliff; it digs under the crates, and carves with the
+        The bot undermines a bridge, a rock on a thin neck and a cliff. It digs under the crates, and carves with the
         star.
         """
         return plan(self.frame)
 
     def state(self):
-        """Return the scene's own state for the digest: the counts. The worlds are hashed separately."""
+        """Return the scene's part of the state hash, a flat tuple: the counts. The worlds are hashed separately."""
         return (
             self.frame,
             *self.values.values(),

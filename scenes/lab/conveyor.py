@@ -116,7 +116,10 @@ class Conveyor(Scene):
                 belts[name] = world.add_body(Capsule(start, end, BELT_RADIUS), kind="static", material=material)
 
     def change_slider(self, name, value):
-        """Set a slider, and rebuild the belts at once. After SETTLE steps the measurements start again."""
+        """Set the slider `name` to `value`, and rebuild the belts if the value changed.
+
+        SETTLE steps after a change, the measurements start again.
+        """
         before = self.values[name]
         super().change_slider(name, value)
         if self.values[name] != before:
@@ -141,7 +144,9 @@ class Conveyor(Scene):
         self._collect()
 
     def _drop(self, index):
-        """Add the next crate to the world `worlds[index]` if it is due and its place is free."""
+        """Add the next crate to the world `worlds[index]` if it is due and no other crate is at its
+        starting position.
+        """
         world = self.worlds[index]
         every = max(1, round(APART / self.values["speed"] * 60))
         if self.frame % every or (index == 1 and self.dropped[1] >= len(KINDS)):
@@ -160,7 +165,9 @@ class Conveyor(Scene):
         self.dropped[index] += 1
 
     def _measure(self):
-        """Record the speed of each crate that leaves a belt's measuring window, the stretch near the belt's end."""
+        """Record the speed of each crate that has just left the measuring window of a belt, a stretch near the belt's
+        end.
+        """
         world, speed = self.world, float(self.values["speed"])
         if self.frame - self.changed < SETTLE:
             return
@@ -197,7 +204,9 @@ class Conveyor(Scene):
                 self.strayed = max(self.strayed, hypot(x - start[0], y - start[1]))
 
     def _collect(self):
-        """Remove the crates that are past the end of the last belt."""
+        """Remove the crates that have passed the end of the last belt or have fallen, and count those that have
+        passed.
+        """
         for index, world in enumerate(self.worlds):
             for identity in list(self.kinds[index]):
                 body = world.body(identity)
@@ -226,7 +235,7 @@ class Conveyor(Scene):
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Draw the two halls with belts and crates, and the measurements."""
+        """Draw both views with their belts and crates, and the measurements."""
         canvas.surface.fill(NIGHT)
         for index, camera in enumerate(self.cameras):
             self._draw_hall(canvas, index, camera, alpha)
@@ -290,7 +299,7 @@ class Conveyor(Scene):
         ]
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         speed = float(self.values["speed"])
         belt = max(self.worst, key=lambda name: self.worst[name])
         good = len(self.last) < len(BELTS) or self.worst[belt] <= ALLOWED
@@ -301,9 +310,9 @@ class Conveyor(Scene):
         return Headline(sentence, "left: slower", number, unit, len(self.last), len(BELTS), "belts", good)
 
     def finding(self):
-        """Return a sentence with the greatest error of the last crates' speeds on the belts.
+        """Return a sentence with the greatest relative error of the last crate's speed on each belt.
 
-        It also names the distance that crates have moved in the world without the effect.
+        It also gives the distance that crates have moved in the world without the effect.
         """
         if not self.last:
             return "not yet: a crate has to come to the end of a belt that runs as it does now"
@@ -324,7 +333,7 @@ class Conveyor(Scene):
         return InputFrame(frozenset(("right",)) if self.frame in (420, 424) else frozenset(), changes=changes)
 
     def state(self):
-        """Return the scene's own state for the digest: the measurements."""
+        """Return the scene's part of the state hash, a flat tuple: the measurements."""
         return (
             self.frame,
             self.values["speed"],
@@ -358,8 +367,8 @@ def on_belt(point, start, end):
 def draw_belt(surface, view, start, end, way, running):
     """Draw a belt around two rollers, with ribs that show its motion.
 
-    start, end: middles of the rollers in the view; way: distance that the belt has moved [px]; running: whether the
-    belt is drawn bright (True) or dim.
+    start, end: centres of the rollers in the view [px]; way: distance that the belt has moved [px]; running: whether
+    the belt is drawn bright (True) or dim.
     """
     (ax, ay), (bx, by) = ((p[0] + view.x, p[1] + view.y) for p in (start, end))
     tx, ty = direction(start, end)

@@ -17,7 +17,7 @@ class Difference(NamedTuple):
         return abs(self.seconds) > self.noise
 
     def exceeds(self, other):
-        """Return whether this difference is certainly greater than `other`: by more than the noise of both."""
+        """Return whether this difference is greater than `other` by more than the noise of both."""
         return self.seconds - self.noise > other.seconds + other.noise
 
     def text(self):
@@ -26,7 +26,7 @@ class Difference(NamedTuple):
 
 
 def difference_of(scene, name, other):
-    """Return the Difference of the step times of the runs `name` and `other`, None while measurements are missing.
+    """Return the Difference of the step times of the runs `name` and `other`, or None while measurements are missing.
 
     The least times are subtracted, because other load of the machine only adds time. The noise of a run is its median
     minus its least time. The noise of the difference is the sum for both runs.

@@ -50,7 +50,7 @@ SWITCH_AT = 300  # the bot's step for two strikers
 
 
 class Cradle(Scene):
-    """Scene with three worlds, one channel with a row of balls in each."""
+    """Scene with three worlds, one for each solver. Each contains a channel with a row of balls."""
 
     name = "lab/cradle"
     title = "Cradle"
@@ -68,7 +68,9 @@ class Cradle(Scene):
     legend_at = (4, 20)
 
     def build(self):
-        """Build the channels, and let fill() add the balls."""
+        """Create the picture of the channels and the cameras, then call fill() to create the worlds with
+        their balls.
+        """
         self.yard = Yard((), 90)
         self.cameras = [Camera((0, top, 480, LANE_HEIGHT), ZOOM) for top in LANES]
         self.results = {}  # (solver, strikers, gap) -> greatest error of the first pass, up to the wall
@@ -76,7 +78,7 @@ class Cradle(Scene):
         self.fill()
 
     def fill(self):
-        """Make three new worlds with the same balls."""
+        """Replace the scene's worlds by three new ones, one for each solver, with the same balls."""
         self.worlds, self.casts, self.balls = [], [], []
         strikers, pitch = int(self.values["strikers"]), 2 * RADIUS + self.values["gap"]
         ball = Material(density=1.0, friction=0.0, restitution=1.0)
@@ -102,7 +104,7 @@ class Cradle(Scene):
         self.touched = False  # a ball is dragged: measurements end
 
     def change_slider(self, name, value):
-        """Set a slider, then add the balls again."""
+        """Set the slider `name` to `value`, then make the worlds and balls again."""
         super().change_slider(name, value)
         self.fill()
 
@@ -140,9 +142,9 @@ class Cradle(Scene):
         self.results[key] = tuple(max(pair) for pair in zip(found, self.results.get(key, found), strict=True))
 
     def measured(self):
-        """Return the runs that the measuring process times during the game, one for each channel.
+        """Return a RunRequest: the runs that the measuring process times during the game, one for each channel.
 
-        A run steps a channel while a ball travels to its wall and back, which includes every chain of collisions.
+        In a run, the channel is stepped for the time that a ball needs from one wall to the other and back.
         """
         worlds = dict(zip(SOLVERS, self.worlds, strict=True))
         return RunRequest(
@@ -151,17 +153,20 @@ class Cradle(Scene):
         )
 
     def struck(self, index):
-        """Return whether a ball of the row in channel number `index` has left its start or has a velocity."""
+        """Return whether a ball of the row in channel number `index` has left its starting position or has
+        a velocity.
+        """
         row = self.balls[index][-ROW:]
         return any(
             body.velocity[0] != 0.0 or body.position[0] != x for body, x in zip(row, self.laid[index], strict=True)
         )
 
     def others(self, index):
-        """Return the error of channel number `index` against the ideal collision, a share of the strikers' speed.
+        """Return the error of channel number `index` against the ideal collision, as a share of the strikers' speed.
 
-        Ideally as many balls as struck move at the strikers' speed, and all others are at rest. The error is the
-        greatest deviation of a ball from the nearer of these two speeds. It is 1 if the number of fast balls is wrong.
+        In the ideal collision, as many balls as have struck move at the strikers' speed, and all others are at rest.
+        The error is the greatest difference between a ball's speed and the nearer of these two speeds. It is 1 if the
+        number of fast balls is wrong.
         """
         speeds = [abs(body.velocity[0]) / SPEED for body in self.balls[index]]
         fast = sum(speed > 0.5 for speed in speeds)
@@ -171,7 +176,7 @@ class Cradle(Scene):
 
     @property
     def offer(self):
-        """Text that offers the player a new run once a row is in disorder, which is permanent; "" otherwise."""
+        """Text that offers the player a new run once the balls of a channel have lost their order; "" otherwise."""
         return "lays them in anew" if any(self.others(index) > SCATTERED for index in range(len(SOLVERS))) else ""
 
     def views(self):
@@ -214,7 +219,7 @@ class Cradle(Scene):
         canvas.text(words, 470, y, color, SMALL, align="right")
 
     def verdict(self, index):
-        """Return (text, colour) of the judgement about channel number `index` in its current state."""
+        """Return (text, colour): the result of channel number `index` in its current state."""
         if self.touched:
             return "dragged: nothing is promised", FOG
         if not self.struck(index):
@@ -228,7 +233,7 @@ class Cradle(Scene):
         return f"others move too, by {100 * others:.1f} %", RED
 
     def draw_on_frame(self, frame):
-        """Draw an arrow over every moving ball, with a length in proportion to its speed."""
+        """Draw an arrow above every moving ball. Its length is proportional to the ball's speed."""
         for index, camera in enumerate(self.cameras):
             lens = frame.lens(camera)
             for body in self.balls[index]:
@@ -248,7 +253,7 @@ class Cradle(Scene):
     def check(self):
         """Return the scene's goals, a list of Goal.
 
-        With one and with two strikers, as many balls leave as have struck, and no momentum or energy is lost.
+        With one and with two strikers, as many balls leave as have struck, and momentum and energy are conserved.
         """
         goals = []
         for name in SOLVERS:
@@ -275,7 +280,7 @@ class Cradle(Scene):
         return goals
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         strikers, gap = int(self.values["strikers"]), int(self.values["gap"])
         found = self.results.get(("projection", strikers, gap))
         fast = sum(abs(body.velocity[0]) > SPEED / 2 for body in self.balls[0])
@@ -286,7 +291,9 @@ class Cradle(Scene):
         return Headline(sentence, "right: a gap", number, "balls leave (top)", int(self.struck(0)), 1, "strikes", good)
 
     def finding(self):
-        """Return a sentence with the error of each row up to its first contact with a wall, and the time of a step."""
+        """Return a sentence with the error of each channel's speeds before a ball reaches the right wall, and its step
+        time.
+        """
         strikers, parts = int(self.values["strikers"]), []
         for name in SOLVERS:
             found = self.results.get((name, strikers, int(self.values["gap"])))
@@ -296,12 +303,17 @@ class Cradle(Scene):
         return f"{strikers} in, {strikers} out; speeds are off by {', '.join(parts)}"
 
     def bot(self):
-        """Return the bot's input for the next step. The bot makes gaps, uses one striker, then two."""
+        """Return the bot's input for the next step.
+
+        The bot sets a gap between the balls. It uses one striker at first, and two later.
+        """
         changes = (("slider:gap", GAP),) if self.frame == 0 else ()
         return InputFrame(frozenset(("up",)) if self.frame == SWITCH_AT else frozenset(), changes=changes)
 
     def state(self):
-        """Return the scene's own state for the digest: the measurements. The worlds are hashed separately."""
+        """Return the scene's part of the state hash, a flat tuple: the measurements. The worlds are hashed
+        separately.
+        """
         found = [value for key in sorted(self.results) for value in (*key, *self.results[key])]
         drift = [value for key in sorted(self.drift) for value in (*key, self.drift[key])]
         return (self.frame, *self.values.values(), self.touched, *found, *drift)

@@ -13,9 +13,9 @@ HISTORY = 150  # default number of steps: 2.5 seconds
 
 
 class Curves:
-    """A plot of several series over the last `kept` steps. names: {series: colour}.
+    """A plot of several series over the last `kept` steps.
 
-    Call note() once per step, and draw() to paint the plot.
+    names: {series: colour}. Call note() once per step, and draw() to paint the plot.
     """
 
     def __init__(self, title, names, kept=HISTORY):

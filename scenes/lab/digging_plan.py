@@ -1,4 +1,4 @@
-"""The plan of lab/carving's bot: tool, pointer and button from step to step."""
+"""The plan of lab/carving's bot: the tool, the pointer's position and the pointer's button at every step."""
 
 from typing import NamedTuple
 
@@ -6,7 +6,9 @@ from game.input.inputs import InputFrame
 
 
 class Move(NamedTuple):
-    """A stroke of the pressed pointer from `start` to `end` [canvas px], in `steps` steps from frame `frame` on."""
+    """A stroke of the pointer with its button held: from `start` to `end` [canvas px], in `steps` steps from `frame`
+    on.
+    """
 
     frame: int
     steps: int

@@ -44,7 +44,7 @@ HOLDING = ("circle", "obb", "capsule", "hull")  # tiers that contain all pixels 
 
 
 class Disagreement(Shooter):
-    """The shooter game, in which eight collision tiers (kinds of shape) are compared with the exact pixels."""
+    """The shooter game, extended by a comparison of eight collision tiers (kinds of shape) with the exact pixels."""
 
     name = "lab/disagreement"
     title = "Disagreement"
@@ -80,12 +80,12 @@ class Disagreement(Shooter):
 
     @property
     def invincible(self):
-        """True, whatever the player has chosen for the games."""
+        """True, even if the player has switched invincibility off in the settings."""
         return True
 
     @property
     def hit_stop(self):
-        """False, whatever the player has chosen for the games."""
+        """False, even if the player has switched the pause at hits on in the settings."""
         return False
 
     @property
@@ -123,7 +123,9 @@ class Disagreement(Shooter):
         canvas.text(f"{self.reference.moments:,} moments, {hits:,} true hits", SIDE.x + 6, 260, FOG, SMALL)
 
     def _draw_row(self, canvas, tier, y):
-        """Draw the rates of a collision tier: wrong hits as a bar with the confidence interval, and missed hits."""
+        """Draw one collision tier's row: a bar with its share of wrong hits and the confidence interval, and missed
+        hits.
+        """
         wrong, missed, color = self.reference.wrong[tier], self.reference.missed[tier], COLORS[tier]
         if tier == self.reference.lit:
             canvas.surface.fill(DUSK, (SIDE.x + 2, y - 3, SIDE.width - 3, ROW - 1))
@@ -139,7 +141,7 @@ class Disagreement(Shooter):
         canvas.text(f"{100 * missed.share:.0f} %", SIDE.right - 4, y, PAPER, SMALL, align="right")
 
     def _draw_curves(self, canvas):
-        """Draw the share of wrong hits among the hits of each collision tier, over time."""
+        """Draw one curve for each collision tier: the share of wrong hits among its hits, over the tested moments."""
         area = CURVES
         canvas.surface.fill(INK, area)
         top = max([0.1, *(share for shares in self.curves[len(self.curves) // 8 :] for share in shares)])
@@ -159,7 +161,10 @@ class Disagreement(Shooter):
             pygame.draw.lines(canvas.surface, COLORS[tier], False, points)
 
     def draw_on_frame(self, frame):
-        """Draw the wrong hits and the missed hits of the chosen collision tier in the last test of all tiers."""
+        """Outline the pairs for which the chosen collision tier gave a wrong answer in the last test.
+
+        False hits are red, missed hits are blue.
+        """
         lens = frame.lens(self.camera)
         clip = frame.from_canvas(pygame.Rect(0, 0, SIDE.x, SIDE.height))
         frame.surface.set_clip(clip)
@@ -174,7 +179,7 @@ class Disagreement(Shooter):
     def check(self):
         """Return the scene's goals, a list of Goal.
 
-        Simple collision shapes report wrong hits, and shapes made of the outline hardly ever do.
+        Circles and boxes report wrong hits. Shapes that contain all pixels of a sprite miss no hit.
         """
         wrong, missed = self.reference.wrong, self.reference.missed
         caught = [tier for tier in LIARS if wrong[tier].count]
@@ -187,7 +192,7 @@ class Disagreement(Shooter):
         ]
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         lit = self.reference.lit
         wrong, name = self.reference.wrong[lit], NAMES.get(lit, lit)
         sentence = f"The {name} reports hits where no pixel is shared."
@@ -207,18 +212,20 @@ class Disagreement(Shooter):
         return f"{sentence} (95 %: {low:.0f} to {high:.0f} %); of {missed.total:,} true hits it missed {missed.count:,}"
 
     def bot(self):
-        """Return the bot's input for the next step, which is that of the shooter's bot."""
+        """Return the bot's input for the next step, which is the input that the shooter's own bot gives."""
         return super().bot()
 
     def state(self):
-        """Return the scene's own state for the digest: the state of the game and the counts of the tiers."""
+        """Return the scene's part of the state hash, a flat tuple: the state of the game and the counts of
+        the tiers.
+        """
         return (*super().state(), *self.reference.state(), self.reference.lit)
 
 
 def rehearse(effects):
-    """Test two aircraft and a disc at every collision tier (kind of collision shape) in a world with these effects.
+    """Test two aircraft and a disc once with each collision tier (kind of collision shape), to compile all kernels.
 
-    The test is made once before the game begins, so that all kernels are compiled by then.
+    The test runs in a separate world with these effects, before the game begins.
     """
     world, reference = World(effects, BROADPHASES["sweep"]()), ReferenceTier(FIRST)
     masks = [load_atlas("planes").mask(name) for name in ("player", "gunship_0")]
@@ -231,6 +238,9 @@ def rehearse(effects):
 
 
 def from_then_on(stage, start):
-    """Return a copy of a shooter stage that begins at time `start` [s]. Earlier waves of enemies are dropped."""
+    """Return a copy of a shooter stage that begins at time `start` [s].
+
+    Earlier events are dropped, except changes of the backdrop and of the speed.
+    """
     kept = [each for each in stage.events if each.at >= start or each.event in ("backdrop", "pace")]
     return replace(stage, events=tuple(replace(each, at=max(0.0, each.at - start)) for each in kept))

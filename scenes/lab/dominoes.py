@@ -73,14 +73,14 @@ class Dominoes(Scene):
     legend_at = (190, 20)
 
     def build(self):
-        """Build two tables, and let fill() add the rows."""
+        """Create the picture of two tables, then call fill() to create the worlds and their rows."""
         self.yard = Yard(FLOORS, 50, table=True)
         if self.solver in KEEPING:  # named on the command line, or chosen before a restart
             self.values["solver"] = KEEPING.index(self.solver)
         self.fill()
 
     def fill(self):
-        """Make two new worlds with a row each."""
+        """Replace the scene's worlds by two new ones, with one row of dominoes each."""
         self.solver = KEEPING[int(self.values["solver"])]
         self.worlds, self.casts, self.rows, self.cameras = [], [], [], []
         spacing = HEIGHT * self.values["spacing"] / 100.0
@@ -113,7 +113,7 @@ class Dominoes(Scene):
         self.passed = [[None] * count for _ in SCALES]  # [steps] time of the wave, between steps
 
     def change_slider(self, name, value):
-        """Set a slider, then build the rows again."""
+        """Set the slider `name` to `value`, then build the rows again."""
         super().change_slider(name, value)
         self.fill()
 
@@ -131,9 +131,10 @@ class Dominoes(Scene):
             self._time(index)
 
     def _push(self):
-        """Push the first domino of both rows, at speeds in proportion to the square root of their size (Froude).
+        """Push the first domino of both rows. The speed is proportional to the square root of the domino's size
+        (Froude).
 
-        If the rows have been pushed already, they are built again first.
+        If the rows have already been pushed, they are built again first.
         """
         if self.pushed is not None:
             self.fill()
@@ -158,7 +159,8 @@ class Dominoes(Scene):
             leaned[number] = now
 
     def speed(self, index):
-        """Return the speed of a row's wave over the ground [px/s]; None until it has passed the timed dominoes.
+        """Return the speed of a row's wave over the ground [px/s], or None until the wave has passed the timed
+        dominoes.
 
         index: 0 the small row, 1 the large row.
         """
@@ -170,8 +172,9 @@ class Dominoes(Scene):
         return (last - STEADY) * spacing / ((passed[last] - passed[STEADY]) * self.worlds[index].dt)
 
     def ratio(self):
-        """Return the speed of the large row's wave divided by that of the small row's wave, or None before both are
-        known.
+        """Return the speed of the large row's wave divided by the speed of the small row's wave.
+
+        Return None while one of the two speeds is unknown.
         """
         small, large = self.speed(0), self.speed(1)
         return None if small is None or large is None else large / small
@@ -187,7 +190,9 @@ class Dominoes(Scene):
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Draw two tables with their rows, and the size and wave speed above each."""
+        """Draw both tables with their rows. Write the size and wave speed above each row, and the ratio of
+        the speeds.
+        """
         self.yard.draw(canvas)
         for index, (camera, cast) in enumerate(zip(self.cameras, self.casts, strict=True)):
             cast.draw(canvas, camera, self.worlds[index], alpha)
@@ -217,7 +222,7 @@ class Dominoes(Scene):
         canvas.text(f"{fallen} of {len(self.rows[index])} down", 178, top + 20, FOG, SMALL, align="right")
 
     def draw_on_frame(self, frame):
-        """Draw a mark under the foremost domino that each wave has reached."""
+        """Draw a mark under the last domino that the wave has reached, in each row that has not fallen completely."""
         for index, camera in enumerate(self.cameras):
             there = [body for body, at in zip(self.rows[index], self.passed[index], strict=True) if at is not None]
             if there and len(there) < len(self.rows[index]):
@@ -231,7 +236,8 @@ class Dominoes(Scene):
     def check(self):
         """Return the scene's goals, a list of Goal.
 
-        All dominoes fall, none falls before the push, and the speeds of the waves have the ratio two to one.
+        No domino falls before the push, all fall afterwards, and the large row's wave is twice as fast as the small
+        row's.
         """
         ratio = self.ratio()
         angles = [[body.angle for body in row] for row in self.rows]
@@ -253,7 +259,7 @@ class Dominoes(Scene):
         ]
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         ratio, count = self.ratio(), sum(len(row) for row in self.passed)
         scaled = ratio is None or abs(ratio - FROUDE) < ALLOWED * FROUDE
         steps = count_text(int(self.values["substeps"]), "substep")
@@ -278,9 +284,13 @@ class Dominoes(Scene):
         return f"{sentence}, not {small / meter:.2f}; Froude's rule says {FROUDE:.0f}"
 
     def bot(self):
-        """Return the bot's input for the next step. The bot sets a number of substeps that is enough, and watches."""
+        """Return the bot's input for the next step. The bot sets a sufficient number of substeps, and does nothing
+        else.
+        """
         return InputFrame(changes=(("slider:substeps", ENOUGH),) if self.frame == 0 else ())
 
     def state(self):
-        """Return the scene's own state for the digest: the times of the waves. The worlds are hashed separately."""
+        """Return the scene's part of the state hash, a flat tuple: the times of the waves. The worlds are hashed
+        separately.
+        """
         return (self.frame, self.since, self.pushed, *self.values.values(), *(at for row in self.passed for at in row))

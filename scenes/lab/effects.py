@@ -50,7 +50,7 @@ LISTED = 2  # greatest number of effects that the finding names for one figure
 
 
 class Outcome(NamedTuple):
-    """Differences between a yard (BusyYard) with an effect and its copy without it, over the first two seconds."""
+    """Differences between a BusyYard with an effect and its copy without the effect, over the first two seconds."""
 
     apart: float  # [px] root mean square distance over all moving things
     events: int  # number of further events with it, of all kinds
@@ -97,7 +97,7 @@ class EffectsLab(Scene):
     legend_at = (198, 60)
 
     def build(self):
-        """Build the yard with all effects, and its copy without the selected effect."""
+        """Build the yard with all effects, then copy it and switch the selected effect off in the copy."""
         self.picture = BusyPicture()
         self.real = BusyYard(self._new_world())
         self.real.furnish()
@@ -121,7 +121,7 @@ class EffectsLab(Scene):
         return bool(self.values["it is"])
 
     def _part(self):
-        """Make a new copy of the yard, and switch the selected effect off in the copy."""
+        """Make a new copy of the yard, and switch the selected effect off in the copy. The comparison starts again."""
         world = self._new_world()
         world.restore(self.real.world.snapshot())
         self.real.world.set_effects(world.effects)  # all wake in both
@@ -137,11 +137,11 @@ class EffectsLab(Scene):
         self.worlds = [(self.real if self.is_on else self.other).world]
 
     def solver_choices(self):
-        """Return (): the player cannot switch solvers, as a world without `stacking` needs another solver anyway."""
+        """Return (): the player cannot choose a solver, because a world without `stacking` needs a different one."""
         return ()
 
     def change(self, name, value):
-        """Apply a change from the panel, as Scene.change does, to the worlds of both yards."""
+        """Apply a change from the panel to the worlds of both yards, as Scene.change does for the scene's worlds."""
         self.worlds = [self.real.world, self.other.world]
         try:
             super().change(name, value)
@@ -149,14 +149,16 @@ class EffectsLab(Scene):
             self._show()
 
     def change_slider(self, name, value):
-        """Set a slider. If another effect is selected, copy the yard anew, and show the yard with that effect."""
+        """Set the slider `name` to `value`. If it selects an effect, copy the yard again, and show the yard with that
+        effect.
+        """
         super().change_slider(name, value)
         if name == "effect":
             self.values["it is"] = 1
             self._part()
 
     def update(self, inputs):
-        """Process keys and the pointer, and step both yards. Two seconds after a copy was made, compare both yards."""
+        """Process keys and the pointer, and step both yards. Compare the yards two seconds after the copy was made."""
         way = inputs.pressed("down") - inputs.pressed("up") - inputs.wheel
         row = (inputs.pointer[1] - TOP) // ROW
         points = inputs.pointer_pressed and inputs.pointer[0] < SIDE and 0 <= row < len(NAMES)
@@ -185,10 +187,11 @@ class EffectsLab(Scene):
         )
 
     def measured(self):
-        """Return the runs that the measuring process times during the game, two for each effect that was selected.
+        """Return a RunRequest: two runs for each effect that was selected, timed by the measuring process during the
+        game.
 
-        Both start from the yard as it was when the effect was first selected, with all bodies awake. One has the
-        effect, the other does not.
+        Both runs start from the same state of the yard, with all bodies awake. One run has the effect, the other does
+        not.
         """
         return RunRequest([self._run_name(name, on) for name in self.looked for on in (True, False)], self._make)
 
@@ -202,23 +205,22 @@ class EffectsLab(Scene):
         return MeasuredRun([made], self.broadphase, WINDOW)
 
     def stages(self):
-        """Return (own, replaced), two lists of names of stages of a step.
+        """Return (own, replaced), two lists with names of stages of a step.
 
-        own: stages that a step has only because of the selected effect; replaced: stages that a step has only without
-        it.
+        own: stages that a step has only with the selected effect; replaced: stages that a step has only without it.
         """
         real, other = self.real.world.stages, self.other.world.stages
         return [name for name in real if name not in other], [name for name in other if name not in real]
 
     def price(self, name):
-        """Return how much longer a step is with an effect than without it, a Difference; None while it is not measured.
+        """Return by how much the effect `name` prolongs a step, a Difference, or None while measurements are missing.
 
         It is negative for an effect that saves time.
         """
         return difference_of(self, *(self._run_name(name, on) for on in (True, False)))
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         name, outcome = plain_name(self.marked), self.found.get(self.marked)
         sentence = f"Without {name} (blue) the yard is another one than with it (gold)."
         number, _, unit = ("", "", "") if outcome is None else short(outcome, self.marked).partition(" ")
@@ -226,7 +228,10 @@ class EffectsLab(Scene):
         return Headline(sentence, "Space: off and on", number, f"{unit} after two seconds", seen, WINDOW, "steps")
 
     def finding(self):
-        """Return a sentence that names the effects that move, cost and save most, once all effects were compared."""
+        """Return a sentence with the effects that change positions most, cost most time and save most time.
+
+        The sentence is complete once all effects were compared.
+        """
         if len(self.found) < len(self.effects.names()):
             return f"not yet: {len(self.found)} of {len(self.effects.names())} effects were looked at"
         far = max(self.found, key=lambda name: self.found[name].apart)
@@ -276,7 +281,7 @@ class EffectsLab(Scene):
             canvas.text(UNKNOWN if price is None else price.text(), SIDE - 6, y, PAPER, SMALL, align="right")
 
     def _draw_words(self, canvas):
-        """Draw a plate over the sky with two texts: the stages that only the selected effect needs, and the finding."""
+        """Draw a plate over the sky with two texts: the stages that only the selected effect needs, and finding()."""
         ours, theirs = self.stages()
         if ours:
             words = f"{plain_name(self.marked)} calls for {', '.join(map(plain_name, ours))}"
@@ -293,7 +298,10 @@ class EffectsLab(Scene):
             canvas.text(line, rect.x + 4, rect.y + 3 + 7 * number, color, SMALL)
 
     def _draw_totals(self, canvas):
-        """Draw bars under the list: time, kernels, start and bytes of the yard's effects, of all, and of the fewest."""
+        """Draw bars under the list that compare the yard's effects, all effects and none.
+
+        The bars show the time of a step, the kernels, the time to start and the bytes.
+        """
         bars = bars_of(self.totals)
         table = pygame.Rect(4, 268 - bar_table_height(len(bars)), SIDE - 8, bar_table_height(len(bars)))
         draw_bar_table(canvas, table, list(FIELDS.values()), bars)
@@ -303,7 +311,7 @@ class EffectsLab(Scene):
             canvas.text(line, table.x, table.y - 2 - 7 * number, PAPER, SMALL)
 
     def draw_on_frame(self, frame):
-        """Draw the outlines, in both yards, of the bodies whose positions differ between the two yards (worlds)."""
+        """Draw the outlines of all bodies whose positions differ between the two yards, once for each yard."""
         numbers, gaps = apart(self.real, self.other)
         far = [number for number, gap in zip(numbers, gaps.tolist(), strict=True) if gap > VISIBLE]
         # The outlines stay off the plate with the words.
@@ -313,7 +321,10 @@ class EffectsLab(Scene):
         frame.surface.set_clip(None)
 
     def check(self):
-        """Return the scene's goals: without each effect, something is missed."""
+        """Return the scene's goals, a list of Goal.
+
+        For each effect, the yard without it differs from the yard with it.
+        """
         goals = []
         for turn, name in enumerate(self.effects.names(), 1):
             outcome = self.found.get(name)
@@ -325,8 +336,8 @@ class EffectsLab(Scene):
     def bot(self):
         """Return the bot's input for the next step.
 
-        The bot selects one effect after the other. It shows the yard with the effect for two seconds, then without it
-        for a moment.
+        The bot selects one effect after the other. It shows the yard with the effect for two seconds, then briefly the
+        yard without it.
         """
         turn, step = divmod(self.frame, BOT_NEXT)
         if step == 0:
@@ -334,7 +345,9 @@ class EffectsLab(Scene):
         return frozenset({"fire"} if step == BOT_OFF else ())
 
     def state(self):
-        """Return the scene's own state for the digest: both clocks, the digest of the hidden world, and the results."""
+        """Return the scene's part of the state hash, a flat tuple: both clocks, the digest of the hidden world, and
+        the results.
+        """
         hidden = (self.other if self.is_on else self.real).world
         found = (value for name in NAMES if name in self.found for value in self.found[name])
         reported = (*self.real.reported.tolist(), *self.other.reported.tolist())
@@ -342,7 +355,7 @@ class EffectsLab(Scene):
 
 
 def short(outcome, name):
-    """Return the Outcome of the effect `name` as short text."""
+    """Return the Outcome of the effect `name` as short text: tasks saved, distance [px], or number of events."""
     if name == "sleeping":
         return f"{-outcome.work:,} tasks saved"
     if outcome.apart > VISIBLE:

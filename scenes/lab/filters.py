@@ -46,7 +46,7 @@ BOT_CLICKS = {90: (0, 1), 130: (5, 4), 170: (0, 1)}  # frame: cell
 
 
 class Filters(Scene):
-    """Scene with one world: a grid of pairs of discs. Each row and each column of the grid stands for a kind of body.
+    """Scene with one world: a grid of pairs of discs. Each row and each column of the grid represents a kind of body.
 
     A cell of the grid holds a disc of the row's kind and a disc of the column's kind.
     """
@@ -67,7 +67,7 @@ class Filters(Scene):
     hides_pointer = False
 
     def build(self):
-        """Set the masks of the kinds, then add two discs to each cell."""
+        """Set the filter mask of each kind, then add two discs to each cell."""
         self.masks = [sum(1 << KINDS.index(other) for other in MEETS[kind]) for kind in KINDS]
         self.marked = ONE_SIDED
         self.clock = 0.0
@@ -78,7 +78,7 @@ class Filters(Scene):
         self.fill()
 
     def fill(self):
-        """Add all discs again, with the current masks."""
+        """Remove all discs and add them again with the current masks."""
         self.world.clear()
         self.cell_of = {}
         self.inside = np.zeros(self.touching.shape, bool)  # whether the two discs of a cell overlap
@@ -92,7 +92,7 @@ class Filters(Scene):
         self.place()
 
     def place(self):
-        """Move every disc to its position at the current time of the swing."""
+        """Move every disc to its position at the current phase of its swing."""
         bodies = self.world.bodies
         for number, (row, column) in enumerate(CELLS):
             x, y = cell_center(row, column)
@@ -101,7 +101,7 @@ class Filters(Scene):
             bodies["y"][2 * number : 2 * number + 2] = y
 
     def update(self, inputs):
-        """Process clicks and keys, which toggle cells; move the discs; check the contacts against the masks."""
+        """Toggle cells by clicks and keys, move the discs, step the world, and check the contacts against the masks."""
         cell = cell_at(*inputs.pointer)
         if inputs.pointer_pressed and cell is not None:
             self.marked = cell
@@ -132,7 +132,7 @@ class Filters(Scene):
         return bool(self.masks[row] >> column & 1)
 
     def _judge(self):
-        """Count wrong contacts: overlapping discs must be in contact exactly if both masks allow it."""
+        """Count wrong contacts. Overlapping discs of a cell must be in contact if, and only if, both masks allow it."""
         self.touching[:] = False
         for a, b in zip(self.world.contacts["body_a"].tolist(), self.world.contacts["body_b"].tolist(), strict=True):
             self.wrong += self.cell_of[a] != self.cell_of[b]
@@ -216,7 +216,10 @@ class Filters(Scene):
             canvas.text(f"{value}", SIDE_X + 80, y, PAPER, SMALL, align="right")
 
     def check(self):
-        """Return the scene's goals: contacts are those allowed, and a click changes them."""
+        """Return the scene's goals, a list of Goal.
+
+        Only allowed pairs have contacts, and a click changes a mask.
+        """
         return [
             Goal(
                 "contacts are those both sides allow",
@@ -230,7 +233,7 @@ class Filters(Scene):
         ]
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         row, column = self.marked
         a, b = KINDS[row], KINDS[column]
         overlaps, contacts = int(self.overlaps[row, column]), int(self.contacts[row, column])
@@ -246,7 +249,7 @@ class Filters(Scene):
     def finding(self):
         """Return a sentence with the number of overlapping pairs that the filter dropped in the last step.
 
-        It also names the number of wrong contacts so far.
+        It also gives the number of cells that may touch, and of wrong contacts so far.
         """
         if not self.steps:
             return "not yet: the discs have to swing"
@@ -268,7 +271,7 @@ class Filters(Scene):
         return InputFrame(frozenset(), (round(x), round(y)), True)
 
     def state(self):
-        """Return the scene's own state for the digest: the masks and counts."""
+        """Return the scene's part of the state hash, a flat tuple: the masks and counts."""
         counts = (self.wrong, self.met, self.filtered, self.clicks, int(self.overlaps.sum()), int(self.contacts.sum()))
         return (self.frame, *self.masks, *self.marked, self.clock, *counts)
 
@@ -279,16 +282,18 @@ def cell_rect(row, column):
 
 
 def cell_center(row, column):
-    """Return the point [px] about which the discs of the cell (row, column) swing: slightly above its middle."""
+    """Return the point (x, y) [px] about which the discs of the cell (row, column) swing, slightly above its centre."""
     return LEFT + (column + 0.5) * CELL_WIDTH - 1.0, TOP + (row + 0.5) * CELL_HEIGHT - 3.0
 
 
 def cell_at(x, y):
-    """Return the (row, column) of the cell at the canvas point (x, y), or None if there is no cell."""
+    """Return the (row, column) of the grid cell at the canvas point (x, y), or None if the point is
+    outside the grid.
+    """
     column, row = (x - LEFT) // CELL_WIDTH, (y - TOP) // CELL_HEIGHT
     return (row, column) if 0 <= row < len(KINDS) and 0 <= column < len(KINDS) else None
 
 
 def bits(word):
-    """Return the lowest six bits of a filter word as text, lowest bit first, the order of the grid's columns."""
+    """Return the lowest six bits of a filter word as text of "0" and "1", with the lowest bit first."""
     return "".join("1" if word >> index & 1 else "0" for index in range(len(KINDS)))

@@ -55,7 +55,7 @@ HEIGHT_TOP = 4.0  # [px] top of the lower curve
 
 
 class GhostBumps(Scene):
-    """Scene with one world per floor, with three sliders in each."""
+    """Scene with three worlds: a floor of boxes, of tiles and of a chain. Three bodies slide over each floor."""
 
     name = "lab/ghost_bumps"
     title = "Ghost bumps"
@@ -73,7 +73,7 @@ class GhostBumps(Scene):
     legend_at = (6, 34)
 
     def build(self):
-        """Build three floors with three sliders each."""
+        """Build three floors, and three sliding bodies on each."""
         for floor in FLOORS:
             lay_floor(self.add_world(), floor)
         self.cameras = [Camera(view) for view in VIEWS]
@@ -92,7 +92,7 @@ class GhostBumps(Scene):
         self.launch()
 
     def launch(self):
-        """Move all sliders to their starts, and clear the counts."""
+        """Move all sliding bodies to their starting positions, and clear the counts."""
         keys = [(floor, kind) for floor in FLOORS for kind in KINDS]
         self.slowed = dict.fromkeys(keys, 0.0)  # largest speed error, as a share
         self.raised = dict.fromkeys(keys, 0.0)  # largest height off the floor [px]
@@ -113,14 +113,14 @@ class GhostBumps(Scene):
         body.angular_velocity = 0.0
 
     def change_slider(self, name, value):
-        """Set a slider, and start again after a change of speed."""
+        """Set the slider `name` to `value`. After a change of speed, start the run again."""
         before = self.values[name]
         super().change_slider(name, value)
         if self.values[name] != before:
             self.launch()
 
     def update(self, inputs):
-        """Process keys, step each world, and measure speeds and heights. At the end of the floors, start again."""
+        """Process keys, step each world, and measure speeds and heights. At the end of a floor, start a new run."""
         turn = inputs.pressed("right") - inputs.pressed("left")
         if turn:
             self.change_slider("speed", self.values["speed"] + 20 * turn)
@@ -162,9 +162,9 @@ class GhostBumps(Scene):
         self.curves[floor].append((error_now, height_now))
 
     def measured(self):
-        """Return the runs that the measuring process times during the game, one for each floor.
+        """Return a RunRequest: the runs that the measuring process times during the game, one for each floor.
 
-        A run starts from a state in which the sliders have at least one more second of floor ahead.
+        Return None if the bodies have less than one more second of floor ahead, or have not passed a tile yet.
         """
         ahead = (LENGTH - 4) * TILE - START_X["box"] - self.nominal
         if self.run == 0 or ahead < self.values["speed"]:
@@ -187,7 +187,7 @@ class GhostBumps(Scene):
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Draw the floors in three strips, with the greatest loss of speed of each slider above its floor."""
+        """Draw the floors in three strips. Write the greatest loss of speed of each sliding body above its floor."""
         canvas.surface.fill(NIGHT)
         for index, floor in enumerate(FLOORS):
             camera = self.cameras[index]
@@ -235,7 +235,7 @@ class GhostBumps(Scene):
         surface.set_clip(None)
 
     def draw_on_frame(self, frame):
-        """Draw two plots at window resolution: error of speed, and height off the floor, over time."""
+        """Draw two plots at window resolution: the error of speed, and the height above the floor, over time."""
         for number, (title, canvas_rect) in enumerate(PLOTS):
             rect = frame.from_canvas(canvas_rect)
             scale = frame.plot_scale
@@ -263,7 +263,7 @@ class GhostBumps(Scene):
             frame.fix(rect)
 
     def check(self):
-        """Return the scene's goals: on no floor do the seams change the motion of a slider."""
+        """Return the scene's goals, a list of Goal. No body loses speed or leaves a floor at its seams."""
         goals = []
         for floor in FLOORS:
             worst = max(self.slowed[floor, kind] for kind in KINDS)
@@ -285,7 +285,7 @@ class GhostBumps(Scene):
         return goals
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         worst = max(self.slowed["boxes", kind] for kind in KINDS)
         good = worst <= KEEPS["boxes"]
         takes = "do seams take speed?" if good else "seams take speed."
@@ -294,7 +294,7 @@ class GhostBumps(Scene):
         return Headline(sentence, "left right: speed", number, unit, self.run, MANY, "boxes", good)
 
     def finding(self):
-        """Return a sentence with the greatest loss of speed on each floor, and the time of a step."""
+        """Return a sentence with the greatest relative loss of speed on each floor, and the time of a step."""
         if self.run == 0:
             return "not yet: the sliders have to come over some tiles"
         parts = (
@@ -309,7 +309,7 @@ class GhostBumps(Scene):
         return frozenset()
 
     def state(self):
-        """Return the scene's own state for the digest: the counts. The worlds are hashed separately."""
+        """Return the scene's part of the state hash, a flat tuple: the counts. The worlds are hashed separately."""
         tallies = (self.slowed, self.raised, self.aloft, self.set_back)
         return (
             self.frame,
@@ -321,7 +321,7 @@ class GhostBumps(Scene):
 
 
 def lay_floor(world, floor):
-    """Add a floor to a world, with its surface at FLOOR_Y. floor: its kind, one of FLOORS."""
+    """Add a static floor to a world, with its surface at y = FLOOR_Y. floor: its kind, one of FLOORS."""
     if floor == "boxes":
         middles = [((column + 0.5) * TILE, FLOOR_Y + TILE / 2) for column in range(LENGTH)]
         world.add_bodies(Polygon.box(TILE, TILE), middles, kind="static", filter=GROUND)
@@ -333,7 +333,7 @@ def lay_floor(world, floor):
 
 
 def share(number, value):
-    """Return the height at which a value is drawn in plot number `number`, 0 (bottom) .. 1 (top).
+    """Return the height at which plot `number` draws a value: from 0 (bottom) to 1 (top).
 
     Plot 0 (error of speed) has a logarithmic scale, plot 1 (height) a linear one.
     """
@@ -343,7 +343,7 @@ def share(number, value):
 
 
 def amount(error):
-    """Return an error, a share of 1, as short text: 0, 1e-12, 3 %."""
+    """Return a relative error as short text, such as "0", "1e-12" or "3 %"."""
     if error <= 0.0:
         return "0"
     return f"{error:.0%}" if error >= 0.01 else f"{error:.0e}".replace("e-0", "e-")

@@ -21,8 +21,8 @@ UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns"))
 class Series(NamedTuple):
     """One curve of the plot of cost over number of bodies.
 
-    points: (number of bodies, Cost), smallest number first; law: power law fitted to the last `fitted` points, or None
-    if it is not known yet.
+    points: list of (number of bodies, Cost), smallest number first; law: power law fitted to the last `fitted` points,
+    or None while it is unknown.
     """
 
     color: Color
@@ -32,9 +32,9 @@ class Series(NamedTuple):
 
 
 def draw_growth(frame: Frame, canvas_rect: Box, title: str, series: Mapping[str, Series], here: int) -> None:
-    """Draw the plot of {name: Series} into a rectangle of the canvas.
+    """Draw a plot of cost over number of bodies, with one curve for each Series, into a rectangle of the canvas.
 
-    here: current number of bodies, marked on the lower axis.
+    series: {name: Series}; here: current number of bodies, marked on the lower axis.
     """
     rect, scale, surface = frame.from_canvas(canvas_rect), frame.plot_scale, frame.surface
     surface.fill(INK, rect)
@@ -98,7 +98,8 @@ def _draw_series(surface, axes, series, frame):
 
 
 def _write_laws(frame, axes, series, rect, scale):
-    """Write the exponent of each power law at the end of its line, without overlap, and label the powers of ten.
+    """Write each power law's exponent at the end of its curve, without overlap, and label the powers of ten of the
+    time axis.
 
     series: {name: Series}; rect: frame rectangle of the whole plot; scale: frame pixels of a text pixel.
     """

@@ -1,4 +1,4 @@
-"""Control of two objects that the player drags, rotates and moves."""
+"""Poses of two objects that the player drags, rotates and moves."""
 
 from math import pi
 
@@ -8,9 +8,10 @@ MOVE_SPEED = 70.0  # [px/s] with the keys
 
 
 class Hands:
-    """The poses of two objects that the player moves. poses: [x [px], y [px], angle [rad]] of each.
+    """The poses of two objects that the player moves with pointer, wheel and keys.
 
-    chosen: index of the object that wheel and keys move; room: Rect in which its position is kept.
+    poses: a list [x [px], y [px], angle [rad]] for each object; chosen: index of the object that wheel and keys move;
+    room: Rect to which its position is limited.
     """
 
     def __init__(self, poses, chosen, room):
@@ -19,12 +20,14 @@ class Hands:
         self.dragged, self.grip = None, (0.0, 0.0)
 
     def take(self, which, x, y):
-        """Begin to drag object number `which`. (x, y): the pointer [px]."""
+        """Begin to drag object number `which`, and choose it. (x, y): position of the pointer [px]."""
         self.chosen = self.dragged = which
         self.grip = (self.poses[which][0] - x, self.poses[which][1] - y)
 
     def move(self, inputs):
-        """Move the chosen object by the pointer, wheel and keys of one step."""
+        """Move and rotate the chosen object by one step's input of pointer, wheel and keys. The fire key chooses the
+        other.
+        """
         if not inputs.pointer_down:
             self.dragged = None
         pose = self.poses[self.chosen]

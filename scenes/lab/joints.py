@@ -72,7 +72,7 @@ class Joints(Scene):
     legend_at = (4, 20)
 
     def build(self):
-        """Build the background, and open the machine."""
+        """Create the background and the camera, then call open() to build the selected machine."""
         self.yard = Yard(FLOOR, 60)
         self.camera = Camera((0, HEAD, 480, STRIP[1] - HEAD), 1.0, x=-HALF, y=float(HEAD - FLOOR))
         self.results = {}  # (machine, tier) -> (widest gap [px], joints broken, *figures) of its first run
@@ -82,7 +82,7 @@ class Joints(Scene):
         self.open()
 
     def open(self):
-        """Build the chosen machine anew in both worlds."""
+        """Replace both worlds by new ones, and build the selected machine in each of them."""
         self.done |= {machine.name for machine in self.machines if machine.broken}
         self.worlds = []
         for _ in range(2):
@@ -95,9 +95,9 @@ class Joints(Scene):
         self.since = 0
 
     def _set_tiers(self):
-        """Set the solvers of joints: "iterative" in the first world, the chosen one in the second.
+        """Set the joint solvers: "iterative" in the first world, the selected solver in the second.
 
-        If "iterative" is chosen, the second world has "direct".
+        If "iterative" is selected, the second world has "direct".
         """
         chosen = TIERS[int(self.values["joints"])]
         self.tiers_shown = ("iterative", "auto" if chosen == "auto" else "direct")
@@ -106,16 +106,20 @@ class Joints(Scene):
 
     @property
     def shown(self):
-        """Index of the world that is shown and dragged."""
+        """Index of the world that is drawn and that the player drags."""
         return int(self.values["joints"] > 0)
 
     @property
     def machine(self):
-        """The machine that is shown."""
+        """The machine in the world that is drawn."""
         return self.machines[self.shown]
 
     def change_slider(self, name, value):
-        """Set a slider. A new machine is built in both worlds; a new tier of solver shows its world as it is now."""
+        """Set the slider `name` to `value`.
+
+        A change of the machine builds it in both worlds. A change of the joint solver also selects the world that is
+        drawn.
+        """
         super().change_slider(name, value)
         if name == "machine":
             self.open()
@@ -123,7 +127,9 @@ class Joints(Scene):
             self._set_tiers()
 
     def update(self, inputs):
-        """Process keys, drag in the hidden world as in the shown one, step both, and record their gaps."""
+        """Process keys, repeat the player's drag in the hidden world, step both machines, and record their widest
+        gaps.
+        """
         turn = inputs.pressed("right") - inputs.pressed("left")
         if turn:
             self.change_slider("machine", (self.values["machine"] + turn) % len(NAMES))
@@ -153,7 +159,7 @@ class Joints(Scene):
         return [(self.worlds[self.shown], self.camera)]
 
     def measured(self):
-        """Return the runs that the measuring process times during the game: the machine under each tier."""
+        """Return a RunRequest: the current machine with each of the three joint solvers, timed during the game."""
         return RunRequest([self._run_name(tier) for tier in TIERS], self._make)
 
     def _run_name(self, tier):
@@ -166,7 +172,7 @@ class Joints(Scene):
         return MeasuredRun([made], broadphase, RUN_STEPS)
 
     def draw(self, canvas, alpha):
-        """Draw the background, the machine, and the strip with its name and numbers."""
+        """Draw the background, the machine of the visible world, and a strip with the machine's name and figures."""
         self.yard.draw(canvas)
         looks = self.looks[self.shown]
         for identity, paint in self.machine.paints.items():
@@ -181,7 +187,9 @@ class Joints(Scene):
         self._draw_strip(canvas)
 
     def sentence(self):
-        """Return one sentence on what the exact tier gains in this run, and what it costs."""
+        """Return a sentence that compares the widest gaps of the two joint solvers, and the time of a step if it is
+        known.
+        """
         loose, tight = (machine.worst for machine in self.machines)
         exact = self.tiers_shown[1]
         if self.since < 2 or max(loose, tight) < FINE:
@@ -194,7 +202,10 @@ class Joints(Scene):
         return f"widest gap so far {gap_text(loose)} px iteratively, {gap_text(tight)} {exact}: alike{costs}"
 
     def _earth(self):
-        """Return [(picture, place on the canvas)] of the static bodies of the machine, drawn once."""
+        """Return a list of (picture, position [canvas px]) of the machine's static bodies.
+
+        The pictures are made at the first call and cached.
+        """
         if self.earth is None:
             world, looks = self.worlds[self.shown], self.looks
             bodies = [world.body(identity) for identity in self.machine.grounds]
@@ -219,7 +230,10 @@ class Joints(Scene):
             self._draw_tier(canvas, tier, rect, number)
 
     def _draw_tier(self, canvas, tier, rect, number):
-        """Draw the widest gap of the last second, and the cost of a step, of one of the two worlds."""
+        """Draw the widest gap of the last second and the cost of a step for one of the two worlds.
+
+        tier: the world's joint solver; rect: canvas rectangle; number: index of the world.
+        """
         x, y, width, _ = rect
         shown = number == self.shown
         pygame.draw.rect(canvas.surface, INK, rect)
@@ -234,7 +248,7 @@ class Joints(Scene):
         return max(self.gaps[number], default=0.0)
 
     def draw_on_frame(self, frame):
-        """Draw small parts, rods and ropes, and the pins; a gap between two anchors is red."""
+        """Draw the small parts, rods, ropes and pins of the visible machine. A gap between a joint's anchors is red."""
         looks = self.looks[self.shown]
         looks.draw_on_frame(frame)
         lens = frame.lens(self.camera)
@@ -243,7 +257,7 @@ class Joints(Scene):
         frame.surface.set_clip(None)
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         loose, tight = (machine.worst for machine in self.machines)
         name, exact = self.machine.name.capitalize(), self.tiers_shown[1]
         sentence = f"{name}: solved iteratively, loaded joints gape; {exact}, they close."
@@ -251,7 +265,10 @@ class Joints(Scene):
         return Headline(sentence, "up down: solver", number, unit, self.since, KEPT, "steps", loose < FINE)
 
     def finding(self):
-        """Return a sentence with both tiers' widest gap in this run of the machine, and their costs."""
+        """Return a sentence with the widest gap of a joint with each joint solver, and the cost of each solver.
+
+        The gaps count from the time at which the machine was built.
+        """
         if self.since < KEPT:
             return "not yet: the machine has to run for a second"
         words = []
@@ -264,7 +281,9 @@ class Joints(Scene):
         return f"{self.machine.name}: widest gap of a joint, {', '.join(words)}{costs}"
 
     def check(self):
-        """Return the scene's goals, a list of Goal: those of each machine, in the world with the exact tier."""
+        """Return the scene's goals, a list of Goal: those of each machine, checked with its results for both joint
+        solvers.
+        """
         return [
             Goal(f"{machine.name}: {name}", (number + 1) * TURN, met, detail)
             for number, machine in enumerate(MACHINES)
@@ -274,9 +293,10 @@ class Joints(Scene):
         ]
 
     def bot(self):
-        """Return the bot's input for the next step: it opens each machine in turn, drags it, and breaks it.
+        """Return the bot's input for the next step.
 
-        The steps in which it drags and breaks depend on the seed.
+        The bot opens each machine in turn, drags it, and breaks it. The seed shifts the steps at which it drags and
+        breaks.
         """
         number, step = divmod(self.frame, TURN)
         number %= len(NAMES)
@@ -293,7 +313,9 @@ class Joints(Scene):
         return InputFrame()
 
     def state(self):
-        """Return the scene's own state for the digest: the measurements. The worlds are hashed separately."""
+        """Return the scene's part of the state hash, a flat tuple: the measurements. The worlds are hashed
+        separately.
+        """
         machines = (
             value
             for machine in self.machines
@@ -304,12 +326,12 @@ class Joints(Scene):
 
 
 def lens_of(camera, point):
-    """Return the canvas place of a world point (x, y) [px]."""
+    """Return the position (x, y) [canvas px] of a world point (x, y) [px]."""
     return tuple(float(each) for each in camera.to_canvas(*point, 1.0))
 
 
 def gap_text(gap):
-    """Return a gap [px] as short text: to thousandths below a tenth of a pixel, "0" below a millionth."""
+    """Return a gap [px] as short text, with three decimals below 0.1 px, and "0" below 1e-6 px."""
     if gap < 0.001:
         return "0" if gap < 1e-6 else "<0.001"
     return f"{gap:.3f}" if gap < 0.1 else f"{gap:.2f}" if gap < 10 else f"{gap:.0f}"
@@ -318,7 +340,7 @@ def gap_text(gap):
 def running(machine, tier, solver, substeps, effects):
     """Return the snapshot of a world in which a machine has run for a second, for the measuring process.
 
-    machine: its name; tier: the solver of its joints; effects: list of the names of the declared effects.
+    machine: name of the machine; tier: solver of its joints; effects: list of the names of the world's effects.
     """
     declared = Effects(**dict.fromkeys(effects, True))
     world = World(declared, solver=solver, substeps=substeps)

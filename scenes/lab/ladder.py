@@ -85,7 +85,9 @@ class Ladder(Scene):
     level_suffix = ".png"
 
     def build(self):
-        """Show the first sprite: the player's picture file if there is one, otherwise a sprite of the game."""
+        """Show the first sprite: the player's own picture file if there is one, otherwise the first sprite of the
+        game.
+        """
         self.choices = [self.level_file.name] if self.level_file is not None else []
         self.choices += [name for name, _, _ in SPRITES]
         self.seen: dict[str, dict[str, tuple[int, int]]] = {}  # {sprite: {tier: pixels too many, left out}}
@@ -131,7 +133,11 @@ class Ladder(Scene):
         return load_atlas(atlas)[name], load_atlas(atlas).mask(name)
 
     def _lit(self, tier):
-        """Return the picture of the sprite with the errors of a tier: surplus pixels in red, missing pixels in blue."""
+        """Return (picture, (x, y)): the sprite with the errors of a tier, and the picture's upper left corner in body
+        space [px].
+
+        Surplus pixels are red, missing pixels are blue. Both numbers are stored in `counts`.
+        """
         size, (ox, oy) = 2 * self.reach, self.mask.origin
         left, top = np.floor(self.middle[0] - self.reach), np.floor(self.middle[1] - self.reach)
         column, row = np.meshgrid(np.arange(size), np.arange(size))
@@ -151,11 +157,11 @@ class Ladder(Scene):
         return picture, (left + shift_x, top + shift_y)
 
     def measured(self):
-        """Return the request to measure the sprite against itself at every collision tier."""
+        """Return the SpriteRequest that measures the sprite against itself at every collision tier."""
         return SpriteRequest(self.mask, self.mask)
 
     def update(self, inputs):
-        """Change the sprite by left, right and the wheel."""
+        """Show the previous or next sprite if left, right or the wheel asks for it, then step all worlds."""
         way = inputs.pressed("right") - inputs.pressed("left") + inputs.wheel
         if way:
             self._show((self.choice + way) % len(self.choices))
@@ -167,7 +173,7 @@ class Ladder(Scene):
         return [(world, camera) for world, camera, _ in self.cells.values()]
 
     def draw(self, canvas, alpha):
-        """Draw the names and figures of all cells; the pictures are drawn at window resolution."""
+        """Draw the names and figures of all cells. draw_on_frame() draws the pictures at window resolution."""
         for number, tier in enumerate(TIERS):
             x, y = number % COLUMNS * CELL[0], HEAD + number // COLUMNS * CELL[1]
             canvas.surface.fill(NIGHT, (x + 1, y + 1, CELL[0] - 2, CELL[1] - 2))
@@ -198,7 +204,9 @@ class Ladder(Scene):
             canvas.text(value, x + 78, top, PAPER, SMALL, align="right")
 
     def draw_on_frame(self, frame):
-        """Draw the sprite in every cell, pixel by pixel, and the shapes around it as thin lines."""
+        """Draw the sprite with its marked errors in every cell, and the outline of the collision shape as
+        a thin line.
+        """
         for tier, (world, camera, view) in self.cells.items():
             rect, lens = frame.from_canvas(view), frame.lens(camera)
             frame.surface.set_clip(rect)
@@ -215,7 +223,8 @@ class Ladder(Scene):
     def check(self):
         """Return the scene's goals, a list of Goal.
 
-        Collision shapes that should contain the sprite leave no pixel out, and those made of the pixels have no errors.
+        Shapes that should contain the sprite leave no pixel out. Shapes made of the pixels have no errors. The outline
+        is closer than the hull, and the hull closer than the box.
         """
         held = [tier for counts in self.seen.values() for tier in HOLDING if counts[tier][1]]
         exact = [tier for counts in self.seen.values() for tier in ("pixels", "mask") if any(counts[tier])]
@@ -235,14 +244,16 @@ class Ladder(Scene):
         ]
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         over, area = self.counts["aabb"][0], self.mask.area + self._balance("aabb")
         sentence = f"The box of the {self.sprite_name} hits where nothing is drawn: red."
         number, unit = f"{100 * over / area:.0f} %", "of the box is empty"
         return Headline(sentence, "left right: sprite", number, unit, 1, 1, "sprites")
 
     def finding(self):
-        """Return a sentence with the empty share of box, hull and outline around the sprite, and their hit times."""
+        """Return a sentence with the empty share of the sprite's box, hull and outline, and the times of a test that
+        hits.
+        """
         empty = [100 * self.counts[tier][0] / (self.mask.area + self._balance(tier)) for tier in IN_FINDING]
         names = [NAMES.get(tier, tier) for tier in IN_FINDING]
         shares = ", ".join(f"{share:.0f} % of its {name}" for name, share in zip(names, empty, strict=True))
@@ -262,7 +273,7 @@ class Ladder(Scene):
         return InputFrame(frozenset({"right"}) if self.frame % BOT_LOOKS == BOT_LOOKS - 1 else frozenset())
 
     def state(self):
-        """Return the scene's own state for the digest: the sprite and its counts."""
+        """Return the scene's part of the state hash, a flat tuple: the sprite and its counts."""
         return (self.frame, self.choice, *(count for pair in self.counts.values() for count in pair))
 
 
@@ -274,7 +285,7 @@ def _times(hit, miss):
 
 @cache
 def own_picture(path):
-    """Return (image, mask) of a PNG file.
+    """Return (image, mask) of a PNG file, a Surface and a PixelMask.
 
     Raises FileError if the file is not a PNG, has a side longer than MOST, or has no solid pixels.
     """

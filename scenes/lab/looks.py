@@ -1,6 +1,7 @@
-"""Drawing of a world's bodies: shaded pictures in the game's style if they are large enough, else plain shapes.
+"""Drawing of a world's bodies: shaded pictures in the game's style, or plain shapes where such a picture does not fit.
 
-Shaded pictures are drawn on the canvas. Shapes of a few canvas pixels, and pixel masks, are drawn at window resolution.
+Shaded pictures are drawn on the canvas. Shapes of a few canvas pixels, and pixel masks, are drawn at window
+resolution.
 """
 
 from functools import lru_cache
@@ -41,7 +42,10 @@ class Looks:
         return self.known[identity]
 
     def draw(self, canvas, alpha):
-        """Draw static shapes and the shaded pictures. alpha: position (0..1) between the last two steps."""
+        """Draw static shapes, sensors and the shapes that have a shaded picture.
+
+        alpha: position (0..1) between the last two steps.
+        """
         bodies, zoom = self.world.bodies, self.camera.zoom
         x, y, angle = poses_between(bodies, alpha)
         x, y = self.camera.to_canvas(x, y, alpha)
@@ -59,7 +63,10 @@ class Looks:
         canvas.surface.set_clip(None)
 
     def draw_on_frame(self, frame):
-        """Draw tiny shapes and pixel masks at the poses of the last step, and the paths of fast bodies."""
+        """Draw the shapes without a shaded picture, in their poses of the last step, and the paths of fast bodies.
+
+        These shapes are tiny or very large shapes, and pixel masks.
+        """
         bodies, lens = self.world.bodies, frame.lens(self.camera)
         surface = frame.surface
         surface.set_clip(lens.clip)
@@ -102,9 +109,10 @@ def is_round(shape):
 
 
 def draw_ground(surface, shape, zoom, pose, sensor):
-    """Draw a static shape on the canvas; a sensor is drawn in one colour.
+    """Draw a shape of a static body or of a sensor on the canvas. Pixel masks are skipped.
 
-    zoom: canvas px per world px; pose: (x, y, angle) on the canvas.
+    zoom: canvas px per world px; pose: (x, y, angle) on the canvas [px, rad]; sensor: True draws it in the colour of
+    sensors.
     """
     if isinstance(shape, PixelMask):
         return
@@ -127,9 +135,9 @@ def draw_ground(surface, shape, zoom, pose, sensor):
 
 
 def draw_tiles(surface, grid, zoom, pose):
-    """Draw the solid tiles of a grid, with a line around each.
+    """Draw the solid tiles of a TileGrid, with a line around each.
 
-    zoom: canvas px per world px; pose: (x, y, angle) of the grid on the canvas.
+    zoom: canvas px per world px; pose: (x, y, angle) of the grid on the canvas; the angle is ignored.
     """
     x, y, _ = pose
     size = grid.tile_size * zoom
@@ -143,8 +151,8 @@ def draw_tiles(surface, grid, zoom, pose):
 def draw_plain(surface, shape, zoom, pose, ramp):
     """Draw a convex shape that is too small or too large for a shaded picture, in two colours.
 
-    zoom: surface px per world px; pose: (x, y, angle) on the surface; ramp: colours, of which the first is the rim and
-    the second the inside.
+    zoom: surface px per world px; pose: (x, y, angle) on the surface [px, rad]; ramp: colours, first that of the rim,
+    then that of the inside.
     """
     rim, inside, *_ = ramp
     points = placed(shape, zoom, pose)
@@ -181,7 +189,7 @@ def draw_mask(surface, mask, zoom, place, ramp):
 
 @lru_cache(maxsize=32)
 def mask_picture(mask, color):
-    """Return the picture of a mask's solid pixels in one colour, half transparent so that overlaps are visible."""
+    """Return a Surface with a mask's solid pixels in one colour, half transparent so that overlaps are visible."""
     solid = mask.solid
     picture = pygame.Surface((solid.shape[1], solid.shape[0]), pygame.SRCALPHA, 32)
     picture.fill((*color, 0))

@@ -86,7 +86,7 @@ class MaskStack(Scene):
     legend_at = (4, 20)
 
     def build(self):
-        """Make the background, and let fill() make the five worlds."""
+        """Create the background and the cameras, then call fill() to create the five worlds."""
         self.fits = {}  # (sprite, way) -> (corners, pixels of air held, pixels missed)
         self.yard = Yard(270)
         self.cameras = [
@@ -95,7 +95,7 @@ class MaskStack(Scene):
         self.fill()
 
     def fill(self):
-        """Make five new worlds with the same sprites."""
+        """Replace the scene's worlds by five new ones with the same sprites, one for each kind of collision shape."""
         self.worlds, self.casts, self.tops = [], [], []
         self.laid = {way: [] for way in WAYS}  # (sprite, its mask, its collision shapes)
         self.since = 0
@@ -130,9 +130,10 @@ class MaskStack(Scene):
         self.tops.append(top)
 
     def _places(self):
-        """Return a list of (kind, x [px], y [px]), one for each sprite.
+        """Return a list of (kind, x [px], y [px]), the starting position of each sprite.
 
-        The bounding box of each sprite touches that of the sprite below it.
+        The bounding box of a sprite touches that of the sprite below it. The sprite that drops into the notch starts
+        higher.
         """
         kinds = list(self._kinds())
         heights, found = {}, []
@@ -145,7 +146,9 @@ class MaskStack(Scene):
         return found
 
     def _kinds(self):
-        """Return (kind, x [px] of the middle of its pile) of each sprite, from the bottom up."""
+        """Return a tuple of (kind, x) for all sprites, from the bottom up. x: horizontal centre of the sprite's pile
+        [px].
+        """
         high, choice = int(self.values["high"]), CHOICES[int(self.values["sprites"])]
         if choice != "mixed":
             return ((choice, TOWER),) * high
@@ -153,7 +156,7 @@ class MaskStack(Scene):
         return (*tower, ("discs", BESIDE), ("stars", BESIDE))
 
     def change_slider(self, name, value):
-        """Set a slider, then build the piles again."""
+        """Set the slider `name` to `value`, then build the piles again."""
         super().change_slider(name, value)
         self.fill()
 
@@ -177,9 +180,9 @@ class MaskStack(Scene):
             self._measure(way, world, top)
 
     def _measure_one_fit(self):
-        """Measure how well the shapes of a sprite fit it, for one sprite that is not measured yet.
+        """Measure how well the collision shapes of one sprite fit its pixels. It is the first sprite not yet measured.
 
-        One call measures only one sprite, because all of them take seconds without numba.
+        A call measures one sprite only, because all sprites together take seconds without numba.
         """
         for way in WAYS:
             for name, mask, shapes in self.laid[way]:
@@ -189,9 +192,10 @@ class MaskStack(Scene):
                     return
 
     def share(self, way):
-        """Return (corners, pixels of air held, pixels missed), summed over the sprites of a pile.
+        """Return (corners, air, missed), summed over the sprites of a pile; all nan until each sprite is measured.
 
-        way: kind of the pile's collision shapes, one of WAYS. All three are nan until each of its sprites is measured.
+        corners: number of corners; air: number of pixels that only the shapes cover; missed: number of pixels that
+        only the sprite covers. way: kind of the pile's collision shapes, one of WAYS.
         """
         fits = [self.fits.get((name, way), (nan, nan, nan)) for name, _, _ in self.laid[way]]
         return tuple(float(sum(column)) for column in zip(*fits, strict=True))
@@ -207,9 +211,10 @@ class MaskStack(Scene):
             self.asleep[way], self.changed[way] = asleep, self.since
 
     def measured(self):
-        """Return the runs that the measuring process times during the game, one for each pile; None in the first steps.
+        """Return a RunRequest: one run for each pile, timed by the measuring process during the game.
 
-        A run steps a pile in a world without sleeping, from the pile's current state.
+        A run steps a pile in a world without sleeping, from the pile's current state. Return None in the first WARM
+        steps.
         """
         if self.since < WARM:
             return None
@@ -225,7 +230,10 @@ class MaskStack(Scene):
         return *self.chosen, way
 
     def stands_now(self, way):
-        """Return whether the top sprite of a pile is less than FALLEN px lower than at its start. way: see share()."""
+        """Return whether the top sprite of a pile is less than FALLEN px lower than at its start.
+
+        way: kind of the pile's collision shapes, one of WAYS.
+        """
         return self.sinks[way] < FALLEN
 
     @property
@@ -238,7 +246,7 @@ class MaskStack(Scene):
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Draw the piles, and under each its figures."""
+        """Draw the piles, and the figures of each pile below it."""
         self.yard.draw(canvas)
         for number, (way, cast) in enumerate(zip(WAYS, self.casts, strict=True)):
             cast.draw(canvas, self.cameras[number], self.worlds[number], alpha)
@@ -311,7 +319,7 @@ class MaskStack(Scene):
         ]
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         laid = self.laid["box"]
         seen = sum((name, "box") in self.fits for name, _, _ in laid)
         air = 0.0 if seen < len(laid) else self.share("box")[1]
@@ -336,7 +344,9 @@ class MaskStack(Scene):
         return InputFrame(frozenset(("fire",)) if self.frame == 240 else frozenset())
 
     def state(self):
-        """Return the scene's own state for the digest: the measurements. The worlds are hashed separately."""
+        """Return the scene's part of the state hash, a flat tuple: the measurements. The worlds are hashed
+        separately.
+        """
         measured = (self.sinks, self.sways, self.asleep, self.changed)
         return (
             self.frame,
@@ -348,12 +358,15 @@ class MaskStack(Scene):
 
 
 def whole(value):
-    """Return a number as text without decimals; UNKNOWN for nan."""
+    """Return a number as text without decimals, or UNKNOWN ("-") for nan."""
     return UNKNOWN if isnan(value) else f"{value:,.0f}"
 
 
 def shapes_of(image, way):
-    """Return (PixelMask of a sprite, its convex collision shapes). way: kind of the shapes, one of WAYS."""
+    """Return (mask, shapes): the PixelMask of a sprite's image, and a tuple of its convex collision shapes.
+
+    way: kind of the collision shapes, one of WAYS.
+    """
     mask = PixelMask.from_surface(image, smooth=0.0 if way == "exact" else SMOOTH)
     if way == "box":
         left, top, right, bottom = bounds_of(mask)
@@ -362,5 +375,7 @@ def shapes_of(image, way):
 
 
 def bounds_of(mask):
-    """Return (left, top, right, bottom) [px] of the solid pixels of a sprite's mask, relative to its origin."""
+    """Return (left, top, right, bottom) [px] of the solid pixels of a mask, relative to its origin; zeros if it is
+    empty.
+    """
     return mask.bounds or (0.0, 0.0, 0.0, 0.0)

@@ -54,7 +54,9 @@ WORDS = "white: the sprite's outline where it met the wall; gold: at which share
 
 
 class MaskSweep(Scene):
-    """Scene with two worlds of three lanes each, with a straight wall, a slanted wall and a ring."""
+    """Scene with two worlds, without and with swept shots. Each has three lanes, for a straight wall, a slanted wall
+    and a ring.
+    """
 
     name = "lab/mask_sweep"
     title = "Mask sweep"
@@ -75,7 +77,7 @@ class MaskSweep(Scene):
     legend_at = (4, 218)
 
     def build(self):
-        """Build two worlds (not swept, swept), with three walls in each."""
+        """Build two worlds, the first for shots without sweep, the second for swept shots, with three walls in each."""
         self.sky, atlas = load_backdrop("sky_dusk"), load_atlas("lab")
         self.masks = {kind: PixelMask.from_surface(atlas[name]) for kind, name in PICTURES.items()}
         self.pictures = {kind: RotatedPicture(atlas[name]) for kind, name in PICTURES.items()}
@@ -120,7 +122,8 @@ class MaskSweep(Scene):
     def _fire(self, lane):
         """Fire the same shot in both worlds, in lane number `lane`.
 
-        Its start is shifted at random by up to the path of a step, so that the times of impact vary.
+        Its start is shifted at random by at most the distance that it moves in a step, so that the times of impact
+        vary.
         """
         speed = float(self.values["speed"])
         chosen = SHOTS[int(self.values["shots"])]
@@ -142,7 +145,9 @@ class MaskSweep(Scene):
             self.fired[way, SHAPES[lane]] += 1
 
     def _count(self, column):
-        """Count the shots of world number `column` that hit a wall in this step, and those that are past it."""
+        """Count the shots of world number `column` that hit a wall in this step, and those that have passed their
+        wall.
+        """
         world, way = self.worlds[column], WAYS[column]
         begun = world.events.begin
         met = set(begun["body_a"].tolist()) | set(begun["body_b"].tolist())
@@ -168,10 +173,10 @@ class MaskSweep(Scene):
         self.shots = left
 
     def _mark(self, column, kind, body, ghost):
-        """Record the mark of a shot that has hit a wall, with its sound and sparks.
+        """Record the mark of a shot that has hit a wall, play a sound, and emit sparks.
 
-        column: number of the world; kind: kind of the shot; ghost: row of debug.impact_ghosts with the shot's pose if
-        the wall were not there, or None.
+        column: number of the world; kind: kind of the shot; ghost: row of debug.impact_ghosts with the pose that the
+        shot would have without the wall, or None.
         """
         world = self.worlds[column]
         rows = np.flatnonzero(world.shapes["body"] == body.id)
@@ -244,9 +249,10 @@ class MaskSweep(Scene):
             canvas.text(shape, view.x + 4, y, FOG, SMALL)
 
     def draw_on_frame(self, frame):
-        """Draw the marks of impacts: each shot in white at its time of impact, dim where it would be without the wall.
+        """Draw the marks of impacts: the shot's outline in white at its time of impact, and dim at its pose without
+        the wall.
 
-        The time of impact, a share of the step, is written beside the mark.
+        The time of impact, as a share of the step, is written beside the mark.
         """
         for column, kind, pose, aim, fraction, age in self.marks:
             x, y, _ = pose
@@ -266,7 +272,9 @@ class MaskSweep(Scene):
                 frame.text_if_free(f"{fraction:.2f}", *at, GOLD, SMALL, frame.plot_scale, "right", True)
 
     def check(self):
-        """Return the scene's goals: no swept shot passes a wall, and many of the other shots do."""
+        """Return the scene's goals, a list of Goal. No swept shot passes a wall, and some unswept shots pass each
+        wall.
+        """
         passed, fired, hit = self.passed, self.fired, self.hit
         flying = {way: sum(WAYS[of] == way for of, *_ in self.shots) for way in WAYS}
         all_accounted = all(
@@ -294,7 +302,7 @@ class MaskSweep(Scene):
         ]
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         passed, met = ({way: sum(each[way, shape] for shape in SHAPES) for way in WAYS} for each in self._ended())
         do = "" if passed["off"] else "do "
         sentence = f"At {float(self.values['speed']) / 60:.0f} px a step, {do}unswept sprites pass walls of one pixel"
@@ -303,9 +311,9 @@ class MaskSweep(Scene):
         return Headline(sentence, "left: slower", number, unit, met["off"], ENOUGH, "shots", not passed["off"])
 
     def finding(self):
-        """Return a sentence with the number of shots that passed the walls, without sweep and with it.
+        """Return a sentence with the number of shots that passed the walls, without sweep and with sweep.
 
-        For swept shots it includes the upper end of the 95 % interval of the rate.
+        For swept shots it includes the upper end of the 95 % confidence interval of the rate.
         """
         passed, met = ({way: sum(each[way, shape] for shape in SHAPES) for way in WAYS} for each in self._ended())
         if not all(met.values()):
@@ -328,18 +336,18 @@ class MaskSweep(Scene):
         return frozenset(("right",)) if self.frame in (200, 210, 220) else frozenset()
 
     def state(self):
-        """Return the scene's own state for the digest: the counts. The worlds are hashed separately."""
+        """Return the scene's part of the state hash, a flat tuple: the counts. The worlds are hashed separately."""
         counts = (self.fired, self.hit, self.passed)
         return (self.frame, *self.values.values(), len(self.shots), *(v for count in counts for v in count.values()))
 
 
 def middle(lane):
-    """Return the world y [px] of the middle of lane number `lane`."""
+    """Return the world y [px] of the centre line of lane number `lane`."""
     return lane * LANE_HEIGHT + MIDDLE - 1.0
 
 
 def picture_of(wall):
-    """Return the picture of a wall, a surface with one pixel for each pixel of the mask."""
+    """Return a Surface with the picture of a wall's PixelMask, one pixel for each pixel of the mask."""
     solid = wall.solid
     image = pygame.Surface(solid.shape[::-1], pygame.SRCALPHA, 32)
     for y, x in np.argwhere(solid).tolist():
@@ -348,5 +356,8 @@ def picture_of(wall):
 
 
 def placed(lines, pose, other):
-    """Return line segments (n, 4) of a body at `pose`, moved to where they are if the body is at the pose `other`."""
+    """Return line segments of a body, transformed from the body's pose `pose` to its pose `other`.
+
+    lines: array (n, 4) of x0, y0, x1, y1 [px]; the result has the same shape. Both poses are (x, y, angle) [px, rad].
+    """
     return moved(("lines", lines.reshape(-1, 2)), pose, other)[1].reshape(-1, 4)

@@ -84,7 +84,7 @@ class Masks(Scene):
     hides_pointer = False
 
     def build(self):
-        """Build a world with both sprites for each collision tier (kind of collision shape)."""
+        """Build one world for each collision tier (kind of collision shape), with both sprites in each."""
         atlas = load_atlas("planes")
         self.masks = [atlas.mask(name) for name in SPRITES]
         self.planes = [RotatedSprites(atlas[name], mask) for name, mask in zip(SPRITES, self.masks, strict=True)]
@@ -96,7 +96,7 @@ class Masks(Scene):
         self.wrong = self.steps = self.apart = self.hits = 0
 
     def measured(self):
-        """Return the request to measure the two sprites against each other at every collision tier."""
+        """Return the SpriteRequest that measures the two sprites against each other at every collision tier."""
         return SpriteRequest(self.masks[0], self.masks[1])
 
     def _world(self, tier):
@@ -106,7 +106,9 @@ class Masks(Scene):
         return world
 
     def update(self, inputs):
-        """Move the two sprites by the input, copy their poses into every world, and test all collision tiers."""
+        """Move the two sprites by the input, copy their poses into every world, step the worlds, and record each
+        tier's verdict.
+        """
         if inputs.pointer_pressed and ARENA.collidepoint(inputs.pointer):
             self._press(*inputs.pointer)
         self.hands.move(inputs)
@@ -178,7 +180,9 @@ class Masks(Scene):
             canvas.text(text, right, y + 9, PAPER, SMALL, align="right")
 
     def _notes(self):
-        """Return two texts: shared pixels and depth of the two sprites; numbers of poses and runs measured so far."""
+        """Return two texts: the overlap of the two sprites (pixels, depth), and the numbers of measured poses and
+        runs.
+        """
         poses = [tuple(pose) for pose in self.hands.poses]
         found = collide(self.masks[0], poses[0], self.masks[1], poses[1])
         depth = max(0.0, -min(found.separations.tolist(), default=0.0))
@@ -190,7 +194,7 @@ class Masks(Scene):
         return shared, f"{hits:,} hits, {POSES - hits:,} misses, {figures.hit.runs} runs"
 
     def draw_on_frame(self, frame):
-        """Draw the simple shapes as thin lines, bright if they report a hit."""
+        """Draw the outlines of the simple collision shapes as thin lines. A shape that reports a hit is bright."""
         lens = frame.lens(self.camera)
         frame.surface.set_clip(frame.from_canvas(ARENA))
         width = max(1, frame.scale - 1)
@@ -203,7 +207,7 @@ class Masks(Scene):
     def check(self):
         """Return the scene's goals, a list of Goal.
 
-        The verdict of the pixels is right in every step, and each simple shape reports a false hit at least once.
+        The verdict of the pixels is right in every step. Circle, box and turned box report a false hit at least once.
         """
         return [
             Goal(
@@ -226,7 +230,7 @@ class Masks(Scene):
         ]
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         wrong = sum(hit and not self.verdicts["pixels"] for hit in self.verdicts.values())
         sentence = "No pixel is shared, yet simple shapes report a hit."
         if self.verdicts["pixels"]:
@@ -235,7 +239,9 @@ class Masks(Scene):
         return Headline(sentence, "arrows: move", f"{wrong} of {len(TIERS)}", unit, self.steps, 1, "steps", not wrong)
 
     def finding(self):
-        """Return a sentence with the box's share of false hits, and the time of a hit by box and by exact pixels."""
+        """Return a sentence with the box's share of false hits, and the times of a hit with the box and with exact
+        pixels.
+        """
         box, exact = self.figures.get("aabb"), self.figures.get("mask")
         if box is None or exact is None:
             return f"not yet: {POSES:,} poses of the two planes have to be tested beside the game"
@@ -254,15 +260,15 @@ class Masks(Scene):
         return InputFrame(frozenset(), pointer, self.frame > 0, 1 if self.frame % 10 == 0 else 0)
 
     def state(self):
-        """Return the scene's own state for the digest: the poses and counts."""
+        """Return the scene's part of the state hash, a flat tuple: the poses and counts."""
         poses = [value for pose in self.hands.poses for value in pose]
         return (self.frame, *poses, self.hands.chosen, self.wrong, self.hits, self.apart, *self.lies.values())
 
 
 def share_a_pixel(masks, poses):
-    """Return whether two masks, at two poses (x, y, angle), share a solid pixel.
+    """Return whether two masks, at two poses (x, y, angle) [px, rad], share a solid pixel.
 
-    This is the slow reference: it puts both on one pixel grid and searches for a pixel that is solid in both.
+    This is the slow reference: it puts both masks on one pixel grid, and searches for a pixel that is solid in both.
     """
     boxes = []
     for mask, (x, y, angle) in zip(masks, poses, strict=True):

@@ -125,13 +125,16 @@ class OneWay(Scene):
         self.disturbed = False  # a rider was dragged
 
     def change_slider(self, name, value):
-        """Set a slider. After a change of the lift, the slip of its riders is measured from their new places on it."""
+        """Set the slider `name` to `value`.
+
+        After a change of the lift, the slip of its riders is measured from their current positions on it.
+        """
         super().change_slider(name, value)
         if name == "lift":
             self.offsets = None
 
     def update(self, inputs):
-        """Move lift and hero, throw bodies, make one step, and count passes and landings."""
+        """Move the lift and the hero, throw bodies, make one step, and count passes through planks and landings."""
         if self.frame % max(1, int(self.values["throw every"])) == 10:
             self._throw()
         self._aim_lift()
@@ -172,7 +175,7 @@ class OneWay(Scene):
         del self.thrown[identity]
 
     def _aim_lift(self):
-        """Set the lift's velocity to that which moves it to its next place in this step."""
+        """Set the velocity with which the lift reaches its next position in this step."""
         x, y = self.lift.position
         self.clock += float(self.values["lift"])
         next_x, next_y = lift_at(self.clock)
@@ -258,7 +261,7 @@ class OneWay(Scene):
             self.slip = {name: max(self.slip[name], self.aside[name]) for name in self.slip}
 
     def draw(self, canvas, alpha):
-        """Draw the sky, the level, everything that moves, and the counts."""
+        """Draw the sky, the level, the lift, the bodies, the hero, the walker and the counts."""
         self.backdrop.draw(canvas, 40.0, dim=14)
         surface = canvas.surface
         for column in range(COLUMNS):
@@ -338,7 +341,7 @@ class OneWay(Scene):
         ]
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         passed = self.passed["body"]
         sentence = "Planks let bodies up from below, and do not hold them from above."
         if not self.leaked:
@@ -348,7 +351,9 @@ class OneWay(Scene):
         return Headline(sentence, "Space: jump", number, unit, passed, ENOUGH, "passes", not self.leaked)
 
     def finding(self):
-        """Return a sentence with the passes and landings of bodies and hero, and the slip of the lift's riders."""
+        """Return a sentence with the passes and landings of bodies and hero, and the distance that the lift's riders
+        slipped.
+        """
         if not all((*self.passed.values(), *self.landed.values())):
             return "not yet: a body and the hero have to come up through a plank, and to land on one"
         body, hero = (f"{self.passed[who]} times up, {self.landed[who]} landings" for who in ("body", "hero"))
@@ -368,7 +373,9 @@ class OneWay(Scene):
         return InputFrame(frozenset(held))
 
     def state(self):
-        """Return the scene's own state for the digest: the hero and the counts. The worlds are hashed separately."""
+        """Return the scene's part of the state hash, a flat tuple: the hero and the counts. The worlds are hashed
+        separately.
+        """
         return (
             self.frame,
             *self.values.values(),
@@ -395,6 +402,6 @@ def level(effects):
 
 
 def lift_at(clock):
-    """Return the middle (x, y) [px] of the lift at time `clock` of its path [steps]; one round takes 240 steps."""
+    """Return the centre (x, y) [px] of the lift at time `clock` [steps] of its path, which repeats after 240 steps."""
     turn = 2.0 * pi * clock / 240.0
     return LIFT_AT[0] + LIFT_WAY[0] * cos(turn), LIFT_AT[1] + LIFT_WAY[1] * sin(2.0 * turn + 0.5 * pi) * 0.5

@@ -1,7 +1,7 @@
 """Shaded pictures of convex shapes in the game's style, computed from the collision shape itself.
 
-They have a dark outline, a light rim and a dithered inside. The shading has no direction, so that rotation of the body
-does not rotate the light.
+A picture has a dark outline, a light rim and a dithered inside. The shading has no direction, so that rotation of the
+body does not rotate the light.
 """
 
 from functools import lru_cache
@@ -28,17 +28,17 @@ RAMPS = {
 
 @lru_cache(maxsize=128)
 def turning(shape, ramp):
-    """Return the RotatedPicture of a shape, which draws it at any angle about its origin. Results are cached.
+    """Return a RotatedPicture, which draws a shape at any angle about the shape's origin. Results are cached.
 
-    ramp: name of its colours in RAMPS.
+    ramp: name of the picture's colours in RAMPS.
     """
     return RotatedPicture(piece(shape, ramp))
 
 
 def piece(shape, ramp, marked=True):
-    """Return the picture of a shape, a surface with the shape's origin in its middle.
+    """Return a Surface with the picture of a shape. The shape's origin is at the centre of the Surface.
 
-    ramp: name of its colours in RAMPS; marked: whether a mark makes rotation visible.
+    ramp: name of the picture's colours in RAMPS; marked: whether a mark makes rotation visible.
     """
     points, radius = hull(shape)
     reach = ceil(float(np.hypot(points[:, 0], points[:, 1]).max()) + radius) + 1
@@ -78,7 +78,7 @@ def hull(shape):
 
 @lru_cache(maxsize=256)
 def scaled(shape, zoom):
-    """Return a convex shape, multiplied by `zoom`, as a Scaled."""
+    """Return a Scaled: the corners and the rounding radius of a convex shape, multiplied by `zoom`."""
     return Scaled(tuple((x * zoom, y * zoom) for x, y in shape.points), shape.radius * zoom)
 
 

@@ -8,14 +8,16 @@ SOLVERS = ("projection", "sequential_impulse", "soft_step")
 
 
 def with_effects(world, effects):
-    """Return a snapshot of a world's current state with other effects. All its bodies are awake."""
+    """Return a snapshot of a world's current state with other effects. All bodies in the snapshot are awake."""
     other = _like(world)
     other.set_effects(effects)
     return other.snapshot()
 
 
 def with_substeps(world, substeps):
-    """Return a snapshot of a world's current state with another number of substeps; None keeps the number."""
+    """Return a snapshot of a world's current state with another number of substeps, or the same number if
+    it is None.
+    """
     other = _like(world)
     if substeps is not None:
         other.substeps = substeps
@@ -44,7 +46,9 @@ def kinetic_energy(world, without=()):
 
 
 def height_energy(world, without=()):
-    """Return the potential energy of all dynamic bodies except the ids in `without`, against y = 0 [mass px2/s2]."""
+    """Return the potential energy of all dynamic bodies except the ids in `without`, relative to y = 0
+    [mass px2/s2].
+    """
     bodies = _but(world.bodies, without)
     bodies = bodies[bodies["inverse_mass"] > 0.0]
     return -float(np.sum(bodies["mass"] * bodies["center_y"])) * world.gravity[1]

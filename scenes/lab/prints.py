@@ -16,7 +16,10 @@ EDGE = (24, 18, 30)  # colour of a new edge
 
 
 class Print(NamedTuple):
-    """The source of a mask's picture. image: picture of the whole body; left, top: place of the mask in it [px]."""
+    """The picture from which the pixels of a mask are cut out.
+
+    image: picture of the whole body; left, top: position [px] in it of the mask's upper left corner.
+    """
 
     image: pygame.Surface
     left: int
@@ -31,14 +34,14 @@ class Prints:
         self.kept = {}  # body id -> (mask, Piece)
 
     def add(self, body, image):
-        """Add a body whose mask covers the whole of `image`. Return the body."""
+        """Add a body whose mask covers the whole Surface `image`, its picture. Return the body."""
         self.of[body.id] = Print(image, 0, 0)
         return body
 
     def add_piece(self, piece, parent):
-        """Add a fragment that has just been carved off a body. Call this function before the fragment moves.
+        """Add a fragment that has just been carved off a body. Call this method before the fragment moves.
 
-        parent: (Print, mask, (x, y, angle)) of that body before it was carved.
+        parent: (Print, mask, (x, y, angle)) of the carved body, as they were before the carve.
         """
         (image, left, top), mask, (x, y, angle) = parent
         (own,) = piece.shapes
@@ -90,7 +93,9 @@ class Piece:
         return self
 
     def at(self, angle):
-        """Return the picture, rotated clockwise by `angle` [rad]. The angle is rounded to one of ANGLES per turn."""
+        """Return the picture as a Surface, rotated clockwise by `angle` [rad]. The angle is rounded to one of ANGLES
+        per turn.
+        """
         return self.turned(round(angle / (2.0 * pi) * ANGLES) % ANGLES)
 
     def _turned(self, number):
@@ -98,9 +103,9 @@ class Piece:
 
 
 def cut_out(part, solid):
-    """Return the picture of the pixels `solid`, cut out of the Print `part`. Edges made by carving are dark.
+    """Return a Surface with the pixels `solid`, cut out of the Print `part`. Edges made by carving are dark.
 
-    solid: bool array (height, width), relative to the place of the mask in the whole.
+    solid: bool array (height, width), which begins at the mask's position in the picture of the whole body.
     """
     height, width = solid.shape
     out = pygame.Surface((width, height), pygame.SRCALPHA, 32)

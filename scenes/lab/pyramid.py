@@ -73,7 +73,7 @@ class Pyramid(Scene):
     legend_at = (4, 212)
 
     def build(self):
-        """Build the background and the curves, and let fill() build the pyramid."""
+        """Create the background and the curve, then call fill() to build the pyramid."""
         self.yard = Yard(FLOOR)
         self.overlap = Curves(OVERLAP, {OVERLAP: GOLD})
         self.tried = set()  # names of the runs made here, for drawing only
@@ -83,7 +83,7 @@ class Pyramid(Scene):
         self.fill()
 
     def fill(self):
-        """Make a new world with the pyramid in it."""
+        """Replace the scene's world by a new one with the pyramid in it, and clear the measurements."""
         rows = int(self.values["rows"])
         self.drawn = next(size for most, size in LOOKS if rows <= most)
         zoom = self.drawn / SIZE
@@ -104,7 +104,10 @@ class Pyramid(Scene):
         self.most_energy = self.energy
 
     def change_slider(self, name, value):
-        """Set a slider. A change of the solver keeps the crates as they are; other changes rebuild the pyramid."""
+        """Set the slider `name` to `value`.
+
+        A change of the solver leaves the crates where they are. Other changes rebuild the pyramid.
+        """
         super().change_slider(name, value)
         if name == "solver":
             self.solver = self.world.solver = SOLVERS[int(self.values["solver"])]
@@ -143,10 +146,11 @@ class Pyramid(Scene):
         return int(self.values["rows"]), solver, substeps if solver in SUBSTEPPED else None, self.broadphase
 
     def measured(self):
-        """Return the runs that the measuring process times during the game, one for each setting of this pyramid.
+        """Return a RunRequest: one run for each setting of this pyramid, timed by the measuring process during the
+        game.
 
-        A setting is a solver and a number of substeps. A run begins with the new pyramid; its step time and errors are
-        measured.
+        A setting is a solver and a number of substeps. A run begins with the new pyramid. Its step time and its errors
+        are measured.
         """
         names = [self._run_name(solver, substeps) for substeps in SUBSTEPS for solver in SOLVERS]
         return RunRequest(
@@ -164,7 +168,10 @@ class Pyramid(Scene):
         return MeasuredRun([world.snapshot()], self.broadphase, judged=(JUDGED_AT - 60, JUDGED_AT))
 
     def dots(self):
-        """Return {run name: Dot} of this pyramid's measured runs. Cost [us]; error: overlap [1/1000 of a crate]."""
+        """Return {run name: Dot} for the measured runs of this pyramid.
+
+        A Dot's cost is the time of a step [us]. Its error is the overlap [1/1000 of a crate].
+        """
         found = {}
         for name, figures in self.figures.items():
             rows, solver, substeps, broadphase = name
@@ -175,7 +182,7 @@ class Pyramid(Scene):
         return found
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         fallen = max(self.top.position[1] - self._built_at()[1], 0.0) / SIZE
         name = plain_name(SOLVERS[int(self.values["solver"])])
         sentence = f"{name[:1].upper()}{name[1:]} has to hold {self.crates} crates: how far does the top sink?"
@@ -185,7 +192,7 @@ class Pyramid(Scene):
     def finding(self):
         """Return a sentence with the cost and error of the current setting.
 
-        It also names the cheapest setting with no greater error, once all are measured.
+        It also names the cheapest setting with no greater error, once all settings are measured.
         """
         dots = self.dots()
         if self.run_name not in dots:
@@ -200,7 +207,7 @@ class Pyramid(Scene):
         return f"{sentence}; {plain_name(best[1])}{substeps}: no more for {dots[best].cost:,.0f} us"
 
     def _energy(self):
-        """Return the kinetic and potential energy of the crates, without the ball [mass px2/s2]."""
+        """Return the sum of the kinetic and potential energy of all crates, without the ball [mass px2/s2]."""
         ball = () if self.thrown is None else (self.thrown.id,)
         return kinetic_energy(self.world, ball) + height_energy(self.world, ball)
 
@@ -262,7 +269,10 @@ class Pyramid(Scene):
             canvas.text(value, 128, 38 + number * 9, PAPER, SMALL, align="right")
 
     def draw_on_frame(self, frame):
-        """Draw the curve of the overlap, and the plot of error against time of all measured settings."""
+        """Draw the curve of the overlap, and the plot of error against time of all measured settings.
+
+        A triangle marks the position at which the top crate was built. It is green while the pyramid is at rest there.
+        """
         self.overlap.draw(frame, OVERLAP_AT)
         draw_scatter(frame, SCATTER_AT, "overlap over a step's time [log]", self.dots(), self.run_name)
         if self.thrown is None:
@@ -276,7 +286,7 @@ class Pyramid(Scene):
     def check(self):
         """Return the scene's goals, a list of Goal.
 
-        The pyramid stands without creep, sag or gain of energy; then the ball knocks it down.
+        The pyramid stands without creep, sag or gain of energy. Later the ball knocks it down.
         """
         rows = int(self.values["rows"])
         sunk = abs(self.still[1] + (rows - 0.5) * SIZE) / SIZE if self.still else 1.0
@@ -314,13 +324,15 @@ class Pyramid(Scene):
     def bot(self):
         """Return the bot's input for the next step.
 
-        The bot selects the solver that holds the pyramid, waits while it stands, then throws the ball.
+        The bot selects the soft step solver, lets the pyramid stand, then throws the ball.
         """
         changes = (("slider:solver", SOLVERS.index("soft_step")),) if self.frame == 0 else ()
         return InputFrame(frozenset(("fire",)) if self.frame == DROP_AT else frozenset(), changes=changes)
 
     def state(self):
-        """Return the scene's own state for the digest: the measurements. The worlds are hashed separately."""
+        """Return the scene's part of the state hash, a flat tuple: the measurements. The worlds are hashed
+        separately.
+        """
         x, y = self.still or (0.0, 0.0)
         return (
             self.frame,
@@ -337,9 +349,9 @@ class Pyramid(Scene):
 
 
 def pile_up(world, rows):
-    """Add the ground and a pyramid of `rows` rows to a world.
+    """Add the ground and a pyramid of `rows` rows of crates to a world.
 
-    Return a list of (crate, row + column), from the bottom up.
+    Return a list of (crate, row + column), from the bottom up. row and column are the crate's numbers in the pyramid.
     """
     world.add_body(Polygon.box(200 * SIZE, 2 * SIZE), position=(0.0, SIZE), kind="static")
     shape, width, crates = Polygon.box(SIZE, SIZE), SIZE * (1.0 + GAP), []

@@ -70,7 +70,9 @@ PLACES = 200  # places per timed run: five runs make a thousand
 
 
 class Queries(Scene):
-    """Scene with four worlds of the same bodies, one per broad phase. The same query runs in each."""
+    """Scene with four worlds that contain the same bodies, one for each broad phase. The same query runs in each
+    world.
+    """
 
     name = "lab/queries"
     title = "Queries"
@@ -103,7 +105,7 @@ class Queries(Scene):
     legend_at = (8, 22)
 
     def build(self):
-        """Make the sky, the curves and the counts, and let fill() make the four worlds."""
+        """Create the sky, the curves and the counts, then call fill() to create the four worlds."""
         self.sky = load_backdrop("sky_dusk")
         self.camera = Camera(VIEW, ZOOM)
         self.curves = Curves("boxes and nodes [log]", {name: BROADPHASE_COLORS[name] for name in STRATEGIES})
@@ -114,7 +116,7 @@ class Queries(Scene):
         self.fill()
 
     def fill(self):
-        """Make four new worlds with the same bodies."""
+        """Replace the scene's worlds by four new ones with the same bodies."""
         count = int(self.values["bodies"])
         random = Random(f"{self.seed} {count}")
         rows = [
@@ -158,7 +160,9 @@ class Queries(Scene):
         return QUERIES[int(self.values["query"])]
 
     def change_slider(self, name, value):
-        """Set a slider. A change of the number of bodies fills the worlds again."""
+        """Set the slider `name` to `value`, and clear the average counts. A new number of bodies makes the worlds
+        again.
+        """
         super().change_slider(name, value)
         self._forget()
         if name == "bodies":
@@ -198,9 +202,9 @@ class Queries(Scene):
         self.curves.note({name: sum(looked) for name, looked in self.work.items()})
 
     def measured(self):
-        """Return the runs that the measuring process times during the game, one for each broad phase.
+        """Return a RunRequest: one run for each broad phase, timed by the measuring process during the game.
 
-        A run makes the current kind of query at two hundred places of the picture.
+        A run makes the current kind of query at two hundred points of the picture.
         """
         made = []  # one snapshot for all unknown ones
 
@@ -217,11 +221,11 @@ class Queries(Scene):
         return self.query, float(self.values["size"]), int(self.values["bodies"]), strategy
 
     def views(self):
-        """Return [(world, camera)] of the selected broad phase, whose structure the overlays show."""
+        """Return a list with the (world, camera) of the selected broad phase. The overlays show its structure."""
         return [(self.worlds[self.shown], self.camera)]
 
     def draw(self, canvas, alpha):
-        """Draw the shapes, and on the right the counts of each strategy."""
+        """Draw the shapes in the world of the selected broad phase, and a list with the counts of each broad phase."""
         canvas.surface.fill(NIGHT)
         view = self.camera.viewport
         canvas.surface.blit(self.sky, view, (20, 10, *view.size))
@@ -243,7 +247,7 @@ class Queries(Scene):
                 canvas.text(f"{value:,}", 473, y + 12 + 10 * row, PAPER, SMALL, align="right")
 
     def _said(self):
-        """Return the answer to the query as short text, as it is written beside the counts."""
+        """Return the answer to the query as short text: a distance, a fraction, or a number of results."""
         if self.query == "closest":
             return f"{self.answer[0][5]:.1f} px away" if self.answer else "none"
         if self.query in ("ray", "cast"):
@@ -281,7 +285,7 @@ class Queries(Scene):
             pygame.draw.rect(frame.surface, faded(PAPER, 0.3), rect, 1)
 
     def _draw_found(self, frame, lens, world):
-        """Draw the outlines of the found shapes."""
+        """Draw white outlines around the shapes of the bodies that the query found. Pixel masks have no outline."""
         ids = {each[0] for each in self.answer}
         rows = [row for row, body in enumerate(world.shapes["body"].tolist()) if body in ids]
         for outline in debug.outlines(world, rows) if rows else ():
@@ -289,7 +293,7 @@ class Queries(Scene):
                 draw_outline(frame.surface, lens, outline, WHITE, max(1, frame.scale - 1), frame.scale)
 
     def _draw_question(self, frame, lens):
-        """Draw the query itself: its ray, cast, box or point."""
+        """Draw the shape of the query itself: its ray, cast, box or point."""
         surface, size, thick = frame.surface, float(self.values["size"]), max(1, frame.scale - 1)
         start, end = lens.points(*self.origin), lens.points(*self.target)
         if self.query in ("ray", "all", "cast"):
@@ -314,7 +318,7 @@ class Queries(Scene):
                 pygame.draw.line(surface, YELLOW, end, lens.points(*self.answer[0][1:3]), thick)
 
     def _cast_end(self):
-        """Return the position of the cast shape at the end of the cast."""
+        """Return the position (x, y) [px] of the cast shape at its first hit, or at its target if it hits nothing."""
         share = self.answer[0][5] if self.answer else 1.0
         (x, y), (to_x, to_y) = self.origin, self.target
         return x + share * (to_x - x), y + share * (to_y - y)
@@ -323,7 +327,9 @@ class Queries(Scene):
         return angle_of(self.origin, self.target)
 
     def _draw_hits(self, frame, lens):
-        """Draw the points, normals and fractions (or distances) of the first hits; text only where there is room."""
+        """Draw the points, normals and fractions (or distances) of the first hits. Text that would cover other text is
+        left out.
+        """
         if self.query in ("overlap", "area", "point"):
             return
         for _, x, y, nx, ny, fraction in self.answer[:SHOWN]:
@@ -360,7 +366,7 @@ class Queries(Scene):
         ]
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         shown = STRATEGIES[self.shown]
         how = "brute force looks at every box" if shown == "brute" else f"the {shown} skips most boxes"
         sentence = f"One query, {self.query}, among {int(self.values['bodies']):,} shapes: {how}."
@@ -368,9 +374,9 @@ class Queries(Scene):
         return Headline(sentence, "up down: broad phase", number, unit, self.asked, 1, "queries", shown != "brute")
 
     def finding(self):
-        """Return a sentence with the boxes and nodes that each strategy visits for this query.
+        """Return a sentence with the number of boxes and nodes that each broad phase visits for this query.
 
-        It also names the number of answers that differed.
+        It also gives the number of queries with different answers.
         """
         if not self.usual["tree"].last:
             return "not yet: something has to be asked"
@@ -382,8 +388,8 @@ class Queries(Scene):
     def bot(self):
         """Return the bot's input for the next step.
 
-        The bot moves the pointer along a slow curve. It changes the query now and then, and the shown strategy more
-        often.
+        The bot moves the pointer along a slow curve. It changes the query every EACH steps, and the shown broad phase
+        every 21 steps.
         """
         at = self.frame / 40.0
         pointer = (
@@ -419,7 +425,7 @@ PARTS = {"tree": "nodes visited", "hash": "cells visited", "sweep": "halvings", 
 
 
 def bounce(world):
-    """Reverse the velocity of all bodies that leave the world at one of its edges."""
+    """Reverse the velocity component of each body that is beyond an edge of the picture and moves away from it."""
     bodies = world.bodies
     for place, speed, high in (("x", "vx", WIDTH), ("y", "vy", HEIGHT)):
         outwards = ((bodies[place] < 0.0) & (bodies[speed] < 0.0)) | ((bodies[place] > high) & (bodies[speed] > 0.0))

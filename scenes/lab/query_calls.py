@@ -11,10 +11,11 @@ ALONG, ACROSS = 0.7548776662466927, 0.5698402909980532
 
 
 def ask(world, query, origin, target, size):
-    """Run a query in a world, and return its results as a list, in which None stands for "nothing found".
+    """Run a query in a world, and return a list of its results.
 
-    query: its name; origin, target: (x, y) [px], start and end of a ray or cast, while other queries are at `target`;
-    size: size of the shapes [px].
+    query: name of the kind of query, as in queries.QUERIES; origin: start (x, y) [px] of a ray or cast; target: its
+    end, or the position of another query; size: size of the query's shape [px]. A query for one result returns [None]
+    if it finds nothing.
     """
     way = target[0] - origin[0], target[1] - origin[1]
     if query == "ray":
@@ -33,10 +34,10 @@ def ask(world, query, origin, target, size):
 
 
 def asking(world, query, origin, area, size):
-    """Return a function that runs the query once per call, each time at another target.
+    """Return a function without arguments that runs the query once per call, each time at another target.
 
-    origin: start of rays and casts; area: (width, height) [px] in which the targets are spread evenly; size: as in
-    ask().
+    origin: start of rays and casts (x, y) [px]; area: (width, height) [px] over which the targets are spread evenly;
+    query, size: as in ask().
     """
     numbers = count()
 
@@ -48,7 +49,7 @@ def asking(world, query, origin, area, size):
 
 
 def rows_of(found):
-    """Return the results of ask() as tuples that can be compared, without the None.
+    """Return the results of ask() as a list of tuples that can be compared. A result None is left out.
 
     A tuple is (body id, x, y, normal x, normal y, fraction or distance). Values that a kind of query lacks are 0.
     """

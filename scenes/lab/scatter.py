@@ -18,7 +18,7 @@ LEAST_SPAN = 0.3  # [decades] least span of a scale
 class Dot(NamedTuple):
     """A dot of the plot: one setting with its cost [us] and error.
 
-    name: label beside the dot; tried: whether the setting has run in the scene.
+    name: label beside the dot; tried: whether the setting has already run in the scene.
     """
 
     cost: float
@@ -29,9 +29,10 @@ class Dot(NamedTuple):
 
 
 def draw_scatter(frame: Frame, canvas_rect: Box, title: str, dots: Mapping[object, Dot], here: object) -> None:
-    """Draw the plot of {key: Dot} into a rectangle of the canvas. here: key of the current setting, which gets a ring.
+    """Draw a scatter plot of error against cost into a rectangle of the canvas.
 
-    Settings that have not run in the scene are hollow dots.
+    dots: {key of a setting: Dot}; here: key of the current setting, which is marked by a ring. Settings that have not
+    run in the scene are hollow dots.
     """
     rect, scale, surface = frame.from_canvas(canvas_rect), frame.plot_scale, frame.surface
     surface.fill(INK, rect)
@@ -69,7 +70,7 @@ def _spans(dots):
 
 
 def _place(plot, dots):
-    """Return {key of a dot: its (x, y) in the frame}. plot: rectangle of the frame between the axes."""
+    """Return {key: (x, y)}, the position of each dot in the frame. plot: rectangle of the frame between the axes."""
     (left, right), (low, high) = _spans(dots)
     places = {}
     for key, dot in dots.items():

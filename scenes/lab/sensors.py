@@ -131,7 +131,7 @@ class Sensors(Scene):
         self.flying[body.id] = speed
 
     def _steer(self):
-        """Set the velocities that move the zones to their next places in this step."""
+        """Set the velocities with which the moving zones reach their next positions in this step."""
         (_, middle, _), body = ZONES["drifter"], self.zones["drifter"]
         y = middle[1] + DRIFT[0] * sin(2.0 * pi * (self.frame + 1) / DRIFT[1])
         body.velocity = (0.0, (y - body.position[1]) * 60)
@@ -224,7 +224,7 @@ class Sensors(Scene):
             self.trails.append([before.get(identity, (x, y))[0], x, y, 0])
 
     def draw(self, canvas, alpha):
-        """Draw both halls with their zones and bodies, and the counts at the side."""
+        """Draw both areas with their zones and bodies, and the counts beside them."""
         canvas.surface.fill(NIGHT)
         for rect, title in (
             (HIGH, "saucers through standing and drifting zones, and a beam of 1 px"),
@@ -322,7 +322,10 @@ class Sensors(Scene):
         canvas.text(f"{self.unpaired}", 474, y, GREEN if self.unpaired == 0 else RED, SMALL, align="right")
 
     def check(self):
-        """Return the scene's goals: every entry is reported once, with one exit, and no false entry."""
+        """Return the scene's goals, a list of Goal.
+
+        Every entry is reported once and followed by one exit, and no false entry is reported.
+        """
         missed, false = sum(self.missed.values()), sum(self.false.values())
         balance = all(
             self.entered[name] - self.left[name] == sum(1 for zone, _ in self.inside if zone == name) for name in ZONES
@@ -351,7 +354,7 @@ class Sensors(Scene):
         ]
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         due, unseen = sum(self.due.values()), sum(self.unseen.values())
         step = max(self.values["speed"], self.values["scanner"]) / 60
         sentence = f"At {step:.0f} px a step, entries fall between two steps; sweeping finds them."
@@ -361,7 +364,9 @@ class Sensors(Scene):
         return Headline(sentence, "left: slower", f"{unseen} of {due}", unit, due, ENOUGH, "entries", not unseen)
 
     def finding(self):
-        """Return a sentence with the numbers of missed and false entries, and the greatest motion in a step."""
+        """Return a sentence with the numbers of missed and false entries, and the greatest motion of a detected body
+        in a step.
+        """
         due, missed, false = (sum(each.values()) for each in (self.due, self.missed, self.false))
         if not due:
             return "not yet: something has to cross a zone"
@@ -378,7 +383,7 @@ class Sensors(Scene):
         return InputFrame(frozenset((tap,))) if tap else frozenset()
 
     def state(self):
-        """Return the scene's own state for the digest: the counts. The worlds are hashed separately."""
+        """Return the scene's part of the state hash, a flat tuple: the counts. The worlds are hashed separately."""
         tallies = (self.entered, self.left, self.due, self.missed, self.false)
         return (
             self.frame,
@@ -392,10 +397,10 @@ class Sensors(Scene):
 
 
 def least_gap(start, end, zone_start, zone_end, half):
-    """Return the least distance [px] between a moving point and a moving box during a step.
+    """Return the least distance [px] between a moving point and a moving box during a step; 0 if they overlap.
 
-    start, end: places of the point; zone_start, zone_end: places of the box's middle; half: half its width and half its
-    height [px]. Both move on straight lines. The motion is sampled finely.
+    start, end: positions of the point; zone_start, zone_end: positions of the box's centre; half: half the width and
+    half the height of the box [px]. Both move on straight lines. The motion is sampled every SAMPLE px.
     """
     x = np.array([start[0] - zone_start[0], end[0] - zone_end[0]])
     y = np.array([start[1] - zone_start[1], end[1] - zone_end[1]])

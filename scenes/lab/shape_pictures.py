@@ -79,8 +79,8 @@ def draw_shadows(frame, lens, placed, axes, colors):
 def draw_differences(frame, rect, placed, meets, step):
     """Draw the Minkowski difference of two shapes, without and with their rounding radii, and the origin.
 
-    rect: area of the frame; placed: (corners, radius) of both shapes; meets: whether they overlap; step: iteration of
-    GJK or EPA whose simplex or polytope is drawn, or None.
+    rect: rectangle of the frame; placed: (corners, radius) of both shapes, as placed_hull() returns them; meets:
+    whether the shapes overlap; step: iteration of GJK or EPA whose simplex or polytope is drawn, or None.
     """
     core = difference(placed[0][0], placed[1][0])
     radius = placed[0][1] + placed[1][1]
@@ -121,7 +121,7 @@ def draw_differences(frame, rect, placed, meets, step):
 
 
 def placed_hull(shape, pose):
-    """Return (corners, radius) of a shape at a pose (x, y, angle).
+    """Return (corners, radius) of a convex shape at a pose (x, y, angle) [px, rad].
 
     corners: list of (x, y), clockwise on the screen; radius: rounding radius [px].
     """
@@ -132,7 +132,9 @@ def placed_hull(shape, pose):
 
 
 def difference(a, b):
-    """Return the corners of the Minkowski difference A - B of two lists of points, clockwise on the screen."""
+    """Return the corners of the Minkowski difference A - B of two lists of points: a list of [x, y], clockwise on the
+    screen.
+    """
     points = sorted({(round(ax - bx, 9), round(ay - by, 9)) for ax, ay in a for bx, by in b})
     if len(points) < 3:
         return [list(point) for point in points]

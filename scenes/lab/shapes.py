@@ -92,7 +92,7 @@ class Shapes(Scene):
     hides_pointer = False
 
     def build(self):
-        """Build both bodies, and set the counts to zero."""
+        """Build both bodies, set the counts to zero, and compute the results for the starting poses."""
         self.add_world()
         self.hands = Hands(START, 1, ARENA.inflate(-2 * MARGIN, -2 * MARGIN))
         self.bodies = [
@@ -108,16 +108,20 @@ class Shapes(Scene):
 
     @property
     def shapes(self):
-        """The two chosen shapes, [A, B]."""
+        """The two selected shapes, a list [A, B]."""
         return [CHOICES[NAMES[int(self.values[side])]] for side in "AB"]
 
     @property
     def step_shown(self):
-        """Iteration of GJK or EPA that is drawn, an element of shape_traces.gjk_steps(); None if there is none."""
+        """Iteration of GJK or EPA that is drawn, an element of shape_traces.gjk_steps(), or None if that list is
+        empty.
+        """
         return self.steps[min(int(self.values["step"]), len(self.steps) - 1)] if self.steps else None
 
     def change_slider(self, name, value):
-        """Set a slider. If it selects a shape, exchange that body's shape at its place."""
+        """Set the slider `name` to `value`. If it selects a shape, replace the shape of that body and keep the body's
+        pose.
+        """
         super().change_slider(name, value)
         if name in "AB":
             which = "AB".index(name)
@@ -161,7 +165,8 @@ class Shapes(Scene):
         self.steps = gjk_steps(a, pose_a, b, pose_b)
 
     def _compare(self):
-        """Compare the overlap, distance and depth of the two shapes by three methods, and update the greatest errors.
+        """Compare the overlap, distance and depth of the two shapes by SAT, GJK and collide(), and update the greatest
+        errors.
 
         The distance is also computed in the opposite order of the shapes.
         """
@@ -278,7 +283,7 @@ class Shapes(Scene):
             )
 
     def _draw_witness(self, frame, lens):
-        """Draw the nearest points of both shapes, and the witness points of the iteration that is shown."""
+        """Draw the nearest points of both shapes, and the witness points of the drawn GJK or EPA iteration."""
         a, b = lens.points(*self.gap.point_a), lens.points(*self.gap.point_b)
         pygame.draw.line(frame.surface, GOLD, a, b, max(1, frame.scale - 1))
         for place in (a, b):
@@ -293,7 +298,7 @@ class Shapes(Scene):
                 pygame.draw.circle(frame.surface, color, place, 2 * frame.scale, 1)
 
     def check(self):
-        """Return the scene's goals: the methods agree for all shapes and poses of the bot."""
+        """Return the scene's goals, a list of Goal. The methods agree for all shapes and poses of the bot."""
         return [
             Goal(
                 "shapes seen apart and in each other",
@@ -324,7 +329,7 @@ class Shapes(Scene):
         ]
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         wrong, step = self.disagreed + self.mirrored, self.step_shown
         off = 0.0 if step is None else abs(step["distance"] - self.steps[-1]["distance"])
         if step is not None and off > EXACT:
@@ -352,7 +357,7 @@ class Shapes(Scene):
     def bot(self):
         """Return the bot's input for the next step.
 
-        Every 25 steps the bot takes another pair of shapes. It drags B into A and out again, with rotation.
+        Every 25 steps the bot selects another pair of shapes. It drags B into A and out again, and rotates B.
         """
         leg, step = divmod(self.frame, LEG)
         changes = ()
@@ -372,7 +377,7 @@ class Shapes(Scene):
         return round(self.hands.poses[which][0]), round(self.hands.poses[which][1])
 
     def state(self):
-        """Return the scene's own state for the digest: the poses and counts."""
+        """Return the scene's part of the state hash, a flat tuple: the poses and counts."""
         poses = [value for pose in self.hands.poses for value in pose]
         return (
             self.frame,

@@ -1,6 +1,6 @@
-"""The shots of lab/tunnelling: their starts, the plate, and whether they must hit it by geometry.
+"""The shots of lab/tunnelling: their starts, the plate, and the geometric test that tells whether a shot must hit.
 
-In this module the middle of a lane is at y = 0.
+In this module the centre line of a lane is at y = 0.
 """
 
 from math import ceil, pi
@@ -24,13 +24,13 @@ SAMPLE = 0.1  # [px] between two samples of the slow reference for rods
 
 
 def aim(kind, speed, plate, random):
-    """Choose a random shot. Return (shots, gap).
+    """Choose a random shot, and return (shots, gap).
 
     kind: one of SHOTS; speed: speed of the shot [px/s]; plate: width of the plate [px]; random: random.Random.
 
-    shots: list of (shape, place, velocity, angle, spin), two for bullets that fly at each other. The start varies by
-    the path of a step, so that impacts occur at any time within a step. gap: least distance of the shot from its target
-    by geometry [px], negative if they must meet.
+    shots: list of (shape, position, velocity along x, angle, angular velocity), two for bullets that fly at each
+    other. The start varies by the distance of one step, so that impacts occur at any time within a step. gap: least
+    distance between the shot and its target by geometry [px], negative if they must meet.
     """
     start = GUN_X + random.uniform(0.0, speed / 60)
     if kind == "balls":
@@ -54,9 +54,9 @@ def _aside(kind, random):
 
 
 def shoot(world, shots, kind, lane, middle=0.0):
-    """Add the shots of aim() to a world, and return their bodies.
+    """Add the shots of aim() to a world, and return the list of their bodies.
 
-    kind: one of SHOTS; lane: argument `continuous` of the bodies; middle: y of the lane [px].
+    kind: one of SHOTS; lane: argument `continuous` of the bodies; middle: y of the lane's centre line [px].
     """
     return [
         world.add_body(
@@ -73,19 +73,21 @@ def shoot(world, shots, kind, lane, middle=0.0):
 
 
 def raise_plate(world, width, middle=0.0):
-    """Add the static plate that shots fly at, `width` px wide, with its middle at y = `middle`. Return its body."""
+    """Add the static plate at which shots are fired, `width` px wide, with its centre at y = `middle`. Return its
+    body.
+    """
     return world.add_body(Polygon.box(width, 2 * PLATE_HALF), position=(PLATE_X, middle), kind="static")
 
 
 def steps_of_flight(speed):
-    """Return the number of steps of 1/60 s in which a shot of `speed` [px/s] flies from the gun to the lane's end."""
+    """Return the number of steps of 1/60 s that a shot of `speed` [px/s] needs from the gun to the end of the lane."""
     return ceil(60.0 * (END_X - GUN_X) / speed)
 
 
 def flights(world, kind, lane, speed, plate, count, random):
-    """Return a list of `count` snapshots, each of a world with the plate and one random shot at the gun.
+    """Return a list of `count` snapshots, each of a world with the plate and one random shot that has just been fired.
 
-    kind, speed, plate, random: as for aim(); lane: as for shoot().
+    Bullets have no plate. kind, speed, plate, random: as for aim(); lane: as for shoot().
     """
     if kind != "bullets":
         raise_plate(world, plate)
@@ -98,10 +100,10 @@ def flights(world, kind, lane, speed, plate, count, random):
 
 
 def rod_gap(start, offset, speed, angle, spin, plate):
-    """Return the least distance of a flying, spinning rod from the plate by geometry [px], negative if they meet.
+    """Return the least distance between a flying, spinning rod and the plate by geometry [px], negative if they meet.
 
-    (start, offset): first place of its middle [px]; speed [px/s], angle [rad] and spin [rad/s] of the rod; plate: width
-    of the plate [px].
+    (start, offset): first position of the rod's centre [px]; speed [px/s], angle [rad], spin [rad/s]: motion of the
+    rod; plate: width of the plate [px].
     """
     reach = ROD_HALF + ROD_RADIUS + plate
     first, last = max((PLATE_X - reach - start) / speed, 0.0), (PLATE_X + reach - start) / speed

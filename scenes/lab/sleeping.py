@@ -87,7 +87,7 @@ class Sleeping(Scene):
     legend_at = (4, 20)
 
     def build(self):
-        """Make the background and the curves, and let fill() add the heaps."""
+        """Create the background and the curves, then call fill() to create the world with its heaps."""
         self.yard = Yard(FLOOR)
         self.curves = [
             Curves(PLOTS[0][0], {"awake": GOLD, "asleep": FOG}, HISTORY),
@@ -96,7 +96,7 @@ class Sleeping(Scene):
         self.fill()
 
     def fill(self):
-        """Make a new world with all heaps."""
+        """Replace the scene's world by a new one with all heaps, and clear the measurements."""
         self.worlds = []
         self.camera = Camera(((0, HEAD), (480, 254)), ZOOM, y=-(FLOOR - HEAD) / ZOOM)
         effects = self.effects.with_(sleeping=self.effects.sleeping and bool(self.values["sleep"]))
@@ -141,7 +141,7 @@ class Sleeping(Scene):
             world.add_body(STONES[number % 3], position=(x, -(0.6 + 0.9 * row) * METER), angle=0.4 * (number % 4))
 
     def change_slider(self, name, value):
-        """Set a slider, then build the heaps again."""
+        """Set the slider `name` to `value`, then build the heaps again."""
         super().change_slider(name, value)
         self.fill()
 
@@ -171,7 +171,7 @@ class Sleeping(Scene):
     def _throw(self, x, y):
         """Throw a heavy ball from the upper left towards the point (x, y) [px].
 
-        If there are BALLS balls, the oldest is removed.
+        If there are already BALLS balls, the oldest is removed.
         """
         if len(self.balls) == BALLS:
             gone = self.balls.pop(0)
@@ -193,9 +193,10 @@ class Sleeping(Scene):
         self.play("land")
 
     def measured(self):
-        """Return the two runs that the measuring process times during the game, or None before all bodies sleep.
+        """Return a RunRequest for two runs that the measuring process times during the game.
 
-        One run steps the heaps while all bodies sleep; the other steps the same heaps in a world without sleeping.
+        One run steps the heaps while all bodies sleep. The other steps the same heaps in a world without sleeping.
+        Return None until all bodies sleep, and after a ball has been thrown.
         """
         if self.awake or not self.asleep or self.thrown:
             return None
@@ -210,9 +211,11 @@ class Sleeping(Scene):
         return MeasuredRun([made], self.broadphase)
 
     def _count(self, islands):
-        """Return (awake, asleep, islands): the numbers of dynamic bodies awake and asleep, and of islands.
+        """Return (awake, asleep, islands): the numbers of awake and of sleeping dynamic bodies, and the number of
+        islands.
 
-        islands: lowest body id in the island of each body, -1 for none, as of debug.islands().
+        islands: for each body, the lowest body id in its island, or -1 without an island, as debug.islands() returns
+        them.
         """
         bodies = self.world.bodies
         moves = bodies["inverse_mass"] > 0.0
@@ -238,7 +241,7 @@ class Sleeping(Scene):
             self.waves.append((self.since, len(woken)))
 
     def observe(self):
-        """Append the numbers of this step to the curves."""
+        """Append the numbers of awake and sleeping bodies and the time of this step to the curves."""
         self.curves[0].note({"awake": self.awake, "asleep": self.asleep})
         self.curves[1].note({"step": step_seconds(self.world) * 1e6})
 
@@ -330,13 +333,15 @@ class Sleeping(Scene):
         ]
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         sentence = "Heaps cost time until they sleep; a ball wakes what it meets."
         number, unit = f"{self.awake} of {self.awake + self.asleep}", "bodies awake and stepped"
         return Headline(sentence, "Space: a ball", number, unit, self.since, 1, "steps", not self.awake)
 
     def finding(self):
-        """Return a sentence with the time of a step asleep and without sleep, and the number of woken islands."""
+        """Return a sentence with the number of awake bodies, the times of a step asleep and awake, and the woken
+        islands.
+        """
         parts = [f"{self.awake} of {self.awake + self.asleep} bodies are awake"]
         awake, asleep = (cost_of(self, self._run_name(how)) for how in SLEPT)
         if awake is not None and asleep is not None:
@@ -356,7 +361,7 @@ class Sleeping(Scene):
         return InputFrame(frozenset(("fire",)) if self.frame == KNOCK else frozenset())
 
     def state(self):
-        """Return the scene's own state for the digest: the counts. The worlds are hashed separately."""
+        """Return the scene's part of the state hash, a flat tuple: the counts. The worlds are hashed separately."""
         return (
             self.frame,
             *self.values.values(),

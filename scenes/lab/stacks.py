@@ -44,7 +44,7 @@ SETTLED = 120  # steps after which the sway is measured
 
 
 class Stacks(Scene):
-    """Scene with three worlds, each with the same column and another solver."""
+    """Scene with three worlds that contain the same column of crates, one for each solver."""
 
     name = "lab/stacks"
     title = "Stacks"
@@ -62,13 +62,13 @@ class Stacks(Scene):
     legend_at = (4, 20)
 
     def build(self):
-        """Make the background, and let fill() make the three worlds."""
+        """Create the background and the cameras, then call fill() to create the three worlds."""
         self.yard = Yard(FLOOR)
         self.cameras = [Camera(view, ZOOM) for view in VIEWS]
         self.fill()
 
     def fill(self):
-        """Make three new worlds with the same column of crates."""
+        """Replace the scene's worlds by three new ones with the same column of crates, one for each solver."""
         self.worlds, self.casts, self.tops = [], [], []
         self.since = self.nudged = 0
         self.touched = False
@@ -94,7 +94,7 @@ class Stacks(Scene):
         self.tops.append(body)
 
     def change_slider(self, name, value):
-        """Set a slider, then build the columns again."""
+        """Set the slider `name` to `value`, then build the columns again."""
         super().change_slider(name, value)
         self.fill()
 
@@ -129,9 +129,9 @@ class Stacks(Scene):
         self.standing[name] += hypot(x - MIDDLE, self.sag[name]) < SIZE
 
     def measured(self):
-        """Return the runs that the measuring process times during the game; None until the columns have settled.
+        """Return a RunRequest: one run for each column, timed by the measuring process during the game.
 
-        There is one run for each column, from its current state.
+        A run starts from the column's current state. Return None until the columns have settled.
         """
         if self.since < SETTLED:
             return None
@@ -142,11 +142,13 @@ class Stacks(Scene):
         )
 
     def stands(self, name):
-        """Return whether the top crate under the solver `name` has always been within a crate's size of its place."""
+        """Return whether the top crate under the solver `name` has never left its starting position by more than its
+        size.
+        """
         return self.standing[name] == self.since
 
     def stands_now(self, index):
-        """Return whether the top crate of column number `index` is within a crate's size of its place."""
+        """Return whether the top crate of column number `index` is now within its size of its starting position."""
         x, y = self.tops[index].position
         return hypot(x - MIDDLE, y - (GROUND - (int(self.values["crates"]) - 0.5) * SIZE)) < SIZE
 
@@ -161,7 +163,7 @@ class Stacks(Scene):
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Draw the columns, and the figures below each."""
+        """Draw the columns, and the figures of each column below it."""
         self.yard.draw(canvas)
         for index, (name, camera, cast) in enumerate(zip(SOLVERS, self.cameras, self.casts, strict=True)):
             cast.draw(canvas, camera, self.worlds[index], alpha)
@@ -195,7 +197,7 @@ class Stacks(Scene):
         canvas.text(cost_text(self, (*self.chosen, name)), box.right - 4, box.y + 37, PAPER, SMALL, align="right")
 
     def draw_on_frame(self, frame):
-        """Draw a thin line at the height of an ideal column."""
+        """Draw a thin dashed line at the height of a column without overlap."""
         top = GROUND - self.values["crates"] * SIZE
         for camera in self.cameras:
             lens = frame.lens(camera)
@@ -206,7 +208,7 @@ class Stacks(Scene):
     def check(self):
         """Return the scene's goals, a list of Goal.
 
-        The columns of the solvers with warm starting stand, even after a nudge; that of projection does not.
+        The columns of sequential impulse and soft step stand. That of projection falls, or sinks three times as far.
         """
         pushed, kept, soft = SOLVERS
         tall = self.values["crates"] * SIZE
@@ -250,7 +252,7 @@ class Stacks(Scene):
         ]
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         lost = max(self.sag["projection"] / (self.values["crates"] * SIZE), 0.0)
         unit, good = "of its height lost", self.stands_now(0)
         does = "does its column of crates stand?" if good else "its column of crates falls."
@@ -273,7 +275,9 @@ class Stacks(Scene):
         return InputFrame(frozenset(("fire",)) if self.frame == 240 else frozenset())
 
     def state(self):
-        """Return the scene's own state for the digest: the measurements. The worlds are hashed separately."""
+        """Return the scene's part of the state hash, a flat tuple: the measurements. The worlds are hashed
+        separately.
+        """
         measured = (self.sag, self.sway, self.calm_sway, self.depth, self.standing)
         values = (row[name] for row in measured for name in SOLVERS)
         return (self.frame, self.since, self.nudged, *self.values.values(), *values)

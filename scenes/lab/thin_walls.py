@@ -12,7 +12,7 @@ RADIUS = 27.0  # [px] of the ring's middle line
 
 
 def wall_of(shape):
-    """Return the PixelMask of a wall, with its origin in the middle. shape: one of SHAPES."""
+    """Return the PixelMask of a wall, with its origin at its centre. shape: one of SHAPES."""
     size = 2 * HALF + 1
     if shape == "straight":
         return PixelMask.from_array(np.ones((size, 1), bool))
@@ -28,9 +28,9 @@ def wall_of(shape):
 
 
 def is_beyond(shape, x, y):
-    """Return whether a shot has passed the wall. x, y: place of the shot relative to the wall's middle [px].
+    """Return whether a shot has passed the wall.
 
-    shape: shape of the wall, one of SHAPES.
+    shape: shape of the wall, one of SHAPES; x, y: position of the shot relative to the wall's centre [px].
     """
     if shape == "straight":
         return x > 0.5

@@ -15,7 +15,7 @@ GOLDEN = 0.6180339887498949  # its multiples, modulo 1, are never near one anoth
 
 
 class Tool:
-    """The carving tool that the player has chosen. name: one of TOOLS; radius [px].
+    """The carving tool that the player has chosen. name: one of TOOLS; radius: size of the tool [px].
 
     cut() returns the shape to carve in each step.
     """
@@ -27,7 +27,7 @@ class Tool:
         self.reach = ((0.0, 0.0), (0.0, 0.0))  # box of the last cut
 
     def choose(self, name, radius):
-        """Set the tool and its radius [px]."""
+        """Select the tool `name`, one of TOOLS, with the given radius [px]."""
         if (name, radius) != (self.name, self.radius):
             self.name, self.radius = name, radius
             self.last, self.stamp = None, self._make()
@@ -41,9 +41,10 @@ class Tool:
         return Circle(self.radius)
 
     def cut(self, inputs):
-        """Return (shape, position) to carve in this step, or None.
+        """Return (shape, position) to carve in this step, or None if nothing is carved.
 
-        A blast is carved once per press of the pointer. The other tools carve along its path while it is pressed.
+        A blast is carved once per press of the pointer. The other tools carve along the pointer's path while it is
+        pressed.
         """
         if not inputs.pointer_down:
             self.last = None
@@ -79,7 +80,7 @@ class Tool:
 def carving(world, name, radius, ground, crumb):
     """Return a function that carves the body with id `ground` once per call, each time at another solid pixel.
 
-    name, radius: the tool; crumb: as for Body.carve. Successive places are far apart.
+    name, radius: as for Tool.choose(); crumb: as for Body.carve(). Successive pixels are far apart.
     """
     tool = Tool()
     tool.choose(name, radius)

@@ -86,13 +86,13 @@ class Tumbler(Scene):
     legend_at = (4, 138)
 
     def build(self):
-        """Make the background, and let fill() make the drum and its load."""
+        """Create the background and the camera, then call fill() to create the world with the drum and its load."""
         self.yard = Yard(262, 70)
         self.camera = Camera(VIEW, ZOOM)
         self.fill()
 
     def fill(self):
-        """Make a new world: the drum, and shapes in rows inside it."""
+        """Replace the scene's world by a new one: the drum, and shapes in rows inside it."""
         self.worlds = []
         world, self.cast = self.add_world(substeps=SUBSTEPS), Cast(load_atlas("lab"))
         self.drum = world.add_body(
@@ -111,7 +111,10 @@ class Tumbler(Scene):
         self.since = 0
 
     def change_slider(self, name, value):
-        """Set a slider. A new number of bodies fills the drum again; a new speed is set as its angular velocity."""
+        """Set the slider `name` to `value`.
+
+        A new number of bodies makes the drum and its load again. A new speed becomes the drum's angular velocity.
+        """
         super().change_slider(name, value)
         if name == "bodies":
             self.fill()
@@ -143,7 +146,8 @@ class Tumbler(Scene):
             self.pressed += (deep - self.pressed) / (self.since - SETTLED)
 
     def ways(self):
-        """Return {label: name of the run} for two numbers of substeps: the current one, and another for comparison.
+        """Return {label: run name} of the runs to measure: with the current number of substeps, and with another
+        number.
 
         A solver without substeps has one run only.
         """
@@ -154,7 +158,9 @@ class Tumbler(Scene):
         return {words.get(substeps, f"{substeps} substeps"): (*name, substeps) for substeps in asked}
 
     def measured(self):
-        """Return the runs of ways(), which the measuring process times; None until the load has settled."""
+        """Return a RunRequest for the runs of ways(), timed by the measuring process; None until the load
+        has settled.
+        """
         return RunRequest(list(self.ways().values()), self._make) if self.since > SETTLED else None
 
     def _make(self, name):
@@ -190,7 +196,7 @@ class Tumbler(Scene):
     def check(self):
         """Return the scene's goals, a list of Goal.
 
-        No shape gets out; the load is carried up, and it is not thrown about.
+        No shape gets out of the drum. The load is carried up, and it gains no energy.
         """
         fall = 2.0 * 9.8 * 32.0 * 2.0 * INSIDE  # [px2/s2] energy of a fall through the whole drum
         mass = float(self.world.bodies["mass"][1:].sum())
@@ -218,7 +224,7 @@ class Tumbler(Scene):
         ]
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         count, speed = len(self.world.bodies) - 1, float(self.values["speed"])
         sentence = f"At {speed:.1f} rad/s shapes get out of the drum."
         if not self.escaped:
@@ -229,7 +235,10 @@ class Tumbler(Scene):
         )
 
     def finding(self):
-        """Return a sentence with the number of shapes that got out, the drum's turns, and the overlap in the load."""
+        """Return a sentence with the number of escaped shapes, the drum's turns, and the overlap in the load.
+
+        It also gives the time of a step once it is measured.
+        """
         if self.since < SETTLED + 60:
             return "not yet: the load has to settle for two seconds, and to be looked at for one"
         turns = abs(self.drum.angle) / (2 * pi)
@@ -246,7 +255,9 @@ class Tumbler(Scene):
         return InputFrame()
 
     def state(self):
-        """Return the scene's own state for the digest: the measurements. The worlds are hashed separately."""
+        """Return the scene's part of the state hash, a flat tuple: the measurements. The worlds are hashed
+        separately.
+        """
         return (
             self.frame,
             self.since,
@@ -276,7 +287,9 @@ def drum_boxes():
 
 
 def radial(distance, angle):
-    """Return the point (x, y) [px] at a distance from the drum's middle in the direction `angle` [rad]."""
+    """Return the point (x, y) [px], relative to the drum's centre, at `distance` [px] in the direction
+    `angle` [rad].
+    """
     return distance * cos(angle), distance * sin(angle)
 
 
@@ -289,7 +302,9 @@ def places(count):
 
 
 def in_blade(x, y):
-    """Return whether a shape at (x, y), relative to the drum's middle, would overlap a blade at the start."""
+    """Return whether a shape at (x, y) [px] relative to the drum's centre would overlap a blade at the drum's first
+    angle.
+    """
     for number in range(0, SIDES, 2):
         c, s = radial(1.0, 2 * pi * number / SIDES)
         if c * x + s * y > INSIDE - FIN - 14.0 and abs(c * y - s * x) < WALL / 4 + 14.0:

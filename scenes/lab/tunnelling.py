@@ -121,7 +121,10 @@ class Tunnelling(Scene):
             self.plates = {lane: raise_plate(self.world, self.values["plate"], middle(lane)) for lane in LANES}
 
     def change_slider(self, name, value):
-        """Set a slider, and build the plates again. Shots in flight are no longer counted."""
+        """Set the slider `name` to `value`.
+
+        A change of the plate or of the kind of shots removes all shots in flight, and builds the plates again.
+        """
         super().change_slider(name, value)
         if name != "speed":
             self.world.remove_bodies([*self.of_body, *self.spent])
@@ -165,9 +168,9 @@ class Tunnelling(Scene):
             self.due[kind, lane] += trial["must"]
 
     def measured(self):
-        """Return the runs that the measuring process times during the game, one for each lane.
+        """Return a RunRequest: one run for each lane, timed by the measuring process during the game.
 
-        A run contains one shot at a time from the gun to the end of the lane, and as many shots as make 60 steps.
+        A run contains one shot at a time, from the gun to the end of the lane, and enough shots for about 60 steps.
         """
         speed, plate = float(self.values["speed"]), float(self.values["plate"])
         steps = steps_of_flight(speed)
@@ -291,7 +294,7 @@ class Tunnelling(Scene):
     def check(self):
         """Return the scene's goals, a list of Goal.
 
-        The lane with times of impact misses nothing. Each other lane misses the shots that its method cannot find.
+        The lane "toi" misses no shot. Each other lane misses the shots that its method cannot find.
         """
         missed, due = self.missed, self.due
         made_up = sum(count for (kind, lane), count in self.false.items() if kind != "rods" or lane == "toi")
@@ -337,7 +340,7 @@ class Tunnelling(Scene):
         ]
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         kind, step = self.kind, self.values["speed"] / 60
         missed, ended = self.missed[kind, "off"], self.hit[kind, "off"] + self.missed[kind, "off"]
         what = "each other" if kind == "bullets" else f"a plate of {self.values['plate']} px"
@@ -348,7 +351,9 @@ class Tunnelling(Scene):
         return Headline(sentence, "left: slower", number, unit, ended, ENOUGH, kind, not missed)
 
     def finding(self):
-        """Return a sentence with the misses of each lane, out of the shots that had to hit, and the time of a step."""
+        """Return a sentence with each lane's number of missed shots, out of those that had to hit, and its time of a
+        step.
+        """
         kind = self.kind
         ended = {lane: self.hit[kind, lane] + self.missed[kind, lane] for lane in LANES}
         if not all(ended.values()):
@@ -368,13 +373,13 @@ class Tunnelling(Scene):
         return InputFrame(frozenset((tap,)) if tap else frozenset())
 
     def state(self):
-        """Return the scene's own state for the digest: the counts. The worlds are hashed separately."""
+        """Return the scene's part of the state hash, a flat tuple: the counts. The worlds are hashed separately."""
         counts = (self.fired, self.due, self.hit, self.missed, self.false)
         return (self.frame, *self.values.values(), *(value for count in counts for value in count.values()))
 
 
 def middle(lane):
-    """Return the y of a lane's middle [canvas px]."""
+    """Return the y of a lane's centre line [canvas px]."""
     return LANE_TOP + LANES.index(lane) * LANE_HEIGHT + 9 + (LANE_HEIGHT - 12) / 2
 
 
@@ -384,7 +389,7 @@ def inside(lane):
 
 
 def rod_ends(pose):
-    """Return both ends of a rod's core, each as whole pixels (x, y). pose: (x, y, angle) of the rod."""
+    """Return both ends of a rod's core, each as integers (x, y) [px]. pose: (x, y, angle) of the rod [px, rad]."""
     x, y, angle = pose
     dx, dy = ROD_HALF * cos(angle), ROD_HALF * sin(angle)
     return (round(x - dx), round(y - dy)), (round(x + dx), round(y + dy))

@@ -1,4 +1,6 @@
-"""The background of the labs with piles (dusk sky, grass or a wooden table), and the height of all labs' title line."""
+"""The background of the labs with piles (dusk sky, grass or a wooden table), and the height of every lab's
+title line.
+"""
 
 import pygame
 
@@ -14,7 +16,7 @@ class Yard:
     """A background picture of the canvas's size, drawn once when the object is made.
 
     ground: canvas y of the floor, or a tuple of several; dim: darkening of the sky (0..255); table: whether the floor
-    is of boards instead of grass.
+    is made of boards (True) or grass.
     """
 
     def __init__(self, ground, dim=40, table=False):
@@ -30,13 +32,16 @@ class Yard:
 
 
 def plate(canvas, rect, ground=(20, 16, 32, 205)):
-    """Draw a dark, transparent plate for text, which overlays do not cover. ground: its colour (r, g, b, alpha)."""
+    """Draw a dark, transparent rectangle as the background of text. Overlays do not cover it.
+
+    rect: canvas rectangle; ground: colour (r, g, b, alpha) of the plate.
+    """
     darken(canvas, rect, ground)
     canvas.fix(rect)
 
 
 def darken(canvas, rect, ground=(20, 16, 32, 205)):
-    """Darken a rectangle of the canvas. ground: the transparent colour laid over it (r, g, b, alpha)."""
+    """Draw a transparent colour over a rectangle of the canvas. ground: this colour (r, g, b, alpha)."""
     shade = pygame.Surface(pygame.Rect(rect).size, pygame.SRCALPHA)
     shade.fill(ground)
     canvas.surface.blit(shade, rect[:2])

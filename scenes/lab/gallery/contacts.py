@@ -26,7 +26,10 @@ SUBSTEPS, SHARE = 4, 0.2  # of the simulated wheel; the share of Box2D Lite
 
 
 def build_gates(side, speed=GATE_SPEED):
-    """Build three gates and a crate under each. speed: speed of the gates [px/s]. side: see page.Side."""
+    """Build three gates and a crate under each.
+
+    speed: speed of the gates [px/s]; side: one of the page's two worlds (page.Side).
+    """
     floor(side.world)
     side.kept.update(chance=np.random.default_rng(4), speed=speed, gates=[], crates=[])
     for number, (x, offset) in enumerate(zip(GATES, OFFSETS, strict=True)):
@@ -38,10 +41,10 @@ def build_gates(side, speed=GATE_SPEED):
 
 
 def move_gates(side):
-    """Set the velocities of the gates, which sink onto the crates and rise again, once per round of ROUND steps.
+    """Set the velocities of the gates, which sink onto the crates and rise again once in each round of ROUND steps.
 
-    At the start of a round everything returns to its place, with a random shift of the gates. So the gates meet the
-    crates at another time within a step in each round. side: see page.Side.
+    At the start of a round, the gates and crates return to their starting positions. A random shift of the gates varies
+    the time within a step at which they meet the crates. side: one of the page's two worlds (page.Side).
     """
     step, speed = side.steps % ROUND, side.kept["speed"]
     if step == 0:
@@ -59,9 +62,10 @@ def move_gates(side):
 
 
 def step_crates(side):
-    """Step the crates with a naive solver, which removes the whole overlap in one step by a velocity that they keep.
+    """Step the crates with a naive solver.
 
-    side: see page.Side.
+    It removes the whole overlap in one step by a velocity, which the crates keep afterwards. side: one of the page's
+    two worlds (page.Side).
     """
     step_naively(side, side.kept["crates"], 1, 1.0)
 
@@ -69,7 +73,7 @@ def step_crates(side):
 def thrown(side):
     """Return the speed of the fastest crate [px/s], and mark crates that are faster than the limit.
 
-    side: see page.Side.
+    side: one of the page's two worlds (page.Side).
     """
     speeds = [hypot(*crate.velocity) for crate in side.kept["crates"]]
     for crate, speed in zip(side.kept["crates"], speeds, strict=True):
@@ -79,10 +83,10 @@ def thrown(side):
 
 
 def build_bowl(side, radius=20.0, turn=0.7):
-    """Build a bowl, a chain of 240 links, and a disc at rest on its inside.
+    """Build a bowl, a chain of 240 links, and a disc at rest on the inside of the bowl.
 
-    radius: radius of the disc [px]; turn: its place on the half circle, 0 (right end) .. 1 (left end). side: see
-    page.Side.
+    radius: radius of the disc [px]; turn: position of the disc on the half circle, from 0 (right end) to 1 (left end);
+    side: one of the page's two worlds (page.Side).
     """
     corners = [(RIM * cos(at), RIM * sin(at)) for at in np.linspace(pi, 0.0, LINKS + 1)]
     side.world.add_body(Chain(corners), kind="static")
@@ -92,9 +96,9 @@ def build_bowl(side, radius=20.0, turn=0.7):
 
 
 def build_wheel(side, angle=1.3):
-    """Build a wheel with a heavy part off its middle, rotated by `angle` [rad] from its equilibrium.
+    """Build a wheel with a heavy part beside its centre, rotated by `angle` [rad] from its equilibrium.
 
-    side: see page.Side.
+    side: one of the page's two worlds (page.Side).
     """
     floor(side.world)
     heavy = Circle(HEAVY, (0.0, OUT)).with_(material=Material(density=DENSE))
@@ -105,26 +109,26 @@ def build_wheel(side, angle=1.3):
 
 
 def step_wheel(side):
-    """Step the wheel with a naive solver.
+    """Step the wheel with a naive solver, which removes a fifth of an overlap per step and uses four substeps.
 
-    It removes a fifth of an overlap per step, and has four substeps like the other side.
+    side: one of the page's two worlds (page.Side).
     """
     step_naively(side, [side.kept["body"]], SUBSTEPS, SHARE)
 
 
 def begin_energy(side, body, bottom):
-    """Select the body whose energy is measured. bottom: greatest y [px] that its centre of mass can reach.
+    """Select the body whose energy is measured, and record its energy at the start.
 
-    side: see page.Side.
+    bottom: greatest y [px] that its centre of mass can reach; side: one of the page's two worlds (page.Side).
     """
     side.kept.update(body=body, bottom=bottom, way=0.0, share=1.0, most=0.0)
     side.kept["start"] = energy(side)
 
 
 def energy(side):
-    """Return the kinetic and potential energy of the measured body [mass px2/s2]; 0 at rest in its lowest place.
+    """Return the kinetic and potential energy of the measured body [mass px2/s2]; 0 at rest in its lowest position.
 
-    side: see page.Side.
+    side: one of the page's two worlds (page.Side).
     """
     row = side.world.bodies[side.world.rows([side.kept["body"].id])[0]]
     moving = row["mass"] * (row["vx"] ** 2 + row["vy"] ** 2) + row["inertia"] * row["angular_velocity"] ** 2
@@ -135,7 +139,7 @@ def energy(side):
 def share(side):
     """Return the energy of the measured body divided by its energy at the start.
 
-    Also mark the place where the body turns back. side: see page.Side.
+    If the body reverses its direction, mark its position. side: one of the page's two worlds (page.Side).
     """
     kept = side.kept
     kept["share"] = energy(side) / kept["start"]
@@ -148,9 +152,9 @@ def share(side):
 
 
 def changed(side):
-    """Return how much the energy of the measured body differs from that at the start, up or down [%].
+    """Return the difference between the measured body's energy and its energy at the start, as a positive percentage.
 
-    side: see page.Side.
+    side: one of the page's two worlds (page.Side).
     """
     return 100.0 * abs(share(side) - 1.0)
 
@@ -158,21 +162,25 @@ def changed(side):
 def gained(side):
     """Return the energy that the measured body has gained since the start [%], 0 if it has lost energy.
 
-    side: see page.Side.
+    side: one of the page's two worlds (page.Side).
     """
     return 100.0 * max(0.0, share(side) - 1.0)
 
 
 def energy_text(side):
-    """Return the measured body's energy now and its greatest energy so far as text, as shares of that at the start.
+    """Return a text with the measured body's current energy and its greatest energy so far, as shares of the first
+    energy.
 
-    side: see page.Side.
+    side: one of the page's two worlds (page.Side).
     """
     return f"energy {100.0 * side.kept['share']:.1f} %, most {100.0 * side.kept['most']:.1f} %"
 
 
 def limit_text(side):
-    """Return the three speeds whose sum is the limit of the page "gate", as text. side: see page.Side."""
+    """Return the three speeds whose sum is the limit of the page "gate", as text.
+
+    side: one of the page's two worlds (page.Side).
+    """
     return f"gate {GATE_SPEED:.0f}, push-out {PUSH_OUT:.0f}, fall {FALL:.0f}"
 
 

@@ -1,4 +1,4 @@
-"""Gallery pages about extremes: bodies at one point, an overfull room, great distance, a wrong scale, sleep.
+"""Gallery pages about extreme cases: bodies at one point, an overfull room, great distance, a wrong scale, sleep.
 
 In all functions, `side` is a Side: one of the page's two worlds while it runs.
 """
@@ -20,12 +20,12 @@ APEX = 0.8**2 * 2.0  # [m] first apex of a ball after a fall of two metres
 
 
 def build_point(side):
-    """Build the boxes of the page, all at (0, 0). side: see page.Side."""
+    """Build LIVE boxes, all at (0, 0). side: one of the page's two worlds (page.Side)."""
     fill_point(side.world, LIVE)
 
 
 def fill_point(world, count):
-    """Add `count` boxes to a world, all at (0, 0)."""
+    """Add `count` boxes of 8 px to a world, all with their centre at (0, 0)."""
     world.add_bodies(Polygon.box(8.0, 8.0), np.zeros((count, 2)))
 
 
@@ -39,7 +39,7 @@ def snapshot_of_thousand(settings):
 def fastest_move(side):
     """Return the greatest distance that a body moved in the last step, divided by the duration of the step [m/s].
 
-    side: see page.Side.
+    side: one of the page's two worlds (page.Side).
     """
     b = dynamic(side.world)
     way = np.hypot(b["x"] - b["previous_x"], b["y"] - b["previous_y"])
@@ -47,16 +47,20 @@ def fastest_move(side):
 
 
 def farthest_move(figures):
-    """Return the greatest distance that a body moved in a step of the page's larger case, as a speed [m/s].
+    """Return the greatest distance that a body moved in a step of the page "point" with a thousand boxes, as a speed
+    [m/s].
 
-    figures: RunFigures of that case, which runs in the measuring process.
+    figures: RunFigures of this case, which runs in the measuring process.
     """
     assert figures.farthest is not None  # set, because it was judged
     return figures.farthest * 60.0 / METER
 
 
 def build_crowd(side):
-    """Build 625 discs of 1 m diameter in a room with the area of 496 discs. side: see page.Side."""
+    """Build 625 discs of 1 m diameter in a room with the area of 496 discs.
+
+    side: one of the page's two worlds (page.Side).
+    """
     wide = CROWD * ROOM * METER
     for x, y, width, height in (
         (0.0, 0.5 * (wide + WALL), wide + 2.0 * WALL, WALL),
@@ -72,13 +76,19 @@ def build_crowd(side):
 
 
 def unrest(side):
-    """Return the root mean square of the speeds of all dynamic bodies [m/s]. side: see page.Side."""
+    """Return the root mean square of the speeds of all dynamic bodies [m/s].
+
+    side: one of the page's two worlds (page.Side).
+    """
     b = dynamic(side.world)
     return float(np.sqrt((b["vx"] ** 2 + b["vy"] ** 2).mean())) / METER
 
 
 def build_pyramid(side, origin):
-    """Build a pyramid of eight rows of crates. origin: x and y of the middle of its base [px]. side: see page.Side."""
+    """Build a pyramid of eight rows of crates on a static floor.
+
+    origin: x and y of the centre of the pyramid's base [px]; side: one of the page's two worlds (page.Side).
+    """
     floor_at = (origin, origin + 2.0 * METER)
     side.world.add_body(Polygon.box(100.0 * METER, 4.0 * METER), position=floor_at, kind="static")
     places = [
@@ -91,9 +101,9 @@ def build_pyramid(side, origin):
 
 
 def apart(side):
-    """Return the greatest difference between the page's two worlds in the position of the same body, along x or y [mm].
+    """Return the greatest difference between a body's positions in the page's two worlds, along x or y [mm].
 
-    Positions count from the origin of each world's pyramid. side: see page.Side.
+    Positions count from the origin of each world's pyramid. side: one of the page's two worlds (page.Side).
     """
     b, other = dynamic(side.world), dynamic(side.other.world)
     shift = side.kept["origin"] - side.other.kept["origin"]
@@ -101,7 +111,10 @@ def apart(side):
 
 
 def build_metres(side):
-    """Build a world with lengths in metres: a ball of 0.5 m diameter, 2 m above the floor. side: see page.Side."""
+    """Build a world with lengths in metres: a floor, and a ball of 0.5 m diameter 2 m above it.
+
+    side: one of the page's two worlds (page.Side).
+    """
     material = Material(restitution=0.8)
     shape = Polygon.box(40.0, 4.0)
     side.world.add_body(shape, position=(0.0, 2.0), kind="static", material=material)
@@ -110,9 +123,10 @@ def build_metres(side):
 
 
 def low(side):
-    """Return the error of the ball's first apex after the bounce, as a share of the ideal height [%].
+    """Return the difference between the ball's first apex after the bounce and the ideal height, as a share of the
+    latter [%].
 
-    It is 0 until the ball has come to that apex. side: see page.Side.
+    It is 0 while the ball falls and rises. side: one of the page's two worlds (page.Side).
     """
     ball, kept = side.kept["ball"], side.kept
     kept["fell"] |= ball.velocity[1] <= 0.0 and side.steps > 5
@@ -124,7 +138,7 @@ def low(side):
 
 
 def build_piles(side):
-    """Build twelve columns of ten crates at rest. side: see page.Side."""
+    """Build twelve columns of ten crates at rest. side: one of the page's two worlds (page.Side)."""
     floor(side.world)
     places = [
         ((column - (PILES - 1) / 2) * 2.0 * METER, -(row + 0.5) * METER)
@@ -137,7 +151,7 @@ def build_piles(side):
 def moved(side):
     """Return the number of bodies that the last step integrated. Sleeping bodies are not integrated.
 
-    side: see page.Side.
+    side: one of the page's two worlds (page.Side).
     """
     return float(side.world.profile.counters["bodies_integrated"])
 

@@ -32,14 +32,15 @@ GROWTH = 0.4  # [planks] of the load per step
 
 
 def along(distance, angle, x=0.0, y=0.0):
-    """Return the point at a distance [px] from (x, y), at an angle clockwise from the right."""
+    """Return the point (x, y) at `distance` [px] from the point (x, y), at `angle` [rad] clockwise from the right."""
     return x + distance * cos(angle), y + distance * sin(angle)
 
 
 def rod(side, start, end, thick):
-    """Add a box from one point (x, y) [px] to another, and return its body, which collides with no other body.
+    """Add a box that reaches from `start` (x, y) to `end` (x, y) [px], and return its body, which collides with no
+    other body.
 
-    thick: its thickness [px]. side: see page.Side.
+    thick: thickness of the box [px]; side: one of the page's two worlds (page.Side).
     """
     (ax, ay), (bx, by) = start, end
     shape, middle = Polygon.box(dist(start, end), thick), ((ax + bx) / 2, (ay + by) / 2)
@@ -47,10 +48,11 @@ def rod(side, start, end, thick):
 
 
 def build_row(side, kind, count, thick, angle):
-    """Build a straight row of rods of 1 m that joints hold to the world and to one another. Return the last rod's body.
+    """Build a straight row of rods of 1 m, and return the last rod's body.
 
-    kind: kind of the joints; count: number of rods; thick: their thickness [px]; angle: angle of the row, clockwise
-    from the right [rad]. side: see page.Side.
+    A joint connects the first rod to the world, and each other rod to the rod before it. kind: class of the joints;
+    count: number of rods; thick: their thickness [px]; angle: angle of the row, clockwise from the right [rad]; side:
+    one of the page's two worlds (page.Side).
     """
     last: Any = None
     for k in range(count):
@@ -62,9 +64,9 @@ def build_row(side, kind, count, thick, angle):
 
 
 def build_chain(side, angle=0.0, ratio=RATIO):
-    """Build a straight chain of 12 links, and at its end a ball of a thousand times a link's mass.
+    """Build a straight chain of 12 links, and at its end a ball that is `ratio` times as heavy as a link.
 
-    angle: of the chain, clockwise from the right [rad]; ratio: mass of the ball [links]. side: see page.Side.
+    angle: direction of the chain, clockwise from the right [rad]; side: one of the page's two worlds (page.Side).
     """
     last = build_row(side, Revolute, LINKS, LINK, angle)
     at = along(LINKS * METER, angle)
@@ -73,36 +75,42 @@ def build_chain(side, angle=0.0, ratio=RATIO):
 
 
 def gap(side):
-    """Return the widest gap between the two anchors of a joint [mm]. side: see page.Side."""
+    """Return the widest gap between the two anchors of a joint [mm]. side: one of the page's two worlds (page.Side)."""
     return MM * widest_gap(side.world)
 
 
 def build_cantilever(side, angle=0.0):
-    """Build eight beams of 1 m, welded to the world and to one another.
+    """Build a cantilever of eight beams of 1 m, welded to the world and to one another.
 
-    angle: of the cantilever, clockwise from the right [rad]. side: see page.Side.
+    angle: direction of the cantilever, clockwise from the right [rad]; side: one of the page's two worlds (page.Side).
     """
     last = build_row(side, Weld, BEAMS, BEAM, angle)
     side.kept.update(last=last, tip=along(BEAMS * METER, angle))
 
 
 def sag(side):
-    """Return the distance of the cantilever's tip from its place [mm]. side: see page.Side."""
+    """Return the distance between the cantilever's tip and its starting position [mm].
+
+    side: one of the page's two worlds (page.Side).
+    """
     off = MM * dist(side.kept["last"].to_world((METER / 2, 0.0)), side.kept["tip"])
     return round(off, DIGITS)
 
 
 def build_doll(side, speed=RUSH):
-    """Build the stairs and the doll of lab/joints. speed: of the doll [px/s]. side: see page.Side."""
+    """Build the stairs and the doll of lab/joints.
+
+    speed: speed of the doll to the right [px/s]; side: one of the page's two worlds (page.Side).
+    """
     doll = side.kept["doll"] = Doll(side.world)
     for part in doll.parts.values():
         part.velocity = (speed, 0.0)
 
 
 def gap_of_doll(side):
-    """Return the widest gap of the doll's joints [mm], and mark the widest one if it is beyond the limit.
+    """Return the widest gap of the doll's joints [mm]. If it is beyond the limit, mark that joint.
 
-    side: see page.Side.
+    side: one of the page's two worlds (page.Side).
     """
     doll = side.kept["doll"]
     doll.note()
@@ -114,15 +122,20 @@ def gap_of_doll(side):
 
 
 def limits_text(side):
-    """Return the greatest angle of a hinge beyond its limits so far as text. side: see page.Side."""
+    """Return as text the greatest angle by which a hinge has exceeded its limits so far.
+
+    side: one of the page's two worlds (page.Side).
+    """
     return f"limits exceeded by {degrees(side.kept['doll'].excess):.1f} deg"
 
 
 def hanging(load):
-    """Return (angles of the planks of the left half [rad], pull of the ends) of the bridge at rest under a load.
+    """Return (angles, pull) of the bridge at rest under a load, by statics.
 
-    load: in the middle [weights of a plank]; the pull has that unit, too. By statics: a plank points along the mean of
-    the forces at its two ends, whose horizontal part is the same everywhere. It is found by bisection, for the span.
+    load: weight of the load in the middle [weights of a plank]; angles: angles of the planks of the left half [rad];
+    pull: force on the bridge's ends, in the unit of the load. A plank points along the mean of the forces at its two
+    ends. The horizontal part of these forces is the same in all planks. Bisection finds the horizontal part for which
+    the bridge spans the gap.
     """
     upright = 0.5 * (PLANKS + load) - np.arange(PLANKS // 2) - 0.5  # mean of the vertical forces at a plank's ends
     low, high = 0.0, 100.0 * (PLANKS + load)
@@ -134,9 +147,10 @@ def hanging(load):
 
 
 def build_bridge(side, strongest=STRONGEST):
-    """Build a bridge of planks with an iron ball in its middle, in the pose in which rigid planks hang.
+    """Build a bridge of planks with an iron ball at its centre, in the pose in which rigid planks hang.
 
-    strongest: the load that breaks it by statics [weights of a plank]. side: see page.Side.
+    strongest: load at which the bridge breaks by statics [weights of a plank]; side: one of the page's two worlds
+    (page.Side).
     """
     turns, _ = hanging(BALL)
     place, places = (-SPAN / 2, 0.0), [(-SPAN / 2, 0.0)]
@@ -158,11 +172,9 @@ def build_bridge(side, strongest=STRONGEST):
 
 
 def load_bridge(side):
-    """Increase the load on the bridge for one step, unless the bridge is broken.
+    """Increase the load on the bridge by GROWTH for this step, unless the bridge is broken.
 
-    The load is the ball and a force on it.
-
-    side: see page.Side.
+    The load consists of the ball's weight and a force on the ball. side: one of the page's two worlds (page.Side).
     """
     kept = side.kept
     kept["broken"] |= len(side.world.events.broken) > 0
@@ -172,9 +184,10 @@ def load_bridge(side):
 
 
 def off_the_load(side):
-    """Return the error of the load at which the bridge breaks [% of the load by statics].
+    """Return the error of the load at which the bridge breaks, as a percentage of the breaking load by statics.
 
-    It is 0 while the bridge holds a load below that, and the excess while it holds more. side: see page.Side.
+    While the bridge holds, it is the excess over the breaking load, or 0 below it. side: one of the page's two worlds
+    (page.Side).
     """
     kept = side.kept
     excess = 100.0 * (kept["load"] / kept["strongest"] - 1.0)
@@ -183,7 +196,10 @@ def off_the_load(side):
 
 
 def load_text(side):
-    """Return the load of the bridge, held or broken, as text. side: see page.Side."""
+    """Return as text the load that the bridge holds, or the load at which it broke.
+
+    side: one of the page's two worlds (page.Side).
+    """
     words = "broke at" if side.kept["broken"] else "holds"
     return f"{words} {side.kept['load']:.0f} planks' weight"
 

@@ -19,9 +19,9 @@ SEEN = Effects()
 
 
 def disc(radius, hole=0.0):
-    """Return the PixelMask of a disc or ring with its origin in the middle.
+    """Return the PixelMask of a disc or ring with its origin at its centre.
 
-    radius [px]; hole: inner radius [px] of a ring, 0 for a full disc.
+    radius: outer radius [px]; hole: inner radius [px] of a ring, 0 for a full disc.
     """
     side = int(2 * radius)
     y, x = np.mgrid[0:side, 0:side] + 0.5 - radius
@@ -30,9 +30,10 @@ def disc(radius, hole=0.0):
 
 
 def build_rings(side, tier):
-    """Build rings, and a ball for each. tier: collision tier of both, as for physics.fit; "mask" for exact pixels.
+    """Build eight static rings, and a kinematic ball in each.
 
-    side: see page.Side.
+    tier: collision tier of rings and balls, as for physics.fit; "mask" for exact pixels. side: one of the page's two
+    worlds (page.Side).
     """
     ring, ball = (disc(OUTER, INNER), disc(BALL))
     if tier != "mask":
@@ -44,7 +45,10 @@ def build_rings(side, tier):
 
 
 def swing(side):
-    """Move each ball through its ring's hole, over its rim and back. side: see page.Side."""
+    """Move each ball through the hole of its ring, over the ring's rim and back.
+
+    side: one of the page's two worlds (page.Side).
+    """
     for number, ((x, y), (_, ball)) in enumerate(zip(RINGS, side.kept["balls"], strict=True)):
         at = 0.031 * side.steps + 0.7 * number
         far = 17.0 + 17.0 * sin(1.7 * at)
@@ -52,10 +56,10 @@ def swing(side):
 
 
 def wrong(side):
-    """Return the share of all answers so far ("touching" or "apart") that geometry contradicts [%].
+    """Return the percentage of wrong answers ("touching" or "apart") among all answers of the engine so far.
 
-    By geometry, ring and ball touch if their middles are 6 to 30 px apart. Distances near these limits are not counted.
-    side: see page.Side.
+    By geometry, ring and ball touch if their centres are 6 to 30 px apart. Distances near these limits are not counted.
+    side: one of the page's two worlds (page.Side).
     """
     met = {frozenset(pair) for pair in side.world.contacts[["body_a", "body_b"]].tolist()}
     for ring, ball in side.kept["balls"]:
@@ -68,9 +72,10 @@ def wrong(side):
 
 
 def build_squares(side, snap):
-    """Build pairs of square pixel masks of 32 px. snap: whether masks are tested at whole pixels (see PixelMask).
+    """Build pairs of square pixel masks of 32 px.
 
-    side: see page.Side.
+    snap: whether masks are tested at integer pixel positions (see PixelMask); side: one of the page's two worlds
+    (page.Side).
     """
     square = PixelMask.from_array(np.ones((SIZE, SIZE), bool), snap=snap)
     side.kept.update(judged=0, missed=0, chance=np.random.default_rng(7), pairs=[])
@@ -80,9 +85,9 @@ def build_squares(side, snap):
 
 
 def scatter(side):
-    """Move the second square of each pair to a random position, not in whole pixels, where it overlaps the first.
+    """Move the second square of each pair to a random, fractional position at which it overlaps the first.
 
-    side: see page.Side.
+    side: one of the page's two worlds (page.Side).
     """
     offsets = side.kept["chance"].uniform(-SIZE, SIZE, (len(SQUARES), 2))
     for (x, y), (_, other), (dx, dy) in zip(SQUARES, side.kept["pairs"], offsets.tolist(), strict=True):
@@ -90,7 +95,10 @@ def scatter(side):
 
 
 def missed(side):
-    """Return the share of all overlaps so far that the engine did not report [%]. side: see page.Side."""
+    """Return the share of all overlaps so far that the engine did not report [%].
+
+    side: one of the page's two worlds (page.Side).
+    """
     side.kept["judged"] += len(SQUARES)
     side.kept["missed"] += len(SQUARES) - len(side.world.contacts)
     return 100.0 * side.kept["missed"] / side.kept["judged"]

@@ -33,7 +33,7 @@ SETTLED = 60  # steps after which a box has settled
 
 
 def build_ball(side):
-    """Build a ball above a floor, both with restitution 1. side: see page.Side."""
+    """Build a ball above a floor, both with restitution 1. side: one of the page's two worlds (page.Side)."""
     elastic = Material(restitution=1.0)
     floor(side.world, material=elastic)
     side.kept["ball"] = side.world.add_body(Circle(BALL), position=(0.0, -BALL - DROP), material=elastic)
@@ -41,10 +41,12 @@ def build_ball(side):
 
 
 def apex(side):
-    """Return the error of the bouncing ball's apex relative to the height of its first fall [%].
+    """Return the difference between the bouncing ball's apex and the height of its first fall, as a percentage of that
+    height.
 
     It is 0 in a step without an apex. The apex is that of the parabola through the heights of three steps. Only the
-    first seventeen apexes are measured. If apexes are missing, the error is 100 %. side: see page.Side.
+    first seventeen apexes are measured. If apexes are missing, the error is 100 %. side: one of the page's two worlds
+    (page.Side).
     """
     kept, found = side.kept, 0.0
     kept["heights"] = [*kept["heights"][-2:], -BALL - side.kept["ball"].position[1]]
@@ -59,19 +61,19 @@ def apex(side):
 
 
 def blows():
-    """Return a list of (offset, speed, further) of 24 glancing collisions.
+    """Return a list of (offset, speed, further), one for each of 24 glancing collisions.
 
-    offset: distance of the resting disc from the other's path [diameters]; speed: speed of the other disc [px/s];
-    further: extra distance of that disc at the start [px], random within one step's motion.
+    offset: distance of the resting disc from the path of the moving disc [diameters]; speed: speed of the moving disc
+    [px/s]; further: random extra distance of the moving disc at the start [px], at most its motion in one step.
     """
     chance = np.random.default_rng(5)
     return [(0.1 + 0.8 * k / 7, v, float(chance.uniform()) * v / 60) for v in SPEEDS for k in range(8)]
 
 
 def build_discs(side):
-    """Build pairs of frictionless discs. In each pair, one disc flies at a resting one and meets it off its middle.
+    """Build pairs of frictionless discs. In each pair, a moving disc hits a resting disc off-centre.
 
-    side: see page.Side.
+    side: one of the page's two worlds (page.Side).
     """
     side.kept["pairs"] = []
     for number, (offset, speed, further) in enumerate(blows()):
@@ -84,9 +86,10 @@ def build_discs(side):
 
 
 def glance(side):
-    """Return the greatest error of a flying disc's velocity after its collision [% of its initial speed].
+    """Return the greatest error of a moving disc's velocity after its collision [% of its initial speed].
 
-    The exact velocity follows from the line of centres at the first touch. side: see page.Side.
+    The exact velocity follows from the line of centres at the first touch. side: one of the page's two worlds
+    (page.Side).
     """
     worst = 0.0
     for disc, offset, speed in side.kept["pairs"]:
@@ -100,7 +103,8 @@ def glance(side):
 def build_slope(side, share):
     """Build a box on a slope of 30 degrees.
 
-    share: friction between box and slope, divided by the least friction that holds the box; side: see page.Side.
+    share: friction between box and slope, divided by the least friction that holds the box; side: one of the page's two
+    worlds (page.Side).
     """
     material = Material(friction=share * tan(SLOPE))
     c, s = cos(SLOPE), sin(SLOPE)
@@ -112,7 +116,10 @@ def build_slope(side, share):
 
 
 def creep(side):
-    """Return how far the box has moved since the end of the first second [mm]. side: see page.Side."""
+    """Return the distance that the box has moved since the end of the first second [mm].
+
+    side: one of the page's two worlds (page.Side).
+    """
     x, y = side.kept["box"].position
     if side.steps == SETTLED:
         side.kept["at"] = x, y
@@ -122,7 +129,10 @@ def creep(side):
 
 
 def pieces(ground):
-    """Return the pieces of level ground at y = 0, a list of (x [px], shape). ground: "grids", "boxes" or "chains"."""
+    """Return the pieces of level ground with its surface at y = 0, a list of (x [px], shape).
+
+    ground: kind of the pieces, "grids", "boxes" or "chains".
+    """
     half, long = TILES // 2, 4
     return {
         "grids": [(TILE * half * k, TileGrid(np.ones((1, half), bool), TILE)) for k in range(2)],
@@ -132,9 +142,9 @@ def pieces(ground):
 
 
 def build_seams(side, speeds=SLIDING):
-    """Build three lanes of level ground in pieces, with four sliders on each. speeds: sliders' speed by lane [px/s].
+    """Build three lanes of level ground in pieces, with four sliding bodies on each.
 
-    side: see page.Side.
+    speeds: speed of the sliding bodies in each lane [px/s]; side: one of the page's two worlds (page.Side).
     """
     smooth = Material(friction=0.0)
     side.kept.update(chance=np.random.default_rng(6), speeds=speeds, sliders=[], lost=0.0, hop=0.0)
@@ -149,9 +159,9 @@ def build_seams(side, speeds=SLIDING):
 
 
 def slide(side):
-    """Move the sliders back to their starts every LAP steps, each shifted at random by part of a step's motion.
+    """Every LAP steps, move the sliding bodies back to their starts, shifted at random by at most one step's motion.
 
-    side: see page.Side.
+    side: one of the page's two worlds (page.Side).
     """
     if side.steps % LAP == 0:
         side.kept["tripped"] = set()
@@ -161,9 +171,10 @@ def slide(side):
 
 
 def slowed(side):
-    """Return the greatest change of a slider's horizontal speed [% of its speed at the start].
+    """Return the greatest change of a sliding body's horizontal speed [% of its speed at the start].
 
-    Also mark the places where a slider trips, and record the greatest height of a hop. side: see page.Side.
+    Also mark each position at which a body has lost more than TRIPPED, and record the greatest height of a hop. side:
+    one of the page's two worlds (page.Side).
     """
     kept, worst = side.kept, 0.0
     for slider, (_, y), speed in kept["sliders"]:
@@ -176,7 +187,10 @@ def slowed(side):
 
 
 def hop_text(side):
-    """Return the height of the sliders' highest hop as text. side: see page.Side."""
+    """Return as text the greatest height to which a sliding body has hopped.
+
+    side: one of the page's two worlds (page.Side).
+    """
     return f"hops of {side.kept['hop']:.2f} px at most"
 
 

@@ -1,4 +1,4 @@
-"""Pages of the gallery. A page is a hard case that runs in two worlds, with a naive method and with the engine's.
+"""Pages of the gallery. A page is a hard case that runs in two worlds: one uses a naive method, one the engine's.
 
 A Way is the setup of one of the two worlds, and a Side is that world while it runs. Lengths are in pixels, 32 to the
 metre. Each page has functions that build its bodies, move them, and read its error in a unit that the page names.
@@ -23,9 +23,9 @@ WORST, LAST = "worst", "last"  # error of a run that is compared with the limit
 class Way:
     """The setup of one of a page's two worlds.
 
-    world: keyword arguments of World; bodies: keyword arguments for the page's own functions; without: names of effects
-    that are off; step: function that steps the Side in place of World.step(), for methods that the engine lacks;
-    joint_solver: of the world.
+    name: text on the screen; world: keyword arguments of World; bodies: keyword arguments for the page's own
+    functions; without: names of effects that are off; step: function that steps the Side in place of World.step(), for
+    methods that the engine lacks; joint_solver: the world's solver of joints.
     """
 
     name: str
@@ -39,7 +39,7 @@ class Way:
 def auto(accuracy):
     """Return a Way in which the world chooses its number of substeps (substeps="auto").
 
-    accuracy: sag of contacts [mm] that the choice must not exceed; it is kept as long as 32 substeps suffice.
+    accuracy: greatest sag of a contact [mm] that the world accepts, as long as 32 substeps suffice.
     """
     name = f'substeps="auto", to {accuracy} mm'
     return Way(name, {"substeps": "auto", "accuracy": accuracy / MM})
@@ -69,8 +69,8 @@ class Larger:
 class Page:
     """A page of the gallery: a hard case for a physics engine, run in a naive world and in the engine's world.
 
-    Expected: the error in the naive world exceeds `limit`, the error in the engine's world does not. On a page with
-    `alike`, neither error may exceed the limit.
+    Expected: the error in the naive world exceeds `limit`, and the error in the engine's world does not. If `alike` is
+    True, neither error may exceed the limit.
     """
 
     name: str
@@ -98,7 +98,7 @@ class Side:
     """One of a page's two worlds while it runs, with its error so far.
 
     other: Side of the page's other world; kept: data that the page's functions keep between steps; marks: list of (x
-    [px], y [px], good, step) that are drawn for a while.
+    [px], y [px], good, step) that are drawn for MARKED steps.
     """
 
     def __init__(self, page: Page, way: Way, world: World):
@@ -116,7 +116,7 @@ class Side:
         self.page.build(self)
 
     def step(self):
-        """Make one step. measure() reads the error later, after both worlds have been stepped."""
+        """Make one step of this side's world. measure() reads the error after both worlds have been stepped."""
         if self.page.act is not None:
             self.page.act(self)
         if self.way.step is None:
@@ -126,7 +126,7 @@ class Side:
         self.steps += 1
 
     def mark(self, place, good):
-        """Mark a place (x, y) [px] as a good or bad result, and remove old marks."""
+        """Mark the position `place` (x, y) [px] as a good or bad result, and remove old marks."""
         self.marks = [each for each in self.marks if self.steps - each[3] < MARKED]
         self.marks.append((*place, good, self.steps))
 
@@ -137,7 +137,7 @@ class Side:
 
     @property
     def error(self):
-        """Error that is compared with the page's limit: the worst so far, or the last one, as Page.judged says."""
+        """Error that is compared with the page's limit: the greatest or the last error, according to Page.judged."""
         return self.worst if self.page.judged == WORST else self.now
 
     @property
@@ -153,9 +153,9 @@ def dynamic(world):
 
 
 def floor(world, half=100.0 * METER, **options):
-    """Add a thick static floor with its surface at y = 0, and return its body.
+    """Add a thick static floor with its surface at y = 0 to a world, and return its body.
 
-    half: half of its width [px]; options: further arguments of World.add_body.
+    half: half of the floor's width [px]; options: further arguments of World.add_body.
     """
     shape = Polygon.box(2.0 * half, FLOOR_DEPTH)
     return world.add_body(shape, position=(0.0, FLOOR_DEPTH / 2), kind="static", **options)

@@ -27,7 +27,10 @@ CARD = (0.02 * METER, 1.0 * METER)  # half thickness and half height
 
 
 def build_column(side):
-    """Build a column of 80 crates, each shifted sideways at random by up to 2 cm. side: see page.Side."""
+    """Build a column of 80 crates, each shifted sideways at random by up to 2 cm.
+
+    side: one of the page's two worlds (page.Side).
+    """
     floor(side.world)
     aside = np.random.default_rng(1).uniform(-ASKEW, ASKEW, CRATES)
     side.world.add_bodies(CRATE, np.column_stack([aside, -(np.arange(CRATES) + 0.5) * METER]))
@@ -35,21 +38,27 @@ def build_column(side):
 
 
 def sway(side):
-    """Return the greatest horizontal distance of a body from its start [mm]. side: see page.Side."""
+    """Return the greatest horizontal distance of a body from its starting position [mm].
+
+    side: one of the page's two worlds (page.Side).
+    """
     return MM * float(np.abs(dynamic(side.world)["x"] - side.kept["x"]).max())
 
 
 def build_heavy(side):
-    """Build a crate, and on it a crate of a thousand times its mass. side: see page.Side."""
+    """Build a crate, and on top of it a crate of a thousand times its mass.
+
+    side: one of the page's two worlds (page.Side).
+    """
     floor(side.world)
     side.world.add_body(CRATE, position=(0.0, -0.5 * METER))
     side.world.add_body(CRATE, position=(0.0, -1.5 * METER), material=Material(density=1000.0))
 
 
 def build_huge(side):
-    """Build a crate of 16 m on two crates of half a metre, and a third crate of half a metre on top of it.
+    """Build a crate of 16 m on two crates of half a metre, and a crate of half a metre on top of the large one.
 
-    side: see page.Side.
+    side: one of the page's two worlds (page.Side).
     """
     floor(side.world)
     tiny, top = Polygon.box(TINY, TINY), -TINY - HUGE
@@ -61,19 +70,25 @@ def build_huge(side):
 
 
 def sunk(side):
-    """Return how far the large crate is from its height on rigid crates [mm]. side: see page.Side."""
+    """Return the distance between the large crate and its height on rigid crates [mm].
+
+    side: one of the page's two worlds (page.Side).
+    """
     return MM * abs(side.kept["load"].position[1] - side.kept["y"])
 
 
 def overlap(side):
-    """Return the depth of the deepest contact in the world [mm]. side: see page.Side."""
+    """Return the depth of the deepest contact in the world [mm]; 0 without overlap.
+
+    side: one of the page's two worlds (page.Side).
+    """
     return MM * deepest(side.world)
 
 
 def build_leaning(side):
-    """Build ten crates, each shifted by 8 cm to the right of the one below. With 10 cm the tower would fall.
+    """Build a tower of ten crates, each shifted by 8 cm to the right of the one below it.
 
-    side: see page.Side.
+    With a shift of 10 cm the tower would fall. side: one of the page's two worlds (page.Side).
     """
     floor(side.world)
     rows = np.arange(10)
@@ -84,7 +99,7 @@ def build_leaning(side):
 def build_struck(side):
     """Build a pyramid of ten rows without its top, and above it a crate of 300 times the mass.
 
-    The heavy crate falls three metres onto the pyramid. side: see page.Side.
+    The heavy crate falls three metres onto the pyramid. side: one of the page's two worlds (page.Side).
     """
     floor(side.world)
     places = [
@@ -97,7 +112,10 @@ def build_struck(side):
 
 
 def build_load(side):
-    """Build two crates, and one of a thousand times their mass on them. side: see page.Side."""
+    """Build a column of two crates, with a load on top: a crate of a thousand times their mass.
+
+    side: one of the page's two worlds (page.Side).
+    """
     floor(side.world)
     side.world.add_body(CRATE, position=(0.0, -0.5 * METER))
     side.kept["top"] = side.world.add_body(CRATE, position=(0.0, -1.5 * METER))
@@ -105,9 +123,10 @@ def build_load(side):
 
 
 def take_away(side):
-    """Remove the load in step GONE. If this side runs FORCES_KEPT, move the load far away by writing its x instead.
+    """Remove the load before step GONE.
 
-    In that case the other contacts keep their impulses of the last step ("forces kept").
+    If this side is FORCES_KEPT, the load is moved far away by writing its x instead. Then the other contacts keep
+    their impulses of the last step.
     """
     if side.steps != GONE:
         return
@@ -120,9 +139,9 @@ def take_away(side):
 
 
 def rise(side):
-    """Return how far the upper crate is above its starting place since the load was taken away [mm].
+    """Return the height of the upper crate above its starting position since the load was removed [mm].
 
-    side: see page.Side.
+    It is 0 before that. side: one of the page's two worlds (page.Side).
     """
     return MM * max(0.0, -1.5 * METER - side.kept["top"].position[1]) if side.steps > GONE else 0.0
 
@@ -131,7 +150,7 @@ def build_cards(side):
     """Build a house of cards with four storeys. A card is 4 cm x 2 m.
 
     Two cards that lean on each other, at 25 degrees, make a pair. One card lies across every two neighbouring pairs.
-    side: see page.Side.
+    side: one of the page's two worlds (page.Side).
     """
     floor(side.world, material=Material(friction=0.7))
     thick, high = CARD

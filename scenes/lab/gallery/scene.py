@@ -48,7 +48,7 @@ DUE = TOURED + sum(page.steps for page in PAGES) + 2400  # frames after which th
 
 
 class Gallery(Scene):
-    """Scene that runs the open page of the gallery: two sides with a world each, stepped in the same frame."""
+    """Scene that runs the selected page of the gallery: two sides with a world each, stepped in the same frame."""
 
     name = "lab/gallery"
     title = "Gallery"
@@ -81,13 +81,13 @@ class Gallery(Scene):
     legend_at = (6, 20)
 
     def build(self):
-        """Load the sky, and open the page."""
+        """Load the picture of the sky, and open the selected page."""
         self.sky = load_backdrop("sky_dusk")
         self.verdicts = {}  # page name -> (error of the naive way, of the other) when it was judged
         self.open()
 
     def open(self):
-        """Make both worlds of the open page anew, in the state in which the page starts."""
+        """Replace both worlds by new ones, in the state in which the selected page starts."""
         page = self.page
         self.worlds, self.sides = [], []
         for way in (page.naive, page.ours):
@@ -113,11 +113,11 @@ class Gallery(Scene):
 
     @property
     def page(self):
-        """The Page that is open."""
+        """The selected Page."""
         return PAGES[int(self.values["page"])]
 
     def change_slider(self, name, value):
-        """Set the slider "page", and open that page from its start."""
+        """Set the slider "page", and open the selected page from its start."""
         super().change_slider(name, value)
         self.open()
 
@@ -137,12 +137,12 @@ class Gallery(Scene):
             self.verdicts[self.page.name] = tuple(side.error for side in self.sides)
 
     def observe(self):
-        """Record the duration of both sides' last step, for the figures under the pictures."""
+        """Record the time of both sides' last step, for the figures under the pictures."""
         for cost, side in zip(self.costs, self.sides, strict=True):
             cost.note(step_seconds(side.world) * 1e6)
 
     def measured(self):
-        """Return the runs that the measuring process times: those of the page's larger case, or None if it has none."""
+        """Return a RunRequest for the runs of the page's larger case, or None if the page has no larger case."""
         if self.page.larger is None:
             return None
         return RunRequest([self._run_name(side) for side in self.sides], self._make)
@@ -157,7 +157,9 @@ class Gallery(Scene):
         return MeasuredRun([made], self.broadphase, STEPS_OF_LARGER, judged=(1, larger.steps))
 
     def larger(self, side):
-        """Return (error, RunFigures) of the larger case of a side (see page.Larger), or None until it has run."""
+        """Return (error, RunFigures) of a side in the page's larger case (see page.Larger), or None until
+        it has run.
+        """
         figures = self.figures.get(self._run_name(side))
         if self.page.larger is None or figures is None:
             return None
@@ -168,7 +170,7 @@ class Gallery(Scene):
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Draw both worlds, a plate with figures under each, and the page's lines of text."""
+        """Draw both worlds, the figures under each world, and the page's lines of text."""
         canvas.surface.fill(NIGHT)
         for index, camera in enumerate(self.cameras):
             view = camera.viewport
@@ -201,14 +203,14 @@ class Gallery(Scene):
             canvas.text(f"{page.larger.name}: {sentence}", x + 2, 229, PAPER, SMALL)
 
     def draw_on_frame(self, frame):
-        """Draw tiny shapes and marks, and the plot of both errors against the limit."""
+        """Draw the shapes and marks that need window resolution, and the plots of both errors with the limit."""
         for index, look in enumerate(self.looks):
             look.draw_on_frame(frame)
             self._draw_marks(frame, index)
             self._draw_errors(frame, index)
 
     def _draw_marks(self, frame, index):
-        """Draw the marks of good and bad results on the picture of side number `index`."""
+        """Draw the marks of good (green) and bad (red) results on the picture of side number `index`."""
         side, lens = self.sides[index], frame.lens(self.cameras[index])
         frame.surface.set_clip(lens.clip)
         for x, y, good, step in side.marks:
@@ -243,10 +245,10 @@ class Gallery(Scene):
         frame.fix(rect)
 
     def check(self):
-        """Return the scene's goals, one for each page.
+        """Return the scene's goals, a list with one Goal for each page.
 
-        The naive world's error exceeds the limit, and that of the engine's world does not. On pages with `alike`,
-        neither exceeds it.
+        The naive world's error exceeds the limit, and the error of the engine's world does not. On pages with `alike`,
+        neither error exceeds it.
         """
         return [
             Goal(
@@ -265,14 +267,16 @@ class Gallery(Scene):
         return f"{amount(naive)} and {amount(ours)} {page.unit}, limit {amount(page.limit)}"
 
     def headline(self):
-        """Return the sentence and the number of the title line, a Headline."""
+        """Return the Headline: the sentence and the number in the scene's title line."""
         page, naive = self.page, self.sides[0]
         sentence = f"{page.title}: {naive.way.name} at the left."
         mend = f"left right: page {int(self.values['page']) + 1} of {len(PAGES)}"
         return Headline(sentence, mend, amount(naive.error), page.unit, naive.steps, ENOUGH, "steps", naive.holds)
 
     def finding(self):
-        """Return a sentence with both errors on this page so far, and the number of pages with the expected result."""
+        """Return a sentence with both errors on this page so far, and the number of pages that had the expected
+        result.
+        """
         naive, ours = self.sides
         if not naive.steps:
             return "not yet: the page has to be stepped"
@@ -289,7 +293,7 @@ class Gallery(Scene):
     def bot(self):
         """Return the bot's input for the next step.
 
-        The bot opens each page for a moment; then it opens them again and stays on each until its result is known.
+        The bot first opens each page for a few frames. Then it opens each page again until its result is known.
         """
         if self.frame < TOURED:
             number = GLANCES.get(self.frame)
@@ -300,19 +304,21 @@ class Gallery(Scene):
         return InputFrame()
 
     def state(self):
-        """Return the scene's own state for the digest: the page, its errors and all verdicts."""
+        """Return the scene's part of the state hash, a flat tuple: the page, its errors and all verdicts."""
         sides = (value for side in self.sides for value in (side.steps, side.now, side.worst))
         verdicts = (value for pair in self.verdicts.values() for value in pair)
         return (self.frame, self.values["page"], *sides, *self.verdicts, *verdicts)
 
 
 def is_met(page, naive, ours):
-    """Return whether the errors of the naive world and of the engine's world, `naive` and `ours`, are as expected."""
+    """Return whether the errors of the naive world (`naive`) and of the engine's world (`ours`) are as the page
+    expects.
+    """
     return ours <= page.limit and (naive <= page.limit) == page.alike
 
 
 def amount(value):
-    """Return an error as short text with three significant digits, for example 0, 0.002, 18.2 or 50,314."""
+    """Return an error as short text with at most three decimals, for example "0", "5e-4", "18.2" or "50,314"."""
     if value == 0.0:
         return "0"
     if abs(value) < 0.001:

@@ -1,4 +1,4 @@
-"""A naive contact solver for the gallery: the world finds the contacts, and this module solves them per body."""
+"""A naive contact solver for the gallery: the world finds the contacts, and this module solves each body alone."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -19,11 +19,11 @@ class Motion(NamedTuple):
 
 @dataclass
 class Push:
-    """A contact of one body, as this solver sees it.
+    """A contact of one body, with the data that this solver needs.
 
-    normal: unit vector towards the body; arm: from its centre of mass to the contact [px]; other: velocity of the other
-    body [px/s]; speed: separation speed that the solver aims at [px/s]; along, across: accumulated impulses in normal
-    and tangential direction.
+    normal: unit vector towards the body; arm: vector from the body's centre of mass to the contact [px]; other:
+    velocity of the other body [px/s]; speed: separation speed that the solver aims at [px/s]; along, across:
+    accumulated impulses in normal and tangential direction.
     """
 
     normal: tuple[float, float]
@@ -35,11 +35,12 @@ class Push:
 
 
 def step_naively(side, bodies, substeps, share):
-    """Step a world by sequential impulses with Baumgarte stabilisation (Box2D Lite). Its own response is switched off.
+    """Step a world by sequential impulses with Baumgarte stabilisation (Box2D Lite). The world's own response is off.
 
     bodies: the dynamic bodies, each solved alone against static and kinematic bodies; share: part of the overlap that a
     step removes, by a velocity that the body keeps. All substeps use the moment arms of the start of the step. The kept
-    velocity and the old moment arms are the two errors that the gallery shows. side: see page.Side.
+    velocity and the old moment arms are the two errors that the gallery shows. side: one of the page's two worlds
+    (page.Side).
     """
     world, gravity = side.world, side.other.world.gravity
     ends = [solved_step(world, body, gravity, substeps, share) for body in bodies]
@@ -51,7 +52,8 @@ def step_naively(side, bodies, substeps, share):
 def solved_step(world, body, gravity, substeps, share):
     """Solve the contacts of a body for one step, and return its Motion at the end of the step.
 
-    The body gets the mean velocity over the substeps, by which the world then moves it. share: as in step_naively().
+    The body gets the mean velocity over the substeps, with which the world then moves it. gravity: (x, y) [px/s2];
+    share: as in step_naively().
     """
     row = world.bodies[world.rows([body.id])[0]]
     pushes = pushes_on(world, body, row, share)
@@ -112,9 +114,10 @@ def solved(motion, push, inverse):
 
 
 def impulse(motion, push, axis, wanted, inverse):
-    """Return (impulse, moment arm [px]) that gives the contact `push` the relative speed `wanted` [px/s] along an axis.
+    """Return (impulse, moment arm [px]): the impulse after which the contact `push` has a given relative speed along
+    an axis.
 
-    motion: current Motion of the body; axis: unit vector; inverse: (1 / mass, 1 / inertia).
+    wanted: this speed [px/s]; motion: current Motion of the body; axis: unit vector; inverse: (1 / mass, 1 / inertia).
     """
     (rx, ry), (x, y) = push.arm, axis
     arm = rx * y - ry * x
@@ -123,9 +126,10 @@ def impulse(motion, push, axis, wanted, inverse):
 
 
 def struck(motion, axis, arm, amount, inverse):
-    """Return the Motion of a body after an impulse. amount: its size along the unit vector `axis`; arm: its arm [px].
+    """Return the Motion of a body after an impulse.
 
-    inverse: (1 / mass, 1 / inertia).
+    amount: size of the impulse; axis: its direction, a unit vector; arm: its moment arm [px]; inverse: (1 / mass, 1 /
+    inertia).
     """
     x, y = axis
     return Motion(

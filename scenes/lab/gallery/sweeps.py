@@ -22,21 +22,25 @@ PUSHED = Effects(response=True, stacking=True, continuous=True)
 
 
 def chance(side):
-    """Return the random generator of a side, seeded alike for both sides, so that both get the same numbers."""
+    """Return the NumPy random generator of a side. Both sides have the same seed, so that they get the same numbers.
+
+    side: one of the page's two worlds (page.Side).
+    """
     return side.kept.setdefault("chance", np.random.default_rng(3))
 
 
 def build_wall(side):
-    """Reset the counts, and build one thin wall across all lanes. side: see page.Side."""
+    """Reset the counts, and build one thin wall across all lanes. side: one of the page's two worlds (page.Side)."""
     side.kept.update(fired=0, through=0, flying={})
     height = LANES * LANE + 20.0
     side.world.add_body(Polygon.box(WALL, height), position=(0.0, 0.0), kind="static")
 
 
 def shoot(side):
-    """Shoot a ball at the wall every EVERY steps; count and remove the balls that have been stopped or have passed.
+    """Shoot a ball at the wall every EVERY steps. Count and remove the balls that have been stopped or have passed.
 
-    The start varies by the path of a step, so that impacts occur at any time within a step. side: see page.Side.
+    The start varies by the distance of one step, so that impacts occur at any time within a step. side: one of the
+    page's two worlds (page.Side).
     """
     for identity in list(side.kept["flying"]):
         body = side.world.body(identity)
@@ -56,9 +60,9 @@ def shoot(side):
 
 
 def count(side, place, missed):
-    """Count a shot that has ended at `place` (x, y) [px]. missed: whether it missed a body that it had to meet.
+    """Count a shot that has ended at the position `place` (x, y) [px], and mark this position.
 
-    side: see page.Side.
+    missed: whether the shot missed a body that it had to hit; side: one of the page's two worlds (page.Side).
     """
     side.kept["fired"] += 1
     side.kept["through"] += missed
@@ -66,17 +70,17 @@ def count(side, place, missed):
 
 
 def through(side):
-    """Return the share of shots that missed a body that they had to meet, of all shots that have ended [%].
+    """Return the percentage of missed shots among all shots that have ended.
 
-    side: see page.Side.
+    A missed shot is one that did not hit a body that it had to hit. side: one of the page's two worlds (page.Side).
     """
     return 100.0 * side.kept["through"] / max(1, side.kept["fired"])
 
 
 def build_rods(side):
-    """Reset the counts, and build the pegs. The rods, which spin() adds later, must strike the pegs with their ends.
+    """Reset the counts, and build the pegs, which the ends of the rods must strike. spin() adds the rods.
 
-    side: see page.Side.
+    side: one of the page's two worlds (page.Side).
     """
     side.kept.update(fired=0, through=0, flying={}, met=set())
     for lane in range(6):
@@ -85,14 +89,14 @@ def build_rods(side):
 
 
 def rod_place(lane):
-    """Return the middle (x, y) [px] of the rod in lane number `lane`."""
+    """Return the centre (x, y) [px] of the rod in lane number `lane`."""
     return (lane % 3 - 1) * 64.0, (lane // 3 - 0.5) * 64.0
 
 
 def spin(side):
     """Replace all rods every TURN steps, and count those that missed their pegs.
 
-    New rods have random angles and rotate in place. side: see page.Side.
+    The new rods have random angles and rotate about their centres. side: one of the page's two worlds (page.Side).
     """
     side.kept["met"] |= {int(row[name]) for row in side.world.events.begin for name in ("body_a", "body_b")}
     if side.steps % TURN == 0:
@@ -114,14 +118,14 @@ def spin(side):
 
 
 def build_bullets(side):
-    """Reset the counts. duel() adds the bullets. side: see page.Side."""
+    """Reset the counts. duel() adds the bullets. side: one of the page's two worlds (page.Side)."""
     side.kept.update(fired=0, through=0, flying={})
 
 
 def duel(side):
     """Shoot two bullets at each other every EVERY steps, and count the pairs that met or missed.
 
-    side: see page.Side.
+    side: one of the page's two worlds (page.Side).
     """
     for one, other in list(side.kept["flying"].items()):
         a, b = side.world.body(one), side.world.body(other)
@@ -143,7 +147,7 @@ def duel(side):
 
 
 def build_beam(side):
-    """Reset the counts, and build a sensor one pixel wide. side: see page.Side."""
+    """Reset the counts, and build a sensor one pixel wide. side: one of the page's two worlds (page.Side)."""
     side.kept.update(fired=0, through=0, flying={}, met=set())
     height = LANES * LANE + 20.0
     side.world.add_body(Polygon.box(1.0, height), kind="static", sensor=True, continuous=side.way.bodies["continuous"])
@@ -152,7 +156,7 @@ def build_beam(side):
 def cross(side):
     """Shoot a ball through the sensor every EVERY steps, and count the balls whose passage was not reported.
 
-    side: see page.Side.
+    side: one of the page's two worlds (page.Side).
     """
     side.kept["met"] |= {int(row[name]) for row in side.world.events.sensor_begin for name in ("body_a", "body_b")}
     for identity in list(side.kept["flying"]):

@@ -1,4 +1,4 @@
-"""A bridge of planks under an iron ball."""
+"""A bridge of planks with an iron ball on it, one of the machines of lab/joints."""
 
 from itertools import pairwise
 from math import atan2, cos, pi, sin
@@ -21,7 +21,7 @@ DROP = 150.0  # [px/s] speed of the ball that smash() adds
 
 
 class Bridge(Machine):
-    """Planks on hinges between two banks. The iron ball on them has the mass of a hundred planks."""
+    """Planks on hinges between two banks, with an iron ball on them that has the mass of a hundred planks."""
 
     name = "bridge"
     seen = "A ball of a hundred planks' mass rolls on planks."
@@ -49,13 +49,15 @@ class Bridge(Machine):
         self.lowest = DECK - RADIUS
 
     def control(self):
-        """Push the ball to and fro, with a force of at most a tenth of its weight."""
+        """Push the ball alternately right and left, with a force of at most a tenth of its weight, while the machine
+        runs.
+        """
         if self.running:
             way = sin(2 * pi * self.steps / PERIOD)
             self.ball.apply_force((PUSH * self.weight * GRAVITY * way, 0.0))
 
     def smash(self):
-        """Weaken the pins in the middle of the bridge, and drop a ball of ten times the mass on them."""
+        """Weaken the pins in the middle of the bridge, and drop a second ball of ten times the mass on them."""
         self.disturbed = True
         for pin in self.weak:
             if self.holds(pin):
@@ -64,24 +66,28 @@ class Bridge(Machine):
             self.second = self.add(Circle(RADIUS + 6), 0.0, -180.0, GOLDEN, mass=10 * self.weight, velocity=(0.0, DROP))
 
     def measure(self):
-        """Record the lowest place of the ball."""
+        """Record the lowest position of the ball."""
         self.lowest = max(self.lowest, self.ball.position.y)
 
     def figure(self):
-        """Return the sag under the ball as text."""
+        """Return the depth of the ball's lowest position below the bridge's ends as text."""
         return f"sag {self.lowest + RADIUS - DECK:.0f} px"
 
     def figures(self):
-        """Return (y of the lowest place of the ball [px],)."""
+        """Return (y,): the y of the ball's lowest position [px]."""
         return (self.lowest,)
 
     def handle(self):
-        """Return the place of a plank."""
+        """Return the centre (x, y) [px] of the plank at which the bot drags the bridge."""
         return tuple(self.planks[3].center)
 
     @classmethod
     def goals(cls, iterative, direct):
-        """Return the goals: exact pins hold the ball, iterative ones come apart, and the heavier ball breaks some."""
+        """Return the machine's goals, a list of (text, whether it is met, measured value as text).
+
+        Exact pins hold the ball, iterative pins come apart, and the heavier ball breaks pins. iterative, direct:
+        results (widest gap [px], broken joints, *figures()) with each joint solver, or None.
+        """
         gaps = (0.0 if each is None else each[0] for each in (iterative, direct))
         loose, tight = gaps
         broken = 0 if direct is None else direct[1]

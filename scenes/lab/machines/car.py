@@ -1,4 +1,4 @@
-"""A car with a trailer, and a hill."""
+"""A car with a trailer, and a hill, one of the machines of lab/joints."""
 
 from math import radians, tan
 
@@ -44,14 +44,17 @@ class Car(Machine):
         return self.world.add_joint(Wheel(frame, wheel, at=(x, -RADIUS), spring=SUSPENSION, limits=(-6, 6)))
 
     def drive(self):
-        """Drive in the present direction, or brake. The torque of a wheel gives twice the car's weight at its rim."""
+        """Drive in the current direction, or brake if the machine does not run.
+
+        The torque of a wheel gives a force of twice the car's weight at its rim.
+        """
         torque = 2.0 * self.mass * GRAVITY * RADIUS
         for axle in self.axles:
             if self.holds(axle):
                 axle.motor = Drive(self.way * SPEED if self.running else 0.0, max=torque)
 
     def control(self):
-        """Turn back at both ends."""
+        """Reverse the direction when the car reaches one of the two ends of its route."""
         x = self.chassis.center.x
         if (x > TURN_AT and self.way > 0) or (x < -TURN_AT + 56 and self.way < 0):
             self.way, self.crossed = -self.way, self.crossed + 1
@@ -62,20 +65,24 @@ class Car(Machine):
         self.highest = max(self.highest, -self.chassis.center.y)
 
     def figure(self):
-        """Return the present height of the chassis, and the number of crossings, as text."""
+        """Return the current height of the chassis above its start, and the number of crossings, as text."""
         return f"up {max(0.0, -self.chassis.center.y - RADIUS - 9):.0f} px, crossed {self.crossed}x"
 
     def figures(self):
-        """Return (greatest height [px], crossings)."""
+        """Return (greatest height of the chassis [px], number of crossings of the hill)."""
         return self.highest, self.crossed
 
     def handle(self):
-        """Return the place of the chassis."""
+        """Return the centre (x, y) [px] of the chassis, at which the bot drags the car."""
         return tuple(self.chassis.center)
 
     @classmethod
     def goals(cls, iterative, direct):
-        """Return the goals: the car climbs the hill of 30 degrees, the axles hold, and the hitch breaks."""
+        """Return the machine's goals, a list of (text, whether it is met, measured value as text).
+
+        The car climbs the hill of 30 degrees, the axles hold, and the hitch breaks. iterative, direct: results (widest
+        gap [px], broken joints, *figures()) with each joint solver, or None.
+        """
         gap, broken, highest, _ = direct or (9.0, 0, 0.0, 0)
         return [
             ("it climbs 30 degrees", highest > HILL, f"{highest:.0f} of {HILL:.0f} px"),

@@ -1,4 +1,4 @@
-"""A crane: a trolley on a rail, a chain, and a heavy claw that holds a crate."""
+"""A crane: a trolley on a rail, a chain, and a heavy claw that holds a crate; one of the machines of lab/joints."""
 
 from physics import Drive, Polygon, Prismatic, Revolute, Weld
 from scenes.lab.machines.machine import GRAVITY, STEEL, TEAL, VIOLET, WOOD, Machine
@@ -13,7 +13,7 @@ GRIP = 60.0  # times the crate's weight: breaking force of the claw's hold
 
 
 class Crane(Machine):
-    """A grapple on a chain under a trolley. Claw and crate have the mass of a hundred and twenty links."""
+    """A grapple on a chain under a trolley. Claw and crate together have the mass of 120 links."""
 
     name = "crane"
     seen = "A grapple on a chain: its load has 120 links' mass."
@@ -41,24 +41,24 @@ class Crane(Machine):
         self.way, self.load, self.carried = 1, 2.0 * weight + 4000.0, 0.0
 
     def drive(self):
-        """Drive the trolley in its present direction, or brake it."""
+        """Drive the trolley in its current direction, or brake it if the machine does not run."""
         speed = self.way * SPEED if self.running else 0.0
         self.slide.motor = Drive(speed, max=PULL * self.load * GRAVITY)
 
     def control(self):
-        """Turn back at both ends of the rail."""
+        """Reverse the trolley's direction when it reaches an end of its route on the rail."""
         x = self.trolley.center.x
         if x * self.way > ROOM:
             self.way = -self.way
             self.drive()
 
     def measure(self):
-        """Add up the distance [px] over which the claw has carried the crate."""
+        """Add the crate's horizontal motion in this step to the distance [px] over which the claw has carried it."""
         if not self.broken:
             self.carried += abs(self.crate.velocity.x) * self.world.dt
 
     def figure(self):
-        """Return the distance of the carried crate, or that the claw let go, as text."""
+        """Return the distance over which the crate was carried, or "let go" if the claw has lost it, as text."""
         return "let go" if self.broken else f"carried {self.carried:.0f} px"
 
     def figures(self):
@@ -66,11 +66,11 @@ class Crane(Machine):
         return (self.carried,)
 
     def handle(self):
-        """Return the place of the crate."""
+        """Return the centre (x, y) [px] of the crate, at which the bot drags the crane."""
         return tuple(self.crate.center)
 
     def draw_behind(self, canvas, camera, alpha):
-        """Draw the rail."""
+        """Draw the trolley's rail."""
         x, y = camera.to_canvas(-240.0, RAIL, alpha)
         surface = canvas.surface
         for dy, color in (
@@ -84,7 +84,11 @@ class Crane(Machine):
 
     @classmethod
     def goals(cls, iterative, direct):
-        """Return the goals: exact pins hold the load, iterative ones come apart, and the claw lets go."""
+        """Return the machine's goals, a list of (text, whether it is met, measured value as text).
+
+        Exact pins hold the load, iterative pins come apart, and the claw loses the crate. iterative, direct: results
+        (widest gap [px], broken joints, *figures()) with each joint solver, or None.
+        """
         tight, broken, carried = direct or (9.0, 0, 0.0)
         loose = 0.0 if iterative is None else iterative[0]
         return [

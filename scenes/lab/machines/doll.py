@@ -1,4 +1,4 @@
-"""A doll with limits at its joints, which tumbles down stairs."""
+"""A doll with limits at its joints, which tumbles down stairs; one of the machines of lab/joints."""
 
 from math import degrees
 
@@ -60,7 +60,7 @@ class Doll(Machine):
         self.excess = 0.0
 
     def drive(self):
-        """Set the motors that swing the limbs to and fro."""
+        """Set the motors that swing the limbs to and fro, or switch them off if the machine does not run."""
         for number, joint in enumerate(self.limbs):
             if self.holds(joint):
                 way = 1 if (self.steps // KICK_EVERY + number // 4) % 2 else -1
@@ -72,7 +72,7 @@ class Doll(Machine):
             self.drive()
 
     def measure(self):
-        """Record the greatest angle beyond a limit, until the doll is dragged or broken."""
+        """Record the greatest angle by which a joint has exceeded its limits, until the doll is dragged or broken."""
         rows = self.world.joints
         rows = rows[rows["coordinate"] == 1]
         over = np.maximum(rows["lower"] - rows["angle"], rows["angle"] - rows["upper"])
@@ -80,20 +80,24 @@ class Doll(Machine):
             self.excess = max(self.excess, float(over.max(initial=0.0)))
 
     def figure(self):
-        """Return the greatest angle beyond a limit as text."""
+        """Return as text the greatest angle by which a joint has exceeded its limits."""
         return f"{degrees(self.excess):.2f} deg over limits"
 
     def figures(self):
-        """Return (greatest angle beyond a limit [rad],)."""
+        """Return (angle,): the greatest angle by which a joint has exceeded its limits [rad]."""
         return (self.excess,)
 
     def handle(self):
-        """Return the place of the torso."""
+        """Return the centre (x, y) [px] of the torso, at which the bot drags the doll."""
         return tuple(self.parts["torso"].center)
 
     @classmethod
     def goals(cls, iterative, direct):
-        """Return the goals: limits and pins hold on the way down the stairs, and the head comes off."""
+        """Return the machine's goals, a list of (text, whether it is met, measured value as text).
+
+        Limits and pins hold on the way down the stairs, and head and arms come off. iterative, direct: results (widest
+        gap [px], broken joints, *figures()) with each joint solver, or None.
+        """
         gap, broken, excess = direct or (9.0, 0, 9.0)
         return [
             ("limits hold to six degrees", degrees(excess) < 6.0, f"{degrees(excess):.3f} deg"),

@@ -14,9 +14,11 @@ STEEP = 0.75  # of an edge's normal that must point up for grass on it
 
 
 def earth_picture(shape, place):
-    """Return (picture, (left, top)) of a static polygon on the canvas.
+    """Return (picture, (left, top)): a Surface with a static polygon's earth and grass, and its position on the
+    canvas.
 
-    place: (x, y) of its body on the canvas. The earth's tiles start at the canvas's corner, so that neighbours match.
+    place: (x, y) of the polygon's body on the canvas. The earth's tiles are aligned to the canvas's corner, so that
+    the pictures of neighbouring polygons match.
     """
     points = placed(shape, 1.0, (*place, 0.0))
     left, top = int(min(x for x, _ in points)) - 2, int(min(y for _, y in points)) - 4

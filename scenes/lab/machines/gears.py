@@ -1,4 +1,4 @@
-"""A train of gears that lifts a rack with a load."""
+"""A train of gears that lifts a rack with a load, one of the machines of lab/joints."""
 
 from math import atan2, cos, hypot, pi, sin
 
@@ -55,7 +55,7 @@ class Gears(Machine):
         self.phases = self._meshed()
 
     def _meshed(self):
-        """Return the angle of a tooth of each gear in its body's space, so that the teeth mesh."""
+        """Return a list with the angle of one tooth of each gear in its body's space [rad], so that the teeth mesh."""
         phases = [0.0]
         for k in (1, 2):
             (ax, ay), (bx, by) = self.places[k - 1], self.places[k]
@@ -66,12 +66,14 @@ class Gears(Machine):
         return phases
 
     def drive(self):
-        """Turn the small gear, with a torque that lifts twice the load, or hold it."""
+        """Turn the small gear with a torque of at most twice what the load needs, or hold it if the machine does not
+        run.
+        """
         load = (self.rack.mass + self.crate.mass) * GRAVITY * RADII[0]
         self.axles[0].motor = Drive(self.way * SPEED if self.running else 0.0, max=2.0 * load)
 
     def control(self):
-        """Turn back when the rack is at the end of its way."""
+        """Reverse the motor when the rack reaches an end of its range."""
         rise = self.rail.translation
         way = -1 if rise > ROOM else 1 if rise < -ROOM else self.way
         # The last of three gears rotates in the direction of the first, and lowers the rack by rotating to the right.
@@ -80,7 +82,10 @@ class Gears(Machine):
             self.drive()
 
     def measure(self):
-        """Add up the angle turned, and record the greatest error of a ratio, until a joint is dragged or broken."""
+        """Add the angle of this step to the angle turned, and record the greatest error of a gear ratio.
+
+        The error is recorded until a joint is dragged or broken.
+        """
         self.turned += abs(self.axles[0].speed) * self.world.dt
         if not self.broken and not self.disturbed:
             ratios = (RADII[1] / RADII[0], RADII[2] / RADII[1])
@@ -88,20 +93,22 @@ class Gears(Machine):
             self.off = max(self.off, *(abs(a.angle + ratio * b.angle) for a, b, ratio in pairs))
 
     def figure(self):
-        """Return the error of the ratios as text."""
+        """Return the error of the gear ratios as text."""
         return f"ratios off by {self.error:.0e}".replace("e-0", "e-")
 
     @property
     def error(self):
-        """Greatest error of a ratio, as a share of the angle turned; 0 before anything turned."""
+        """Greatest error of a gear ratio, as a share of the angle turned; 0 before any gear has turned."""
         return self.off / self.turned if self.turned > 0.0 else 0.0
 
     def figures(self):
-        """Return (greatest error of a ratio, angle turned [rad])."""
+        """Return (greatest error of a gear ratio as a share of the angle turned, angle turned by the first gear
+        [rad]).
+        """
         return self.error, self.turned
 
     def handle(self):
-        """Return the place of the crate."""
+        """Return the centre (x, y) [px] of the crate, at which the bot drags the machine."""
         return tuple(self.crate.center)
 
     def draw(self, canvas, camera, alpha):
@@ -126,7 +133,11 @@ class Gears(Machine):
 
     @classmethod
     def goals(cls, iterative, direct):
-        """Return the goals: the gears turn and keep their ratios, and the teeth break."""
+        """Return the machine's goals, a list of (text, whether it is met, measured value as text).
+
+        The gears turn and keep their ratios, and a gear joint breaks. iterative, direct: results (widest gap [px],
+        broken joints, *figures()) with each joint solver, or None.
+        """
         _, broken, error, turned = direct or (9.0, 0, 9.0, 0.0)
         return [
             ("gears keep their ratio to 1e-3", turned > 6.0 and error < SURE, f"{error:.1e} over {turned:.0f} rad"),
@@ -135,14 +146,15 @@ class Gears(Machine):
 
 
 def count_of(radius):
-    """Return the number of teeth of a gear of a radius [px]."""
+    """Return the number of teeth of a gear with this pitch radius [px]."""
     return round(radius / PITCH)
 
 
 def draw_gear(surface, middle, radius, turn, ramp):
     """Draw a gear: a disc with teeth, a hub and spokes.
 
-    middle: (x, y) on the surface; turn: angle of a tooth [rad]; ramp: rim, inside, dithered inside and mark.
+    middle: centre (x, y) on the surface; radius: pitch radius [px]; turn: angle of a tooth [rad]; ramp: colours of
+    rim, inside, dithered inside and mark.
     """
     rim, inside, dark, mark = ramp
     pitch = 2 * pi / count_of(radius)

@@ -1,4 +1,4 @@
-"""Machine: base class of the machines of lab/joints, one of which is built in a world on a floor.
+"""Machine: base class of the machines of lab/joints. A machine is built on a floor in a world of its own.
 
 The floor is at y = 0, and the view reaches from x = -240 to 240 and up to y = -194. Lengths are in pixels, 32 to the
 metre.
@@ -30,8 +30,8 @@ class Machine:
     """A machine of bodies and joints in a world.
 
     paints: {body id: name of its colours}; broken: number of joints that have broken; worst: greatest separation of a
-    joint [px] before anything was dragged or broken; recent: greatest separation in the last step [px]; steps: steps
-    so far.
+    joint [px] before any joint was dragged or broken; recent: greatest separation in the last step [px]; steps: number
+    of steps so far.
     """
 
     name: ClassVar[str]
@@ -54,48 +54,50 @@ class Machine:
             self.run(True)
 
     def build(self) -> None:
-        """Add the bodies and joints."""
+        """Add the machine's bodies and joints to its world."""
         raise TypeError(f"{type(self).__name__} must define build")
 
     def drive(self) -> None:
-        """Set the motors of `running`; called when it changes, and by control()."""
+        """Set the motors: on if `running` is True, otherwise off or braking. Called by run() and control()."""
 
     def control(self) -> None:
-        """Act before each step; most machines do nothing."""
+        """Apply forces or change motors before each step. Most machines do nothing."""
 
     def measure(self) -> None:
-        """Read the machine's own figures after each step; most machines have none."""
+        """Update the machine's own figures after each step. Most machines have none."""
 
     def figure(self) -> str:
-        """Return the machine's own figure as short text."""
+        """Return the machine's own figure as short text, or "" if it has none."""
         return ""
 
     def figures(self) -> Sequence[float]:
-        """Return the numbers that measure() keeps, for the state of the scene."""
+        """Return the numbers that measure() has recorded, for the state of the scene."""
         return ()
 
     @classmethod
     def goals(cls, iterative: Sequence[float] | None, direct: Sequence[float] | None) -> list[tuple[str, bool, str]]:
-        """Return (name, met, detail) of the machine's goals.
+        """Return the machine's goals, a list of (name, whether it is met, detail).
 
-        iterative, direct: (widest gap [px], joints broken, *figures()) under each tier, None before it has run.
+        iterative, direct: results (widest gap [px], joints broken, *figures()) with each joint solver, None before it
+        has run.
         """
         raise TypeError(f"{cls.__name__} must define goals")
 
     def handle(self) -> tuple[float, float]:
-        """Return the world point (x, y) [px] at which the bot grips the body that it drags."""
+        """Return the world point (x, y) [px] at which the bot drags the machine."""
         raise TypeError(f"{type(self).__name__} must define handle")
 
     def draw_behind(self, canvas: Canvas, camera: Camera, alpha: float) -> None:
-        """Draw on the canvas what is behind the bodies; most machines draw nothing."""
+        """Draw parts of the machine that are behind its bodies on the canvas. Most machines draw nothing."""
 
     def draw(self, canvas: Canvas, camera: Camera, alpha: float) -> None:
-        """Draw on the canvas what is before the bodies; most machines draw nothing."""
+        """Draw parts of the machine that are in front of its bodies on the canvas. Most machines draw nothing."""
 
     def draw_on_frame(self, frame: Frame, lens: Lens) -> None:
         """Draw the rods, ropes and pins at window resolution, at the poses of the last step.
 
-        A pin is a dot on an axle; where its anchors are apart by more than APART, a red line joins them.
+        A pin is a dot at each of a joint's two anchors. If the anchors are more than APART apart, a red line joins
+        them.
         """
         width = max(1, frame.scale - 1)
         rows = debug.joints(self.world)
@@ -117,12 +119,12 @@ class Machine:
                     pygame.draw.circle(frame.surface, RED if gap > APART else GOLD, place, 1.2 * frame.scale)
 
     def run(self, on: bool) -> None:
-        """Start or stop the motors."""
+        """Start the motors if `on` is True, otherwise stop them."""
         self.running = on
         self.drive()
 
     def smash(self) -> None:
-        """Lower the breaking force of the weak joints to almost nothing, so that they break under their load."""
+        """Lower the breaking force of the weak joints to WEAK, so that they break under their load."""
         self.disturbed = True
         for joint in self.weak:
             if self.holds(joint):
@@ -133,13 +135,16 @@ class Machine:
         return bool((self.world.joints["id"] == joint.id).any())
 
     def step(self) -> None:
-        """Make one step, and measure it."""
+        """Make one step of the machine's world, and measure it."""
         self.control()
         self.world.step()
         self.note()
 
     def note(self) -> None:
-        """Measure the last step. A caller that steps the world itself calls control() before, and this after it."""
+        """Measure the last step: count broken joints, and update the gaps and the machine's own figures.
+
+        A caller that steps the world itself calls control() before the step and note() after it.
+        """
         self.steps += 1
         self.broken += len(self.world.events.broken)
         self.recent = widest_gap(self.world)
@@ -148,7 +153,7 @@ class Machine:
         self.measure()
 
     def add_floor(self) -> None:
-        """Add the floor, and walls outside the view."""
+        """Add the floor, and two walls outside the view."""
         rough = Material(friction=0.9)
         floor = Polygon.box(4 * HALF, FLOOR_DEPTH)
         self.grounds.append(self.world.add_body(floor, position=(0, FLOOR_DEPTH / 2), kind="static", material=rough).id)
@@ -156,16 +161,19 @@ class Machine:
             self.fixed(Polygon.box(FLOOR_DEPTH, 3 * HIGH), side * (HALF + FLOOR_DEPTH / 2), -1.5 * HIGH + 20)
 
     def add(self, shape: Any, x: float, y: float, paint: str, **more: Any) -> Body:
-        """Add a body of a shape at (x, y) [px], painted in the colours `paint`, and return it.
+        """Add a body with a shape at (x, y) [px], drawn in the colours `paint`, and return it.
 
-        more: arguments of World.add_body.
+        more: further arguments of World.add_body.
         """
         body = self.world.add_body(shape, position=(x, y), **more)
         self.paints[body.id] = paint
         return body
 
     def fixed(self, shape: Any, x: float, y: float, **more: Any) -> Body:
-        """Add a static body at (x, y) [px], which is drawn as earth with grass on it, and return the body."""
+        """Add a static body with a shape at (x, y) [px], and return it. It is drawn as earth with grass on it.
+
+        more: further arguments of World.add_body.
+        """
         body = self.world.add_body(shape, position=(x, y), kind="static", **more)
         self.grounds.append(body.id)
         return body

@@ -1,4 +1,4 @@
-"""Theo Jansen's walker: a crank moves six legs of rods and plates."""
+"""Theo Jansen's walker: a crank moves six legs of rods and plates. It is one of the machines of lab/joints."""
 
 from math import atan2, cos, hypot, pi, sin
 
@@ -20,7 +20,10 @@ PLATES = (TEAL, VIOLET, CORAL)
 
 
 def circles(a, b, ra, rb, side):
-    """Return the point at the distance ra from a and rb from b. side: 1 or -1, its side of the line from a to b."""
+    """Return the intersection point of two circles: radius `ra` around `a`, radius `rb` around `b`.
+
+    side: 1 or -1, the side of the line from `a` to `b` on which the point is.
+    """
     dx, dy = b[0] - a[0], b[1] - a[1]
     far = hypot(dx, dy)
     along = (ra * ra - rb * rb + far * far) / (2.0 * far)
@@ -29,12 +32,15 @@ def circles(a, b, ra, rb, side):
 
 
 def apart(a, b):
-    """Return the distance of two points."""
+    """Return the distance between two points (x, y)."""
     return hypot(b[0] - a[0], b[1] - a[1])
 
 
 def pose_of(points, places):
-    """Return (x, y, angle) of a body whose first two points are at two places."""
+    """Return the pose (x, y, angle) of a body that places its first two points at two given positions.
+
+    points: two points (x, y) in the body's space; places: their two positions.
+    """
     (ax, ay), (bx, by) = points
     (px, py), (qx, qy) = places
     angle = atan2(qy - py, qx - px) - atan2(by - ay, bx - ax)
@@ -50,7 +56,7 @@ class Walker(Machine):
     breaks = "breaks a leg off"
 
     def build(self):
-        """Build the body, the crank, and the legs in the poses that their crank pins give."""
+        """Build the body, the crank, and the legs. The position of a leg's crank pin determines the leg's pose."""
         self.origin = (START, -HEIGHT * UNIT)
         body = Polygon.box(4.6 * UNIT, 1.8 * UNIT)
         self.chassis = self.add(body, *self.origin, STEEL, filter=LEGS, material=Material(density=1.0))
@@ -66,11 +72,14 @@ class Walker(Machine):
         self.tilt = 0.0
 
     def place(self, point):
-        """Return the world place of a point (x, y) [units] of the body, with y up."""
+        """Return the world position (x, y) [px] of a point (x, y) of the body, given in units of UNIT px with y up."""
         return self.origin[0] + UNIT * point[0], self.origin[1] - UNIT * point[1]
 
     def _leg(self, side, phase, paint):
-        """Add a leg on one side, with its crank pin at an angle `phase`."""
+        """Add a leg on one side of the body: -1 left, 1 right.
+
+        phase: angle of the leg's crank pin [rad]; paint: name of the colours of its plates.
+        """
         pin = AXLE[0] + CRANK * sin(phase), AXLE[1] - CRANK * cos(phase)
         plan = {n: (side * x, y) for n, (x, y) in
                 dict(knee=KNEE, hip=HIP, tie=TIE, foot=FOOT, top=TOP, side=SIDE).items()}  # fmt: skip
@@ -97,7 +106,8 @@ class Walker(Machine):
     def _plate(self, corners, pose, paint):
         """Add a triangular plate, and return its body.
 
-        corners: corners in the plan [units]; pose: (x, y, angle) of the plate in the plan [units, y up].
+        corners: corners of the plate in its own space [units, y up]; pose: (x, y, angle) of the plate relative to the
+        walker's body [units, y up]; paint: name of its colours.
         """
         x, y = self.place(pose[:2])
         shape = Polygon([(UNIT * cx, -UNIT * cy) for cx, cy in corners])
@@ -105,12 +115,15 @@ class Walker(Machine):
         return self.add(shape, x, y, paint, angle=-pose[2], filter=LEGS, material=material)
 
     def drive(self):
-        """Turn the crank, or hold it, with a torque that lifts 1.5 times the walker's weight at the crank's radius."""
+        """Turn the crank, or hold it if the machine does not run.
+
+        The torque can lift 1.5 times the walker's weight at the crank's radius.
+        """
         torque = 1.5 * self.mass * GRAVITY * CRANK * UNIT
         self.crank.motor = Drive(self.way * SPEED if self.running else 0.0, max=torque)
 
     def control(self):
-        """Walk back at both ends."""
+        """Reverse the walking direction when the walker reaches one of the two ends of its route."""
         if (self.chassis.center.x - 0.0) * self.heading > TURN_AT:
             self.way = -self.way
             self.drive()
@@ -121,7 +134,9 @@ class Walker(Machine):
         return WALKS * self.way
 
     def measure(self):
-        """Add up the way walked [px], and keep the greatest tilt of the body [rad]."""
+        """Add the walker's motion in this step to the distance walked [px], and record the body's greatest
+        tilt [rad].
+        """
         x = self.chassis.center.x
         if not self.disturbed:
             self.walked += (x - self.last) * self.heading
@@ -129,20 +144,24 @@ class Walker(Machine):
         self.last = x
 
     def figure(self):
-        """Return the way walked as text."""
+        """Return the distance walked as text."""
         return f"walked {self.walked:.0f} px"
 
     def figures(self):
-        """Return (way walked [px], greatest tilt [rad])."""
+        """Return (distance walked [px], greatest tilt of the body [rad])."""
         return self.walked, self.tilt
 
     def handle(self):
-        """Return the place of the walker's body."""
+        """Return the centre (x, y) [px] of the walker's body, at which the bot drags the walker."""
         return tuple(self.chassis.center)
 
     @classmethod
     def goals(cls, iterative, direct):
-        """Return the goals: the walker walks upright, its pins hold, and a leg breaks off."""
+        """Return the machine's goals, a list of (text, whether it is met, measured value as text).
+
+        The walker walks upright, its pins hold, and a leg breaks off. iterative, direct: results (widest gap [px],
+        broken joints, *figures()) with each joint solver, or None.
+        """
         gap, broken, walked, tilt = direct or (9.0, 0, 0.0, 9.0)
         return [
             ("the walker walks", walked > 60.0, f"{walked:.0f} px"),
@@ -156,6 +175,8 @@ WALKS = 1  # direction of its walk when the crank turns clockwise
 
 
 def moved(pose, point):
-    """Return a point of a plate in the plan, for the plate's pose (x, y, angle)."""
+    """Return a point of a plate, transformed by the plate's pose (x, y, angle): rotated by the angle, then
+    translated.
+    """
     x, y, angle = pose
     return x + cos(angle) * point[0] - sin(angle) * point[1], y + sin(angle) * point[0] + cos(angle) * point[1]
