@@ -1,13 +1,12 @@
-"""Fifteen balls, a cue ball and six pockets: does a break keep the momentum it was given?
+"""Fifteen balls, a cue ball and six pockets: does a break keep the total momentum?
 
-In short: until a ball meets a cushion, all momenta together equal that of the cue ball. The error is shown at the
-right.
+In short: until a ball meets a cushion, the total momentum equals the cue ball's. The error is shown at the right.
 
 What to see: the table is seen from above, so there is no gravity, only the drag of the cloth. Until a ball meets a
 cushion, the total momentum of all balls equals that of the cue ball, in size and direction. No collision of two balls
 adds energy. Pockets are sensors: they push nothing and report each ball.
 
-Why it matters: Billiard games depend on the break; a solver that loses momentum there makes every table dull.
+Why it matters: Billiard games depend on the break; a solver must not lose momentum there.
 
 To try: break with the cue from other sides, and read the error of the momentum before the first cushion.
 
@@ -240,7 +239,7 @@ class Billiards(Scene):
             bodies["vx"] = bodies["vy"] = 0.0
 
     def draw(self, canvas, alpha):
-        """Draw the table, the balls, the cue and the score."""
+        """Draw the table, the balls, the cue and the score. alpha: position (0..1) between the last two steps."""
         canvas.surface.fill((30, 24, 46))
         canvas.surface.blit(self.table, TABLE)
         for identity in self.ball_names:
@@ -349,7 +348,8 @@ class Billiards(Scene):
     def finding(self):
         """Return a sentence with the greatest error of momentum and the greatest gain of energy.
 
-        The momentum is measured until a ball meets a cushion. The gain of energy is that of collisions of two balls.
+        The momentum is measured until a ball meets a cushion. The gain of energy is measured in collisions of two
+        balls.
         """
         if not self.compared:
             return "not yet: a ball has to be hit and to run a step before it meets a cushion"

@@ -1,4 +1,4 @@
-"""Four broad phases on the same bodies: do they find the same pairs, and what does each pay for it?
+"""Four broad phases on the same bodies: do they find the same pairs, and what does each cost?
 
 In short: all four report the same pairs. Which one is cheapest depends on the layout; brute force tests every pair.
 
@@ -170,7 +170,8 @@ class Broadphases(Scene):
     def draw(self, canvas, alpha):
         """Draw the heading and background of each view, and the bodies as dots.
 
-        draw_on_frame() and the overlays draw the curves and structures at window resolution.
+        draw_on_frame() and the overlays draw the curves and structures at window resolution. alpha: position (0..1)
+        between the last two steps.
         """
         canvas.surface.fill(NIGHT)
         for name, world, camera in zip(STRATEGIES, self.worlds, self.cameras, strict=True):

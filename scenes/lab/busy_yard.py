@@ -127,7 +127,7 @@ class BusyYard:
         self.rock = self.world.add_body(mask, position=(x, y), kind="static", material=GRIP).id
 
     def beside(self, world):
-        """Return a copy of this BusyYard whose bodies are those of another World.
+        """Return a copy of this BusyYard for another World that contains the same bodies.
 
         Each body of `world` must have the same id as the same body of this yard's world.
         """
@@ -187,8 +187,8 @@ class BusyYard:
 def apart(one, other):
     """Return (numbers, distances) of the bodies that exist in both of two BusyYards.
 
-    numbers: list of keys of `ids`; distances: array (n,) [px], the distance between a body's positions in the two
-    yards.
+    one, other: the two yards; numbers: list of keys of `ids`; distances: array (n,) [px], the distance between a body's
+    positions in the two yards.
     """
     numbers = sorted(one.ids.keys() & other.ids.keys())
     return numbers, np.hypot(*(one.places(numbers) - other.places(numbers)).T) if numbers else np.zeros(0)

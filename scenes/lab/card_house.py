@@ -79,7 +79,7 @@ class CardHouse(Scene):
         self.fill()
 
     def fill(self):
-        """Replace the scene's world by a new one with the house and the two pairs as built."""
+        """Replace the scene's world by a new one with the house and the two pairs of cards."""
         self.worlds = []
         self.camera = Camera(((0, 16), (480, 254)), 1.0, y=16.0)
         self.add_world(substeps=int(self.values["substeps"]))
@@ -185,7 +185,10 @@ class CardHouse(Scene):
         return "" if self.stands(self.cards) else "builds it again"
 
     def draw(self, canvas, alpha):
-        """Draw the table with its cloths, the cards, and the text."""
+        """Draw the table with its cloths, the cards, and the text.
+
+        alpha: position (0..1) between the last two steps.
+        """
         self.yard.draw(canvas)
         for x, _, color in PAIRS:
             left = round(x - CLOTH / 2)

@@ -6,7 +6,7 @@ What to see: a carve rebuilds only the tiles that it touches, so it costs the sa
 part becomes a body in the same step, with its own pixels, mass and spin. All pixels are counted: a pixel that left the
 ground is in a fragment, was removed by the tool, or was a crumb. The overlay of masks shows the tiles.
 
-Why it matters: Diggable ground costs rebuilt pixels; the cost of a hole must not grow with the level.
+Why it matters: Diggable ground must be rebuilt; the cost of a hole must not grow with the level.
 
 To try: cut a block free on all sides, and watch it become a body with the last pixel.
 
@@ -57,7 +57,7 @@ FEWEST = 6  # places of the ground at which a carve is timed
 
 
 class Carving(Scene):
-    """Scene with one world: the ground, bodies on it, and the fragments carved off both."""
+    """Scene with one world: the ground, bodies on it, and the fragments carved off the ground and the bodies."""
 
     name = "lab/carving"
     title = "Carving"
@@ -250,7 +250,10 @@ class Carving(Scene):
         return int(np.count_nonzero(bodies["awake"] & (bodies["inverse_mass"] > 0.0)))
 
     def draw(self, canvas, alpha):
-        """Draw the sky, the wall behind carved pixels, all bodies with pixels, and the figures."""
+        """Draw the sky, the wall behind carved pixels, all bodies with pixels, and the figures.
+
+        alpha: position (0..1) between the last two steps.
+        """
         canvas.surface.blit(self.sky, (0, 0))
         camera = self.camera
         left, top = camera.view(alpha)

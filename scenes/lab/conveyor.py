@@ -1,14 +1,14 @@
-"""Belts that run, level, up and down: does everything that lies on them end up at the belt's speed?
+"""Belts that run level, upwards and downwards: do all bodies on them reach the belt's speed?
 
 In short: above, belts carry crates by their surface speed. Below, the same belts without the effect carry nothing.
 
 What to see: above, the surfaces of the belts carry boxes, a hexagon, a capsule and a wheel with rolling resistance.
-Below, the same belts are in a world without the effect "conveyor", and the same crates stay where they fall. Change
-the speed.
+Below, the same belts are in a world without the effect "conveyor", and the same crates stay where they fall. Change the
+speed.
 
-Why it matters: A belt moves other bodies and does not move itself; hand-made imitations jitter on slopes.
+Why it matters: A belt moves other bodies and does not move itself; simple imitations jitter on slopes.
 
-To try: set the speed below zero and see what the slopes still hold.
+To try: set the speed below zero; which bodies stay on the slopes?
 
 Source: Box2D's tangent speed: friction works towards a speed along the surface, not towards rest.
 """
@@ -235,7 +235,10 @@ class Conveyor(Scene):
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Draw both views with their belts and crates, and the measurements."""
+        """Draw both views with their belts and crates, and the measurements.
+
+        alpha: position (0..1) between the last two steps.
+        """
         canvas.surface.fill(NIGHT)
         for index, camera in enumerate(self.cameras):
             self._draw_hall(canvas, index, camera, alpha)

@@ -1,7 +1,7 @@
-"""Five steel balls in a row, struck by one or two: do as many leave at the other end?
+"""Five steel balls in a row, hit by one or two: do as many leave the other end?
 
-In short: with a gap, each collision is one of two balls. Without it several meet in one step, and projection scatters
-its row.
+In short: with a gap, only two balls collide at a time. Without it several meet in one step, and projection scatters its
+row.
 
 What to see: three channels with the same row, one per solver. With a small gap between the balls, each collision is one
 of two balls, and momentum and energy allow one result: the last ball leaves with the whole speed. Without the gap
@@ -184,7 +184,10 @@ class Cradle(Scene):
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Draw the channels, the balls, and the measurements below each channel."""
+        """Draw the channels, the balls, and the measurements below each channel.
+
+        alpha: position (0..1) between the last two steps.
+        """
         self.yard.draw(canvas)
         for index, (name, camera, cast) in enumerate(zip(SOLVERS, self.cameras, self.casts, strict=True)):
             self._draw_channel(canvas, camera.viewport)

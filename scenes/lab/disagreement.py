@@ -1,9 +1,9 @@
-"""The shooter's own traffic, judged by nine tiers: how often does each say hit where no pixel is shared, or miss a hit?
+"""The shooter's traffic, tested with nine tiers: how often does each report a hit without a shared pixel, or miss one?
 
 In short: the game plays by exact pixels. Wrong answers of every tier are counted; you cannot die here.
 
 What to see: the game uses the exact pixels. Ten times a second every tier tests the same moment, and its wrong answers
-are counted. Choose a tier with the wheel: its wrong pairs in the last moment are lit. The curves settle with the number
+are counted. Choose a tier with the wheel: its wrong pairs in the last test are lit. The curves settle with the number
 of hits; the bars are 95 % intervals of the rates. You cannot die here: fly into the traffic and count the hits of your
 box.
 
@@ -109,7 +109,10 @@ class Disagreement(Shooter):
             self.curves, self.apart = self.curves[1::2], 2 * self.apart
 
     def draw(self, canvas, alpha):
-        """Draw the game, and beside it the rates of wrong and missed hits of all collision tiers."""
+        """Draw the game, and beside it the rates of wrong and missed hits of all collision tiers.
+
+        alpha: position (0..1) between the last two steps.
+        """
         super().draw(canvas, alpha)
         canvas.surface.fill(NIGHT, SIDE)
         canvas.fix(SIDE)

@@ -1,13 +1,13 @@
 """Two rows of dominoes, the second four times as large: does its wave run twice as fast?
 
-In short: gravity is the only clock: at four times the size everything takes twice the time. A hidden length in the
-solver would break this.
+In short: gravity sets all times: at four times the size everything takes twice the time. A hidden length in the solver
+would break this.
 
-What to see: gravity is the only clock here, so a row of four times the size takes twice the time (Froude's rule). A
-length hidden in the solver (a slop, a margin, a fixed speed) would break this rule. So the second wave is half as fast
-on the screen, and twice as fast over the ground.
+What to see: gravity sets all times here, so a row of four times the size takes twice the time (Froude's rule). A length
+hidden in the solver (a slop, a margin, a fixed speed) would break this rule. So the second wave is half as fast on the
+screen, and twice as fast over the ground.
 
-Why it matters: A game that is made twice as large must play the same; hidden lengths are how engines break that.
+Why it matters: A game that is made twice as large must play the same; hidden lengths in an engine break that.
 
 To try: drag one domino out of each row before the wave comes.
 
@@ -192,6 +192,8 @@ class Dominoes(Scene):
     def draw(self, canvas, alpha):
         """Draw both tables with their rows. Write the size and wave speed above each row, and the ratio of
         the speeds.
+
+        alpha: position (0..1) between the last two steps.
         """
         self.yard.draw(canvas)
         for index, (camera, cast) in enumerate(zip(self.cameras, self.casts, strict=True)):

@@ -1,14 +1,13 @@
-"""Seventeen effects in one busy yard, each switched off while it runs: what would be missed, and what does it cost?
+"""Seventeen effects in one busy yard, switched off one at a time: what changes, and what does each effect cost?
 
-In short: gold runs with the chosen effect, blue without it. The table shows what differs after two seconds, and the
-cost.
+In short: gold is with the chosen effect, blue without it. The table shows what differs after two seconds, and the cost.
 
-What to see: choose an effect. From then on the yard runs twice, with the effect (gold) and without it (blue); a thing
-whose place differs is outlined in both colours. Switch the effect off: the solid picture is now the blue one, and
-stages that only this effect needs leave the time graph. After two seconds you see how far both yards differ, and the
-effect's time per step. Sensors and persist only report, and sleep only saves.
+What to see: choose an effect. From then on the yard runs twice, with the effect (gold) and without it (blue); a body
+whose position differs is outlined in both colours. Switch it off: the picture now shows the blue yard, and stages that
+only this effect needs leave the time graph. After two seconds you see how far both yards differ, and the effect's time
+per step. Sensors and persist only report, and sleep only saves.
 
-Why it matters: A scene does not pay for effects that it does not declare, and misses needed ones at once.
+Why it matters: Effects that a scene does not declare cost nothing, and a missing effect shows at once.
 
 To try: switch off friction and watch the belt, then carving; put both back on and compare their costs.
 
@@ -251,7 +250,10 @@ class EffectsLab(Scene):
         return words
 
     def draw(self, canvas, alpha):
-        """Draw the visible yard, and the list of effects with their results."""
+        """Draw the visible yard, and the list of effects with their results.
+
+        alpha: position (0..1) between the last two steps.
+        """
         shown = self.real if self.is_on else self.other
         runs = shown.world.effects.conveyor
         self.picture.draw(canvas, shown, alpha, self.clock if runs else 0.0)

@@ -1,14 +1,14 @@
-"""Six kinds of thing, all pairs of kinds: which may meet? A pair needs a yes from both sides.
+"""Six kinds of bodies, and all pairs of kinds: which may touch? Both masks must say yes.
 
-In short: each cell swings two discs together. They touch only if both masks say yes; a click switches one yes.
+In short: each cell swings two discs together. They touch only if both masks say yes; a click changes one mask.
 
 What to see: each cell holds two discs that swing into each other, the row's kind on the left and the column's on the
-right. A click switches whether the row's mask contains the column's kind: its yes. The discs touch only if both say
-yes. The broad phase drops all other pairs before it writes them, so they cost nothing later.
+right. A click switches whether the row's mask contains the column's kind: a yes. The discs touch only if both say yes.
+The broad phase drops all other pairs before it writes them, so they cost nothing later.
 
 Why it matters: Kinds that never meet should cost nothing; a filter in the broad phase is the cheapest test.
 
-To try: take away one yes, and then the other, and see that one no is enough.
+To try: remove one yes, and then the other, and see that one no is enough.
 
 Source: Box2D's category and mask bits, tested both ways.
 """
@@ -155,7 +155,10 @@ class Filters(Scene):
         self.filtered += self.dropped
 
     def draw(self, canvas, alpha):
-        """Draw the grid with its headings, and the text beside it."""
+        """Draw the grid with its headings, and the text beside it.
+
+        alpha: position (0..1) between the last two steps.
+        """
         canvas.surface.fill(NIGHT)
         for index, kind in enumerate(KINDS):
             x, y = cell_center(index, index)

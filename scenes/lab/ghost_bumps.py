@@ -1,12 +1,12 @@
-"""A floor of boxes, a floor of tiles, a chain: all equally flat, and no seam of them is felt.
+"""A floor of boxes, one of tiles, one of a chain: do seams slow a sliding body?
 
 In short: a box, a disc and a capsule slide over three floors without friction. Their speed stays the same on each.
 
 What to see: a box, a disc and a capsule slide over 260 tile lengths of each floor, without friction. Tiles are merged,
-and links of a chain know their neighbours. Separate boxes do not: if the surface under a body continues flush, a
-contact with the side or corner of the next box is dropped. The speed stays the same on each floor.
+and chain links store their neighbours. Separate boxes do not: if the surface under a body continues flush, a contact
+with the side or corner of the next box is dropped. The speed stays the same on each floor.
 
-Why it matters: Floors are built of many pieces, and a hero who trips over an invisible seam is a bug report.
+Why it matters: Floors consist of many pieces, and a hero who trips over an invisible seam is a bug.
 
 To try: turn up the speed, or drag a slider and drop it on a seam.
 
@@ -187,7 +187,10 @@ class GhostBumps(Scene):
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Draw the floors in three strips. Write the greatest loss of speed of each sliding body above its floor."""
+        """Draw the floors in three strips. Write the greatest loss of speed of each sliding body above its floor.
+
+        alpha: position (0..1) between the last two steps.
+        """
         canvas.surface.fill(NIGHT)
         for index, floor in enumerate(FLOORS):
             camera = self.cameras[index]

@@ -11,7 +11,7 @@ class Hands:
     """The poses of two objects that the player moves with pointer, wheel and keys.
 
     poses: a list [x [px], y [px], angle [rad]] for each object; chosen: index of the object that wheel and keys move;
-    room: Rect to which its position is limited.
+    room: Rect to which the position of the chosen object is limited.
     """
 
     def __init__(self, poses, chosen, room):

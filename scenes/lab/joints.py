@@ -1,6 +1,6 @@
 """Six machines of joints, solved twice: what is gained by an exact solver, and what does it cost?
 
-In short: orange solves one joint after another, green all joints of a tree at once. The numbers are the widest gap of
+In short: in orange, joints are solved one by one; in green, all of a tree at once. The numbers are the widest gap of
 the last second.
 
 What to see: one machine in two worlds. In one its joints are solved one after another, in the other each tree of joints
@@ -172,7 +172,10 @@ class Joints(Scene):
         return MeasuredRun([made], broadphase, RUN_STEPS)
 
     def draw(self, canvas, alpha):
-        """Draw the background, the machine of the visible world, and a strip with the machine's name and figures."""
+        """Draw the background, the machine of the visible world, and a strip with the machine's name and figures.
+
+        alpha: position (0..1) between the last two steps.
+        """
         self.yard.draw(canvas)
         looks = self.looks[self.shown]
         for identity, paint in self.machine.paints.items():
@@ -281,9 +284,7 @@ class Joints(Scene):
         return f"{self.machine.name}: widest gap of a joint, {', '.join(words)}{costs}"
 
     def check(self):
-        """Return the scene's goals, a list of Goal: those of each machine, checked with its results for both joint
-        solvers.
-        """
+        """Return the goals of all machines, a list of Goal, checked with the results for both joint solvers."""
         return [
             Goal(f"{machine.name}: {name}", (number + 1) * TURN, met, detail)
             for number, machine in enumerate(MACHINES)

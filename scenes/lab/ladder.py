@@ -1,4 +1,4 @@
-"""The accuracy ladder: one sprite at every tier, from a circle to its exact pixels. What does each rung buy?
+"""The accuracy ladder: one sprite at every collision tier, from a circle to its pixels. What does each cost?
 
 In short: red is covered but not drawn, blue is drawn but not covered. Closer shapes take more bytes.
 
@@ -6,7 +6,7 @@ What to see: red pixels are covered by the shape only, blue ones by the sprite o
 closer to the pixels, and take more bytes and more time to build. The time of a test goes up, and down again at the
 pixels.
 
-Why it matters: The shape that stands for a sprite decides what is unfair in a game, and what a frame costs.
+Why it matters: A sprite's collision shape decides how fair a game is, and how long a frame takes.
 
 To try: take another sprite with left and right or the wheel, or drop a picture of your own (PNG) on the window.
 
@@ -173,7 +173,10 @@ class Ladder(Scene):
         return [(world, camera) for world, camera, _ in self.cells.values()]
 
     def draw(self, canvas, alpha):
-        """Draw the names and figures of all cells. draw_on_frame() draws the pictures at window resolution."""
+        """Draw the names and figures of all cells. draw_on_frame() draws the pictures at window resolution.
+
+        alpha: position (0..1) between the last two steps.
+        """
         for number, tier in enumerate(TIERS):
             x, y = number % COLUMNS * CELL[0], HEAD + number // COLUMNS * CELL[1]
             canvas.surface.fill(NIGHT, (x + 1, y + 1, CELL[0] - 2, CELL[1] - 2))

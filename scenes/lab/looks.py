@@ -151,8 +151,8 @@ def draw_tiles(surface, grid, zoom, pose):
 def draw_plain(surface, shape, zoom, pose, ramp):
     """Draw a convex shape that is too small or too large for a shaded picture, in two colours.
 
-    zoom: surface px per world px; pose: (x, y, angle) on the surface [px, rad]; ramp: colours, first that of the rim,
-    then that of the inside.
+    zoom: surface px per world px; pose: (x, y, angle) on the surface [px, rad]; ramp: colours, the first for the rim,
+    the second for the inside.
     """
     rim, inside, *_ = ramp
     points = placed(shape, zoom, pose)

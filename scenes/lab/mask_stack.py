@@ -1,14 +1,13 @@
-"""The same sprites in five worlds, pushed by their box, hull, parts, outline and by every single pixel: what is felt?
+"""The same sprites in five worlds, colliding by box, hull, parts, outline or every pixel: how well does each fit?
 
-In short: boxes and hulls hold up air, so sprites hover. The outline fits within half a pixel, and its seams are not
-felt.
+In short: boxes and hulls include air, so sprites hover. The outline fits within half a pixel, without bumps at its
+seams.
 
 What to see: boxes and hulls include the air beside a bracket or under an arm, so the drawn sprites hover. Separate
-parts fit, but their inner edges are felt. The outline is within half a pixel, its seams are never felt, and round
-sprites stay round. With the edge of every pixel, a disc has fifty corners to roll over. The cost is written under each
-pile.
+parts fit, but their inner edges cause bumps. The outline is within half a pixel, causes no bumps, and keeps round
+sprites round. With the edge of every pixel, a disc has fifty corners to roll over. The cost is written under each pile.
 
-Why it matters: What is drawn and what pushes should be the same thing, or players see air under what rests.
+Why it matters: The drawn shape and the colliding shape should agree, or sprites rest on visible air.
 
 To try: throw the disc along each pile with the mouse, and see where it stops first.
 
@@ -246,7 +245,7 @@ class MaskStack(Scene):
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Draw the piles, and the figures of each pile below it."""
+        """Draw the piles, and the figures of each pile below it. alpha: position (0..1) between the last two steps."""
         self.yard.draw(canvas)
         for number, (way, cast) in enumerate(zip(WAYS, self.casts, strict=True)):
             cast.draw(canvas, self.cameras[number], self.worlds[number], alpha)

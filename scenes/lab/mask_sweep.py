@@ -1,15 +1,14 @@
-"""Bullets and spinning swords fly at walls of one pixel, swept and not: which of them come through?
+"""Bullets and spinning swords fly at walls of one pixel, with and without sweep: which get through?
 
 In short: at the left only the poses after each step are tested, and most shots pass. The white mark is a swept impact.
 
 What to see: a shot moves sixty pixels per step, and a wall is one pixel thick. If only the poses after each step are
-tested, most shots pass the wall. Swept to the time of impact, including rotation, none passes: each stops where its own
-outline first meets the wall's. The white mark is that place, and the number is the time of impact, as a share of the
-step.
+tested, most shots pass the wall. A swept shot, rotation included, never passes: it stops where its own outline first
+meets the wall's. The white mark shows this pose, and the number is the time of impact, as a share of the step.
 
-Why it matters: A bullet that flies through a wall is the oldest bug of collision, and pixels are the thinnest walls.
+Why it matters: Bullets that fly through walls are a common bug, and walls of one pixel are the thinnest.
 
-To try: follow one white mark: it shows how far of its step the shot had come at the impact.
+To try: follow one white mark: it shows the shot's pose at its time of impact.
 
 Source: Mirtich, Impulse-based Dynamic Simulation, 1996 (conservative advancement).
 """
@@ -198,7 +197,7 @@ class MaskSweep(Scene):
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Draw six lanes with their shots, and the counts."""
+        """Draw six lanes with their shots, and the counts. alpha: position (0..1) between the last two steps."""
         canvas.surface.fill(NIGHT)
         for column, way in enumerate(WAYS):
             camera = self.cameras[column]

@@ -1,10 +1,10 @@
-"""Two planes, nine verdicts, from circle to exact pixels. How often is each one wrong, and what do the pixels cost?
+"""Two planes, tested with nine shapes, from circle to pixels. How often is each wrong, and what do pixels cost?
 
 In short: boxes say HIT while there is sky between the planes. The table counts false hits of thousands of poses.
 
-What to see: at the start, the box is wrong. Drag one plane along the other: the cheap shapes say HIT while there is
-sky between the planes; the pixels say HIT only when a pixel is shared. Beside each verdict are its rates of false and
-of missed hits over thousands of poses, and the times of one test that hits and one that misses.
+What to see: at the start, the box is wrong. Drag one plane along the other: the cheap shapes say HIT while there is sky
+between the planes; the pixels say HIT only when a pixel is shared. Beside each verdict are its rates of false and of
+missed hits over thousands of poses, and the times of one test that hits and one that misses.
 
 Why it matters: Simple shapes are tested first as they are said to be cheap; here are their savings and errors.
 
@@ -141,7 +141,10 @@ class Masks(Scene):
         return [(self.shown["pixels"], self.camera)]
 
     def draw(self, canvas, alpha):
-        """Draw the sky, the two aircraft sprites, and a table with the verdict of each collision tier."""
+        """Draw the sky, the two aircraft sprites, and a table with the verdict of each collision tier.
+
+        alpha: position (0..1) between the last two steps.
+        """
         canvas.surface.blit(self.sky, (0, 0))
         for plane, (x, y, angle) in zip(self.planes, self.hands.poses, strict=True):
             plane.draw(canvas, self.camera, x, y, angle)

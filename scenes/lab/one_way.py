@@ -1,4 +1,4 @@
-"""Planks that are open from below, and a lift: do crates and the hero agree about what is solid?
+"""Planks that are open from below, and a lift: do crates and the hero pass and land alike?
 
 In short: springs throw crates up through planks, and they come to rest on top. The lift carries a crate and a walker.
 
@@ -6,7 +6,7 @@ What to see: springs throw crates, balls and nuts up through the planks, and the
 through the same planks and stands on them. The lift carries a crate, which the solver moves, and a walker, which walks
 in whole pixels: neither slips.
 
-Why it matters: Planks to jump up through are half of a platformer; bodies and hero must agree about them.
+Why it matters: Most platformers have planks to jump up through; bodies and hero must use them alike.
 
 To try: press down and jump on a plank, and be under the spring when a crate comes.
 
@@ -261,7 +261,10 @@ class OneWay(Scene):
             self.slip = {name: max(self.slip[name], self.aside[name]) for name in self.slip}
 
     def draw(self, canvas, alpha):
-        """Draw the sky, the level, the lift, the bodies, the hero, the walker and the counts."""
+        """Draw the sky, the level, the lift, the bodies, the hero, the walker and the counts.
+
+        alpha: position (0..1) between the last two steps.
+        """
         self.backdrop.draw(canvas, 40.0, dim=14)
         surface = canvas.surface
         for column in range(COLUMNS):
@@ -393,7 +396,10 @@ class OneWay(Scene):
 
 
 def level(effects):
-    """Return the TileGrid with the floor and the walls beside it. With the effect `one_way` it also has the planks."""
+    """Return the TileGrid with the floor and the walls beside it.
+
+    effects: the world's Effects; the grid has planks only if the effect `one_way` is on.
+    """
     solid = [[row >= FLOOR for _ in range(COLUMNS)] for row in range(ROWS)]
     one_way = [[False] * COLUMNS for _ in range(ROWS)]
     for row, first, last in PLANKS.values() if effects.one_way else ():

@@ -1,11 +1,11 @@
-"""A pyramid of crates: does it stand still, and what does standing cost per step?
+"""A pyramid of crates: does it stand still, and how long does a step take?
 
 In short: its load grows with the rows. Fewer substeps save time, and crates overlap more: the plot shows both.
 
 What to see: the number of crates grows with the square of the rows, and so does the weight on the lowest ones. With
 fewer substeps or another solver, the overlap grows and the top starts to wander.
 
-Why it matters: A still pile costs solver time; the plot shows what each setting gives for it.
+Why it matters: A pile at rest costs solver time; the plot shows each setting's error.
 
 To try: turn down the substeps, take another solver, and find both in the plot. Then drop the ball.
 
@@ -248,7 +248,10 @@ class Pyramid(Scene):
         self.overlap.note({OVERLAP: 1000.0 * deepest(self.world) / SIZE})
 
     def draw(self, canvas, alpha):
-        """Draw the background, the pile, and a plate with the figures."""
+        """Draw the background, the pile, and a plate with the figures.
+
+        alpha: position (0..1) between the last two steps.
+        """
         self.yard.draw(canvas)
         self.cast.draw(canvas, self.camera, self.world, alpha)
         plate(canvas, (4, 22, 130, 80))

@@ -1,15 +1,15 @@
 """Rays, casts, overlaps, areas, the closest point among hundreds of shapes: which boxes do four broad phases visit?
 
-In short: one query, four worlds, one answer. The places that each strategy visits are drawn, and its boxes counted.
+In short: the same query runs in four worlds. The boxes that each strategy visits are drawn and counted.
 
 What to see: the same query runs in four worlds in every step, one per strategy. All give the same answer: hits with
 their normals and fractions. The places that each one visits are drawn: boxes of the tree that were entered or rejected;
 cells of the hash; the stretch of the sweep; all boxes of brute force. A long slanted ray is split into several query
 boxes; the closest point uses larger and larger ones.
 
-Why it matters: Sight, aim and steering query the world many times a step, so each query must visit little.
+Why it matters: Sight, aim and steering query the world many times a step, so each query must be cheap.
 
-To try: make the ray long and slanted, and count what the hash and the tree look at.
+To try: make the ray long and slanted, and count what the hash and the tree visit.
 
 Source: Amanatides and Woo, A Fast Voxel Traversal Algorithm, 1987; Ericson, Real-Time Collision Detection, 2005.
 """
@@ -225,7 +225,10 @@ class Queries(Scene):
         return [(self.worlds[self.shown], self.camera)]
 
     def draw(self, canvas, alpha):
-        """Draw the shapes in the world of the selected broad phase, and a list with the counts of each broad phase."""
+        """Draw the shapes in the world of the selected broad phase, and a list with the counts of each broad phase.
+
+        alpha: position (0..1) between the last two steps.
+        """
         canvas.surface.fill(NIGHT)
         view = self.camera.viewport
         canvas.surface.blit(self.sky, view, (20, 10, *view.size))
@@ -269,7 +272,7 @@ class Queries(Scene):
     def _draw_visited(self, frame, lens, world):
         """Draw the boxes that the query visited in the colour of the broad phase; boxes without overlap are darker.
 
-        The query's own boxes are drawn in grey.
+        The query's own boxes are drawn in grey. lens: transform of world points to frame points.
         """
         found, color = debug.visited(world), BROADPHASE_COLORS[STRATEGIES[self.shown]]
         left, top = lens.points(found.rects[:, 0], found.rects[:, 1])
@@ -285,7 +288,10 @@ class Queries(Scene):
             pygame.draw.rect(frame.surface, faded(PAPER, 0.3), rect, 1)
 
     def _draw_found(self, frame, lens, world):
-        """Draw white outlines around the shapes of the bodies that the query found. Pixel masks have no outline."""
+        """Draw white outlines around the shapes of the bodies that the query found. Pixel masks have no outline.
+
+        lens: transform of world points to frame points.
+        """
         ids = {each[0] for each in self.answer}
         rows = [row for row, body in enumerate(world.shapes["body"].tolist()) if body in ids]
         for outline in debug.outlines(world, rows) if rows else ():
@@ -293,7 +299,10 @@ class Queries(Scene):
                 draw_outline(frame.surface, lens, outline, WHITE, max(1, frame.scale - 1), frame.scale)
 
     def _draw_question(self, frame, lens):
-        """Draw the shape of the query itself: its ray, cast, box or point."""
+        """Draw the shape of the query itself: its ray, cast, box or point.
+
+        lens: transform of world points to frame points.
+        """
         surface, size, thick = frame.surface, float(self.values["size"]), max(1, frame.scale - 1)
         start, end = lens.points(*self.origin), lens.points(*self.target)
         if self.query in ("ray", "all", "cast"):
@@ -327,8 +336,9 @@ class Queries(Scene):
         return angle_of(self.origin, self.target)
 
     def _draw_hits(self, frame, lens):
-        """Draw the points, normals and fractions (or distances) of the first hits. Text that would cover other text is
-        left out.
+        """Draw the points, normals and fractions (or distances) of the first hits.
+
+        A text that would cover another text is omitted. lens: transform of world points to frame points.
         """
         if self.query in ("overlap", "area", "point"):
             return

@@ -49,9 +49,10 @@ def asking(world, query, origin, area, size):
 
 
 def rows_of(found):
-    """Return the results of ask() as a list of tuples that can be compared. A result None is left out.
+    """Return the results of ask() as a list of tuples that can be compared.
 
-    A tuple is (body id, x, y, normal x, normal y, fraction or distance). Values that a kind of query lacks are 0.
+    found: the results; None entries are left out. A tuple is (body id, x, y, normal x, normal y, fraction or distance).
+    Values that a kind of query lacks are 0.
     """
     rows = []
     for each in found:

@@ -1,13 +1,13 @@
-"""Zones that only watch: standing, moving, thin and sweeping. Is every entry seen, with one exit, at any speed?
+"""Zones that detect bodies: at rest, moving, thin. Is every entry reported, with one exit, at any speed?
 
-In short: some saucers are faster than the zones are wide. Beside each zone, its entries and exits are counted, and the
-entries that geometry demands.
+In short: some saucers are faster than the zones are wide. Beside each zone are its entries, its exits, and the entries
+computed by geometry.
 
 What to see: saucers cross a field, a drifting field and a beam of one pixel, some of them faster than the zones are
-wide. Below, a fast scanner runs over resting mines. Beside each zone are its entries and exits, and the number of
-entries that geometry demands.
+wide. Below, a fast scanner runs over resting mines. Beside each zone are its entries and exits, and the number computed
+by geometry.
 
-Why it matters: Goals, alarms and pick-ups hang on one event each; one that is missed or doubled breaks a level.
+Why it matters: Goals, alarms and pick-ups depend on one event each; a missed or doubled event breaks a level.
 
 To try: watch the beam while the fastest saucer passes: after no step is the saucer inside it.
 
@@ -224,7 +224,10 @@ class Sensors(Scene):
             self.trails.append([before.get(identity, (x, y))[0], x, y, 0])
 
     def draw(self, canvas, alpha):
-        """Draw both areas with their zones and bodies, and the counts beside them."""
+        """Draw both areas with their zones and bodies, and the counts beside them.
+
+        alpha: position (0..1) between the last two steps.
+        """
         canvas.surface.fill(NIGHT)
         for rect, title in (
             (HIGH, "saucers through standing and drifting zones, and a beam of 1 px"),

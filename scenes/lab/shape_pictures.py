@@ -18,8 +18,8 @@ MARGIN = 12  # [canvas px] around the picture of the differences
 def draw_shadows(frame, lens, placed, axes, colors):
     """Draw the tested axes as short strokes on their edges, and both projections on a ruler along the best axis.
 
-    placed: (corners, radius) of both shapes, as placed_hull() returns them; axes: AXIS rows of shape_traces.sat_axes,
-    the best first; colors: colours of both shapes.
+    lens: transform of world points to frame points; placed: (corners, radius) of both shapes, as placed_hull() returns
+    them; axes: AXIS rows of shape_traces.sat_axes, the best first; colors: colours of both shapes.
     """
     for row in axes[::-1]:
         points, radius = placed[int(row["owner"])]

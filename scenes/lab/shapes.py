@@ -7,7 +7,7 @@ What to see: drag and turn the shapes. Below them is the best axis of SAT, with 
 set of all differences A - B of their points: the shapes overlap if it contains the origin. GJK moves towards the origin
 with a simplex; EPA grows a polygon from inside to the edge. Enter shows the next iteration.
 
-Why it matters: Everything that pushes needs a distance or a depth; where methods disagree, one of them is wrong.
+Why it matters: Contacts need a distance or a depth; where methods disagree, one of them is wrong.
 
 To try: bring two corners almost together, and step through GJK with Enter.
 
@@ -189,7 +189,10 @@ class Shapes(Scene):
         self.worst["axis"] = max(self.worst["axis"], abs(float(self.axes[0]["separation"]) - gap.distance))
 
     def draw(self, canvas, alpha):
-        """Draw backgrounds, icons and numbers. draw_on_frame() draws the geometry."""
+        """Draw backgrounds, icons and numbers. draw_on_frame() draws the geometry.
+
+        alpha: position (0..1) between the last two steps.
+        """
         canvas.surface.fill(NIGHT)
         for rect in (ARENA, PICTURE):
             canvas.surface.fill(INK, rect)
@@ -283,7 +286,10 @@ class Shapes(Scene):
             )
 
     def _draw_witness(self, frame, lens):
-        """Draw the nearest points of both shapes, and the witness points of the drawn GJK or EPA iteration."""
+        """Draw the nearest points of both shapes, and the witness points of the drawn GJK or EPA iteration.
+
+        lens: transform of world points to frame points.
+        """
         a, b = lens.points(*self.gap.point_a), lens.points(*self.gap.point_b)
         pygame.draw.line(frame.surface, GOLD, a, b, max(1, frame.scale - 1))
         for place in (a, b):

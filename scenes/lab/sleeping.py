@@ -1,13 +1,12 @@
-"""Heaps that fall asleep, and a ball that wakes one of them: which bodies wake, and what does lying still cost?
+"""Heaps that fall asleep, and a ball that wakes one: which bodies wake, and what do sleeping bodies cost?
 
-In short: bodies at rest for half a second sleep, darker, and cost next to nothing. A knock wakes the island that it
-meets.
+In short: bodies at rest for half a second sleep, are drawn darker, and cost almost nothing. A hit wakes one island.
 
 What to see: a heap that has been at rest for half a second falls asleep and is drawn darker. It keeps its contacts and
 forces, and a step costs next to nothing. A knock wakes the island that it meets and no other. A falling column wakes
 the next one, and so a wave of waking, lit up, runs along the columns. Then all fall asleep again.
 
-Why it matters: Most of a level lies still most of the time; a world that sleeps can be a hundred times as large.
+Why it matters: Most of a level is at rest most of the time; a world that sleeps can be a hundred times as large.
 
 To try: drag a body out of a sleeping heap, and see which bodies wake.
 
@@ -246,7 +245,10 @@ class Sleeping(Scene):
         self.curves[1].note({"step": step_seconds(self.world) * 1e6})
 
     def draw(self, canvas, alpha):
-        """Draw the heaps in the colours of their islands, dark while they sleep, and a plate with the figures."""
+        """Draw the heaps in the colours of their islands, dark while they sleep, and a plate with the figures.
+
+        alpha: position (0..1) between the last two steps.
+        """
         self.yard.draw(canvas)
         surface, camera = canvas.surface, self.camera
         for x in BOWL:

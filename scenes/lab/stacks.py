@@ -1,12 +1,12 @@
 """The same column of crates in three worlds, one per solver: which of them stands straight?
 
-In short: projection falls: it forgets the weight above. The other two keep their impulses from step to step, and stand.
+In short: projection's column falls. The other two solvers keep impulses from step to step, and their columns stand.
 
-What to see: projection pushes each overlap out by itself and forgets the weight above, so the column jitters apart.
-Sequential impulse keeps its impulses from step to step. Soft step does too, and its contacts give like stiff springs:
-its column stands a third of a percent lower, and comes to rest after a nudge.
+What to see: projection removes each overlap alone, without the weight above, so the column jitters apart. Sequential
+impulse keeps its impulses from step to step. Soft step does too, and its contacts yield like stiff springs: its column
+is a third of a percent lower, and comes to rest after a nudge.
 
-Why it matters: Everything that lies on something needs this; a column is where a solver's errors add up.
+Why it matters: All bodies that rest on others need this; in a column a solver's errors add up.
 
 To try: lower the substeps, make the top crate heavy, drag one crate out: which column falls first?
 
@@ -163,7 +163,10 @@ class Stacks(Scene):
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Draw the columns, and the figures of each column below it."""
+        """Draw the columns, and the figures of each column below it.
+
+        alpha: position (0..1) between the last two steps.
+        """
         self.yard.draw(canvas)
         for index, (name, camera, cast) in enumerate(zip(SOLVERS, self.cameras, self.casts, strict=True)):
             cast.draw(canvas, camera, self.worlds[index], alpha)

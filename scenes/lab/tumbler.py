@@ -6,7 +6,7 @@ once.
 What to see: the drum is one kinematic body of many boxes. In every step its walls move into the shapes that lie on
 them, from every side, with the weight of the whole load above. A leak, a jitter or a gain of energy would show at once.
 
-Why it matters: Bodies that are squeezed from all sides for minutes find every hole that a solver leaves.
+Why it matters: Bodies that are squeezed for minutes get out through any gap that a solver leaves.
 
 To try: drag a shape against the turning wall and hold it there.
 
@@ -167,7 +167,7 @@ class Tumbler(Scene):
         return MeasuredRun([with_substeps(self.world, name[-1])], self.broadphase)
 
     def draw(self, canvas, alpha):
-        """Draw the drum, its load, and the figures."""
+        """Draw the drum, its load, and the figures. alpha: position (0..1) between the last two steps."""
         self.yard.draw(canvas)
         angle = self.drum.angle - self.drum.angular_velocity / 60 * (1.0 - alpha)
         draw_drum(canvas.surface, self.camera, angle)

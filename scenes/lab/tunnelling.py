@@ -1,11 +1,11 @@
-"""The same shots in four lanes: tested where they stand, along a ray, swept, and at their time of impact. Which miss?
+"""The same shots in four lanes: tested at their poses, along a ray, by a sweep, by time of impact. Which miss?
 
 In short: a fast ball is before the plate in one step, beyond it in the next. The red number counts missed shots.
 
 What to see: a fast ball is on one side of a thin plate in one step and beyond it in the next. The ray of its centre
 finds the plate, but misses it if the ball only grazes the edge. The sweep finds both, as long as nothing rotates: a
-spinning rod reaches the plate with an end that was elsewhere when the step began. Bullets that fly at each other are
-each other's plate.
+spinning rod reaches the plate with an end that was elsewhere when the step began. For bullets, the target is a second
+bullet.
 
 Why it matters: Each sweep misses the shots that it does not model. The lanes show which ones, and what each costs.
 
@@ -227,7 +227,10 @@ class Tunnelling(Scene):
                 self._end(trial)
 
     def draw(self, canvas, alpha):
-        """Draw the lanes, the plates, the shots with their earlier positions, and the counts."""
+        """Draw the lanes, the plates, the shots with their earlier positions, and the counts.
+
+        alpha: position (0..1) between the last two steps.
+        """
         canvas.surface.fill(NIGHT)
         for lane in LANES:
             self._draw_lane(canvas, lane)
@@ -351,8 +354,8 @@ class Tunnelling(Scene):
         return Headline(sentence, "left: slower", number, unit, ended, ENOUGH, kind, not missed)
 
     def finding(self):
-        """Return a sentence with each lane's number of missed shots, out of those that had to hit, and its time of a
-        step.
+        """Return a sentence with each lane's number of missed shots, out of the shots that had to hit, and its time of
+        a step.
         """
         kind = self.kind
         ended = {lane: self.hit[kind, lane] + self.missed[kind, lane] for lane in LANES}

@@ -123,8 +123,8 @@ def build_metres(side):
 
 
 def low(side):
-    """Return the difference between the ball's first apex after the bounce and the ideal height, as a share of the
-    latter [%].
+    """Return the difference between the ball's first apex after the bounce and the ideal height [% of the ideal
+    height].
 
     It is 0 while the ball falls and rises. side: one of the page's two worlds (page.Side).
     """

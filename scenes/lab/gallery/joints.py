@@ -32,7 +32,11 @@ GROWTH = 0.4  # [planks] of the load per step
 
 
 def along(distance, angle, x=0.0, y=0.0):
-    """Return the point (x, y) at `distance` [px] from the point (x, y), at `angle` [rad] clockwise from the right."""
+    """Return the point (x, y) at a distance from a start point.
+
+    distance: the distance [px]; angle: direction from the start point, clockwise from the right [rad]; x, y: the start
+    point.
+    """
     return x + distance * cos(angle), y + distance * sin(angle)
 
 
@@ -80,7 +84,8 @@ def gap(side):
 
 
 def build_cantilever(side, angle=0.0):
-    """Build a cantilever of eight beams of 1 m, welded to the world and to one another.
+    """Build a cantilever of eight beams of 1 m. A weld connects the first beam to the world, and each other to the beam
+    before.
 
     angle: direction of the cantilever, clockwise from the right [rad]; side: one of the page's two worlds (page.Side).
     """

@@ -41,12 +41,11 @@ def build_ball(side):
 
 
 def apex(side):
-    """Return the difference between the bouncing ball's apex and the height of its first fall, as a percentage of that
-    height.
+    """Return the difference between the bouncing ball's apex and the height of its first fall [% of that height].
 
-    It is 0 in a step without an apex. The apex is that of the parabola through the heights of three steps. Only the
-    first seventeen apexes are measured. If apexes are missing, the error is 100 %. side: one of the page's two worlds
-    (page.Side).
+    It is 0 in a step without an apex. The apex is computed from the parabola through the heights of three steps. Only
+    the first seventeen apexes are measured. If apexes are missing, the error is 100 %. side: one of the page's two
+    worlds (page.Side).
     """
     kept, found = side.kept, 0.0
     kept["heights"] = [*kept["heights"][-2:], -BALL - side.kept["ball"].position[1]]

@@ -123,10 +123,10 @@ def build_load(side):
 
 
 def take_away(side):
-    """Remove the load before step GONE.
+    """Remove the load before step GONE. side: one of the page's two worlds (page.Side).
 
-    If this side is FORCES_KEPT, the load is moved far away by writing its x instead. Then the other contacts keep
-    their impulses of the last step.
+    If the Way of the side is FORCES_KEPT, the load is moved far away by writing its x instead. Then the other contacts
+    keep their impulses of the last step.
     """
     if side.steps != GONE:
         return

@@ -1,15 +1,15 @@
-"""Hard cases, a page each: the naive way and ours side by side, with the error and the time of both.
+"""Hard cases, one per page: a naive method beside the engine's, with the error and time of both.
 
-In short: left fails, right holds. Below each side: its error, the limit of the page, and the time of a step.
+In short: only the left world fails. Below each side: its error, the page's limit, and the time of a step.
 
 What to see: two worlds with the same bodies. The left world uses a simple method: tests at the poses only, a fixed
 number of substeps, iterative joints, no sleep, hulls, or a simple solver of the page itself. The right world uses the
 full method. Below each are its error, the limit of the page, and the time of a step. On some pages both sides should be
 alike: a thousand bodies at one point, ten million pixels from the origin.
 
-Why it matters: An engine is chosen for its worst case, not for its demo; each case is shown both ways here.
+Why it matters: Hard cases decide which engine to choose; each is shown with both methods here.
 
-To try: step through the pages, and look for one where the naive way is as good.
+To try: step through the pages; find one where the naive method is as good.
 
 Source: the cases and their limits: docs/stability.md.
 """
@@ -170,7 +170,10 @@ class Gallery(Scene):
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Draw both worlds, the figures under each world, and the page's lines of text."""
+        """Draw both worlds, the figures under each world, and the page's lines of text.
+
+        alpha: position (0..1) between the last two steps.
+        """
         canvas.surface.fill(NIGHT)
         for index, camera in enumerate(self.cameras):
             view = camera.viewport

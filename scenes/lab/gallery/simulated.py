@@ -128,8 +128,8 @@ def impulse(motion, push, axis, wanted, inverse):
 def struck(motion, axis, arm, amount, inverse):
     """Return the Motion of a body after an impulse.
 
-    amount: size of the impulse; axis: its direction, a unit vector; arm: its moment arm [px]; inverse: (1 / mass, 1 /
-    inertia).
+    motion: Motion before the impulse; amount: size of the impulse; axis: its direction, a unit vector; arm: its moment
+    arm [px]; inverse: (1 / mass, 1 / inertia).
     """
     x, y = axis
     return Motion(

@@ -70,7 +70,7 @@ class Crane(Machine):
         return tuple(self.crate.center)
 
     def draw_behind(self, canvas, camera, alpha):
-        """Draw the trolley's rail."""
+        """Draw the trolley's rail. alpha: position (0..1) between the last two steps."""
         x, y = camera.to_canvas(-240.0, RAIL, alpha)
         surface = canvas.surface
         for dy, color in (

@@ -112,7 +112,10 @@ class Gears(Machine):
         return tuple(self.crate.center)
 
     def draw(self, canvas, camera, alpha):
-        """Draw the gears with their teeth, and the teeth of the rack."""
+        """Draw the gears with their teeth, and the teeth of the rack.
+
+        alpha: position (0..1) between the last two steps.
+        """
         x, y, angle = poses_between(self.world.bodies, alpha)
         x, y = camera.to_canvas(x, y, alpha)
         rows = self.world.rows([wheel.id for wheel in self.wheels])

@@ -88,16 +88,22 @@ class Machine:
         raise TypeError(f"{type(self).__name__} must define handle")
 
     def draw_behind(self, canvas: Canvas, camera: Camera, alpha: float) -> None:
-        """Draw parts of the machine that are behind its bodies on the canvas. Most machines draw nothing."""
+        """Draw parts of the machine that are behind its bodies on the canvas. Most machines draw nothing.
+
+        alpha: position (0..1) between the last two steps.
+        """
 
     def draw(self, canvas: Canvas, camera: Camera, alpha: float) -> None:
-        """Draw parts of the machine that are in front of its bodies on the canvas. Most machines draw nothing."""
+        """Draw parts of the machine that are in front of its bodies on the canvas. Most machines draw nothing.
+
+        alpha: position (0..1) between the last two steps.
+        """
 
     def draw_on_frame(self, frame: Frame, lens: Lens) -> None:
         """Draw the rods, ropes and pins at window resolution, at the poses of the last step.
 
         A pin is a dot at each of a joint's two anchors. If the anchors are more than APART apart, a red line joins
-        them.
+        them. lens: transform of world points to frame points.
         """
         width = max(1, frame.scale - 1)
         rows = debug.joints(self.world)
