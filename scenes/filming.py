@@ -137,8 +137,9 @@ class Film:
         self.overlays.note(self.scene)
 
     def run_to(self, moment):
-        """Step until `moment.after` steps after the moment. Raises ValueError, which names the moment, if it does not
-        occur.
+        """Step the scene until `moment.after` steps after the moment has occurred.
+
+        Raises ValueError, which names the moment, if it does not occur.
         """
         while not moment.when(self.scene):
             if self.scene.frame >= MOST:
@@ -192,7 +193,10 @@ def reduced(pixels, part=(0, 0, *FRAME), zoom=1):
 
 
 def averaged(pixels, share):
-    """Return a reduced picture (height, width, 3) uint8: each pixel is the mean of a square of `share` px per side."""
+    """Return a reduced picture (height, width, 3) uint8: each pixel is the mean of a square of pixels.
+
+    share: number of pixels along a side of the square.
+    """
     height, width = pixels.shape[:2]
     blocks = pixels.astype(np.int64).reshape(height // share, share, width // share, share, 3)
     return ((blocks.sum(axis=(1, 3)) + share * share // 2) // (share * share)).astype(np.uint8)
@@ -231,9 +235,10 @@ def write_moments(game, folder):
 
 
 def reel(name, seed, first, last, every, columns=8):
-    """Return a contact sheet of a run, an array: small pictures in rows of `columns`, from which frames can be chosen.
+    """Return a contact sheet of a run, an array (h, w, 3) uint8: small pictures of frames, in rows of `columns`
+    pictures.
 
-    It shows every `every`-th frame from `first` to `last`.
+    It shows every `every`-th frame from `first` to `last`. seed: seed of the scene.
     """
     taken = film(name, seed, range(max(1, first), last + 1, every))
     pictures = [reduced(taken[number], zoom=3) for number in sorted(taken)]

@@ -48,8 +48,9 @@ RANGES: dict[str, tuple[float, float]] = {
 class Note:
     """One note, which starts at step `start` and lasts `steps` steps.
 
-    pitches: its MIDI pitches, of which several make a rapid arpeggio; drums: letters of its drums, if it is a stroke
-    on drums; marks: see notation.py; line: line number in the file.
+    pitches: its MIDI pitches, of which several make a rapid arpeggio; drums: letters of its drums, if it is a stroke on
+    drums; marks: characters after the note in the file, such as "!" for louder (see notation.py); line: line number in
+    the file.
     """
 
     start: int

@@ -25,7 +25,7 @@ TAPS, CORNER = 63, 9_000  # [samples], [Hz] of the filter before decimation
 
 
 def hertz(midi):
-    """Return the frequency of a MIDI pitch [Hz]."""
+    """Return the frequency [Hz] of a MIDI pitch. midi: the pitch; 69 is 440 Hz."""
     return round(440.0 * math.pow(2.0, (midi - 69) / 12), 6)
 
 
@@ -40,7 +40,8 @@ def tone(instrument, pitches, seconds, slide_from=None, vibrato=None):
     """Return the samples of one note at the rate FINE, followed by its release.
 
     pitches: MIDI numbers, several for an arpeggio; seconds: length without the release; slide_from: MIDI pitch from
-    which the note slides to its own, or None; vibrato: depth [cents], None: the instrument's.
+    which the note slides to its own pitch, or None for no slide; vibrato: depth [cents], or None for the instrument's
+    depth.
     """
     count = int((seconds + instrument.release) * FINE)
     time = np.arange(count) / FINE

@@ -29,12 +29,12 @@ def dither(height, width):
 
 
 def circle(x, y, center_x, center_y, radius):
-    """Return the distance field of a disc around (center_x, center_y)."""
+    """Return the distance field of a disc with this radius around (center_x, center_y)."""
     return length(x - center_x, y - center_y) - radius
 
 
 def ellipse(x, y, center_x, center_y, radius_x, radius_y):
-    """Return the distance field of an ellipse around (center_x, center_y).
+    """Return the distance field of an ellipse with the radii radius_x and radius_y around (center_x, center_y).
 
     It is exact on the edge of the ellipse, and accurate enough for shading elsewhere.
     """

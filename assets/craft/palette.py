@@ -33,7 +33,7 @@ def oklch(lightness, chroma, hue):
 
 
 def oklch_all(*values):
-    """Return several colours, (n, 3) uint8, each given as (lightness, chroma, hue)."""
+    """Return several colours, (n, 3) uint8. values: their OKLCH coordinates, (lightness, chroma, hue) each."""
     return np.array([oklch(*value) for value in values])
 
 
@@ -48,7 +48,7 @@ def _encode(linear):
 def ramp(hue, chroma, low=DARKEST, high=LIGHTEST):
     """Return a ramp of colours from shadow to light around a base hue, an array (STEPS, 3) uint8.
 
-    hue: in degrees; chroma: see oklch; low, high: lightness of the first and the last colour.
+    hue: in degrees; chroma: greatest chroma, about 0..0.3; low, high: lightness of the first and the last colour, 0..1.
     """
     colours = []
     for i in range(STEPS):
@@ -100,7 +100,10 @@ FIRE = np.array(
 
 
 def mix(first, second, share):
-    """Return a mix of two colours or arrays of colours as uint8. share: weight of `second`, 0..1."""
+    """Return a mix of two colours or arrays of colours as uint8.
+
+    share: weight of `second`, 0..1; the weight of `first` is 1 - share.
+    """
     first, second = np.asarray(first, float), np.asarray(second, float)
     return np.floor(first + (second - first) * share + 0.5).astype(np.uint8)
 

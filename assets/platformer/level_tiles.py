@@ -145,8 +145,8 @@ def decor_names(level):
 def _wall_behind(level, x, y):
     """Return the name of the wall that is drawn behind the tile (x, y), or None.
 
-    A letter in WALLS stands for a wall. Behind a letter in THINGS (an object, not a tile), the wall is that of the
-    nearest other tile in the row. Behind a plank it may also be that of the tile below. level: the level, a
+    A letter in WALLS stands for a wall. Behind a letter in THINGS (an object, not a tile), the wall of the nearest
+    other tile in the row is drawn. Behind a plank it may also be the wall of the tile below. level: the level, a
     level_text.Map.
     """
     if level.at(x, y) in WALLS:

@@ -65,7 +65,8 @@ def _stars(picture):
 def ridge_line(cells, octaves, seed, sharp):
     """Return the heights 0..1 of a ridge, one for each column, seamless in x.
 
-    cells, octaves, seed: see layered_noise; sharp: from 0 (rolling hills) to 1 (peaks).
+    cells: number of cells of the noise along x; octaves: number of its layers; seed: seed of its random numbers; sharp:
+    from 0 (rolling hills) to 1 (peaks).
     """
     rolling = layered_noise(WIDTH, 4, cells, 1, octaves, seed)[0]
     peaks = 1 - abs(layered_noise(WIDTH, 4, cells, 1, octaves, seed + 50)[0] * 2 - 1)
@@ -76,9 +77,9 @@ def ridge_line(cells, octaves, seed, sharp):
 def mountains(height, low, high, cells, seed, tones, snow=None, haze=None):
     """Return the picture of one range of mountains, (height, 480, 4) uint8.
 
-    low, high: height of the rock at the lowest and the highest point [px]; cells: see ridge_line; tones: colours
-    (shade, body, light, edge); snow: two colours of the snow caps, or None; haze: colour into which the foot fades, or
-    None; seed: seed of the random numbers.
+    low, high: height of the rock at the lowest and the highest point [px]; cells: number of cells of the ridge's noise
+    along x; tones: colours (shade, body, light, edge); snow: two colours of the snow caps, or None for no snow; haze:
+    colour into which the foot fades, or None for no haze; seed: seed of the random numbers.
     """
     line = ridge_line(cells, 6, seed, 0.75)
     top = height - (low + (high - low) * line)

@@ -93,7 +93,10 @@ def saucer(frame):
 
 
 def gunship(frame):
-    """Return the picture of the gunship, (40, 44, 4) uint8. frame: 0..3, an angle of its two rotors."""
+    """Return the picture of the gunship, (40, 44, 4) uint8.
+
+    frame: 0..3; each frame shows the two rotors at another angle.
+    """
     sprite = Sprite(*GUNSHIP)
     x, y = sprite.x, sprite.y
     for side in (-1, 1):

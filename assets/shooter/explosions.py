@@ -1,7 +1,7 @@
 """Explosions: hot balls fly out, merge, cool through the colours of fire, break into cinders and vanish.
 
-A pixel's heat is the heat of the hottest ball there, plus noise. Its colour is darker at lower heat and at later
-times. The balls stay inside the frame, so its border cuts off none.
+A pixel's heat is the heat of the hottest ball there, plus noise. Its colour is darker at lower heat and at later times.
+The balls stay inside the frame, so that the frame's border does not cut off any ball.
 """
 
 import numpy as np

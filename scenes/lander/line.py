@@ -29,7 +29,8 @@ class Line:
         self.links = []
 
     def toggle(self, ship, loose):
-        """Release the load or, without a load, catch the nearest of the bodies `loose` that is within REACH.
+        """Release the load or, without a load, catch the nearest of the bodies `loose` that is within REACH of the
+        ship.
 
         Return "let go", "caught", or "missed" if no body is in reach.
         """

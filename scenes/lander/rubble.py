@@ -10,8 +10,8 @@ from scenes.lander.feel import CRUMB, LOOSE
 class Piece:
     """A loose piece of rock or ground.
 
-    look: name of its original picture, that of a rock, or "ground" for the picture of the moon; source: position (x,
-    y) in that picture [px] of the top left corner of the piece's mask.
+    look: name of its original picture: the picture of a rock, or "ground" for the picture of the moon; source: position
+    (x, y) in that picture [px] of the top left corner of the piece's mask.
     """
 
     look: str

@@ -157,7 +157,7 @@ class Ship:
         return identity
 
     def wait(self):
-        """Wait one step for the next ship, and add it when it is due. Return whether it has appeared."""
+        """Wait one step for the next ship, and add it when it is due. Return whether the next ship has appeared."""
         self.away = max(self.away - 1, 0)
         if self.away or not self.lives:
             return False

@@ -122,7 +122,7 @@ class Contents:
         return loose, hit
 
     def press_stones(self, riding, begun):
-        """Make each crumbling stone shake that carries the hero, an enemy or a crate.
+        """Start to shake each crumbling stone that carries the hero, an enemy or a crate.
 
         riding: body under the hero, or None; begun: the step's begin events, which include the landings of crates.
         """

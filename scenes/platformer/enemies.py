@@ -175,7 +175,7 @@ class Bat(Creature):
     def _return(self, x, y):
         """Fly back towards the start (self.start) for one step from (x, y) [px].
 
-        If the bat is blocked on its way, it is moved to the start 3 FLIGHT seconds after it woke up.
+        If the bat is blocked on its way, it is moved to the start 3 * FLIGHT seconds after it woke up.
         """
         way = HOME_SPEED * STEP_SECONDS
         dx, dy = self.start[0] - x, self.start[1] - y

@@ -110,7 +110,10 @@ class Level:
         return self.kind(floor(x / self.tile), floor(y / self.tile))
 
     def surface(self, column, row, x):
-        """Return the y [px] of the ground at `x` [px] in a tile, or None if the tile is neither solid nor a slope."""
+        """Return the y [px] of the ground at `x` [px] in the tile (column, row).
+
+        Return None if the tile is neither solid nor a slope.
+        """
         kind = self.kind(column, row)
         if kind == SOLID:
             return row * self.tile
@@ -122,9 +125,9 @@ class Level:
         return (row + 1 - low - (high - low) * share) * self.tile
 
     def blocks(self, left, top, width, height):
-        """Return whether a box with its top left corner at (left, top) [px] overlaps solid tiles or slopes.
+        """Return whether a box of the given width and height overlaps solid tiles or slopes.
 
-        Planks are one-way tiles, so they never block.
+        left, top: its top left corner [px]. Planks are one-way tiles, so they never block.
         """
         bottom = top + height
         for row in range(floor(top / self.tile), floor((bottom - 1) / self.tile) + 1):

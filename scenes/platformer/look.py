@@ -199,7 +199,7 @@ class Look:
         )
 
     def _leave_images(self, hero):
-        """Add an afterimage every second step while the hero is faster than running or falling alone makes him."""
+        """Add an afterimage in every second step while the hero is faster than he can run or fall."""
         quick = hero.vy < -QUICK or hero.vy > FALL_SPEED + 20.0 or (abs(hero.vx) > QUICK - 20.0 and not hero.grounded)
         if quick and self.scene.frame % 2 == 0 and self.scene.phase == "playing" and self.scene.trail:
             x, bottom, name, way = self.scene.trail[-1]

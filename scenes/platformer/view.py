@@ -230,7 +230,10 @@ class View:
                 canvas.surface.blit(picture, place)
 
     def _lights(self, scene, alpha):
-        """Yield (x [canvas px], y [canvas px], name) of every light that reaches into the picture."""
+        """Yield (x [canvas px], y [canvas px], name) of every light that reaches into the picture.
+
+        alpha: position (0..1) between the last two steps.
+        """
         for x, y, name in self.level.lights:
             if self._sees(x, y, LIT_FROM) and not scene.look.hidden(x, y):
                 yield x - self.left, y - self.top, name

@@ -59,9 +59,9 @@ def partners(events, identity):
 
 
 def boxes_met(world, identity):
-    """Return an array of the ids of enemies and bullets whose bounding box overlapped that of a body in the last step.
+    """Return an array with the ids of the enemies and bullets whose bounding box overlapped a body's bounding box.
 
-    identity: id of this body.
+    The boxes of the last step are compared. identity: id of the body.
     """
     shapes = world.shapes
     box = shapes[np.flatnonzero(shapes["body"] == identity)[0]]  # it has one shape, whatever the tier

@@ -74,10 +74,10 @@ class Score:
         return self._add(WHOLE_WAVE * self.times)
 
     def phase(self, bonus, left):
-        """Add the points of a won phase of a boss fight, and return them, rounded to hundreds.
+        """Add the points of a won phase of a boss fight, and return these points.
 
-        They are half of `bonus`, and the other half multiplied by `left`, the remaining share of the phase's time
-        (0..1).
+        The points are bonus / 2 + left * bonus / 2, rounded to hundreds. left: remaining share of the phase's time,
+        0..1.
         """
         self.hold = HOLD if self.chain else 0
         return self._add(round(bonus * (0.5 + 0.5 * left) / 100) * 100)

@@ -136,10 +136,10 @@ class View:
         return (int(np.floor(x - origin[0] + 0.5)) - self.left, int(np.floor(y - origin[1] + 0.5)) - self.top)
 
     def shadow(self, image, place, high=1.0):
-        """Return (picture, position [canvas px]) of the shadow of a picture that is centred on the world point
-        `place`.
+        """Return (picture, position [canvas px]) of the shadow of a picture.
 
-        high: height above the ground, relative to that of the planes.
+        place: world point (x, y) [px] of the picture's centre; high: height above the ground, as a share of the planes'
+        height.
         """
         dark = shade(image)
         x, y = place[0] + SHADOW_AT[0] * high, place[1] + SHADOW_AT[1] * high
