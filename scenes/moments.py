@@ -40,7 +40,7 @@ def leader(frame, bullets=0):
 
 
 def falling(kind):
-    """Return a function of the scene that returns whether a mid-boss or boss of that kind is burning and falling."""
+    """Return a function of the scene that returns whether a mid-boss or boss of this kind is burning and falling."""
     return lambda scene: any(
         plane.leads and plane.kind == kind and plane.mode == "fall" for plane in scene.fleet.planes.values()
     )

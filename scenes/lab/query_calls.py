@@ -36,8 +36,8 @@ def ask(world, query, origin, target, size):
 def asking(world, query, origin, area, size):
     """Return a function without arguments that runs the query once per call, each time at another target.
 
-    origin: start of rays and casts (x, y) [px]; area: (width, height) [px] over which the targets are spread evenly;
-    query, size: as in ask().
+    query: name of the kind of query, as in queries.QUERIES; origin: start of rays and casts (x, y) [px]; area: (width,
+    height) [px] over which the targets are spread evenly; size: size of the query's shape [px].
     """
     numbers = count()
 

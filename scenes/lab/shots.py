@@ -87,7 +87,8 @@ def steps_of_flight(speed):
 def flights(world, kind, lane, speed, plate, count, random):
     """Return a list of `count` snapshots, each of a world with the plate and one random shot that has just been fired.
 
-    Bullets have no plate. kind, speed, plate, random: as for aim(); lane: as for shoot().
+    kind: one of SHOTS; bullets have no plate; lane: argument `continuous` of the shots; speed: speed of the shots
+    [px/s]; plate: width of the plate [px]; random: random.Random.
     """
     if kind != "bullets":
         raise_plate(world, plate)

@@ -211,7 +211,8 @@ class Stacks(Scene):
     def check(self):
         """Return the scene's goals, a list of Goal.
 
-        The columns of sequential impulse and soft step stand. That of projection falls, or sinks three times as far.
+        The columns of sequential impulse and soft step stand. The column of projection falls, or sinks three times as
+        far.
         """
         pushed, kept, soft = SOLVERS
         tall = self.values["crates"] * SIZE

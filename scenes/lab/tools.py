@@ -80,7 +80,7 @@ class Tool:
 def carving(world, name, radius, ground, crumb):
     """Return a function that carves the body with id `ground` once per call, each time at another solid pixel.
 
-    name, radius: as for Tool.choose(); crumb: as for Body.carve(). Successive pixels are far apart.
+    name: one of TOOLS; radius: size of the tool [px]; crumb: as for Body.carve(). Successive pixels are far apart.
     """
     tool = Tool()
     tool.choose(name, radius)

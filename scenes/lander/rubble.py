@@ -51,9 +51,10 @@ class Rubble:
         return [self.world.body(identity) for identity in sorted(self.pieces)]
 
     def carve(self, x, y, radius):
-        """Carve the disc of an explosion at (x, y) [px] with this radius [px] out of all pieces in its range.
+        """Carve the disc of an explosion out of all pieces that it reaches. Return the ids of the bodies without pixels
+        left.
 
-        Return the ids of the bodies that have no pixel left.
+        x, y: centre of the disc [px]; radius: its radius [px].
         """
         gone = []
         for body in self.bodies():

@@ -41,7 +41,10 @@ class Loot:
         return len(self.items)
 
     def drop(self, what, x, y, now, tossed=False):
-        """Add a pick-up at (x, y) [px] in step `now`. what, tossed: see Item."""
+        """Add a pick-up at (x, y) [px] in step `now`.
+
+        what: "power", "bomb" or "life"; tossed: whether it comes out of the player's plane at the loss of a life.
+        """
         mask = load_atlas("planes").mask(PICTURES[what] + "_0")
         body = self.world.add_body(mask, kind="kinematic", filter=LOOT, position=(min(max(x, EDGE), WIDTH - EDGE), y))
         self.items[body.id] = Item(what, now, tossed)

@@ -47,10 +47,9 @@ def fastest_move(side):
 
 
 def farthest_move(figures):
-    """Return the greatest distance that a body moved in a step of the page "point" with a thousand boxes, as a speed
-    [m/s].
+    """Return the greatest distance that a body moved in one step, divided by the duration of the step [m/s].
 
-    figures: RunFigures of this case, which runs in the measuring process.
+    figures: RunFigures of the page "point" with a thousand boxes, which runs in the measuring process.
     """
     assert figures.farthest is not None  # set, because it was judged
     return figures.farthest * 60.0 / METER

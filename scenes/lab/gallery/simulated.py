@@ -53,7 +53,7 @@ def solved_step(world, body, gravity, substeps, share):
     """Solve the contacts of a body for one step, and return its Motion at the end of the step.
 
     The body gets the mean velocity over the substeps, with which the world then moves it. gravity: (x, y) [px/s2];
-    share: as in step_naively().
+    share: part of the overlap that the step removes, 0..1.
     """
     row = world.bodies[world.rows([body.id])[0]]
     pushes = pushes_on(world, body, row, share)
@@ -77,7 +77,7 @@ def solved_step(world, body, gravity, substeps, share):
 def pushes_on(world, body, row, share):
     """Return a list with a Push for each contact of a body at the end of the last step.
 
-    row: the body's row in world.bodies; share: as in step_naively().
+    row: the body's row in world.bodies; share: part of the overlap that a step removes, 0..1.
     """
     found, middle = [], (float(row["center_x"]), float(row["center_y"]))
     for contact in world.contacts:

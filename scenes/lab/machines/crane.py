@@ -13,7 +13,7 @@ GRIP = 60.0  # times the crate's weight: breaking force of the claw's hold
 
 
 class Crane(Machine):
-    """A grapple on a chain under a trolley. Claw and crate together have the mass of 120 links."""
+    """A claw on a chain under a trolley. The claw and the crate that it holds have the mass of 120 links."""
 
     name = "crane"
     seen = "A grapple on a chain: its load has 120 links' mass."
