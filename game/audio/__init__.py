@@ -1,1 +1,1 @@
-"""Audio: sound effects and music, or silence without a device."""
+"""Audio: sound effects and music. Without a sound device, the program is silent."""

@@ -1,8 +1,8 @@
-"""Music: one tune at a time, streamed from its file, with fades between tunes, and jingles in between.
+"""Music: one tune at a time, streamed from its file, with fades between tunes; also short jingles.
 
-A file is read when its tune is wanted. The old tune fades out before the new one fades in, because two tunes in
-different keys at once are noise. The volume is set once per drawn frame (step), so that a slider has effect while it
-moves.
+A file is opened when its tune starts. The old tune fades out before the new one fades in, because two tunes in
+different keys at once are noise. The volume is set once per drawn frame, in step(), so that a volume slider has effect
+while it moves.
 """
 
 from collections.abc import Callable
@@ -37,34 +37,38 @@ class Music:
         self.unusable = set()
 
     def tune(self, name: str | None) -> None:
-        """Choose the tune to play, or None for silence. During a jingle, the tune starts after it."""
+        """Choose the tune to play; None means silence. If a jingle is playing, the tune starts after the jingle."""
         if name != self.wanted:
             self.wanted = name
             self.resume()
 
     def jingle(self, name: str) -> None:
-        """Play a jingle once, without delay. The tune starts again after it."""
+        """Play the jingle `name` once, and start it immediately. The chosen tune starts again after the jingle."""
         self.resume()
         self.jingle_due = name
 
     def duck_for(self, seconds: float) -> None:
-        """Lower the volume for `seconds`, so that a loud effect is heard."""
+        """Lower the music's volume for `seconds`, so that a loud effect can be heard."""
         self.ducked_for = max(self.ducked_for, seconds)
 
     def pause(self) -> None:
         """Make the music silent from the next step on.
 
-        The mixer's own pause and unpause are not called, because they deadlock: they wait for the sound thread with the
-        interpreter's lock held, while that thread waits for this lock when an effect has just ended.
+        The mixer's own pause and unpause functions are not called, because they can deadlock. They hold Python's global
+        interpreter lock while they wait for the sound thread. When an effect has just ended, the sound thread waits for
+        that lock.
         """
         self.paused = True
 
     def resume(self) -> None:
-        """Continue the music after pause(). Choosing another tune or playing a jingle also ends the pause."""
+        """Continue the music after pause(). A call of tune() with another tune, or of jingle(), also ends the pause."""
         self.paused = False
 
     def step(self, seconds: float, volume: float) -> None:
-        """Update fades, the lowered volume and the tune after `seconds`. volume: volume of all music, 0..1."""
+        """Advance the fades, the lowering of the volume, and the change of tunes by `seconds`.
+
+        volume: volume of all music, 0..1.
+        """
         if not self.paused:
             self._advance(seconds)
         pygame.mixer.music.set_volume(0.0 if self.paused else volume * self.level * self.duck)
@@ -84,9 +88,9 @@ class Music:
         self.duck = min(1.0, max(DUCKED, self.duck + way * (1.0 - DUCKED)))
 
     def _leave_for(self, name, share):
-        """Fade out by one step before the tune or jingle `name`, and start it once the volume is 0.
+        """Fade the current music out by one step. When its volume has reached 0, start the tune or jingle `name`.
 
-        share: part of the full volume by which the volume is lowered, 0..1.
+        share: decrease of the volume in this step, as a part of the full volume, 0..1.
         """
         self.level = max(0.0, self.level - share)
         if self.level == 0.0 or self.playing is None:

@@ -1,7 +1,8 @@
-"""Sound: effects with a few voices each, panned and varied in pitch, over music; silence without a device.
+"""Sound: effects over music. Each effect has a few voices, is panned, and varies in pitch.
 
-Scenes read nothing back from the player of sounds, and the choice of pitches has its own random numbers. The buffer has
-512 samples (12 ms): a larger one causes an audible delay, a smaller one pops.
+Without a sound device, the program is silent. No scene reads the state of the sound player. Pitches are chosen with
+separate random numbers. The buffer has 512 samples (12 ms): a larger buffer causes an audible delay, and a smaller one
+causes pops.
 """
 
 import math
@@ -50,7 +51,10 @@ RANKS = {
 
 @dataclass
 class Voice:
-    """One channel of the mixer, with its last sound. started: number of that sound among all sounds started so far."""
+    """One channel of the mixer, and the sound that it played last.
+
+    started: number of that sound in the sequence of all sounds started so far; rank: importance of that sound.
+    """
 
     channel: "pygame.mixer.Channel"  # in quotes: a pygame without its mixer has no such name
     name: str = ""
@@ -59,9 +63,9 @@ class Voice:
 
 
 class Sounds:
-    """Player of effects and music by file name. silent_because: the reason for silence, or "".
+    """Player of effects and music, which are chosen by file name. silent_because: the reason for silence, or "".
 
-    master, effects and music are volumes 0..1 and may be set at any time. Call step() once per drawn frame.
+    The volumes master, effects and music are 0..1, and may be set at any time. Call step() once per drawn frame.
     """
 
     def __init__(
@@ -99,9 +103,9 @@ class Sounds:
         return ""
 
     def play_cues(self, cues: Iterable[Cue]) -> None:
-        """Play the cues of one step, each (name, canvas x or None, volume).
+        """Play the sounds that a step has requested. Each cue is (name, canvas x or None for the centre, volume 0..1).
 
-        Of equal names only the loudest is played.
+        If several cues have the same name, only the loudest is played.
         """
         loudest = {}
         for name, x, volume in cues:
@@ -111,9 +115,10 @@ class Sounds:
             self.play(name, x, volume)
 
     def play(self, name: str, x: float | None = None, volume: float = 1.0) -> bool:
-        """Start a sound, and return whether it is played. x: canvas position, None for the centre; volume: 0..1.
+        """Start the sound `name`, and return whether it is played.
 
-        If VOICES voices already play this sound, the oldest of them is replaced.
+        x: canvas position, None for the centre; volume: 0..1. If VOICES voices already play this sound, the oldest of
+        them is replaced.
         """
         loudness = min(1.0, volume) * self.effects * self.master
         now = self.clock()
@@ -134,9 +139,10 @@ class Sounds:
         return True
 
     def _start(self, name, sides, loudness):
-        """Start the sound `name` on a voice, and return the voice; None if its file is unusable or no voice is free.
+        """Start the sound `name` on a voice and return the voice.
 
-        sides: (left, right) volumes, which are multiplied by `loudness`.
+        Return None if the sound's file is unusable or no voice is available. sides: (left, right) volumes, which are
+        multiplied by `loudness`.
         """
         sound = self._variant(name)
         voice = self._voice_for(name, RANKS.get(name, 1)) if sound else None
@@ -152,10 +158,10 @@ class Sounds:
         self.report(f"{self.silent_because}; the game goes on in silence")
 
     def _voice_for(self, name, rank):
-        """Return the voice for a sound `name` of importance `rank`; None if all voices have more important sounds.
+        """Return the voice on which the sound `name` shall be played, or None if there is none.
 
-        It is the first of these that exists: the oldest voice of the same sound, if VOICES of them play; a free voice;
-        the oldest voice of the lowest rank.
+        If VOICES voices already play this sound, the result is the oldest of them. Otherwise, it is an idle voice. If
+        no voice is idle, it is the oldest voice of the lowest rank, unless that rank is higher than `rank`.
         """
         busy = [voice for voice in self.voices if voice.channel.get_busy()]
         same = [voice for voice in busy if voice.name == name]
@@ -167,7 +173,10 @@ class Sounds:
         return least if least.rank <= rank else None
 
     def _variant(self, name):
-        """Return the sound `name` at a random pitch, different from its last one; None if its file is unusable."""
+        """Return the sound `name` at a random pitch, different from the last pitch of this sound.
+
+        Melodies keep their pitch. Return None if the file is unusable.
+        """
         if name not in self.samples:
             self.samples[name] = self._read(name)
         samples = self.samples[name]
@@ -197,30 +206,30 @@ class Sounds:
         return None
 
     def tune(self, name: str | None) -> None:
-        """Choose the tune to play, or None for silence. A new tune is faded in.
+        """Choose the tune to play; None means silence. A new tune is faded in.
 
-        A call with the current tune costs little.
+        A repeated call with the current tune costs little.
         """
         if not self.silent_because:
             self.player.tune(name)
 
     def jingle(self, name: str) -> None:
-        """Play a jingle once, without delay. The chosen tune starts after it."""
+        """Play the jingle `name` once, and start it immediately. The chosen tune starts after the jingle."""
         if not self.silent_because:
             self.player.jingle(name)
 
     def pause(self) -> None:
-        """Pause the music. Effects that play continue to their end."""
+        """Pause the music. Effects that are playing continue to their end."""
         if not self.silent_because:
             self.player.pause()
 
     def resume(self) -> None:
-        """Continue the music where it was paused."""
+        """Continue the music after pause(), at the position at which it was paused."""
         if not self.silent_because:
             self.player.resume()
 
     def step(self, seconds: float) -> None:
-        """Update fades and the lowered volume. seconds: time since the last call [s]."""
+        """Advance the music's fades and the lowering of its volume. seconds: time since the last call [s]."""
         if self.silent_because:
             return
         try:
@@ -230,9 +239,9 @@ class Sounds:
 
 
 def pan(x: float | None) -> tuple[float, float]:
-    """Return (left, right) volumes, 0..1, for a sound at canvas `x`; None is the centre.
+    """Return the (left, right) volumes, 0..1, of a sound at canvas position `x`. None is the centre.
 
-    The power is equal everywhere.
+    The total power of both sides is the same for every position.
     """
     side = 0.0 if x is None else max(-1.0, min(1.0, 2.0 * x / CANVAS_SIZE[0] - 1.0)) * PAN_WIDTH
     angle = (side + 1.0) * math.pi / 4.0
@@ -240,7 +249,7 @@ def pan(x: float | None) -> tuple[float, float]:
 
 
 def resampled(samples: np.ndarray, speed: float) -> np.ndarray:
-    """Return samples that sound `speed` times as fast, and so at a higher pitch."""
+    """Return sound samples resampled for playback at `speed` times the original speed, and thus at a higher pitch."""
     if speed == 1.0:
         return samples
     places = np.arange(0.0, len(samples) - 1, speed)
