@@ -1,1 +1,1 @@
-"""Drawing: the canvas and its text, sprites, tiles, particles, and the transfer of the canvas to the window."""
+"""Drawing: the canvas with its text, sprites, tiles and particles, and the scaling of the canvas onto the window."""

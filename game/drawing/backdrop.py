@@ -1,4 +1,4 @@
-"""Backdrop of dusk, mountains and drifting clouds, for the title, the menu and scenes."""
+"""Backdrop of dusk, mountains and drifting clouds, used by the title, the menu and scenes."""
 
 from collections.abc import Sequence
 
@@ -13,14 +13,17 @@ CLOUD_TOP = 18
 
 
 class Backdrop:
-    """A sky with parallax layers that repeat in x."""
+    """A sky with parallax layers that repeat horizontally."""
 
     def __init__(self, layers: Sequence[tuple[str, float, int | None]] = DUSK, sky: str = "sky_dusk") -> None:
         self.sky = load_backdrop(sky)
         self.layers = [(load_backdrop(name), share, low) for name, share, low in layers]
 
     def draw(self, canvas: Canvas, distance: float, dim: int = 0) -> None:
-        """Draw the backdrop for a camera that has moved `distance` px to the right. dim: 0..255, darkens for text."""
+        """Draw the backdrop for a camera that has moved `distance` px to the right.
+
+        dim: amount 0..255 that is subtracted from each colour channel, so that text is readable.
+        """
         canvas.surface.blit(self.sky, (0, 0))
         for picture, share, low in self.layers:
             y = CLOUD_TOP if low is None else CANVAS_SIZE[1] - picture.get_height() + low

@@ -1,4 +1,4 @@
-"""A table of bars: a row for each thing that is compared, a column for each quantity, each bar with its number."""
+"""A table of bars: one row for each compared thing, one column for each quantity, and a number beside each bar."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -14,7 +14,10 @@ NUMBER = 21  # [text px] room for a number at the right of its bar
 
 
 class BarRow(NamedTuple):
-    """A row: its name and colour, and for each column (value, text). A value of None has no bar yet."""
+    """A row of the table: its name, its colour, and (value, text) for each column.
+
+    A value of None is drawn without a bar.
+    """
 
     name: str
     color: Color
@@ -22,16 +25,17 @@ class BarRow(NamedTuple):
 
 
 def bar_table_height(rows: int) -> int:
-    """Return the height of a table with this number of rows [text px]."""
+    """Return the height of a table with `rows` rows [text px]."""
     return ROW * (rows + 1)
 
 
 def draw_bar_table(
     canvas: Canvas, rect: pygame.Rect, columns: Sequence[str], rows: Sequence[BarRow], scale: int = 1
 ) -> None:
-    """Draw the table into a rectangle. The longest bar of a column fills it, and all start at 0.
+    """Draw the table into the rectangle `rect`.
 
-    columns: headings, with units; scale: canvas or frame px per text px.
+    All bars start at 0, and the longest bar of a column fills the column's width. columns: headings of the columns,
+    with units; scale: canvas or frame px per text px.
     """
     wide = (rect.width - NAME * scale) // len(columns)
     room = wide - (NUMBER + 4) * scale

@@ -1,4 +1,4 @@
-"""Blits of many pictures in one call, with pygame-ce or pygame."""
+"""A function that blits many images in one call, under pygame-ce and pygame."""
 
 from collections.abc import Iterable
 from typing import Any, cast
@@ -9,9 +9,9 @@ import pygame
 def blit_many(
     surface: pygame.Surface, pairs: Iterable[tuple[pygame.Surface, tuple[float, float]]], flags: int = 0
 ) -> None:
-    """Blit many pictures. pairs: (image, (x, y)); flags: pygame's blend flags.
+    """Blit many images onto `surface`. pairs: (image, (x, y)) of each image; flags: pygame's blend flags.
 
-    fblits, which pygame 2.6.1 lacks, skips checks: 0.4 instead of 0.5 µs a pair.
+    pygame-ce's fblits is used if it exists; pygame 2.6.1 lacks it. fblits takes 0.4 instead of 0.5 µs per image.
     """
     if hasattr(surface, "fblits"):
         surface.fblits(pairs, flags)

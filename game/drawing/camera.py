@@ -1,4 +1,4 @@
-"""Camera: maps world points to canvas points by a position, a zoom and a viewport."""
+"""Camera: maps world points to canvas points by means of a position, a zoom and a viewport."""
 
 from math import exp, sin
 
@@ -35,25 +35,31 @@ class Camera:
 
     @property
     def size(self) -> tuple[float, float]:
-        """Width and height of the visible part of the world [world px]."""
+        """(width, height) of the visible part of the world [world px]."""
         return self.viewport.width / self.zoom, self.viewport.height / self.zoom
 
     def keep_within(self, left: float, top: float, right: float, bottom: float) -> None:
-        """Keep the view within a rectangle of the world [px], such as the edges of a level."""
+        """Limit the camera to a rectangle of the world [px], such as the edges of a level."""
         self.limits = (left, top, right, bottom)
 
     def place(self, x: float, y: float) -> None:
-        """Move the view's top left corner to a world point at once, without interpolation (a restart, a door)."""
+        """Move the top left corner of the view to the world point (x, y), without interpolation.
+
+        This is used, for example, after a restart.
+        """
         self.x, self.y = self._limited(x, y)
         self.previous_x, self.previous_y = self.x, self.y
 
     def center_on(self, x: float, y: float) -> None:
-        """Move the view at once, so that a world point is in its middle."""
+        """Move the view so that the world point (x, y) is in its centre, without interpolation."""
         width, height = self.size
         self.place(x - width / 2, y - height / 2)
 
     def begin_step(self, dt: float) -> None:
-        """Store the previous position for interpolation, and decay the shake. Call it once per step."""
+        """Store the current position as the previous one, for interpolation, and decay the shake over `dt` [s].
+
+        Call this once per step.
+        """
         self.previous_x, self.previous_y = self.x, self.y
         self.clock += dt
         self.trauma = max(0.0, self.trauma - SHAKE_DECAY * dt)
@@ -61,9 +67,10 @@ class Camera:
     def follow(
         self, x: float, y: float, dt: float, rate: float = 8.0, dead_zone: tuple[float, float] = (0.0, 0.0)
     ) -> None:
-        """Move the view towards a world point, so that the point comes to its middle. rate: rate of the approach [1/s].
+        """Move the centre of the view towards the world point (x, y) for a step of `dt` [s].
 
-        The view does not move while the point is within `dead_zone` (x, y) [world px] of the middle.
+        rate: rate of the approach [1/s]. The view does not move while the point is within `dead_zone` (x, y) [world px]
+        of the centre.
         """
         width, height = self.size
         share = 1.0 - exp(-rate * dt)
@@ -72,14 +79,17 @@ class Camera:
         self.x, self.y = self._limited(self.x + off_x * share, self.y + off_y * share)
 
     def shake(self, trauma: float) -> None:
-        """Add trauma, 0..1.
+        """Add `trauma`, 0..1, to the trauma, which is the strength of the shake.
 
-        The drawn offset is proportional to the square of the trauma, so that small hits stay small.
+        The drawn offset is proportional to the square of the total trauma, so that small hits cause only small shakes.
         """
         self.trauma = min(1.0, self.trauma + trauma)
 
     def view(self, alpha: float = 1.0) -> tuple[float, float]:
-        """Return the world point (x, y) that is drawn at the top left, with shake; whole numbers at zoom 1."""
+        """Return the world point (x, y) that is drawn at the top left of the viewport, including the shake.
+
+        At zoom 1, x and y are whole numbers. alpha: position between the last two steps, 0..1.
+        """
         x = self.previous_x + (self.x - self.previous_x) * alpha
         y = self.previous_y + (self.y - self.previous_y) * alpha
         if self.trauma > 0.0 and self.shake_share > 0.0:
@@ -90,15 +100,15 @@ class Camera:
         return (whole(x), whole(y)) if self.zoom == 1.0 else (x, y)
 
     def to_canvas(self, x: Number, y: Number, alpha: float = 1.0) -> tuple[Number, Number]:
-        """Return the canvas position (x, y) of world points, numbers or arrays.
+        """Return the canvas position (x, y) of world points. x, y: numbers or arrays.
 
-        alpha: position (0..1) between the last two steps.
+        alpha: position between the last two steps, 0..1.
         """
         left, top = self.view(alpha)
         return (x - left) * self.zoom + self.viewport.x, (y - top) * self.zoom + self.viewport.y
 
     def to_world(self, x: float, y: float) -> tuple[float, float]:
-        """Return the world position (x, y) of a canvas point, for the camera's position in the last step."""
+        """Return the world position (x, y) of the canvas point (x, y), for the camera's position in the last step."""
         left, top = self.view()
         return (x - self.viewport.x) / self.zoom + left, (y - self.viewport.y) / self.zoom + top
 
@@ -111,7 +121,7 @@ class Camera:
 
 
 def _outside(offset, zone):
-    """Return how far an offset lies outside the range -zone .. zone; 0 inside."""
+    """Return the signed distance by which `offset` lies outside the range -zone .. zone, or 0 within it."""
     if offset > zone:
         return offset - zone
     return offset + zone if offset < -zone else 0.0

@@ -27,10 +27,10 @@ def whole(value: float) -> int:
 
 
 class Canvas:
-    """Surface with text. boxes: (rect, text) of each line of text in this picture.
+    """Surface with text. boxes: list of (rect, text), one for each line of text in the current picture.
 
-    reserved: rectangles that later text must also avoid. fixed: the reserved rectangles that show an icon, a bar or a
-    plot. Overlays cover neither the text nor the fixed rectangles.
+    reserved: rectangles that later text must also avoid. fixed: those of the reserved rectangles that show an icon, a
+    bar or a plot. Overlays cover neither text nor fixed rectangles.
     """
 
     edge = 1  # [px] by which an outline extends over its text's box
@@ -52,7 +52,7 @@ class Canvas:
         return self.surface.get_rect()
 
     def begin(self, color: Color | None = None) -> None:
-        """Start a new picture: clear all lists, and fill the surface with `color` if it is given."""
+        """Start a new picture: clear all lists of rectangles, and fill the surface with `color`, unless it is None."""
         self.boxes.clear()
         self.reserved.clear()
         self.fixed.clear()
@@ -71,7 +71,10 @@ class Canvas:
     def text_rect(
         self, text: str, x: float, y: float, font: str = TEXT, scale: int = 1, align: str = "left"
     ) -> pygame.Rect:
-        """Return the rectangle that text() would use for a line. align: "left", "center" or "right", the place of x."""
+        """Return the rectangle that text() would use for a line of text.
+
+        align: "left", "center" or "right": the part of the line that is at x.
+        """
         width, height = load_font(font).measure(text, scale)
         left = {"left": x, "center": x - width / 2, "right": x - width}[align]
         return pygame.Rect(whole(left), whole(y), width, height)
@@ -87,10 +90,10 @@ class Canvas:
         align: str = "left",
         outline: bool = False,
     ) -> pygame.Rect:
-        """Draw one line of text with its upper edge at y, and return its rectangle.
+        """Draw one line of text with its upper edge at y, and return the line's rectangle.
 
-        align: as in text_rect(); outline: whether the letters have a dark edge, which lies outside the rectangle. The
-        caller must keep the rectangle clear of other text. scale: enlargement of the letters, a whole number.
+        align: as in text_rect(); scale: enlargement of the letters, a whole number. outline: True draws a dark edge
+        around the letters, outside the rectangle. The caller must keep the rectangle clear of other text.
         """
         rect = self.text_rect(text, x, y, font, scale, align)
         load_font(font).draw(self.surface, text, rect.x, rect.y, color, scale, outline)
@@ -110,8 +113,8 @@ class Canvas:
     ) -> bool:
         """Draw a line of text only if it is on the canvas and touches no other text. Return whether it was drawn.
 
-        The arguments are those of text(). This is for labels that follow moving objects. The caller counts the labels
-        that were not drawn, and shows the count in a fixed place.
+        The arguments are those of text(). The method is meant for labels of moving objects. The caller counts the
+        labels that were not drawn, and shows the count at a fixed position. outline: as in text().
         """
         rect = self.text_rect(text, x, y, font, scale, align)
         if not self.is_free(rect.inflate(2 * scale, 2 * scale) if outline else rect):
@@ -128,7 +131,7 @@ class Canvas:
         return [box for box, _ in self.boxes] + self.reserved
 
     def reserve(self, rect: Box) -> None:
-        """Reserve a rectangle (a graph, a panel, a life bar), which text_if_free() and free_place() then avoid."""
+        """Reserve a rectangle (a graph, a panel, a life bar). text_if_free() and free_place() then avoid it."""
         self.reserved.append(pygame.Rect(rect))
 
     def fix(self, rect: Box) -> None:
@@ -137,21 +140,21 @@ class Canvas:
         self.fixed.append(pygame.Rect(rect))
 
     def lift(self) -> list[tuple[pygame.Surface, tuple[int, int]]]:
-        """Return copies of the text and of the fixed rectangles, a list of (picture, top left corner).
+        """Return copies of all text and fixed rectangles, as a list of (picture, top left corner).
 
-        put_back() draws these copies again, over everything that was drawn since the call of lift().
+        put_back() later draws these copies over everything that was drawn after the call of lift().
         """
         rects = [box.inflate(2 * self.edge, 2 * self.edge) for box, _ in self.boxes] + self.fixed
         inside = [rect.clip(self.rect) for rect in rects]
         return [(self.surface.subsurface(rect).copy(), rect.topleft) for rect in inside if rect.width and rect.height]
 
     def put_back(self, lifted: list[tuple[pygame.Surface, tuple[int, int]]]) -> None:
-        """Draw the copies `lifted`, which lift() returned, over the canvas."""
+        """Draw the copies that lift() returned over the canvas."""
         for picture, place in lifted:
             self.surface.blit(picture, place)
 
     def free_place(self, size: tuple[int, int], places: Iterable[tuple[float, float]]) -> tuple[int, int] | None:
-        """Return the first (x, y) of `places` at which a box of `size` is free, or None."""
+        """Return the first (x, y) of `places` at which a box of `size` is free, or None if there is none."""
         inside, taken = self.rect, self._taken()
         for x, y in places:
             rect = pygame.Rect(whole(x), whole(y), *size)
@@ -161,12 +164,12 @@ class Canvas:
 
 
 def small_font(scale: int) -> tuple[str, int]:
-    """Return (font, distance of two lines [text px]) of small text that is at least 9 px high at this scale."""
+    """Return (font, line spacing [text px]) of the small text, which is at least 9 px high at this scale."""
     return (SMALL, 7) if scale > 1 else (TEXT, 10)
 
 
 def wrap(text: str, width: int, font: str = TEXT, scale: int = 1) -> list[str]:
-    """Return a text broken into lines of at most `width` pixels. A word that is wider has its own line."""
+    """Return `text` broken into lines of at most `width` pixels. A word that is wider than `width` has its own line."""
     measure = load_font(font).measure
     lines, line = [], ""
     for word in text.split():
@@ -180,7 +183,10 @@ def wrap(text: str, width: int, font: str = TEXT, scale: int = 1) -> list[str]:
 
 
 def shorten(text: str, width: int, font: str = TEXT, scale: int = 1) -> str:
-    """Return the text if it fits in `width` pixels, otherwise its longest beginning that fits, followed by two dots."""
+    """Return `text` if it fits in `width` pixels.
+
+    Otherwise, return its longest beginning that fits, with two dots added.
+    """
     measure = load_font(font).measure
     if measure(text, scale)[0] <= width:
         return text

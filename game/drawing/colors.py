@@ -1,4 +1,7 @@
-"""Colours of text, panels and overlays. Overlay hues are near the Okabe-Ito set; the settings may choose others."""
+"""Colours of text, panels and overlays.
+
+The default overlay hues are near the Okabe-Ito set; the settings offer others.
+"""
 
 Color = tuple[int, ...]  # red, green, blue and perhaps alpha, 0..255
 
@@ -46,7 +49,7 @@ BROADPHASE_COLORS = {"brute": RED, "sweep": YELLOW, "hash": SKY, "tree": GREEN}
 
 
 def toned(color: Color, palette: str) -> Color:
-    """Return the colour that an overlay's `color` has in a palette; alpha, if any, is kept.
+    """Return the colour that replaces an overlay's `color` in a palette. The alpha value, if any, is unchanged.
 
     palette: a name in game.files.accessibility.PALETTES.
     """

@@ -1,4 +1,4 @@
-"""Cracks: jagged lines of pixels across a raster, along which a shape is carved into pieces."""
+"""Cracks: jagged lines of pixels across a raster, along which a shape is cut into fragments."""
 
 from math import cos, hypot, sin
 
@@ -9,10 +9,10 @@ FINE = 0.25  # [px] between the points that are drawn
 
 
 def draw_crack(solid: np.ndarray, at: tuple[float, float], heading: float, random: np.random.Generator) -> None:
-    """Set the pixels of a crack in `solid`, a bool array [row, column], to True.
+    """Set the pixels of a random crack in `solid`, a bool array [row, column], to True.
 
-    The crack passes through the point `at` (x, y) [px], along `heading` [rad] on average, from side to side of the
-    raster. It is two pixels wide, so that the pixels on both sides of it do not touch at corners.
+    The crack passes through the point `at` (x, y) [px] in the mean direction `heading` [rad], and crosses the whole
+    raster. It is two pixels wide, so that the pixels on both sides of the crack do not touch at corners.
     """
     height, width = solid.shape
     reach = JAG * (1 + int(hypot(height, width) // JAG))

@@ -1,4 +1,4 @@
-"""The mouse drag on the screen: a line from the grabbed point to the pointer."""
+"""Drawing of a mouse drag: a line from the grabbed point to the pointer."""
 
 import pygame
 
@@ -8,7 +8,7 @@ from game.input.drag import Drag, to_world
 
 
 def draw_drag(frame: Frame, drag: Drag, pointer: tuple[float, float]) -> None:
-    """Draw a line with a ring and a dot from the grabbed point to the pointer; nothing if no body is held.
+    """Draw a line from the grabbed point to the pointer, with a ring and a dot. Draw nothing if no body is dragged.
 
     pointer: (x, y) [canvas px].
     """

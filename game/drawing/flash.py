@@ -1,7 +1,7 @@
-"""Flashes of the whole picture. They are all in this module, so that they can be limited and switched off.
+"""Flashes of the whole picture. All flashes are in this module, so that they can be limited and switched off.
 
-At most two flashes begin within a second, and none adds more than a third of white. The limit of WCAG 2.3.1 is three
-general flashes a second.
+At most two flashes begin within a second, and a flash adds at most a third of white. The limit of WCAG 2.3.1 is three
+general flashes per second.
 """
 
 import pygame
@@ -16,7 +16,10 @@ FAINTEST = 0.02  # of the full light; less counts as none
 
 
 class Flash:
-    """Light of the flashes. light: current strength, 0..1; begun: steps at which the last flashes began."""
+    """Light that flashes add to the whole picture.
+
+    light: current strength, 0..1; begun: steps in which recent flashes began.
+    """
 
     def __init__(self) -> None:
         self.now = 0
@@ -27,7 +30,7 @@ class Flash:
     def start(self, strength: float = 1.0, color: Color = (255, 255, 255)) -> bool:
         """Start a flash, and return whether it was started. strength: 0..1.
 
-        It is not started if MOST flashes began within the last SPAN steps.
+        A flash is not started if MOST flashes began within the last SPAN steps.
         """
         self.begun = [step for step in self.begun if self.now - step < SPAN]
         if len(self.begun) >= MOST:
@@ -37,12 +40,12 @@ class Flash:
         return True
 
     def step(self) -> None:
-        """Fade the light. Call it once per step."""
+        """Reduce the strength of the light. Call this once per step."""
         self.now += 1
         self.light = self.light * FADE if self.light > FAINTEST else 0.0
 
     def draw(self, surface: pygame.Surface) -> None:
-        """Add the light to the whole surface."""
+        """Add the light of the current flash to the whole surface."""
         if self.light > 0.0:
             part = BRIGHTEST * self.light / 255
             surface.fill([int(c * part) for c in self.color], special_flags=pygame.BLEND_RGB_ADD)

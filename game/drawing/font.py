@@ -1,7 +1,7 @@
-"""Bitmap text, measured and drawn from a sheet of glyphs.
+"""Bitmap text: measuring and drawing with a sheet of glyphs.
 
-Glyphs are tinted and scaled once per (color, scale, outline). The picture of a line is cached while it is in use, so a
-panel of names and changing numbers costs one blit per line.
+Glyphs are tinted and scaled once per (color, scale, outline). The pictures of recently drawn lines are cached, so that
+a panel of names and changing numbers costs one blit per line.
 """
 
 import json
@@ -20,7 +20,7 @@ UNKNOWN = "?"  # drawn for a character that the sheet lacks
 
 
 class Font:
-    """A bitmap font: one sheet of glyphs, and a method to draw a line of text. height: height of a line [font px]."""
+    """A bitmap font that measures and draws lines of text. height: height of a line [font px]."""
 
     def __init__(self, sheet: pygame.Surface, height: int, glyphs: dict[str, dict[str, int]]) -> None:
         self.height = height
@@ -32,7 +32,7 @@ class Font:
         self.measure = lru_cache(maxsize=MEASURED)(self._measure)  # labels measure the same text in every picture
 
     def _measure(self, text, scale=1):
-        """Return (width, height) of one line [px], without the gap after the last letter."""
+        """Return (width, height) of one line of text [px], without the gap after the last letter."""
         unknown = self.advance[UNKNOWN]
         width = sum(self.advance.get(c, unknown) for c in text)
         return (max(width - 1, 0) * scale, self.height * scale)
@@ -40,12 +40,15 @@ class Font:
     def draw(
         self, surface: pygame.Surface, text: str, x: int, y: int, color: Color, scale: int = 1, outline: bool = False
     ) -> None:
-        """Draw one line with its top left corner at (x, y), whole pixels."""
+        """Draw one line of text with its top left corner at (x, y), whole pixels.
+
+        outline: True adds a dark edge to the letters.
+        """
         edge = scale if outline else 0
         surface.blit(self.line(text, tuple(color), scale, outline), (x - edge, y - edge))
 
     def _line(self, text, color, scale, outline):
-        """Return a picture of the whole line, with an outline around the letters if `outline`."""
+        """Return a picture of one line of text. outline: True adds a dark edge around the letters."""
         glyphs = self._glyphs(color, scale, outline)
         width, height = self.measure(text, scale)
         edge = 2 * scale if outline else 0
@@ -85,7 +88,7 @@ class Font:
 
 
 def tint(image: pygame.Surface, color: Color) -> pygame.Surface:
-    """Return a copy of a white image in one colour, with the same alpha."""
+    """Return a copy of a white image in the colour `color`, with unchanged alpha."""
     copy = image.copy()
     copy.fill((*color[:3], 255), special_flags=pygame.BLEND_RGBA_MULT)
     return copy
@@ -93,7 +96,10 @@ def tint(image: pygame.Surface, color: Color) -> pygame.Surface:
 
 @cache
 def load_font(name: str) -> Font:
-    """Return the font of assets/font/<name>.png and .json. Raises FileError if a file is damaged or missing."""
+    """Return the font in the files assets/font/<name>.png and .json.
+
+    Raises FileError if a file is damaged or missing.
+    """
     path = FONTS / f"{name}.json"
     try:
         table = json.loads(path.read_text(encoding="utf-8"))

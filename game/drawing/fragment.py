@@ -14,10 +14,11 @@ ANGLES = 64  # pictures cached per full turn: a 40 px piece moves by 2 px at its
 def cut_out(
     source: pygame.Surface, mask: PixelMask, left: int, top: int, edge: tuple[int, int, int], share: float = 0.75
 ) -> pygame.Surface:
-    """Return the part of the picture `source` under a mask's solid pixels; all other pixels are transparent.
+    """Return the part of the picture `source` under the solid pixels of `mask`. All other pixels are transparent.
 
-    left, top: place of the mask in the picture. A fracture is where the picture continues beyond the mask. There the
-    outermost pixels are mixed with the colour `edge` by `share` 0..1, and the next pixels inwards by share / 2.
+    left, top: position of the mask in the picture. Where opaque pixels of the picture continue beyond the mask, the
+    mask has a fracture edge. There the outermost pixels are mixed with the colour `edge` by the factor `share` (0..1).
+    The next pixels inwards are mixed by share / 2.
     """
     width, height = mask.size
     wide = pygame.Surface((width + 2, height + 2), pygame.SRCALPHA)
@@ -39,7 +40,7 @@ def cut_out(
 
 
 class FragmentPicture:
-    """Picture of a fragment, drawn at any angle around the origin of its body."""
+    """Picture of a fragment, drawn at any angle. It rotates around the origin of the fragment's body."""
 
     def __init__(self, image: pygame.Surface, mask: PixelMask) -> None:
         # From the body's origin to the centre of the picture.
@@ -47,14 +48,17 @@ class FragmentPicture:
         self.image, self.kept = image, {0: image}
 
     def at(self, angle: float) -> pygame.Surface:
-        """Return the picture rotated clockwise by the cached angle that is nearest to `angle` [rad]."""
+        """Return the picture, rotated clockwise by the multiple of 2 pi / ANGLES that is nearest to `angle` [rad].
+
+        Rotated pictures are cached.
+        """
         number = round(angle / (2.0 * pi) * ANGLES) % ANGLES
         if number not in self.kept:
             self.kept[number] = pygame.transform.rotate(self.image, -360.0 * number / ANGLES)
         return self.kept[number]
 
     def middle(self, x: float, y: float, angle: float) -> tuple[float, float]:
-        """Return the world position (x, y) of the picture's centre for a body at (x, y), rotated by `angle` [rad]."""
+        """Return the world position (x, y) of the picture's centre. x, y, angle: pose of the body [px, px, rad]."""
         c, s = cos(angle), sin(angle)
         return x + c * self.off[0] - s * self.off[1], y + s * self.off[0] + c * self.off[1]
 
@@ -67,6 +71,6 @@ class FragmentPicture:
 
 
 def _beside(pixels):
-    """Return a bool array of the pixels that have a pixel of `pixels` above, below, left or right of them."""
+    """Return the pixels that have an upper, lower, left or right neighbour in `pixels`. Both are bool arrays."""
     padded = np.pad(pixels, 1)
     return padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2] | padded[1:-1, 2:]

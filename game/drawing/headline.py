@@ -1,4 +1,7 @@
-"""The headline of a lab: one sentence on what goes wrong, and one large number that shows it, in the title line."""
+"""The headline of a lab (a scene for an experiment), in the title line.
+
+A headline consists of a sentence about a fault that the lab shows, and a large number that measures the fault.
+"""
 
 from typing import NamedTuple
 
@@ -10,16 +13,16 @@ from game.drawing.colors import FOG, GOLD, GREEN, INK, PAPER, RED, SKY
 ROW = 7  # [canvas px] from one line of small text to the next
 GAP = 6  # [canvas px] between title, sentence, number and unit
 LARGE = 2  # scale of the number
-ENOUGH = 10  # counted cases from which on a share of them is shown: one case is a tenth
+ENOUGH = 10  # least number of counted cases for which a share is shown
 ROWS = 2  # lines of small text that the title line holds
 
 
 class Headline(NamedTuple):
-    """One sentence and one live number of a lab.
+    """One sentence and one live number in the title line of a lab (a scene for an experiment).
 
-    sentence: at most 14 words; mend: the key that changes the number, and its effect; number: measured in this run,
-    as text; unit: unit of the number, in words; seen: count of the data so far; needed: count from which on the number
-    is shown; of: name of the data; good: whether nothing goes wrong now.
+    sentence: at most 14 words; mend: the key that changes the number, and its effect. number: the number as text,
+    measured in this run; unit: its unit, in words. seen: count of the data so far; needed: count from which on the
+    number is shown; of: name of the counted data. good: whether nothing goes wrong now.
     """
 
     sentence: str
@@ -33,19 +36,19 @@ class Headline(NamedTuple):
 
     @property
     def known(self) -> bool:
-        """Return whether there are enough data for the number."""
+        """Whether there are enough data to show the number."""
         return self.seen >= self.needed
 
     @property
     def waiting(self) -> str:
-        """Return the text that replaces the number while there are too few data."""
+        """The text that replaces the number while there are too few data."""
         return f"measuring, {self.seen} of {self.needed} {self.of}"
 
 
 def draw_headline(canvas: Canvas, title: str, headline: Headline, height: int) -> None:
-    """Draw the title line of a lab over the top `height` canvas pixels: title, sentence, key, number and unit.
+    """Draw the title line of a lab over the top `height` canvas px: title, sentence, key, number and unit.
 
-    Overlays do not cover it, and the line of keys leaves the number free: both rectangles are reserved with fix().
+    The whole line is reserved with Canvas.fix(), so that overlays and other text do not cover it.
     """
     band = pygame.Rect(0, 0, CANVAS_SIZE[0], height)
     canvas.boxes[:] = [each for each in canvas.boxes if not band.colliderect(each[0])]  # hidden by the line
@@ -64,7 +67,10 @@ def draw_headline(canvas: Canvas, title: str, headline: Headline, height: int) -
 
 
 def _draw_number(canvas, headline, band):
-    """Draw the number, or what is missing for it, and its unit at the right. Return the x at which they begin."""
+    """Draw the number and its unit at the right of the title line. Return the x of their left end.
+
+    If there are too few data, draw their count instead. band: rectangle of the title line [canvas px].
+    """
     if not headline.known:
         rect = canvas.text(headline.waiting, band.right - 4, 2, FOG, SMALL, align="right")
         canvas.fix(pygame.Rect(rect.x, 0, band.right - rect.x, band.height))
@@ -83,7 +89,7 @@ def _draw_number(canvas, headline, band):
 
 
 def two_lines(canvas: Canvas, text: str) -> list[str]:
-    """Return a text in at most two lines of small letters, broken where the longer line is shortest."""
+    """Return a text in at most two lines of small letters. The break is chosen so that the longer line is shortest."""
     words = text.split()
     ways = [[" ".join(words[:at]), " ".join(words[at:])] for at in range(1, len(words))] or [[text]]
     return min(ways, key=lambda lines: max(canvas.measure(line, SMALL)[0] for line in lines))

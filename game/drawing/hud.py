@@ -14,7 +14,10 @@ BANNER_GROUND = (20, 16, 32, 150)
 def label(
     canvas: Canvas, text: str, x: float, y: float, value: str = "", align: str = "left", color: Color = PAPER
 ) -> pygame.Rect:
-    """Draw `text` in gold, and `value` beside it in `color`. Return the rectangle of both."""
+    """Draw `text` in gold, and `value` beside it in `color`. Return the rectangle around both texts.
+
+    align: as in Canvas.text_rect().
+    """
     if align == "right":
         right = canvas.text(value, x, y, color, TEXT, align="right", outline=True)
         left = canvas.text(text, right.left - 4, y, GOLD, TEXT, align="right", outline=True)
@@ -27,10 +30,10 @@ def label(
 def icons(
     canvas: Canvas, image: pygame.Surface, count: int, x: int, y: int, gap: int = 2, most: int = 8
 ) -> pygame.Rect:
-    """Draw a row of `count` pictures, for example one per life, and return its rectangle.
+    """Draw a row of `count` copies of an image, for example one per life, and return the rectangle of the row.
 
-    If `count` exceeds `most`, only `most` pictures are drawn, with the count as text beside them. gap: between pictures
-    [px].
+    If `count` exceeds `most`, only `most` copies are drawn, with the count as text beside them. gap: distance between
+    two copies [px].
     """
     width, height = image.get_size()
     shown = min(count, most)
@@ -45,7 +48,7 @@ def icons(
 
 
 def bar(canvas: Canvas, rect: Box, share: float, color: Color, ground: Color = INK) -> pygame.Rect:
-    """Draw a bar of which `share` (0..1) is filled with `color`, over the colour `ground`. Return its rectangle."""
+    """Draw a bar in the colour `ground`, and fill its `share` (0..1) with `color`. Return the bar's rectangle."""
     rect = pygame.Rect(rect)
     canvas.surface.fill(ground, rect)
     canvas.surface.fill(
@@ -64,9 +67,10 @@ def banner(
     y: int | None = None,
     field: pygame.Rect | None = None,
 ) -> pygame.Rect:
-    """Draw a large title over a dark band in the middle of the picture, with small lines under it.
+    """Draw a large title over a dark band in the middle of the picture, with small lines under the title.
 
-    field: the part of the picture that shows the game; None for all of it. Return the rectangle of the text.
+    Return the rectangle of the text. field: the part of the picture that shows the game; None for the whole picture. y:
+    upper edge of the text; None centres the text vertically.
     """
     field = canvas.rect if field is None else field
     width, height = canvas.measure(title, TEXT, 3)

@@ -1,4 +1,7 @@
-"""Framed boxes from the sprite sheet "ui". A box consists of nine slices, of which the middle ones are stretched."""
+"""Framed boxes from the sprite sheet "ui".
+
+A box consists of nine slices. The slices between the corners are stretched.
+"""
 
 from functools import lru_cache
 
@@ -32,8 +35,8 @@ def _box(name, width, height):
 
 
 def _place(index, length):
-    """Return (start, length) [px] of a slice along a side of the box. index: 0 first, 1 middle, 2 last slice.
+    """Return (start, length) [px] of a slice along one dimension of the box. index: 0 first, 1 middle, 2 last slice.
 
-    length: length of the side [px].
+    length: size of the box in this dimension [px].
     """
     return ((0, EDGE), (EDGE, max(length - 2 * EDGE, 0)), (length - EDGE, EDGE))[index]

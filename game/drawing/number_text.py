@@ -1,8 +1,8 @@
-"""Times, points, counts and names as text, in one format everywhere."""
+"""Times, points, counts and names as text, in one format for the whole program."""
 
 
 def clock(seconds: float) -> str:
-    """Return a time [s] as text: 1:05.32 for 65.32 s. Hours are shown only if there are any."""
+    """Return a time [s] as text: 1:05.32 for 65.32 s. Hours are shown from one hour on."""
     hundredths = round(seconds * 100)
     minutes, rest = divmod(hundredths, 6000)
     hours, minutes = divmod(minutes, 60)
@@ -11,22 +11,25 @@ def clock(seconds: float) -> str:
 
 
 def short_clock(seconds: float) -> str:
-    """Return a time in whole seconds as text: 1:05 for 65.9 s."""
+    """Return a time [s] as text, rounded down to whole seconds: 1:05 for 65.9 s."""
     whole = int(seconds)
     hours, rest = divmod(whole, 3600)
     return f"{hours}:{rest // 60:02}:{rest % 60:02}" if hours else f"{rest // 60}:{rest % 60:02}"
 
 
 def points_text(points: int) -> str:
-    """Return a number of points in groups of three digits: 12 345 678."""
+    """Return a number of points as text, in groups of three digits: 12 345 678."""
     return f"{points:,}".replace(",", " ")
 
 
 def plain_name(name: str) -> str:
-    """Return the name of a solver, stage or counter with spaces: sequential_impulse is "sequential impulse"."""
+    """Return the name of a solver, stage or counter with spaces: "sequential impulse" for sequential_impulse."""
     return name.replace("_", " ")
 
 
 def count_text(number: int, what: str) -> str:
-    """Return a number with its noun in the singular or plural: "1 plane", "2 planes". what: the singular noun."""
+    """Return a number with its noun in the singular or plural: "1 plane", "2 planes".
+
+    what: the noun in the singular.
+    """
     return f"{number} {what}{'s' if number != 1 else ''}"

@@ -1,6 +1,6 @@
-"""Particles, stored as columns and moved with NumPy.
+"""Particles, stored as arrays and moved with NumPy.
 
-They are decoration: no game rule reads them, and they have their own random numbers.
+Particles are decoration: no game rule reads them, and they have their own random numbers.
 """
 
 import numpy as np
@@ -15,7 +15,10 @@ COLUMNS = ("x", "y", "vx", "vy", "age", "life", "size", "drag", "gravity")
 
 
 class Particles:
-    """Squares of 1 to 3 canvas pixels that fly, slow down and change their colour along a ramp."""
+    """Decorative particles: squares of 1 to 3 canvas px.
+
+    The particles move, slow down, and change their colour along a ramp (a sequence of colours).
+    """
 
     def __init__(self, seed: int = 0) -> None:
         self.random = np.random.default_rng(seed)
@@ -61,9 +64,10 @@ class Particles:
     ) -> None:
         """Emit `count` particles at (x, y) [world px].
 
-        ramp: colours over the lifetime, from hot to cold. speed [px/s], life [s] and size [px]: (low, high) ranges.
-        angle, spread [rad]: direction and width of the cone in which they fly. drag [1/s] slows them, gravity [px/s2]
-        pulls them down. carry: velocity [px/s] that is added to all, such as that of a wreck.
+        ramp: colours over the lifetime, from the first to the last. speed [px/s], life [s] and size [px]: (low, high)
+        ranges. angle, spread [rad]: direction and width of the cone in which the particles start. drag: deceleration
+        [1/s]; gravity: downward acceleration [px/s2]. carry: velocity [px/s] that is added to all particles, for
+        example that of a wreck.
         """
         if ramp not in self.colors:
             self.colors.append(ramp)
@@ -86,7 +90,7 @@ class Particles:
         self.ramps[rows] = self.colors.index(ramp)
 
     def step(self, dt: float) -> None:
-        """Move all particles by a step of dt [s]."""
+        """Advance all particles by a step of `dt` [s]."""
         x, y, vx, vy, age, _, _, drag, gravity = self.rows
         slow = 1.0 / (1.0 + drag * dt)
         vx *= slow
@@ -97,9 +101,10 @@ class Particles:
         age += dt
 
     def draw(self, canvas: Canvas, camera: Camera, alpha: float = 1.0) -> None:
-        """Draw the particles in view.
+        """Draw the particles that are in view. alpha: position between the last two steps, 0..1.
 
-        The loop is over the pixels of the largest particle, with one array assignment for each, and not over particles.
+        The loop is over the 3 x 3 pixels of the largest particle, not over the particles. Each pixel of all particles
+        is set by one array assignment.
         """
         x, y, _, _, age, life, size, _, _ = self.rows
         alive = np.flatnonzero(age < life)
@@ -119,9 +124,9 @@ class Particles:
         del pixels  # unlocks the surface
 
     def _mapped(self, surface, alive, age, life):
-        """Return the pixel value of each living particle's colour on this surface, (n,) uint32.
+        """Return the colours of the living particles as pixel values of `surface`, (n,) uint32.
 
-        alive: (n,) rows of the living particles; age, life: age and lifetime of all rows [s].
+        alive: (n,) indices of the living particles; age, life: age and lifetime of all particles [s].
         """
         heat = age[alive] / life[alive]
         out = np.zeros(len(alive), dtype=np.uint32)

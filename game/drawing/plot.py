@@ -1,4 +1,7 @@
-"""A plot with two logarithmic axes at window resolution: decades, ticks, points, and a strip at the bottom for zero."""
+"""A plot with two logarithmic axes at window resolution: decades, ticks and points.
+
+A strip below the plot may show the points with y = 0.
+"""
 
 from collections.abc import Iterable
 from math import ceil, floor, log10
@@ -16,9 +19,9 @@ GRID = (52, 46, 76)
 
 
 class Axis:
-    """Logarithmic axis that contains all `values` above 0. low, high: logarithms to base 10 of its ends.
+    """Logarithmic axis that contains all positive `values`. low, high: logarithms to base 10 of its ends.
 
-    The axis extends beyond the values by PAD, and spans at least LEAST_SPAN.
+    The axis extends beyond the values by PAD at each end, and spans at least LEAST_SPAN (both logarithms to base 10).
     """
 
     def __init__(self, values: Iterable[float]) -> None:
@@ -28,13 +31,14 @@ class Axis:
         self.low, self.high = low - spare, high + spare
 
     def share(self, value: float) -> float:
-        """Return the place of a value above 0 along the axis: 0 at the low end .. 1 at the high end."""
+        """Return the position of a positive value along the axis: 0 at the low end, 1 at the high end."""
         return (log10(value) - self.low) / (self.high - self.low)
 
     def ticks(self, most: int) -> list[float]:
-        """Return round values within the axis, not many more than `most`.
+        """Return round values within the axis, for about `most` ticks.
 
-        They are multiples of the powers of ten by STEPS, or the powers of ten alone if those are too many.
+        The values are the products of STEPS and the powers of ten. If these are more than `most`, the values are the
+        powers of ten alone.
         """
         decades = range(floor(self.low), ceil(self.high) + 1)
         for steps in (STEPS, (1,)):
@@ -46,7 +50,7 @@ class Axis:
 
 
 class LogPlot:
-    """A plot with the axes x and y. zero: whether a strip below the plot is for points with y = 0."""
+    """A logarithmic plot with the axes x and y. zero: whether a strip below the plot shows the points with y = 0."""
 
     def __init__(self, rect: pygame.Rect, x: Axis, y: Axis, zero: bool, scale: int) -> None:
         self.x, self.y, self.scale = x, y, scale
@@ -57,7 +61,10 @@ class LogPlot:
         self.area = inner if not zero else pygame.Rect(inner.x, inner.y, inner.width, inner.height - 13 * scale)
 
     def place(self, x: float, y: float) -> tuple[float, float]:
-        """Return the frame position (x, y) of a point. A point with y = 0 is in the strip."""
+        """Return the frame position (x, y) of a data point.
+
+        A point with y = 0 is placed in the strip, if there is one.
+        """
         left = self.area.x + self.x.share(x) * self.area.width
         if y <= 0.0 and self.strip is not None:
             return left, self.strip.centery
@@ -65,11 +72,11 @@ class LogPlot:
 
     @property
     def least_y(self) -> float:
-        """The least y on the axis."""
+        """The smallest y on the axis."""
         return 10.0**self.y.low
 
     def draw_ground(self, frame: Frame) -> None:
-        """Draw the ground, the grid and the numbers of both axes."""
+        """Draw the background, the grid, and the numbers at both axes."""
         surface, scale, area = frame.surface, self.scale, self.area
         bottom = self.strip.bottom if self.strip is not None else area.bottom
         surface.fill(INK, area)
@@ -97,7 +104,10 @@ class LogPlot:
         pygame.draw.rect(surface, SLATE, area, 1)
 
     def draw_level(self, frame: Frame, value: float, color: Color, name: str) -> None:
-        """Draw a dashed horizontal line at y = `value` with its name; draw nothing if it is outside the axis."""
+        """Draw a dashed horizontal line at y = `value`, with its name.
+
+        Draw nothing if the value is outside the axis.
+        """
         if not self.y.low <= log10(value) <= self.y.high:
             return
         top = round(self.place(1.0, value)[1])

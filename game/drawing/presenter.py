@@ -1,9 +1,8 @@
 """Presentation of the 480 x 270 canvas in the window: scale, letterbox, and the frame that overlays draw on.
 
-The scale is a whole number, except beside a docked panel, where the picture takes all the room that the panel leaves.
-
-The module replaces pygame.SCALED, which fails under SDL's dummy driver (as OpenGL does), and has no integer scale in
-fullscreen.
+The scale is a whole number. Beside a docked panel, it may be a fraction, so that the picture fills the remaining space.
+The module replaces pygame.SCALED, which fails under SDL's dummy driver (as OpenGL does), and which does not scale by
+whole numbers in fullscreen.
 """
 
 import numpy as np
@@ -20,18 +19,21 @@ SCREENSHOT_SCALE = 3  # 1440 x 810
 class Lens:
     """Transform from world (x, y) to frame (X, Y): X = x * scale + dx, Y = y * scale + dy.
 
-    clip: the camera's viewport on the frame.
+    clip: rectangle of the camera's viewport on the frame.
     """
 
     def __init__(self, scale: float, dx: float, dy: float, clip: pygame.Rect) -> None:
         self.scale, self.dx, self.dy, self.clip = scale, dx, dy, clip
 
     def points(self, x: Number, y: Number) -> tuple[Number, Number]:
-        """Return the frame positions (x, y) of world points, numbers or arrays."""
+        """Return the frame positions (x, y) of world points. x, y: numbers or arrays."""
         return x * self.scale + self.dx, y * self.scale + self.dy
 
     def seen(self, rows: np.ndarray) -> np.ndarray:
-        """Return (n,) bool: whether each box is at least partly in view. rows: (n, 4) min x, min y, max x, max y."""
+        """Return (n,) bool: whether each box is at least partly in view.
+
+        rows: (n, 4), min x, min y, max x, max y [world px].
+        """
         clip = self.clip
         left, top = (clip.left - self.dx) / self.scale, (clip.top - self.dy) / self.scale
         right, bottom = (clip.right - self.dx) / self.scale, (clip.bottom - self.dy) / self.scale
@@ -39,9 +41,10 @@ class Lens:
 
 
 class Frame(Canvas):
-    """Picture at window resolution. area: rectangle of the game's canvas on it; zoom: frame px per canvas px.
+    """Picture at window resolution.
 
-    scale: the whole part of `zoom`, for the widths of lines and the sizes of marks.
+    area: rectangle of the game's canvas within the frame; zoom: frame px per canvas px. scale: `zoom` rounded down to a
+    whole number, used for line widths and sizes of marks.
     """
 
     def __init__(self, surface: pygame.Surface) -> None:
@@ -51,17 +54,17 @@ class Frame(Canvas):
 
     @property
     def text_scale(self) -> int:
-        """Scale of small text at this resolution, a whole number at which it is readable."""
+        """Scale of small text at this resolution: a whole number at which the text is readable."""
         return max(1, (self.surface.get_height() + 140) // 340)
 
     @property
     def edge(self) -> int:
-        """Greatest width of a text's outline beyond the text's box, on the canvas or on the frame [frame px]."""
+        """Greatest width [frame px] of a text's outline outside the text's box, on the canvas or the frame."""
         return max(self.scale, self.text_scale)
 
     @property
     def plot_scale(self) -> int:
-        """Scale of small text in a plot inside the game's picture: at most the scale of the picture."""
+        """Scale of small text in a plot inside the game's picture: `text_scale`, but at most the picture's scale."""
         return min(self.text_scale, self.scale)
 
     def scale_for(self, width: int) -> int:
@@ -72,7 +75,7 @@ class Frame(Canvas):
         return max(1, min(self.text_scale, self.area.width // width))
 
     def lens(self, camera: View) -> Lens:
-        """Return the Lens from world to frame for a camera, at its position in the last step."""
+        """Return the Lens that maps world to frame for a camera, at the camera's position in the last step."""
         left, top = camera.view()
         scale = camera.zoom * self.zoom
         view = camera.viewport
@@ -90,14 +93,17 @@ class Frame(Canvas):
 
 
 class Presenter:
-    """Scaling of the canvas onto a frame. docked: whether there is room for the panel at the right and graphs below."""
+    """Scaling of the canvas onto a frame.
+
+    docked: True leaves space for a panel at the right and for graphs below the canvas.
+    """
 
     def __init__(self, surface: pygame.Surface) -> None:
         self.frame = Frame(surface)
         self.docked = False
 
     def place(self) -> None:
-        """Choose the scale and place of the canvas for the current size of the surface."""
+        """Choose the scale and the position of the canvas for the current size of the window's surface."""
         frame = self.frame
         width, height = frame.surface.get_size()
         beside = self.docked and not self.crowded
@@ -111,7 +117,7 @@ class Presenter:
 
     @property
     def crowded(self) -> bool:
-        """True if canvas and panel do not fit side by side. The panel then covers the whole picture."""
+        """Whether canvas and panel do not fit side by side. If True, the panel covers the whole picture."""
         return self.frame.surface.get_width() - self.panel_width < CANVAS_SIZE[0]
 
     @property
@@ -121,7 +127,7 @@ class Presenter:
 
     @property
     def panel_rect(self) -> pygame.Rect:
-        """Rect of the docked panel."""
+        """Rectangle of the docked panel on the frame."""
         width, height = self.frame.surface.get_size()
         if self.crowded:
             return pygame.Rect(0, 0, width, height)
@@ -129,14 +135,17 @@ class Presenter:
 
     @property
     def strip_rect(self) -> pygame.Rect:
-        """Rectangle of the strip below the docked canvas; empty if there is none."""
+        """Rectangle of the frame below the docked canvas; empty if canvas and panel do not fit side by side."""
         width, height = self.frame.surface.get_size()
         if self.crowded:
             return pygame.Rect(0, 0, 0, 0)
         return pygame.Rect(0, self.frame.area.bottom, width - self.panel_width, height - self.frame.area.bottom)
 
     def present(self, canvas: Canvas) -> Frame:
-        """Scale the canvas onto the frame, and return the frame, which then also lists the text boxes of the canvas."""
+        """Scale the canvas onto the frame, and add the canvas's text boxes and reserved rectangles to the frame.
+
+        Return the frame.
+        """
         self.place()
         frame = self.frame
         frame.begin()
@@ -153,7 +162,10 @@ class Presenter:
         return frame
 
     def _scale(self, canvas, target):
-        """Scale the canvas onto a surface: by a whole number, or by the next one up and smoothly down from there."""
+        """Scale the canvas onto the surface `target`.
+
+        For a fractional zoom, the canvas is first enlarged by the next whole number and then smoothly reduced.
+        """
         if self.frame.zoom == self.frame.scale:
             pygame.transform.scale(canvas, target.get_size(), target)
             return
@@ -161,7 +173,7 @@ class Presenter:
         target.blit(pygame.transform.smoothscale(larger, target.get_size()), (0, 0))
 
     def to_canvas(self, position: tuple[int, int]) -> tuple[int, int]:
-        """Return the canvas pixel (x, y) under a window position. It may lie outside the canvas."""
+        """Return the canvas pixel (x, y) at a window position. The result may be outside the canvas."""
         area = self.frame.area
         zoom = self.frame.zoom
         return int((position[0] - area.x) // zoom), int((position[1] - area.y) // zoom)

@@ -1,6 +1,6 @@
 """Pictures of rotating bodies: small pixel art at any angle with sharp edges.
 
-A picture is enlarged eight times by Scale2x, which keeps edges sharp, and then sampled at each pixel of the rotated
+A picture is enlarged eight times by Scale2x, which keeps edges sharp. It is then sampled at each pixel of the rotated
 picture (the idea of RotSprite). Rotated pictures are cached. A Cast draws each body of a world with its picture.
 """
 
@@ -24,7 +24,7 @@ MARGIN = 80  # [canvas px] pieces up to this far outside the view may reach into
 
 
 class RotatedPicture:
-    """One picture at any angle, centred on the position of a body."""
+    """One picture that is drawn at any angle, centred on the position of a body."""
 
     def __init__(self, image: pygame.Surface) -> None:
         self.image = image
@@ -38,7 +38,10 @@ class RotatedPicture:
         surface.blit(turned, (floor(x - width / 2 + 0.5), floor(y - height / 2 + 0.5)))
 
     def at(self, angle: float) -> pygame.Surface:
-        """Return the picture rotated clockwise by the cached angle that is nearest to `angle` [rad]."""
+        """Return the picture, rotated clockwise by the multiple of 2 pi / BUCKETS that is nearest to `angle` [rad].
+
+        Rotated pictures are cached.
+        """
         bucket = round(angle / (2 * pi) * BUCKETS) % BUCKETS
         if bucket not in self.kept:
             self.kept[bucket] = self.image if bucket == 0 else self._turn(2 * pi * bucket / BUCKETS)
@@ -72,9 +75,9 @@ class RotatedPicture:
 
 
 def poses_between(bodies: np.ndarray, alpha: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return (x, y, angle), arrays [px, rad], of bodies between the last two steps.
+    """Return (x, y, angle) of bodies, interpolated between the last two steps: three (n,) arrays [px, px, rad].
 
-    bodies: BODY rows; alpha: 0 the last step but one .. 1 the last step.
+    bodies: BODY rows of the world; alpha: 0 for the step before the last one, 1 for the last step.
     """
     x, y, angle = (
         bodies["previous_" + name] + (bodies[name] - bodies["previous_" + name]) * alpha for name in ("x", "y", "angle")
@@ -83,7 +86,7 @@ def poses_between(bodies: np.ndarray, alpha: float) -> tuple[np.ndarray, np.ndar
 
 
 class Cast:
-    """The pictures of a world's bodies, drawn in the order of the body ids."""
+    """Pictures assigned to the bodies of a world. They are drawn in the order of the body ids."""
 
     def __init__(self, atlas: Atlas | Mapping[str, pygame.Surface]) -> None:
         self.atlas = atlas
@@ -91,20 +94,20 @@ class Cast:
         self.looks = {}  # body id -> name
 
     def add(self, body: BodyOrId, name: str) -> BodyOrId:
-        """Assign the picture `name` to a body, given as Body or id. Return the first argument."""
+        """Assign the picture `name` to `body`, a Body or an id. Return `body`."""
         self.looks[getattr(body, "id", body)] = name
         return body
 
     def picture(self, name: str) -> RotatedPicture:
-        """Return the RotatedPicture of the picture `name`. It is made at its first use."""
+        """Return the RotatedPicture of the picture `name`, which is created at its first use."""
         if name not in self.turned:
             self.turned[name] = RotatedPicture(self.atlas[name])
         return self.turned[name]
 
     def draw(self, canvas: Canvas, camera: Camera, world: World, alpha: float) -> None:
-        """Draw the bodies that have a picture, clipped to the camera's view.
+        """Draw the bodies that have a picture, clipped to the camera's viewport.
 
-        alpha: position (0..1) between the last two steps.
+        alpha: position between the last two steps, 0..1.
         """
         bodies, surface = world.bodies, canvas.surface
         x, y, angle = poses_between(bodies, alpha)

@@ -19,7 +19,7 @@ from physics import PixelMask
 
 @dataclass(frozen=True)
 class Animation:
-    """Images shown one after the other at a constant rate."""
+    """Images that are shown one after another at a constant rate. fps: images per second."""
 
     images: tuple
     names: tuple
@@ -28,13 +28,13 @@ class Animation:
     def index_at(self, seconds: float, loop: bool = True) -> int:
         """Return the index of the image that is shown `seconds` after the start.
 
-        Without `loop` the last image stays.
+        loop: True repeats the images; False continues to show the last one.
         """
         number = int(seconds * self.fps)
         return number % len(self.images) if loop else min(number, len(self.images) - 1)
 
     def at(self, seconds: float, loop: bool = True) -> pygame.Surface:
-        """Return the image that is shown `seconds` after the start. Without `loop` the last image stays."""
+        """Return the image that is shown `seconds` after the start. loop: as in index_at()."""
         return self.images[self.index_at(seconds, loop)]
 
     @property
@@ -44,33 +44,39 @@ class Animation:
 
 
 class Atlas:
-    """One sprite sheet: images by name, animations by name, and a PixelMask for each image, made at its first use."""
+    """One sprite sheet: images by name, animations by name, and a PixelMask of each image, created at its first use."""
 
     def __init__(self, path: Path, images: dict[str, pygame.Surface], animations: dict[str, Animation]) -> None:
         self.path, self.images, self.animations = path, images, animations
         self.masks = {}
 
     def __getitem__(self, name):
-        """Return the image `name`. Raises ValueError, which names the sprite sheet, for an unknown name."""
+        """Return the image `name`. For an unknown name, raise ValueError, which names the sprite sheet."""
         if name not in self.images:
             raise ValueError(f"{self.path} has no frame {name!r}; it has {', '.join(self.images)}")
         return self.images[name]
 
     def animation(self, name: str) -> Animation:
-        """Return the Animation `name`. Raises ValueError, which names the sprite sheet, for an unknown name."""
+        """Return the Animation `name`. For an unknown name, raise ValueError, which names the sprite sheet."""
         if name not in self.animations:
             raise ValueError(f"{self.path} has no animation {name!r}; it has {', '.join(self.animations)}")
         return self.animations[name]
 
     def mask(self, name: str) -> PixelMask:
-        """Return the PixelMask of the image `name`, with its origin in the centre. It is made at its first use."""
+        """Return the PixelMask of the image `name`, with its origin in the centre.
+
+        The mask is created at its first use.
+        """
         if name not in self.masks:
             self.masks[name] = PixelMask.from_surface(self[name])
         return self.masks[name]
 
 
 def load_image(path: Path) -> pygame.Surface:
-    """Return the picture in a file, converted for fast blits if there is a display. Raises FileError."""
+    """Return the picture in a file, converted for fast blits if a display is open.
+
+    Raises FileError for an unusable file.
+    """
     try:
         image = pygame.image.load(str(path))
     except (OSError, pygame.error) as error:
@@ -80,13 +86,13 @@ def load_image(path: Path) -> pygame.Surface:
 
 @cache
 def load_backdrop(name: str) -> pygame.Surface:
-    """Return the picture assets/images/<name>.png."""
+    """Return the picture in the file assets/images/<name>.png."""
     return load_image(IMAGES / f"{name}.png")
 
 
 @cache
 def load_atlas(name: str) -> Atlas:
-    """Return the Atlas of assets/images/<name>.png and .json. Raises FileError if either file is damaged."""
+    """Return the Atlas in the files assets/images/<name>.png and .json. Raises FileError if either file is damaged."""
     path = IMAGES / f"{name}.json"
     sheet = load_image(IMAGES / f"{name}.png")
     try:
@@ -105,7 +111,7 @@ def load_atlas(name: str) -> Atlas:
 
 
 class RotatedSprites:
-    """A sprite at any angle, drawn with exactly the pixels that its mask tests: every visible pixel collides."""
+    """A sprite at any angle, drawn with exactly the solid pixels of its rotated collision mask."""
 
     def __init__(self, image: pygame.Surface, mask: PixelMask) -> None:
         self.image, self.mask = image, mask
@@ -118,7 +124,8 @@ class RotatedSprites:
     def draw(self, canvas: Canvas, camera: Camera, x: float, y: float, angle: float, alpha: float = 1.0) -> None:
         """Draw the sprite, rotated by `angle` [rad], with its mask's origin at the world point (x, y).
 
-        The place is rounded as the physics places the mask on the pixel grid.
+        The position is rounded in the same way as the physics rounds the mask to the pixel grid. alpha: position of the
+        camera between the last two steps, 0..1.
         """
         image, origin = self.at(angle)
         left, top = camera.view(alpha)
@@ -127,7 +134,7 @@ class RotatedSprites:
         canvas.surface.blit(image, (place_x, place_y))
 
     def at(self, angle: float) -> tuple[pygame.Surface, tuple[float, float]]:
-        """Return (image, origin in the image [px]) at the cached angle that is nearest to `angle` [rad]."""
+        """Return (image, (x, y) of the origin in the image [px]) at the cached angle nearest to `angle` [rad]."""
         bucket = self.mask.bucket_at(angle)
         if bucket not in self.cache:
             turned = self.mask.turned_to(bucket)
@@ -136,9 +143,10 @@ class RotatedSprites:
 
 
 def pick_pixels(image: pygame.Surface, turned: Any) -> pygame.Surface:
-    """Return the picture of a rotated mask. Each solid pixel has the colour of the pixel of `image` that it comes from.
+    """Return the picture of a rotated mask. Each solid pixel has the colour of its source pixel in `image`.
 
-    turned: the rotated mask, whose source_x and source_y are the places of its pixels in `image`.
+    turned: the rotated mask. Its arrays source_x and source_y contain the source pixel in `image` of each of its
+    pixels.
     """
     height, width = turned.solid.shape
     out = pygame.Surface((max(width, 1), max(height, 1)), pygame.SRCALPHA)
@@ -155,7 +163,7 @@ def pick_pixels(image: pygame.Surface, turned: Any) -> pygame.Surface:
 
 
 def lit(image: pygame.Surface, amount: int = 110) -> pygame.Surface:
-    """Return a brighter copy of an image, for the flash of a hit. amount: 0..255."""
+    """Return a brighter copy of an image, for the flash of a hit. amount: 0..255, added to each colour channel."""
     copy = image.copy()
     copy.fill((amount, amount, amount, 0), special_flags=pygame.BLEND_RGBA_ADD)
     return copy

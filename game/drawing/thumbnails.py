@@ -1,4 +1,4 @@
-"""The menu's small picture of each scene, or the scene's title in a frame if the picture is missing."""
+"""The menu's small picture of each scene. If the picture is missing, the scene's title is drawn in a frame."""
 
 from functools import cache
 
@@ -13,9 +13,9 @@ SIZE = (160, 90)
 
 
 def draw_picture(canvas: Canvas, name: str, title: str, x: int, y: int) -> pygame.Rect:
-    """Draw the picture of the scene `name` with a thin frame at (x, y), and return the frame's rectangle.
+    """Draw the menu picture of the scene `name` with a thin frame at (x, y), and return the frame's rectangle.
 
-    If there is no picture, draw the scene's title.
+    If there is no picture, draw the scene's title instead.
     """
     rect = pygame.Rect((x, y), SIZE)
     picture = _load(name)

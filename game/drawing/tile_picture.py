@@ -1,7 +1,7 @@
-"""Pictures of a tile layer, which are drawn once and then blitted.
+"""Cached pictures of a tile layer.
 
-One picture shows a square of CHUNK x CHUNK tiles, a chunk. Only chunks in view are blitted, so that the cost does not
-grow with the level.
+Each picture shows a chunk: a square of CHUNK x CHUNK tiles. Each chunk is drawn into its picture once. Only chunks in
+view are blitted, so that the cost does not grow with the level's size.
 """
 
 import pygame
@@ -15,7 +15,7 @@ CHUNK = 32  # tiles along a side of a chunk: 512 px, so at most four of them are
 
 
 class TilePicture:
-    """Pictures of one layer of a TileMap, which are drawn through a camera."""
+    """Cached pictures of the chunks of one layer of a TileMap. draw() blits them as seen by a camera."""
 
     def __init__(self, tilemap: TileMap, layer: str, tiles: pygame.Surface | None = None) -> None:
         self.map, self.layer = tilemap, layer
@@ -23,7 +23,7 @@ class TilePicture:
         self.chunks = {}
 
     def draw(self, canvas: Canvas, camera: Camera, alpha: float = 1.0) -> None:
-        """Blit the pictures of the chunks in view."""
+        """Blit the pictures of the chunks in the camera's view. alpha: position between the last two steps, 0..1."""
         left, top = camera.view(alpha)
         size = CHUNK * self.map.tile_size
         view = camera.viewport
@@ -39,7 +39,10 @@ class TilePicture:
         return self.chunks[column, row]
 
     def _paint(self, first_column, first_row):
-        """Return the picture of the chunk whose first tile is (first_column, first_row); None if it has no tiles."""
+        """Return the picture of the chunk that begins at the tile (first_column, first_row).
+
+        Return None if the chunk has no tiles.
+        """
         numbers, flips = self.map.layers[self.layer], self.map.flips[self.layer]
         if first_column < 0 or first_row < 0:
             return None
@@ -65,5 +68,5 @@ class TilePicture:
 
 
 def _sheet(tilemap):
-    """Return the picture of the map's tileset. It must contain every tile of the map."""
+    """Return the picture of the map's tileset. Raises FileError if it is too small to contain every tile of the map."""
     return load_image(map_picture(tilemap))

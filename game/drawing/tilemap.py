@@ -1,9 +1,12 @@
-"""Levels made with Tiled (.tmj): tile layers, tile properties, objects. An error names file, place and reason.
+"""Levels made with Tiled (.tmj): tile layers, tile properties, objects.
+
+An error names the file, the place and the reason.
 
 The reader accepts finite orthogonal maps with one embedded tileset. Layer data are CSV or base64 (plain, zlib, gzip).
-Layers may be in groups. Layers and groups may have offsets: any offset for objects, a number of whole tiles for tiles.
-Infinite maps, external tilesets, other encodings, and keys that move or hide drawn objects (parallax, opacity, tint,
-rotation ...) are refused. Packed data are unpacked only up to the size that the map can have.
+Layers may be in groups. Layers and groups may have offsets. The offset of a tile layer must be a whole number of tiles.
+
+The reader rejects infinite maps, external tilesets and other encodings. It also rejects keys that move or hide drawn
+objects (parallax, opacity, tint, rotation ...). Packed data are unpacked only up to the size that the map can have.
 """
 
 import base64
@@ -36,7 +39,10 @@ KINDS = ("solid", "one_way", "slope", "spikes", "decor")
 
 @dataclass(frozen=True)
 class Thing:
-    """An object of the map: kind, name, rectangle in world pixels, and properties. place: where it is in the file."""
+    """An object of the map: kind, name, rectangle in world px, and properties.
+
+    place: its place in the file, as text.
+    """
 
     kind: str
     name: str
@@ -52,7 +58,7 @@ class Thing:
 class TileMap:
     """A level. layers[name]: (rows, columns) array of tile numbers, -1 for an empty tile.
 
-    tiles[number]: properties of the tile with that number.
+    tiles[number]: properties of the tile with this number.
     """
 
     path: Path
@@ -73,11 +79,11 @@ class TileMap:
         return self.columns * self.tile_size, self.rows * self.tile_size
 
     def kind_of(self, number: int) -> str:
-        """Return the kind of the tile `number`, one of KINDS; "decor" if the tileset does not name one."""
+        """Return the kind of the tile `number`, one of KINDS; "decor" if the tileset names no kind."""
         return self.tiles.get(int(number), {}).get("kind", "decor")
 
     def grid(self, layer: str = "solid") -> TileGrid:
-        """Return a layer as a physics.TileGrid, with its one-way tiles and slopes."""
+        """Return the layer `layer` as a physics.TileGrid, with its one-way tiles and slopes."""
         numbers = self._layer(layer)
         solid, one_way = np.zeros(numbers.shape, bool), np.zeros(numbers.shape, bool)
         slopes = np.zeros((*numbers.shape, 2))
@@ -96,17 +102,17 @@ class TileMap:
         return TileGrid(solid, self.tile_size, one_way, slopes)
 
     def cells(self, kind: str, layer: str = "solid") -> list[tuple[int, int]]:
-        """Return the (column, row) of every tile of one kind in a layer, for example of all spikes."""
+        """Return the (column, row) of every tile of the kind `kind` in a layer, for example of all spikes."""
         numbers = self._layer(layer)
         matching = [number for number in np.unique(numbers).tolist() if number >= 0 and self.kind_of(number) == kind]
         return [(int(c), int(r)) for r, c in np.argwhere(np.isin(numbers, matching))]
 
     def things_of(self, kind: str) -> list[Thing]:
-        """Return the objects of a kind, in the order of the file."""
+        """Return the map objects of the kind `kind`, in the order of the file."""
         return [thing for thing in self.things if thing.kind == kind]
 
     def one(self, kind: str) -> Thing:
-        """Return the only object of a kind. Raises FileError if there is none or more than one."""
+        """Return the only map object of the kind `kind`. Raises FileError if there is none or more than one."""
         found = self.things_of(kind)
         if len(found) != 1:
             raise FileError(self.path, "objects", f"must hold one {kind}, hold {len(found)}")
@@ -116,9 +122,10 @@ class TileMap:
         return self.flips.get(layer, np.zeros((self.rows, self.columns), int))
 
     def _refuse_turned(self, layer, turned):
-        """Raise FileError if a slope is rotated or upside down. turned: (rows, columns) bool, True for such a slope.
+        """Raise FileError if a slope is rotated or flipped vertically.
 
-        Slopes may only be mirrored left to right. The collision shape of any other slope would not match its picture.
+        turned: (rows, columns) bool, True for such a slope. A slope may only be flipped horizontally. The collision
+        shape of any other slope would not match its picture.
         """
         for row, column in np.argwhere(turned)[:1].tolist():
             raise FileError(
@@ -134,7 +141,7 @@ class TileMap:
 
 
 def load_tilemap(path: Path, largest: tuple[int, int] = (LARGEST, LARGEST)) -> TileMap:
-    """Return the TileMap in a .tmj file. Raises FileError, which names file, place and reason.
+    """Return the TileMap in a .tmj file. Raises FileError, which names the file, the place and the reason.
 
     largest: greatest allowed (columns, rows).
     """
@@ -144,9 +151,9 @@ def load_tilemap(path: Path, largest: tuple[int, int] = (LARGEST, LARGEST)) -> T
 
 
 def map_picture(tilemap: TileMap) -> Path:
-    """Return the path of the tileset's picture: a file beside the map, or one of the game's own pictures.
+    """Return the path of the tileset's picture: a file in the map's folder, or one of the game's own pictures.
 
-    Raises FileError if there is none, or if it is too small for the map's tiles.
+    Raises FileError if there is no such file, or if the picture is too small for the map's tiles.
     """
     path = picture_of(tilemap.path, "tilesets[0].image", tilemap.image, IMAGES)
     width, height = png_size(path, LARGEST_PICTURE)
@@ -158,10 +165,10 @@ def map_picture(tilemap: TileMap) -> Path:
 
 
 def unpacked(packed: bytes, packing: int, most: int) -> bytes:
-    """Return unpacked data, at most `most` + 1 bytes. The caller refuses data of more than `most` bytes.
+    """Return unpacked data, at most `most` + 1 bytes. The caller must reject a result of more than `most` bytes.
 
-    packing: one of PACKINGS. Bytes after the packed data count as more data. Raises zlib.error, or ValueError for data
-    that is cut off.
+    packing: one of PACKINGS. Bytes after the packed data count as additional data. Raises zlib.error for damaged data,
+    and ValueError for truncated data.
     """
     reader = zlib.decompressobj(packing)
     content = reader.decompress(packed, most + 1)
@@ -171,7 +178,7 @@ def unpacked(packed: bytes, packing: int, most: int) -> bytes:
 
 
 class _Reader:
-    """Reader of a map that checks each value. Its method fail() raises FileError for a place in the file."""
+    """Reader of a map file that checks each value. fail() raises FileError with a place in the file and a reason."""
 
     def __init__(self, path, largest):
         self.path, self.largest = Path(path), largest
@@ -217,10 +224,10 @@ class _Reader:
         )
 
     def flat_layers(self, data, place, prefix, offset, depth=0):
-        """Yield (place, name, layer, offset [px]) of all tile and object layers in order, including those in groups.
+        """Yield (place, name, layer, offset [px]) of all tile and object layers in order, including layers in groups.
 
-        data: the map, or a group of layers; place, offset [px]: its place in the file, and its offset; prefix: text
-        before "layers" in the place of a layer; depth: number of groups around it.
+        data: the map, or a group of layers; place: its place in the file, as text; offset: its offset (x, y) [px].
+        prefix: text before "layers" in the place of a layer; depth: number of groups that contain `data`.
         """
         for index, layer in enumerate(self.listing(data, place, "layers")):
             here = f"{prefix}layers[{index}]"
@@ -239,9 +246,10 @@ class _Reader:
                 yield from self.flat_layers(layer, here, f"{here}.", (x, y), depth + 1)
 
     def refuse(self, data, place, defaults):
-        """Raise FileError if a key that moves, turns or hides drawn objects does not have its default value.
+        """Raise FileError if a key in `data` does not have its default value.
 
-        defaults: {key: value}.
+        The keys are those that move, rotate or hide drawn objects. place: place of `data` in the file, as text;
+        defaults: {key: default value}.
         """
         for name, default in defaults.items():
             value = data.get(name, default)
@@ -250,9 +258,11 @@ class _Reader:
                 self.fail(f"{place}.{name}", f"is not supported: must be {usual} (got {value!r:.60})")
 
     def shifted(self, found, place, offset, size):
-        """Return the tiles of a layer, moved by the layer's `offset` [px]. found: (tile numbers, flips), two arrays.
+        """Return the tiles of a layer, moved by the layer's `offset` (x, y) [px], as (tile numbers, flips).
 
-        size: side of a tile [px]. Raises FileError if the offset is not a number of whole tiles.
+        found: the unmoved tiles, also (tile numbers, flips), two arrays [row, column]. size: side of a tile [px];
+        place: place of the layer in the file, as text. Raises FileError if the offset is not a whole number of tiles,
+        or if it moves a tile out of the map.
         """
         if offset == (0.0, 0.0):
             return found
@@ -371,9 +381,10 @@ class _Reader:
         return found
 
     def things(self, layer, place, offset, tileset):
-        """Return the objects of a layer as Things, whose position is the top left corner.
+        """Return the objects of a layer as Things. The position of a Thing is its top left corner.
 
-        In the file, an object with a tile has the position of its bottom left corner.
+        In the file, the position of an object with a tile is its bottom left corner. place: place of the layer in the
+        file, as text; offset: the layer's offset (x, y) [px].
         """
         found = []
         for index, entry in enumerate(self.listing(layer, place, "objects")):

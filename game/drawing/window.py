@@ -1,4 +1,4 @@
-"""Functions that open the window, and change it after a change of the settings."""
+"""Functions that open the window, and that update it when the settings change."""
 
 import os
 import sys
@@ -15,7 +15,7 @@ LARGEST_SHARE = 0.9  # of the desktop: greatest share of a window opened without
 
 
 def open_window(settings: Settings) -> pygame.Surface:
-    """Open the window and return its surface. Raises UsageError if there is no display."""
+    """Open the window with these settings, and return its surface. Raises UsageError if there is no display."""
     try:
         if not has_screen(sys.platform, os.environ):
             raise pygame.error("neither DISPLAY nor WAYLAND_DISPLAY is set")
@@ -35,20 +35,23 @@ def open_window(settings: Settings) -> pygame.Surface:
 def has_screen(platform: str, environment: Mapping[str, str]) -> bool:
     """Return whether SDL can find a display.
 
-    On Linux, the environment must name an X or Wayland display or a video driver. Without any of these, SDL would print
-    errors of its own.
+    On Linux, an environment variable must name an X or Wayland display or a video driver. Without any of them, SDL
+    would print its own error messages.
     """
     names = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")
     return not platform.startswith("linux") or any(environment.get(name) for name in names)
 
 
 def mode_of(settings: Settings) -> tuple[bool, int, bool]:
-    """Return the settings on which the window depends. The window is opened again only if one of these has changed."""
+    """Return the settings that determine the window: (fullscreen, window scale, vsync).
+
+    The window is opened again only if one of these changes.
+    """
     return settings.fullscreen, settings.window_scale, settings.vsync
 
 
 def set_mode(settings: Settings) -> pygame.Surface:
-    """Open the window, or change it, as the settings say. Return its surface."""
+    """Open the window, or change the open window, according to the settings. Return the window's surface."""
     desktop = pygame.display.get_desktop_sizes()[0]
     if settings.fullscreen:
         return _open(desktop, pygame.FULLSCREEN, settings.vsync)
@@ -58,7 +61,7 @@ def set_mode(settings: Settings) -> pygame.Surface:
 
 
 def _open(size, flags, vsync):
-    """Open the window with vsync if wanted, or without it if the system has none. Return its surface.
+    """Open the window and return its surface. vsync: True requests vsync; if it is not available, the window has none.
 
     Without vsync, the game loop's own timing sets the frame rate. flags: pygame's flags of the display mode.
     """
@@ -73,7 +76,7 @@ def _open(size, flags, vsync):
 
 
 def copy_text(text: str) -> bool:
-    """Copy a text to the clipboard. Return whether the clipboard now contains it."""
+    """Copy a text to the clipboard. Return whether the clipboard now contains the text."""
     try:
         pygame.scrap.put_text(text)
         return pygame.scrap.get_text() == text
