@@ -1,1 +1,1 @@
-"""Files of the player: settings, scores, ghosts, own levels, and their folder."""
+"""Files of the player: settings, high scores, ghosts and own levels, and the folder that contains them."""

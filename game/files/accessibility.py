@@ -1,4 +1,4 @@
-"""Accessibility: the player's settings for shake, flashes and colours. No game rule reads them."""
+"""Accessibility: the player's settings for camera shake, flashes and colours. No game rule reads them."""
 
 from dataclasses import dataclass
 
@@ -7,9 +7,9 @@ PALETTES = ("standard", "safe", "contrast")  # safe: the Okabe-Ito colours; cont
 
 @dataclass(frozen=True)
 class Accessibility:
-    """Accessibility settings. shake: factor 0..1 on the camera's shake.
+    """Accessibility settings. shake: factor 0..1 on the camera's shake; palette: name in PALETTES.
 
-    flashing: False disables flashes of the whole picture, and blinking.
+    flashing: False disables blinking and flashes of the whole picture.
     """
 
     shake: float = 1.0

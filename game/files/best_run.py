@@ -1,7 +1,7 @@
-"""Ghost of a scene: the player's positions in the fastest won run, kept in a file, and drawn beside later runs.
+"""Ghost of a scene: the player's positions in the fastest won run, saved in a file and drawn during later runs.
 
-A trail is a list of rows (x, y, frame name, way), one per step. way: direction that the player faces, -1 or 1. An
-unusable ghost file is kept and not shown: it never stops a game.
+A trail is a list of rows (x, y, frame name, way), one per step. way: direction in which the player faces, -1 or 1. An
+unusable ghost file is kept but not shown, and never stops a game.
 """
 
 import json
@@ -18,7 +18,7 @@ FARTHEST = 1e7  # [px] from the origin; drawing rounds positions to integers
 
 
 def ghost_path(table: str) -> Path:
-    """Return the path of the ghost file of a high-score table (see records.table_of)."""
+    """Return the path of the ghost file of a high-score table. table: key of the table (see records.table_of)."""
     return data_folder() / "ghosts" / f"{table.replace('/', '-')}.json"
 
 
@@ -26,7 +26,7 @@ def load_ghost(table: str) -> tuple[list[tuple] | None, float | None, str]:
     """Return (trail, seconds, message) of the fastest run saved for a high-score table.
 
     trail: rows (x, y, frame name, direction -1 or 1) of the player, one per step; seconds: time of the run. Both are
-    None if there is no usable file. The message reports an unusable file; it is "" otherwise.
+    None if there is no usable file. message: text about an unusable file, otherwise "".
     """
     path = ghost_path(table)
     if not is_there(path):
@@ -41,9 +41,10 @@ def load_ghost(table: str) -> tuple[list[tuple] | None, float | None, str]:
 
 
 def keep_ghost(table: str, trail: Sequence[tuple], seconds: float) -> bool:
-    """Save the trail of a run if the run was faster than the saved one. Return whether it was saved.
+    """Save the trail of a run if the run was faster than the saved one. Return whether the trail was saved.
 
-    table: key of the high-score table; trail: as in load_ghost(); seconds: time of the run. Raises OSError.
+    table: key of the high-score table; trail: as in load_ghost(); seconds: time of the run. Raises OSError if the file
+    cannot be written.
     """
     best = load_ghost(table)[1]
     if not trail or (best is not None and best <= seconds):

@@ -1,4 +1,4 @@
-"""The folder of this user's settings, recordings and screenshots, where the platform's rules place it."""
+"""The folder of this user's settings, recordings and screenshots, at the location that the platform prescribes."""
 
 import errno
 import os
@@ -17,9 +17,9 @@ OVERRIDE = "HITBOX_DATA"  # variable with a folder; set by tests, or by a player
 
 
 def data_folder(environment: Mapping[str, str] | None = None, platform: str | None = None) -> Path:
-    """Return the folder of this user's files. The folder is not created here (see write_atomically).
+    """Return the path of this user's data folder. The folder is not created (write_atomically creates it).
 
-    environment, platform: values for tests; None: os.environ and sys.platform.
+    environment, platform: values for tests; None means os.environ and sys.platform.
     """
     environment = os.environ if environment is None else environment
     platform = sys.platform if platform is None else platform
@@ -47,7 +47,7 @@ def measurements_folder() -> Path:
 
 
 def short_path(path: Path) -> str:
-    """Return a path as text, with ~ for the user's home folder."""
+    """Return a path as text, with ~ in place of the user's home folder."""
     home = Path(os.path.expanduser("~"))  # "~" for a user without one
     return f"~/{path.relative_to(home).as_posix()}" if path.is_relative_to(home) else str(path)
 
@@ -55,7 +55,7 @@ def short_path(path: Path) -> str:
 def is_there(path: Path) -> bool:
     """Return whether the file exists.
 
-    It is also True if permissions forbid the check: reading the file then reports the reason.
+    The result is also True if permissions forbid the check. Reading the file then raises the error.
     """
     try:
         path.stat()
@@ -69,7 +69,7 @@ def is_there(path: Path) -> bool:
 def free_name(folder: Path, scene_name: str, suffix: str = ".json") -> Path:
     """Return the path of a new file in `folder`, named after the scene and the time, with the given suffix.
 
-    No file of that name exists yet.
+    The name is not used by an existing file.
     """
     name = f"{scene_name.replace('/', '-')}-{strftime('%Y%m%d-%H%M%S')}"
     path, number = folder / f"{name}{suffix}", 2
@@ -79,11 +79,11 @@ def free_name(folder: Path, scene_name: str, suffix: str = ".json") -> Path:
 
 
 def write_atomically(path: str | Path, content: str | bytes, makes_folder: bool = True) -> None:
-    """Write a file, text or bytes, so that a reader sees the old file or the new one, never a part of it.
+    """Write a text or binary file atomically: a reader sees either the old file or the complete new one.
 
-    A device or a pipe is written to, not replaced. makes_folder: whether a missing folder is created. Partial versions
-    of this file that an earlier process left are removed. Raises OSError if the folder cannot be written; the old file
-    is then unchanged.
+    A device or a pipe is written to directly. makes_folder: whether a missing folder is created. Partial versions of
+    this file that earlier processes left are removed. Raises OSError if the folder cannot be written; the old file is
+    then unchanged.
     """
     path, content = Path(path), content.encode() if isinstance(content, str) else content
     if not path.name:
@@ -106,9 +106,9 @@ def write_atomically(path: str | Path, content: str | bytes, makes_folder: bool 
 
 
 def part_of(path: Path, process: int) -> Path:
-    """Return the path of the partial file that a process writes before it replaces `path`.
+    """Return the path of the partial file that a process writes and then renames to `path`.
 
-    process: id of the process. In the partial file's name, a digest stands for a long file name.
+    process: id of the process. If the file name is too long, a digest replaces it in the name of the partial file.
     """
     name = (
         path.name if len(os.fsencode(path.name)) <= LONGEST_NAME else blake2b(os.fsencode(path.name)).hexdigest()[:32]
@@ -117,11 +117,11 @@ def part_of(path: Path, process: int) -> Path:
 
 
 def keep_beside(path: str | Path, why: str = "damaged") -> Path:
-    """Copy an unusable file to the first free name of the form `name.damaged-N`, and return the path of the copy.
+    """Copy an unusable file to the first unused name of the form `name.damaged-N`, and return the path of the copy.
 
-    why: the word in place of "damaged". The name is claimed with exclusive creation, so an earlier copy is never
-    overwritten. If a copy with the same content exists, its path is returned, so that repeated starts add no copies. An
-    unreadable file is renamed instead, because the next save would overwrite it. Raises OSError if that fails, too.
+    why: the word in place of "damaged". The copy is created exclusively, so that no earlier copy is overwritten. If a
+    copy with the same content exists, its path is returned, so that repeated starts add no copies. An unreadable file
+    is renamed instead, because the next save would overwrite it. Raises OSError if the renaming fails.
     """
     path = Path(path)
     names = (path.with_name(f"{path.name}.{why}-{number}") for number in count(1))
@@ -143,10 +143,10 @@ def keep_beside(path: str | Path, why: str = "damaged") -> Path:
 
 
 def refusal(path: Path, place: str, reason: str, instead: str, why: str = "damaged") -> str:
-    """Keep a copy of an unusable file, and return one line about it for the player.
+    """Keep a copy of an unusable file (see keep_beside), and return one line about it for the player.
 
     The line contains the path, the place in the file, the reason, the text `instead` and the name of the copy. instead:
-    what the game uses in place of the file's content; why: word in the name of the copy, see keep_beside.
+    text about the values that replace the file's content; why: word in the name of the copy.
     """
     try:
         kept = f"the old file is kept as {keep_beside(path, why).name}"

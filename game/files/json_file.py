@@ -1,4 +1,4 @@
-"""Reading of JSON files, with errors that name the file, the place and the reason."""
+"""A reader of JSON files whose errors name the file, the place and the reason."""
 
 import codecs
 import json
@@ -12,7 +12,7 @@ CHUNK = 2**20  # bytes that are read and checked at a time
 
 
 def read_json(path: str | Path) -> Any:
-    """Return the content of a JSON file. A byte order mark is allowed. Raises FileError."""
+    """Return the content of a JSON file. A byte order mark is allowed. Raises FileError for an unusable file."""
     try:
         return json.loads("".join(_texts(path)))
     except OSError as error:
@@ -28,7 +28,7 @@ def read_json(path: str | Path) -> Any:
 
 
 def _texts(path):
-    """Yield the text of a file in parts of CHUNK bytes, so that an endless device is recognised by its first part."""
+    """Yield the text of a file in parts of CHUNK bytes, so that an endless device is rejected early."""
     decoder, read = codecs.getincrementaldecoder("utf-8")(), 0
     with open(path, "rb") as file:
         while chunk := file.read(CHUNK):

@@ -1,7 +1,7 @@
-"""Partial files that killed processes left beside the files that they were writing.
+"""Removal of partial files, left by processes that were killed while they wrote a file.
 
-A partial file is named <file>.<process>.part (see data_folder.part_of). A partial file is removed once it is old,
-whatever its process id, because the process may run on another machine that shares the folder.
+A partial file is named <file>.<process>.part (see data_folder.part_of). An old partial file is removed whatever its
+process id is, because the process may run on another machine that shares the folder.
 """
 
 import contextlib
@@ -18,9 +18,9 @@ FOLDERS = ("", "ghosts", "replays", "replays/recent", "screenshots")  # of the d
 
 
 def remove_leftovers(folder: Path, inside: Iterable[str] = FOLDERS) -> None:
-    """Remove old partial files in some subfolders of a folder. inside: names of the subfolders.
+    """Remove old partial files in the subfolders `inside` of a folder. inside: names of subfolders.
 
-    Folders that cannot be read are ignored.
+    Unreadable folders are ignored.
     """
     for name in inside:
         place = folder / name
@@ -31,9 +31,9 @@ def remove_leftovers(folder: Path, inside: Iterable[str] = FOLDERS) -> None:
 
 
 def remove_parts_of(part: Path) -> None:
-    """Remove the old partial files of one file, which earlier processes left.
+    """Remove the old partial files that earlier processes left for the same file as `part`.
 
-    part: path of this process's own partial file of the same file.
+    part: path of this process's own partial file.
     """
     file = _file_of(part.name)
     with contextlib.suppress(OSError, ValueError):
@@ -43,7 +43,10 @@ def remove_parts_of(part: Path) -> None:
 
 
 def _file_of(name):
-    """Return the name of the file to which a partial file belongs; None if `name` is not that of a partial file."""
+    """Return the name of the file that the partial file `name` belongs to.
+
+    Return None if `name` is not the name of a partial file.
+    """
     found = NAME.fullmatch(name)
     return found and found[1]
 

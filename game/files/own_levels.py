@@ -1,4 +1,4 @@
-"""Levels of the player: files in levels/ of the data folder. The menu lists them under the game that can play them."""
+"""Levels of the player: files in levels/ of the data folder. The menu lists each under the game that can load it."""
 
 from collections.abc import Sequence
 from hashlib import blake2b
@@ -10,14 +10,14 @@ from game.files.json_file import LARGEST
 
 
 def levels_folder() -> Path:
-    """Return the folder of this user's levels."""
+    """Return the path of the folder of this user's levels."""
     return data_folder() / "levels"
 
 
 def own_levels(suffixes: Sequence[str]) -> tuple[Path, ...]:
-    """Return the paths of the player's level files with one of these suffixes, sorted by name.
+    """Return the paths of the player's level files that have one of these suffixes, sorted by name.
 
-    suffixes: result of Scene.level_suffixes(). Return () if there is no levels folder.
+    suffixes: result of Scene.level_suffixes(). Return () if there is no readable levels folder.
     """
     try:
         return tuple(sorted(path for path in levels_folder().iterdir() if path.suffix in suffixes and path.is_file()))
@@ -26,7 +26,7 @@ def own_levels(suffixes: Sequence[str]) -> tuple[Path, ...]:
 
 
 def level_digest(path: str | Path) -> str:
-    """Return a digest of a file's content, 12 hex digits, by which a run identifies its level. Raises FileError."""
+    """Return a digest of a file's content, 12 hex digits, which identifies the level of a run. Raises FileError."""
     path = Path(path)
     try:
         if path.exists() and not path.is_file():

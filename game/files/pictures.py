@@ -1,4 +1,4 @@
-"""Pictures of levels: where they may be, and a limit of their size that is checked before the pixels are decoded."""
+"""Pictures of levels: their allowed locations, and a size limit that is checked before the pixels are decoded."""
 
 import os
 import struct
@@ -12,9 +12,9 @@ SIGNATURE, FIRST = b"\x89PNG\r\n\x1a\n", (13, b"IHDR")
 
 
 def png_size(path: str | Path, most: int) -> tuple[int, int]:
-    """Return (width, height) of a PNG file, read from its header.
+    """Return (width, height) [px] of a PNG file, read from the file's header.
 
-    Raises FileError for other files, and for a side of more than `most` px.
+    Raises FileError for a file of another format, and for a width or height of more than `most` px.
     """
     try:
         with open(path, "rb") as file:
@@ -32,12 +32,12 @@ def png_size(path: str | Path, most: int) -> tuple[int, int]:
 
 
 def picture_of(level: Path, place: str, name: str, own: Path) -> Path:
-    """Return the path of the picture that a level names: a file in the level's folder, or one of the program's own.
+    """Return the path of the picture that a level names: a file in the level's folder, or a picture of the program.
 
-    level: path of the level's file. name: path relative to the level's folder, with slashes or backslashes. If `name`
-    leads out of that folder, or names no file, the file of the same name in the folder `own` is used. This happens
-    because editors write paths that are valid only where the level was made. Raises FileError with `place`, the place
-    in the level, if that file does not exist either.
+    level: path of the level's file; place: place of the picture's name in that file, as text. name: path relative to
+    the level's folder, with slashes or backslashes. If it leads out of the level's folder or names no existing file,
+    the file with the same name in the folder `own` is used. Editors write paths that are valid only on the computer on
+    which the level was made. Raises FileError if that file does not exist either.
     """
     parts = PurePosixPath(name.replace("\\", "/"))
     leads_out = parts.is_absolute() or ".." in parts.parts or PureWindowsPath(name).anchor != ""
@@ -60,7 +60,10 @@ def picture_of(level: Path, place: str, name: str, own: Path) -> Path:
 
 
 def _is_file(path):
-    """Return whether the file exists. Raises OSError if that cannot be checked (too long a name, a closed folder)."""
+    """Return whether the file exists.
+
+    Raises OSError if this cannot be checked (the name is too long, the folder is closed).
+    """
     try:
         return S_ISREG(path.stat().st_mode)
     except (FileNotFoundError, NotADirectoryError):

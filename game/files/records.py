@@ -1,6 +1,6 @@
 """High scores: the ten best runs of each ranked scene, in one JSON file that is written atomically.
 
-A damaged entry is left out, and a copy of the file is kept. A file of a newer version is kept and not read.
+A damaged entry is left out, and the damaged file is kept as a copy. A file of a newer version is kept but not read.
 """
 
 import json
@@ -22,7 +22,7 @@ PLACES = 10
 class Entry:
     """One entry of a high-score table.
 
-    assisted: whether the run was played at lower speed, invincible, or with a changed rule.
+    assisted: whether the run was played at lower speed, with invincibility, or with a changed rule.
     """
 
     name: str
@@ -34,7 +34,7 @@ class Entry:
 
 
 class Records:
-    """High scores. tables: {key of a scene (see table_of): entries, best first}."""
+    """High scores. tables: {key of a scene's table (see table_of): list of entries, best first}."""
 
     def __init__(self, path: Path | None = None) -> None:
         self.path = path or records_path()
@@ -42,26 +42,27 @@ class Records:
         self.ranking = {}  # key -> ranked_by, of the tables that got entries in this process
 
     def entries(self, key: str | None) -> list[Entry]:
-        """Return the entries of the high-score table with the key `key`, best first."""
+        """Return the entries of the high-score table with the key `key`, best first. If `key` is None, return []."""
         return self.tables.get(key, [])
 
     def best(self, key: str | None) -> Entry | None:
-        """Return the best entry of the high-score table with the key `key`, or None."""
+        """Return the best entry of the high-score table with the key `key`, or None if the table is empty."""
         found = self.entries(key)
         return found[0] if found else None
 
     def place(self, key: str, ranked_by: str | None, entry: Entry) -> int | None:
-        """Return the place 1..10 that an entry would take in a table, or None.
+        """Return the place 1..10 that an entry would take in the table with the key `key`.
 
-        Of equal entries, the earlier one comes first. ranked_by: as in Scene.
+        Return None if the entry is not among the ten best. Among equal entries, the earlier one ranks higher.
+        ranked_by: as in Scene.
         """
         better = sum(1 for each in self.entries(key) if order(each, ranked_by) <= order(entry, ranked_by))
         return better + 1 if better < PLACES else None
 
     def add(self, key: str, ranked_by: str | None, entry: Entry) -> int | None:
-        """Insert an entry into a table at its place, and drop the entry after the last place.
+        """Insert an entry into the table with the key `key`, and remove the entry that is now beyond the last place.
 
-        Return the place or None. ranked_by: as in Scene.
+        Return the place 1..10 of the entry, or None if it has none. ranked_by: as in Scene.
         """
         place = self.place(key, ranked_by, entry)
         if place is not None:
@@ -72,9 +73,9 @@ class Records:
         return place
 
     def save(self) -> str:
-        """Write the file, merged with the entries that another window of the game has saved. Raises OSError.
+        """Write the high scores, merged with the entries that another window of the game has saved. Raises OSError.
 
-        Return "" or a message about the existing file, as load_records does.
+        Return a message about a damaged existing file, as load_records() does, or "".
         """
         there, message = load_records(self.path)
         for key, table in there.tables.items():
@@ -90,9 +91,10 @@ class Records:
 
 
 def order(entry: Entry, ranked_by: str | None) -> tuple[float, float]:
-    """Return the sort key of an entry. ranked_by: as in Scene.
+    """Return the sort key of an entry (smaller is better). ranked_by: as in Scene.
 
-    For "seconds": least time first, then most points. For "points": most points first, then least time.
+    For "seconds", the key sorts by least time, then most points. For "points", it sorts by most points, then least
+    time.
     """
     if ranked_by == "seconds":
         return entry.seconds, -entry.points
@@ -100,20 +102,23 @@ def order(entry: Entry, ranked_by: str | None) -> tuple[float, float]:
 
 
 def table_of(scene_name: str, level: Path | None = None) -> str:
-    """Return the key of a scene's table. level: level file of the player, or None.
+    """Return the key of a scene's high-score table. level: file of a level made by the player, or None.
 
-    Such a level has its own table, keyed by a digest of the level.
+    Such a level has its own table, whose key contains a digest of the level.
     """
     return scene_name if level is None else f"{scene_name}@{level_digest(level)}"
 
 
 def records_path() -> Path:
-    """Return the path of this user's high scores."""
+    """Return the path of this user's high-score file."""
     return data_folder() / FILE
 
 
 def load_records(path: Path | None = None) -> tuple[Records, str]:
-    """Return (Records, message). The message is "" or one line: file, place, reason, and the name of the kept copy."""
+    """Return (Records, message). path: file of the high scores; None means this user's file.
+
+    The message is "", or one line with the file, the place, the reason and the name of the kept copy.
+    """
     path = path or records_path()
     records = Records(path)
     if not is_there(path):
@@ -149,7 +154,7 @@ def _check_head(path, data):
 
 
 def _refusal_of(row):
-    """Return the reason why an entry is unusable; "" if it is usable."""
+    """Return the reason why `row` is unusable as a high-score entry; "" if it is usable."""
     names = [entry.name for entry in fields(Entry)]
     if not isinstance(row, dict) or set(row) != set(names):
         return f"must have {', '.join(names)}"

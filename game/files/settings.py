@@ -1,8 +1,7 @@
-"""Settings of the player: JSON with a version, written atomically, read leniently.
+"""Settings of the player: a JSON file with a version, written atomically, and read with tolerance for damage.
 
-A damaged file never stops the game. Unusable values get their defaults, and the file is kept under another name. One
-line of text names the place and the reason of the damage. A file of a newer version is not interpreted, and is kept,
-too.
+A damaged file never stops the game. Each unusable value is replaced by its default, and the file is kept under another
+name. One line of text names the place and the reason of the damage. A file of a newer version is kept but not read.
 """
 
 import json
@@ -26,7 +25,7 @@ LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-"  # of initials
 
 @dataclass
 class Settings:
-    """Choices of the player. Volumes and other shares are 0..1."""
+    """Choices of the player. Volumes and other factors are 0..1."""
 
     master: float = 0.8
     music: float = 0.6
@@ -51,21 +50,24 @@ class Settings:
     buttons: dict = field(default_factory=lambda: default_table("buttons"))
 
     def accessibility(self) -> Accessibility:
-        """Return the settings that a scene's drawing needs."""
+        """Return the settings that the drawing of a scene needs."""
         return Accessibility(self.shake, not self.reduced_flashing, self.palette)
 
     def assists(self) -> dict[str, bool]:
-        """Return the settings that a scene's rules need, {name in game.scene.ASSISTS: value}."""
+        """Return the settings that affect the rules of a scene: {name in game.scene.ASSISTS: value}."""
         return {"invincible": self.invincible, "hit_stop": self.hit_stop}
 
 
 def settings_path() -> Path:
-    """Return the path of this user's settings."""
+    """Return the path of this user's settings file."""
     return data_folder() / FILE
 
 
 def load_settings(path: Path | None = None) -> tuple[Settings, str]:
-    """Return (Settings, message). The message is "" or one line: file, place, reason, and the name of the kept copy."""
+    """Return (Settings, message). path: settings file; None means this user's file.
+
+    The message is "", or one line with the file, the place, the reason and the name of the kept copy.
+    """
     path = path or settings_path()
     if not is_there(path):
         return Settings(), ""
@@ -87,13 +89,13 @@ def load_settings(path: Path | None = None) -> tuple[Settings, str]:
 
 
 def save_settings(settings: Settings, path: Path | None = None) -> None:
-    """Write the settings. Raises OSError."""
+    """Write the settings to a file. path: the file; None means this user's settings file. Raises OSError."""
     data = {"version": VERSION, **asdict(settings)}
     write_atomically(path or settings_path(), json.dumps(data, indent=2) + "\n")
 
 
 def _upgraded(path, data):
-    """Return the content `data` of a settings file of version 1 or 2 in the form of version 2.
+    """Return the content `data` of a settings file of version 1 or 2, converted to version 2.
 
     Raises FileError for other versions.
     """
@@ -120,7 +122,7 @@ def _upgraded(path, data):
 
 
 def _refusal_of(name, value):
-    """Return the reason why a value is unusable; "" if it is usable."""
+    """Return the reason why `value` is unusable for the setting `name`; "" if it is usable."""
     if name in ("keys", "buttons"):
         return _table_refusal(name, value)
     if name == "labs_seen":
