@@ -1,6 +1,6 @@
-"""Bindings of keys and buttons to actions, as data: readable names that a settings file can contain.
+"""Bindings of keys and buttons to actions, stored as readable names that a settings file can contain.
 
-One key may have several actions (Space fires and jumps), as long as no game uses two of them together; see `rivals`.
+One key may have several actions (Space fires and jumps), as long as no game uses both actions (see `rivals`).
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -110,12 +110,12 @@ _NAMES = {}  # key code -> name, filled at the first call
 
 
 def rivals(action: str, other: str) -> bool:
-    """Return whether there is a game that uses both actions. Such actions cannot share a key."""
+    """Return whether any game uses both actions. If so, the two actions cannot share a key."""
     return action != other and any(action in game and other in game for game in USED_TOGETHER)
 
 
 def key_codes(names: Table) -> dict[int, tuple[str, ...]]:
-    """Return {key code: actions} for the given bindings, and for the keys that cannot be rebound.
+    """Return {key code: actions} of the given bindings and of the keys that cannot be rebound.
 
     names: {action: names of keys}. Raises ValueError for an unknown name.
     """
@@ -123,7 +123,7 @@ def key_codes(names: Table) -> dict[int, tuple[str, ...]]:
 
 
 def button_actions(names: Table) -> dict[str, tuple[str, ...]]:
-    """Return {button name: actions} for the given bindings, and for the buttons that cannot be rebound.
+    """Return {button name: actions} of the given bindings and of the buttons that cannot be rebound.
 
     names: {action: names of buttons}. Raises ValueError for an unknown name.
     """
@@ -141,7 +141,7 @@ def _turned(names, read):
 
 
 def _code(key: str) -> int:
-    """Return the key code of a key name. It is a constant of pygame, so that no display is needed."""
+    """Return the key code of a key name. The code is read from pygame's constants, so that no display is needed."""
     name = SPELLED.get(key, key)
     for spelling in (name.upper(), name.lower()):
         code = getattr(pygame, f"K_{spelling}", None)
@@ -157,7 +157,7 @@ def _button(name):
 
 
 def key_name(code: int) -> str | None:
-    """Return the name of a key code, as the settings contain it; None for a key without a plain name."""
+    """Return the name of a key code, as used in the settings; None for a key without such a name."""
     if not _NAMES:
         spelled = {constant: name for name, constant in SPELLED.items()}
         for constant in dir(pygame):
@@ -167,12 +167,12 @@ def key_name(code: int) -> str | None:
 
 
 def shown(control: str) -> str:
-    """Return the text that stands on the screen for a control, a key or a button."""
+    """Return the text that is displayed for a control, a key or a button."""
     return PICTURED.get(control, control.capitalize())
 
 
 def help_pairs(actions: Iterable[tuple[str, str]], table: Table) -> list[tuple[str, str]]:
-    """Return the (control, effect) pairs of the help line, with the player's bindings.
+    """Return (control, effect) pairs for the help line, with the controls that the player has bound.
 
     actions: as Scene.actions; table: {action: names of keys or buttons}.
     """

@@ -30,9 +30,10 @@ PULLED = 0.5  # of a trigger's travel, from which it counts as a button
 
 
 class DeviceSource:
-    """Input of all devices. to_canvas(position) maps the window's pointer to the canvas.
+    """Source of the input of all devices: keyboard, mouse and controllers.
 
-    pads: opens the controllers (see Pads), or None.
+    to_canvas(position): function that maps a window position of the pointer to the canvas. pads: object that opens the
+    controllers (see Pads), or None.
     """
 
     def __init__(
@@ -55,19 +56,22 @@ class DeviceSource:
         self.lost_pad = False  # a pad was pulled out; the app pauses and resets this
 
     def bind(self, keys: Table, buttons: Table) -> None:
-        """Replace the bindings of the keys and of the buttons. Each is a table {action: names}."""
+        """Replace the bindings of the keys and of the buttons.
+
+        keys, buttons: tables {action: names of keys or buttons}.
+        """
         self.keys, self.buttons = key_codes(keys), button_actions(buttons)
         self.menu_keys = {**self.keys, **key_codes(DEFAULT_KEYS)}
         self.menu_buttons = {**self.buttons, **button_actions(DEFAULT_BUTTONS)}
 
     def change(self, name: str, value: object) -> None:
-        """Queue a change of the simulation for the next step. It was made in the panel or by a key."""
+        """Queue a change of the simulation, made in the panel or with a key, for the next step."""
         self.changes.append((name, value))
 
     def next(self, scene: object | None = None) -> InputFrame:
         """Return the InputFrame of the next step. scene: not used.
 
-        An action that was pressed and released between two steps counts as held in one step.
+        An action that was pressed and released between two steps counts as held in the next step.
         """
         actions = frozenset(self.tapped.union(*self.held.values()) if self.held else self.tapped)
         down = self.pointer_down or self.pointer_tapped
@@ -78,7 +82,7 @@ class DeviceSource:
         return frame
 
     def release_all(self) -> None:
-        """Clear all held actions. Called when the window loses focus or another screen opens."""
+        """Clear all held actions. This is called when the window loses focus or another screen opens."""
         self.held.clear()
         self.tapped.clear()
         self.pointer_down = self.pointer_tapped = False
@@ -106,9 +110,9 @@ class DeviceSource:
             self._feed_pad(event)
 
     def button_of(self, event: pygame.event.Event) -> tuple[int, str, bool] | None:
-        """Return (pad, name of the button, whether it is down) of a pad event; None for other events.
+        """Return (pad id, name of the button, whether the button is down) of a button event; None for other events.
 
-        A trigger counts as a button that is down beyond PULLED.
+        A trigger counts as a button. It is down beyond the fraction PULLED of its travel.
         """
         kind = event.type
         if kind in (pygame.CONTROLLERBUTTONDOWN, pygame.CONTROLLERBUTTONUP) and event.button in CONTROLLER_NAMES:
@@ -121,14 +125,14 @@ class DeviceSource:
         return None
 
     def pressed_button(self, event: pygame.event.Event) -> str | None:
-        """Return the name of the button that this event presses, or None."""
+        """Return the name of the button that this event presses; None if it presses none."""
         found = self.button_of(event)
         if found is None or not found[2] or found[:2] in self.held:
             return None
         return found[1]
 
     def _is_mapped(self, instance_id):
-        """Return whether SDL has a mapping of this pad's buttons.
+        """Return whether SDL has a mapping of the buttons of the pad with this id.
 
         For such a pad, SDL also sends joystick events, which are ignored.
         """
@@ -157,7 +161,7 @@ class DeviceSource:
             self._press(control, (self.menu_buttons if self.menus else self.buttons).get(name, ()))
 
     def _feed_joystick(self, event):
-        """Process an event of the stick or the hat of a pad without a mapping."""
+        """Process an event of the stick or the hat of a pad that has no SDL mapping."""
         pad = event.instance_id
         if event.type == pygame.JOYHATMOTION:
             self._axis(pad, "hat x", event.value[0], AXES[0])
@@ -177,9 +181,10 @@ class DeviceSource:
         self._axis(pad, f"axis {axis}", 0 if abs(value) < DEAD_ZONE else value, actions)
 
     def _axis(self, pad, axis, value, actions):
-        """Set the held action of an axis: actions[0] for a negative value, actions[1] for a positive one, none for 0.
+        """Set the held action of an axis: actions[0] for a negative `value`, actions[1] for a positive one.
 
-        The action is pressed only when the value changes its sign, so that a held stick does not repeat.
+        For 0, no action is held. The action is pressed only when the value changes its sign, so that holding the stick
+        does not repeat the action.
         """
         control = (pad, axis)
         action = () if value == 0 else (actions[1],) if value > 0 else (actions[0],)

@@ -1,10 +1,12 @@
 """Dragging a body with the mouse: a critically damped spring from the grabbed point to the pointer.
 
-The pointer is part of the step's input like every key, so that a recording contains the drag. Its force is capped in
-proportion to the mass. In worlds with joints the spring is a Target, a joint that is solved together with all others;
-its body may fall asleep while it is held still. In other worlds the spring is a force, integrated implicitly over one
-step (Catto, "Soft Constraints", GDC 2011). So it is stable at any stiffness and for any mass. These worlds do not need
-the effect `joints`, which costs 18 to 31 us a step even without a joint (five labs).
+The pointer is part of the step's input, so that a recording contains the drag. The spring's force is limited in
+proportion to the body's mass. In a world with joints, the spring is a Target joint, which is solved together with all
+other joints. The dragged body may fall asleep while the pointer does not move.
+
+In other worlds, the spring is a force, integrated implicitly over one step (Catto, "Soft Constraints", GDC 2011). So it
+is stable at any stiffness and for any mass. These worlds thus do not need the effect `joints`, which costs 18 to 31 us
+a step even without a joint (five labs).
 """
 
 from collections.abc import Sequence
@@ -32,7 +34,7 @@ REACH = 4.0  # [canvas px] greatest distance of a press from a body: a card is 2
 
 
 class View(Protocol):
-    """The part of a camera that dragging uses: the world point at its top left corner, its zoom, and its viewport."""
+    """The part of a camera that dragging uses: the view's top left corner in the world, the zoom, and the viewport."""
 
     x: float
     y: float
@@ -40,16 +42,19 @@ class View(Protocol):
     viewport: pygame.Rect
 
     def view(self, alpha: float = 1.0) -> tuple[float, float]:
-        """Return the world point (x, y) that is drawn at the camera's top left corner, with shake."""
+        """Return the world point (x, y) that is drawn at the view's top left corner, including the camera's shake.
+
+        alpha: position between the last two steps, 0..1.
+        """
         ...
 
 
 @dataclass(frozen=True)
 class Hold:
-    """A held body. grip: the grabbed point in body space [px].
+    """A dragged body. grip: the grabbed point in body space [px].
 
-    before: velocity [px/s] that the body gets back when it is released; None: it keeps its velocity. joint: id of the
-    Target that pulls the body; None: it is pulled without a joint.
+    before: velocity [px/s] that the body is given on release; None if the release does not change its velocity. joint:
+    id of the Target that pulls the body; None if no joint pulls it.
     """
 
     body: Body
@@ -60,37 +65,37 @@ class Hold:
     joint: int | None = None
 
     def point(self) -> tuple[float, float]:
-        """Return the grabbed point in the world [px]."""
+        """Return the current position (x, y) of the grabbed point in the world [px]."""
         (x, y), angle = self.body.position, self.body.angle
         c, s = cos(angle), sin(angle)
         return x + c * self.grip[0] - s * self.grip[1], y + s * self.grip[0] + c * self.grip[1]
 
     def is_there(self) -> bool:
-        """Return whether the body, and the Target that pulls it, are still in the world."""
+        """Return whether the body is still in its world, and also the Target that pulls it, if there is one."""
         known = self.joint is None or bool((self.world.joints["id"] == self.joint).any())
         return known and bool((self.world.bodies["id"] == self.body.id).any())
 
 
 class Drag:
-    """Dragging of a scene's bodies by one pointer: at most one body is held. hold: its Hold, or None."""
+    """Dragging of a scene's bodies by one pointer, one body at a time. hold: the Hold of the dragged body, or None."""
 
     def __init__(self) -> None:
         self.hold: Hold | None = None
 
     @property
     def holds(self) -> bool:
-        """True while a body is held."""
+        """Whether a body is being dragged."""
         return self.hold is not None
 
     @property
     def held(self) -> int:
-        """Id of the held body, -1 if none is held."""
+        """Id of the dragged body, or -1 if no body is dragged."""
         return -1 if self.hold is None else self.hold.body.id
 
     def release(self) -> None:
-        """Release the held body, if any.
+        """Release the dragged body, if any.
 
-        In a world without forces, the body gets back the velocity that it had when it was grabbed.
+        In a world without forces, the body's velocity is set to the velocity that it had when it was grabbed.
         """
         hold, self.hold = self.hold, None
         if hold is None or not hold.is_there():
@@ -101,9 +106,9 @@ class Drag:
             hold.body.velocity = hold.before
 
     def step(self, inputs: InputState, views: Sequence[tuple[World, View]]) -> None:
-        """Grab, pull or release a body, depending on the pointer's button. Call it once per step, before World.step().
+        """Grab, pull or release a body, depending on the pointer's button.
 
-        views: (world, camera) of each picture on the canvas.
+        Call this once per step, before World.step(). views: (world, camera) of each view on the canvas.
         """
         if inputs.pointer_pressed:
             self._grab(inputs.pointer, views)
@@ -131,27 +136,36 @@ class Drag:
 
 
 def _goes_on(hold, views):
-    """Return whether the held body can still be dragged. hold: its Hold; views: (world, camera) of each picture.
+    """Return whether the drag of a body can continue. hold: Hold of the body; views: (world, camera) of each view.
 
-    The hold ends if its world is not in `views` (the scene was rebuilt), or if its body is gone or can no longer be
-    held.
+    The drag ends if the body's world is not in `views` (the scene was rebuilt), if the body was removed, or if
+    can_be_held() is False.
     """
     return any(world is hold.world for world, _ in views) and hold.is_there() and can_be_held(hold.body)
 
 
 def takes_joints(world: World) -> bool:
-    """Return whether a Target can pull a body of the world: joints are declared, and its solver solves them."""
+    """Return whether a Target can pull bodies of the world.
+
+    This requires the effect `joints` and a solver that supports joints.
+    """
     return world.effects.joints and world.stacks
 
 
 def _add_target(world, body, point):
-    """Add a Target that holds a body at a world point, until _move_target() moves the Target. Return its id."""
+    """Add a Target that holds the body's point at the world point `point` in place. Return the Target's id.
+
+    _move_target() later moves the Target, which then pulls the body along.
+    """
     force = MOST_PULL * world.tolerances.pixels_per_meter * body.mass
     return world.add_joint(Target(body, at=point, spring=Spring(HERTZ, DAMPING_RATIO), max_force=force)).id
 
 
 def _move_target(hold, target):
-    """Move the Target of a hold towards the world point `target`, by LEASH at most, and damp the body's swing."""
+    """Move the Target of a Hold towards the world point `target`, and damp the body's swing.
+
+    The Target stays within LEASH of the grabbed point.
+    """
     world, body, meter = hold.world, hold.body, hold.world.tolerances.pixels_per_meter
     x, y = hold.point()
     far = hypot(target[0] - x, target[1] - y)
@@ -188,16 +202,16 @@ def _pull(hold, target):
 
 
 def to_world(camera: View, pointer: tuple[float, float]) -> tuple[float, float]:
-    """Return the world point (x, y) under the canvas point `pointer`, as if the camera did not shake.
+    """Return the world point (x, y) at the canvas point `pointer`, without the camera's shake.
 
-    The shake is left out because it depends on the player's settings.
+    The shake is ignored because it depends on the player's settings.
     """
     view = camera.viewport
     return (pointer[0] - view.x) / camera.zoom + camera.x, (pointer[1] - view.y) / camera.zoom + camera.y
 
 
 def has_forces(effects: Effects) -> bool:
-    """Return whether forces move bodies in a world with these effects."""
+    """Return whether the effects include one that accelerates bodies: response, gravity, drag or wind."""
     return effects.response or effects.gravity or effects.drag or effects.wind
 
 
@@ -208,9 +222,10 @@ def can_be_held(body: Body) -> bool:
 
 
 def body_at(world: World, point: tuple[float, float], reach: float) -> Body | None:
-    """Return the Body to grab at a world point, or None.
+    """Return the Body to grab at the world point `point`, or None if there is none.
 
-    It is the uppermost body at the point, or else the nearest body within `reach` [px].
+    The result is the uppermost body at the point. If there is no body at the point, it is the nearest body within
+    `reach` [px].
     """
     held = [body for body in world.query_point(point) if can_be_held(body)]
     if held:
@@ -223,11 +238,11 @@ def body_at(world: World, point: tuple[float, float], reach: float) -> Body | No
 def spring_force(
     row: np.void, point: tuple[float, float], target: tuple[float, float], dt: float, turns: bool
 ) -> tuple[float, float]:
-    """Return the force [mass px/s2] on a body at `point` from a spring to `target`, implicit over a step of dt [s].
+    """Return the force (x, y) [mass px/s2] of a spring that pulls `point` of a body to `target`.
 
-    row: BODY row of the body. turns: whether the body can rotate. The impulse is J = -s K^-1 (v + b (point - target)).
-    K is the inverse effective mass matrix and v the velocity at the point; s and b are the factors of the soft
-    constraint for dt.
+    The force is implicit over a step of dt [s]. row: BODY row of the body; turns: whether the body can rotate. The
+    impulse is J = -s K^-1 (v + b (point - target)). K is the inverse effective mass matrix, and v is the velocity at
+    the point. The factors s and b follow from the soft constraint for dt.
     """
     omega = 2.0 * pi * HERTZ
     first = 2.0 * DAMPING_RATIO + dt * omega

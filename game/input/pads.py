@@ -1,4 +1,4 @@
-"""The connected controllers by instance id, which is unique while the program runs."""
+"""The connected controllers (pads), by SDL instance id, which is unique while the program runs."""
 
 from types import ModuleType
 
@@ -6,7 +6,10 @@ import pygame
 
 
 def controller_module() -> ModuleType | None:
-    """Return pygame._sdl2.controller, with uniform button names, or None if pygame lacks it, as pygame 2.6.1 does."""
+    """Return pygame._sdl2.controller, which gives buttons uniform names.
+
+    Return None if pygame lacks it (pygame 2.6.1 does).
+    """
     try:
         from pygame._sdl2 import controller
     except ImportError:
@@ -15,7 +18,7 @@ def controller_module() -> ModuleType | None:
 
 
 class Pads:
-    """The open pads. SDL sends events of open pads only, so each pad is opened when it is connected."""
+    """The open controllers (pads). SDL sends events only of open pads, so each pad is opened when it is connected."""
 
     def __init__(self) -> None:
         self.controllers, self.joysticks = {}, {}
@@ -27,7 +30,7 @@ class Pads:
     def added(self, device_index: int) -> None:
         """Open the pad with this device index.
 
-        A pad that SDL announces twice, as joystick and as controller, is opened once.
+        SDL may announce a pad twice, as joystick and as controller. Such a pad is opened once.
         """
         try:
             joystick = pygame.joystick.Joystick(device_index)
@@ -42,22 +45,22 @@ class Pads:
             return  # disconnected since the event; its removal follows
 
     def removed(self, instance_id: int) -> None:
-        """Forget a pad that was disconnected."""
+        """Remove a pad that was disconnected."""
         self.controllers.pop(instance_id, None)
         self.joysticks.pop(instance_id, None)
 
     def knows(self, instance_id: int) -> bool:
-        """Return whether the pad is open."""
+        """Return whether the pad with this id is open."""
         return instance_id in self.controllers or instance_id in self.joysticks
 
     def is_controller(self, instance_id: int) -> bool:
-        """Return whether SDL has a mapping of this pad's buttons."""
+        """Return whether the pad is open as a controller, which means that SDL has a mapping of its buttons."""
         return instance_id in self.controllers
 
     def rumble(self, low: float, high: float, milliseconds: int) -> None:
-        """Run the motors of every pad with an SDL mapping for some milliseconds.
+        """Run the motors of every pad that has an SDL mapping, for the given time.
 
-        low, high: strength 0..1 of the motors of low and of high pitch.
+        low, high: strengths 0..1 of the low-frequency and the high-frequency motors.
         """
         for controller in self.controllers.values():
             controller.rumble(low, high, milliseconds)

@@ -1,4 +1,7 @@
-"""Rebinding of keys and buttons. A fixed control is refused; a control of another action is exchanged."""
+"""Rebinding of actions to other keys and buttons (controls).
+
+A fixed control is rejected. If another action has the control, the two actions exchange controls.
+"""
 
 from string import ascii_lowercase
 
@@ -20,10 +23,11 @@ SPARE = {"keys": tuple(ascii_lowercase), "buttons": BUTTON_NAMES}
 
 
 def rebind(table: dict[str, list[str]], device: str, action: str, control: str | None) -> str:
-    """Make `control` the first control of `action` in a table {action: [names]}. Return a line for the player.
+    """Make `control` the first control of `action` in a table {action: controls}. Return a line of text for the player.
 
-    device: "keys" or "buttons". control: None for a key without a name. Another action that had the control, and cannot
-    share it (bindings.rivals), gets the control that `action` gives up. No action is left without a control.
+    device: "keys" or "buttons"; control: None for a key without a name. If another action has `control` and cannot
+    share it (see bindings.rivals), that action gets the former first control of `action` instead. The table is not
+    changed if an action would have no control.
     """
     if control is None:
         return "That key has no name here. Choose another."
@@ -48,10 +52,10 @@ def rebind(table: dict[str, list[str]], device: str, action: str, control: str |
 
 
 def _make_room(table, device, other, control, given_up):
-    """Take `control` away from the action `other` in a table {action: controls}, and give it another one if possible.
+    """Take `control` away from the action `other` in a table {action: controls}, and assign another if possible.
 
-    device: "keys" or "buttons". given_up: the control to try first, which the new owner of `control` gives up. Return
-    the line for the player; None if `other` would be left without a control.
+    device: "keys" or "buttons"; given_up: the control to try first, which the new owner of `control` no longer uses.
+    Return the line for the player; None if `other` would have no control.
     """
     place = table[other].index(control)
     rest = [each for each in table[other] if each != control]
@@ -67,19 +71,19 @@ def _make_room(table, device, other, control, given_up):
 
 
 def _is_free(table, device, action, control):
-    """Return whether an action can get a control in a table {action: controls}. device: "keys" or "buttons".
+    """Return whether `control` can be assigned to `action` in a table {action: controls}. device: "keys" or "buttons".
 
-    The control must not be fixed, belong to the action already, or belong to an action that cannot share it
-    (bindings.rivals).
+    False if the control is fixed, already belongs to the action, or belongs to an action that cannot share it (see
+    bindings.rivals).
     """
     taken = FIXED[device].union(*(controls for name, controls in table.items() if rivals(action, name)), table[action])
     return control not in taken
 
 
 def clash(table: Table) -> tuple[str, str, str] | None:
-    """Return (action, other, control) of the first two actions that share a control although one game uses both.
+    """Return (action, other action, control) of the first conflict in a table {action: controls}, or None.
 
-    Return None if there are none.
+    A conflict is a control of two actions that the same game uses.
     """
     for action in table:
         for other in table:
@@ -91,14 +95,15 @@ def clash(table: Table) -> tuple[str, str, str] | None:
 
 
 def default_table(device: str) -> dict[str, list[str]]:
-    """Return a new copy of the default bindings of a device, "keys" or "buttons"."""
+    """Return a new copy of the default bindings {action: controls} of a device, "keys" or "buttons"."""
     return {action: list(controls) for action, controls in DEFAULTS[device].items()}
 
 
 def completed(table: Table, device: str) -> dict[str, list[str]]:
-    """Return a copy of a table with the actions that an older file lacks. device: "keys" or "buttons".
+    """Return a copy of a table {action: controls} in which every action has a control. device: "keys" or "buttons".
 
-    They get their default controls, except those that clash with another action.
+    Actions that the table lacks, such as one from an older file, get their default controls, except those that conflict
+    with another action. If all conflict, they get a spare control.
     """
     full = {}
     for action in DEFAULTS[device]:
