@@ -1,4 +1,4 @@
-"""The invariants U1 to U11, which hold after every step of every world.
+"""The invariants U1 to U11, which must hold after every step of every world.
 
-Their checks only read the tables of a world.
+The checks of the invariants read a world's tables and do not change them.
 """

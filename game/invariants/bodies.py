@@ -1,4 +1,4 @@
-"""The bodies of a world at one moment, as columns, with their momentum, angular momentum and energy."""
+"""The bodies of a world at one moment, as arrays, with their momentum, angular momentum and energy."""
 
 import math
 from functools import cached_property
@@ -12,10 +12,10 @@ BODY_NUMBERS = ("x", "y", "angle", "vx", "vy", "angular_velocity", "center_x", "
 
 
 class Bodies:
-    """Copy of the numbers of all bodies at one moment. Sums are over the dynamic bodies.
+    """Copy of the numbers of all bodies at one moment. Sums include only the dynamic bodies.
 
-    Lengths are in px, times in s, angles in rad. A mass is density times area [px2]. gravity [px/s2]: (0, 0) in a world
-    without the effect.
+    Lengths are in px, times in s, angles in rad. A mass is density times area [px2]. gravity: [px/s2], (0, 0) in a
+    world without the effect `gravity`.
     """
 
     def __init__(self, world: World) -> None:
@@ -43,7 +43,10 @@ class Bodies:
         )
 
     def differs_from(self, other: "Bodies | None") -> np.ndarray:
-        """Return (n,) bool: whether each body is new or changed since `other`; all True if `other` is None."""
+        """Return (n,) bool: whether each body is new in this copy or differs from the body in `other`.
+
+        other: copy at an earlier moment. If it is None, all values are True.
+        """
         if other is None:
             return np.ones(len(self), bool)
         if np.array_equal(self.ids, other.ids):
@@ -60,7 +63,7 @@ class Bodies:
 
     @cached_property
     def heights(self) -> np.ndarray:
-        """(n,) scalar product of gravity and position [px2/s2]: minus the potential energy per mass."""
+        """(n,) scalar product of gravity and centre of mass [px2/s2]: the negative potential energy per mass."""
         gx, gy = self.gravity
         return gx * self.cx + gy * self.cy
 
@@ -86,28 +89,28 @@ class Bodies:
 
     @property
     def total_mass(self) -> float:
-        """Total mass."""
+        """Total mass of the dynamic bodies."""
         return float(self.mass.sum())
 
     @property
     def weight(self) -> float:
-        """Total mass times the magnitude of gravity."""
+        """Total mass of the dynamic bodies times the magnitude of gravity [mass px/s2]."""
         return self.total_mass * math.hypot(*self.gravity)
 
     @property
     def momentum(self) -> tuple[float, float]:
-        """Total momentum (x, y) [mass px/s]."""
+        """Total momentum (x, y) of the dynamic bodies [mass px/s]."""
         return float(self.mass @ self.vx), float(self.mass @ self.vy)
 
     @property
     def momentum_scale(self) -> float:
-        """Sum of mass times speed, with which a drift of the momentum is compared."""
+        """Sum of mass times speed [mass px/s]. A drift of the momentum is compared with it."""
         return float(self.mass @ self.speed)
 
     def spin(self, among: np.ndarray) -> float:
-        """Return the sum of the absolute angular momenta of some bodies about their common centre of mass.
+        """Return the sum of the absolute angular momenta of the bodies in `among` about their common centre of mass.
 
-        among: (n,) bool, True for these bodies.
+        among: (n,) bool, True for each body to include.
         """
         mass = self.mass * among
         total = float(mass.sum())

@@ -1,4 +1,4 @@
-"""Invariant U11: no limit on iterations or substeps was hit."""
+"""Invariant U11: no step reaches a limit on iterations or substeps."""
 
 import numpy as np
 
@@ -7,15 +7,16 @@ from game.invariants.step import Step
 
 
 class Caps(Invariant):
-    """Invariant U11: no limit (cap) was hit in the step.
+    """Invariant U11: no limit (cap) was reached in the step.
 
-    No search ended early, and no island needed more than the greatest number of substeps.
+    The invariant holds if no iterative search stopped at its limit and no island needed more than the greatest number
+    of substeps.
     """
 
     id, word = "U11", "caps"
 
     def look(self, step: Step) -> Answer:
-        """Check the invariant for the last step. Return a Broken, or None if it holds."""
+        """Check the invariant for `step`. Return a Broken, or None if the invariant holds."""
         world = step.world
         hits = world.profile.counters["cap_hits"]
         if not hits:

@@ -1,7 +1,7 @@
-"""Invariants U3, U4 and U5: without outside influence, bodies keep momentum and angular momentum and gain no energy.
+"""Invariants U3, U4 and U5: without external influence, bodies keep their momenta and gain no energy.
 
-The invariants are checked only where the world's tables prove that nothing acts from outside. If the game changes
-something between two steps, a new comparison begins.
+U3 is momentum, U4 angular momentum, and U5 energy. Each is checked only where the world's tables prove that nothing
+acts from outside. If the game changes something between two steps, the energy comparison starts anew.
 """
 
 import math
@@ -22,10 +22,10 @@ APART = 2.0  # slops that bodies may overlap by at the start: deeper overlaps ar
 
 
 class OfTheAlone(Invariant):
-    """Base class for a quantity that bodies keep without outside influence.
+    """Base class of invariants of a quantity that isolated bodies conserve.
 
-    In each step, the gain of the quantity is taken over the bodies on which nothing acted from outside (Step.alone).
-    The gains are summed over the steps, and the sum must stay within an allowance.
+    In each step, the gain of the quantity is summed over the isolated bodies (Step.alone), on which nothing acts from
+    outside. The sum of the gains of all steps must not exceed an allowance.
     """
 
     gained: str  # sentence that reports the gain
@@ -34,7 +34,7 @@ class OfTheAlone(Invariant):
         self.drift, self.room, self.steps = np.zeros(2), 0.0, 0
 
     def look(self, step: Step) -> Answer:
-        """Check the invariant for the last step. Return a Broken, a NotAsked, or None if it holds."""
+        """Check the invariant for `step`. Return a Broken, a NotAsked, or None if the invariant holds."""
         if step.outside:
             return NotAsked(step.outside)
         alone = step.alone
@@ -50,34 +50,37 @@ class OfTheAlone(Invariant):
         return self.broken(step, most(step, np.where(alone, change, 0.0)), drift, allowed, self.gained)
 
     def why_not(self, step: Step, alone: np.ndarray) -> str:
-        """Return the reason why the invariant cannot be checked in this step; "" if it can.
+        """Return the reason why the invariant cannot be checked in this step; "" if it can be checked.
 
-        alone: (n,) bool, the bodies on which nothing acted from outside.
+        alone: (n,) bool, True for each isolated body (see Step.alone).
         """
         if not alone.any():
             return "all that is dynamic touches what stands, sleeps or is driven"
         return "drag acts" if step.world.effects.drag and step.world.drag > 0.0 else ""
 
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
-        """Return (gain, allowance, change) of this step.
+        """Return (gain, allowance, change) of the conserved quantity in this step.
 
-        gain: (2,) gain of the conserved quantity in this step; allowance: allowed gain in LONG steps; change: (n,)
-        change of the quantity of each body. alone: (n,) bool, the bodies over which the gain is summed.
+        gain: (2,) gain of the quantity, summed over the bodies in `alone`; allowance: allowed gain in LONG steps;
+        change: (n,) change of the quantity of each body. alone: (n,) bool, True for each isolated body.
         """
         raise TypeError(f"{type(self).__name__} must define gain")
 
 
 class Momentum(OfTheAlone):
-    """Invariant U3: isolated bodies keep their momentum, except for gravity, to 1e-10 of Σ m v in 600 steps."""
+    """Invariant U3: isolated bodies keep their momentum, to 1e-10 of Σ m v in 600 steps.
+
+    The change by gravity is subtracted.
+    """
 
     id, word = "U3", "momentum"
     gained = "momentum drifted though nothing pushes from outside"
 
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
-        """Return (gain, allowance, change) of the momentum in this step.
+        """Return (gain, allowance, change) of the momentum in this step, without the change by gravity.
 
-        gain: (2,) gain along x and y; allowance: allowed gain in LONG steps; change: (n,) change of momentum of each
-        body. alone: (n,) bool, the bodies over which the gain is summed.
+        gain: (2,) gain along x and y, summed over the bodies in `alone`; allowance: allowed gain in LONG steps; change:
+        (n,) change of the momentum of each body. alone: (n,) bool, True for each isolated body.
         """
         now, before = step.now, step.before
         mass = now.mass * alone
@@ -91,24 +94,28 @@ class Momentum(OfTheAlone):
 class Spin(OfTheAlone):
     """Invariant U4: the angular momentum of isolated bodies about their common centre of mass is constant.
 
-    It may change by 1e-3 of Σ |r × m v| + |I ω| in 600 steps, plus the rounding error of U3 at the moment arms of the
-    bodies. The check sums the torques of the impulses, with each body halfway between its positions before and after
-    the step.
+    The tolerance is the sum of two terms. The first is 1e-3 of Σ |r × m v| + |I ω| in 600 steps. The second is the
+    rounding error of U3 at the moment arms of the bodies. The check sums the torques of the impulses. Each body is
+    taken halfway between its positions before and after the step.
 
-    Three effects are errors of a step rather than a drift, and are not counted. Push-out moves bodies, and so the
-    moment arms of their momenta: a falling column of ten boxes loses 0.9 % in a step under projection. After an impact
-    within the step, two bodies go on moving past each other (see `slip`). The error is 0.7 % in one hit of two stones
-    of lab/carving, and 0.1 % in 214 steps of 130 bodies in lab/tumbler. Joints act at moments within the step too (see
-    `lag`). The error is 0.2 % in a second of the doll of lab/joints, which flies with gaps of up to a pixel.
+    Three effects are errors of a single step rather than a drift, and are not counted. Push-out moves bodies, and thus
+    changes the moment arms of their momenta. By this, a falling column of ten boxes loses 0.9 % in a step under
+    projection.
+
+    After an impact within the step, the two bodies continue to move past each other (see `slip`). The error is 0.7 % in
+    one hit of two stones of lab/carving, and 0.1 % in 214 steps of 130 bodies in lab/tumbler.
+
+    Joints also act at moments within the step (see `lag`). The error is 0.2 % in a second of the doll of lab/joints,
+    which flies with gaps of up to a pixel.
     """
 
     id, word = "U4", "spin"
     gained = "angular momentum drifted though nothing turns from outside"
 
     def why_not(self, step: Step, alone: np.ndarray) -> str:
-        """Return the reason why the invariant cannot be checked in this step; "" if it can.
+        """Return the reason why the invariant cannot be checked in this step; "" if it can be checked.
 
-        alone: (n,) bool, the bodies on which nothing acted from outside.
+        alone: (n,) bool, True for each isolated body (see Step.alone).
         """
         why = super().why_not(step, alone)
         if why:
@@ -127,8 +134,8 @@ class Spin(OfTheAlone):
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
         """Return (gain, allowance, change) of the angular momentum in this step.
 
-        gain: [gain of angular momentum, 0]; allowance: allowed gain in LONG steps; change: (n,) change of each body's
-        angular momentum. alone: (n,) bool, the bodies over which the gain is summed.
+        gain: (gain of angular momentum, 0), summed over the bodies in `alone`; allowance: allowed gain in LONG steps;
+        change: (n,) change of each body's angular momentum. alone: (n,) bool, True for each isolated body.
         """
         now, before = step.now, step.before
         mass, inertia = now.mass * alone, now.inertia * alone
@@ -149,8 +156,8 @@ class Spin(OfTheAlone):
 def slip(step: Step, among: np.ndarray) -> float:
     """Return the error of angular momentum that the contacts of a step may cause.
 
-    among: (n,) bool, the bodies to consider. The error is Σ impulse · (relative path of the two bodies in the step +
-    gap or overlap), over contacts between these bodies.
+    among: (n,) bool, the bodies to consider. The error is the sum of impulse · (relative path of the two bodies in the
+    step + gap or overlap). The sum is over the contacts whose two bodies are in `among`.
     """
     rows, (a, b) = step.contacts, step.sides
     pushed = np.flatnonzero(among[a] & among[b])
@@ -171,9 +178,10 @@ def slip(step: Step, among: np.ndarray) -> float:
 def lag(step: Step, among: np.ndarray) -> float:
     """Return the error of angular momentum that the joints of a step may cause.
 
-    among: (n,) bool, the bodies to consider. A joint acts within the step, when its two bodies are not halfway between
-    their positions before and after it, and a gap of its anchors is a lever. The error is Σ impulse · (half of
-    the bodies' relative path in the step + gap), over joints between these bodies.
+    among: (n,) bool, the bodies to consider. A joint acts at a moment within the step when its bodies are not halfway
+    between their positions before and after the step. The gap between its anchors then acts as a moment arm. The error
+    is the sum of impulse · (half of the bodies' relative path in the step + gap). The sum is over the joints whose two
+    bodies are in `among`.
     """
     rows, (a, b) = step.world.joints[step.world.joints["enabled"]], step.linked
     a, b = a[: len(rows)], b[: len(rows)]  # broken joints follow, whose last force is not known
@@ -187,12 +195,15 @@ def lag(step: Step, among: np.ndarray) -> float:
 
 
 def most(step: Step, change: np.ndarray) -> tuple[int, ...]:
-    """Return (id,) of the body with the greatest change; () if there are no bodies. change: (n,), one per body."""
+    """Return the id of the body with the greatest `change`, as (id,); () if there are no bodies.
+
+    change: (n,), one per body.
+    """
     return (int(step.now.ids[int(np.argmax(change))]),) if len(change) else ()
 
 
 class Account:
-    """Energy of a world since the start of a comparison. start: energy at the start [mass px2/s2]."""
+    """Account of a world's energy since the start of a comparison. start: total energy at the start [mass px2/s2]."""
 
     def __init__(self, bodies: Bodies, overlap: float = 0.0) -> None:
         self.start = self.top = bodies.energy
@@ -206,12 +217,12 @@ class Account:
             self.low, self.high = min(self.low, float(heights.min())), max(self.high, float(heights.max()))
 
     def gain(self, world: World, now: Bodies) -> tuple[float, float]:
-        """Return (energy of the bodies above that at the start, greatest allowed value of this difference).
+        """Return (energy gained since the start, greatest allowed gain) [mass px2/s2].
 
-        now: Bodies of the present state. The allowed value is the sum of four terms: 1 % of the energy in play (kinetic
-        energy, plus the potential energy between the lowest and the highest position so far); m g (slop + overlap at
-        the start) of each body; the rounding error of bodies that come to rest; and m g v dt of each body that was
-        stopped at its time of impact.
+        now: Bodies of the present state. The allowed gain is the sum of four terms. The first is 1 % of the energy in
+        play (kinetic energy, plus the potential energy between the lowest and the highest position so far). The second
+        is m g (slop + overlap at the start) of each body. The third is the rounding error of bodies that come to rest.
+        The fourth is m g v dt of each body that was stopped at its time of impact.
         """
         self._span(now)
         energy = now.energy
@@ -225,11 +236,10 @@ class Account:
 
 
 class Energy(Invariant):
-    """Invariant U5: without a drive, the energy of all bodies never exceeds that at the start by more than allowed.
+    """Invariant U5: without a drive, the total energy never exceeds the energy at the start by more than allowed.
 
-    The allowed gain is that of Account.gain. The comparison starts after the last change by the game, as soon as no
-    overlap is deeper than two slops. Before, bodies that were placed into each other are pushed apart, some of them
-    upwards.
+    Account.gain() defines the allowed gain. The comparison starts after the last change by the game, once no overlap is
+    deeper than two slops. Before that, bodies that were created overlapping are pushed apart, some of them upwards.
     """
 
     id, word = "U5", "energy"
@@ -238,7 +248,7 @@ class Energy(Invariant):
         self.account: Account | None = None
 
     def look(self, step: Step) -> Answer:
-        """Check the invariant for the last step. Return a Broken, a NotAsked, or None if it holds."""
+        """Check the invariant for `step`. Return a Broken, a NotAsked, or None if the invariant holds."""
         world = step.world
         why = step.outside or driven(step)
         if why:
@@ -264,7 +274,10 @@ class Energy(Invariant):
 
 
 def driven(step: Step) -> str:
-    """Return a phrase that names a drive, something that adds energy to bodies in this step; "" if there is none."""
+    """Return a phrase that names a drive in this step, such as a motor or a force; "" if there is none.
+
+    A drive is anything that may add energy to bodies.
+    """
     world, effects = step.world, step.world.effects
     if step.forced.any():
         return "forces act"

@@ -8,7 +8,7 @@ from game.invariants.step import Step
 
 @dataclass(frozen=True)
 class Broken:
-    """An invariant that does not hold. bodies: ids of the bodies concerned.
+    """Result for an invariant that does not hold. bodies: ids of the bodies concerned.
 
     value: the measured value; allowed: the greatest allowed value.
     """
@@ -27,7 +27,7 @@ class Broken:
 
     @property
     def brief(self) -> str:
-        """One line with world and bodies, quantity and value."""
+        """One line of text with the world, the bodies, the quantity and its value."""
         world = [f"world {self.world}"] if self.world else []
         bodies = [f"bodies {' '.join(map(str, self.bodies))}"] if self.bodies else []
         where = ", ".join(world + bodies)
@@ -36,7 +36,7 @@ class Broken:
 
 @dataclass(frozen=True)
 class NotAsked:
-    """Result for an invariant that cannot be checked in this step. reason: why not."""
+    """Result for an invariant that cannot be checked in this step. reason: why it cannot be checked."""
 
     reason: str
 
@@ -45,7 +45,7 @@ Answer = Broken | NotAsked | None  # None: checked, and it holds
 
 
 class Invariant:
-    """Base class of the invariants. id, word: label of the invariant, such as "U1" and "finite".
+    """Base class of the invariants. id, word: labels of the invariant, such as "U1" and "finite".
 
     look() is called once after every step.
     """
@@ -54,14 +54,14 @@ class Invariant:
     word: str
 
     def look(self, step: Step) -> Answer:
-        """Check the invariant for the last step. Return a Broken, a NotAsked, or None if the invariant holds."""
+        """Check the invariant for `step`. Return a Broken, a NotAsked, or None if the invariant holds."""
         raise TypeError(f"{type(self).__name__} must define look")
 
     def broken(self, step: Step, bodies: Iterable[int], value: float, allowed: float, sentence: str) -> Broken:
-        """Return a Broken with these values, the result of look() for a broken invariant.
+        """Return a Broken with the given values, as the result of look().
 
         bodies: ids of the bodies concerned; value: the measured value; allowed: the greatest allowed value; sentence:
-        what is wrong.
+        description of the violation.
         """
         return Broken(
             self.id, self.word, step.number, tuple(int(b) for b in bodies), float(value), float(allowed), sentence

@@ -1,6 +1,6 @@
 """Invariant monitor of a scene: the state of each invariant over all worlds of the scene.
 
-A broken invariant stays red for AFTERGLOW frames. After that, its state follows the checks again.
+A broken invariant is shown red for AFTERGLOW frames. After that, its state is again that of the latest checks.
 """
 
 from collections.abc import Iterable
@@ -31,7 +31,7 @@ class InvariantStatus:
 
     @property
     def sentence(self) -> str:
-        """The state as a sentence."""
+        """The state of the invariant as a sentence."""
         if self.state == RED:
             return self.last_report
         text = f"{self.id} {self.word}: " + (f"not asked: {self.reason}" if self.state == GREY else "holds")
@@ -39,15 +39,15 @@ class InvariantStatus:
 
     @property
     def last_report(self) -> str:
-        """The last break as one line; "" if there was none."""
+        """One line about the last break of the invariant; "" if there was none."""
         return f"frame {self.last_frame}, {self.id}: {self.last.brief}" if self.last is not None else ""
 
 
 class InvariantMonitor:
     """Monitor of the invariants of a scene. Call take(world) for each world, and note() after each frame.
 
-    strict: whether pairs of concave shapes are checked, too. The caller of a strict monitor ends the run at the first
-    break, `first`.
+    strict: whether pairs of concave shapes are also checked. A caller that uses a strict monitor ends the run at the
+    first break, which is in `first`.
     """
 
     def __init__(self, strict: bool = False) -> None:
@@ -58,11 +58,14 @@ class InvariantMonitor:
         self.seconds = 0.0  # time of the checks in the last frame
 
     def take(self, world: WatchedWorld) -> None:
-        """Begin to check the invariants of this world after each of its steps."""
+        """Start to check the invariants of `world` after each of its steps."""
         world.watch = Watch(concave=self.strict)
 
     def note(self, frame: int, worlds: Iterable[WatchedWorld]) -> None:
-        """Update the states after a frame from the checks of these worlds. frame: its number."""
+        """Update the states of the invariants after a frame, from the checks of these worlds.
+
+        frame: number of the frame.
+        """
         self.frame, self.seconds = frame, 0.0
         answers = []
         for number, world in enumerate(worlds):

@@ -17,7 +17,7 @@ Bad = tuple[tuple[int, ...], float, str]  # ids of bodies, value, quantity
 
 
 def tables(world: World, sleeping: bool) -> list:
-    """Return (name, rows, names of the columns to check) of each table that a world reports, except AABBs of shapes.
+    """Return (name, rows, names of the columns to check) of each table that a world reports, except the shapes' AABBs.
 
     sleeping: whether the table of sleeping contacts is included.
     """
@@ -36,7 +36,7 @@ REPORTED = ("begin", "persist", "end", "sensor_begin", "sensor_end")
 
 
 def ids_of(row: np.void) -> tuple[int, ...]:
-    """Return the ids of the bodies to which a row belongs. row: row of any table."""
+    """Return the ids of the bodies that a row of any table refers to."""
     names = row.dtype.names or ()
     return tuple(
         int(row[name])
@@ -46,10 +46,10 @@ def ids_of(row: np.void) -> tuple[int, ...]:
 
 
 def not_finite(world: World, sleeping: bool = False) -> Bad | None:
-    """Return (ids of bodies, value, quantity) of the first reported number that is not finite; None if all are.
+    """Return (ids of bodies, value, quantity) of the first reported number that is not finite; None if all are finite.
 
-    sleeping: whether sleeping contacts are checked, too; the world has to list them for this. A shape without a solid
-    part has an AABB from +inf to -inf, which is allowed.
+    sleeping: whether sleeping contacts are also checked, which the world must list for this. The AABB of a shape
+    without a solid part extends from +inf to -inf, which is allowed.
     """
     for name, rows, columns in tables(world, sleeping):
         if not len(rows):
@@ -70,9 +70,9 @@ def not_finite(world: World, sleeping: bool = False) -> Bad | None:
 
 
 def not_unit(world: World, sleeping: bool = False) -> Bad | None:
-    """Return (ids of bodies, value, quantity) of the first normal that is not of unit length; None if all are.
+    """Return (ids of bodies, error, quantity) of the first normal that is not of unit length; None if all are.
 
-    value: error of the squared length.
+    error: absolute error of the squared length. sleeping: whether sleeping contacts are also checked.
     """
     for name, rows, columns in tables(world, sleeping)[1:]:
         if len(rows):
@@ -85,16 +85,16 @@ def not_unit(world: World, sleeping: bool = False) -> Bad | None:
 
 
 class Finite(Invariant):
-    """Invariant U1: no NaN and no Inf in poses, velocities, boxes, impulses, normals, points.
+    """Invariant U1: no NaN or infinity in poses, velocities, boxes, impulses, normals and points.
 
-    A body with a number that is not finite is disabled in the same step, before its numbers can be read. That counts as
-    a break, too.
+    A body with a non-finite number is disabled within the step, before its numbers can be read. Such a body also breaks
+    the invariant.
     """
 
     id, word = "U1", "finite"
 
     def look(self, step: Step) -> Answer:
-        """Check the invariant for the last step. Return a Broken, or None if it holds."""
+        """Check the invariant for `step`. Return a Broken, or None if the invariant holds."""
         lost = step.world.events.quarantined
         if len(lost):
             return self.broken(step, lost["body"], float("nan"), 0.0, f"quarantined: {lost['reason'][0]}")
@@ -108,6 +108,6 @@ class Unit(Invariant):
     id, word = "U2", "normals"
 
     def look(self, step: Step) -> Answer:
-        """Check the invariant for the last step. Return a Broken, or None if it holds."""
+        """Check the invariant for `step`. Return a Broken, or None if the invariant holds."""
         bad = not_unit(step.world)
         return None if bad is None else self.broken(step, bad[0], bad[1], UNIT, bad[2])

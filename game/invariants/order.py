@@ -1,4 +1,4 @@
-"""Invariant U9: the order in which bodies were added changes results by no more than the rounding of sums."""
+"""Invariant U9: the order in which bodies were added changes results at most by the rounding errors of sums."""
 
 import numpy as np
 
@@ -11,12 +11,14 @@ COMPARED = ("x", "y", "angle", "vx", "vy", "angular_velocity")
 
 
 class Order(Invariant):
-    """Invariant U9. A running world has only one order of bodies, so U9 cannot be checked in it and is never green.
+    """Invariant U9: results do not depend on the order in which bodies were added, except for rounding errors.
 
-    Tests compare two worlds with `furthest_apart` (tests/game/test_invariants.py). U9 holds for bodies that do not
-    press on each other. Loaded contacts are solved one after the other, in an order that begins with the ids, and the
-    remaining error of a step depends on this order. Four columns of three boxes differ by 2e-7 of their positions after
-    60 steps with substeps by load, by 5e-5 with 4 substeps.
+    In a running world, bodies have only one order, so U9 cannot be checked there and is never green. Tests compare two
+    worlds with `furthest_apart` (tests/game/test_invariants.py).
+
+    U9 holds for bodies that do not press on each other. Loaded contacts are solved one after another, in an order that
+    depends on the ids. The remaining error of a step depends on this order. Four columns of three boxes differ by 2e-7
+    of their positions after 60 steps with substeps by load, and by 5e-5 with 4 substeps.
     """
 
     id, word = "U9", "order"
@@ -29,8 +31,8 @@ class Order(Invariant):
 def furthest_apart(one: World, other: World, ids: np.ndarray) -> float:
     """Return the greatest relative difference between the bodies of two worlds, over the columns COMPARED.
 
-    Each difference is divided by the greatest absolute value of its column in `one`, or by 1 if that value is less.
-    ids: (n,) id in `other` of each body of `one`.
+    Each difference is divided by the greatest absolute value of its column in `one`, but by at least 1. ids: (n,) ids
+    in `other`, in the order of the bodies of `one`.
     """
     rows, twins = one.bodies, other.bodies[other.rows(ids)]
     worst = 0.0

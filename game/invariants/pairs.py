@@ -1,8 +1,8 @@
 """Invariants U7, U8 and U10: collision queries about two shapes are consistent.
 
-They give the same result for swapped shapes (U7) and at any place (U8), and different queries agree with each other
-(U10). A sample of the pairs is checked: a few pairs in a step, other pairs in the next step. Each step checks one of
-the three invariants, in turn.
+U7: the queries give the same result for swapped shapes. U8: they give the same result at any position. U10: different
+queries agree with each other. In each step, a few candidate pairs are checked, which differ from step to step. Each
+step checks one of the three invariants, in turn.
 """
 
 import math
@@ -24,7 +24,8 @@ SELDOM = 4  # turns of an invariant before it checks a concave pair again: a til
 class OfPairs(Invariant):
     """Base class of an invariant that is checked on a sample of pairs, in every third step.
 
-    In the other steps, look() returns its last result. concave: whether pairs with concave shapes are checked, too.
+    In the other steps, look() returns the result of the last check. concave: whether pairs with concave shapes are also
+    checked.
     """
 
     turn: int
@@ -34,7 +35,7 @@ class OfPairs(Invariant):
         self.answer: Answer = NotAsked("not its turn yet")
 
     def look(self, step: Step) -> Answer:
-        """Check the invariant for the last step. Return a Broken, a NotAsked, or None if it holds."""
+        """Check the invariant for `step`. Return a Broken, a NotAsked, or None if the invariant holds."""
         if not step.world.effects.narrowphase:
             return NotAsked("no narrow phase: boxes that meet are a hit")
         if step.number % TURNS != self.turn:
@@ -49,17 +50,17 @@ class OfPairs(Invariant):
         return self.answer
 
     def ask(self, step: Step, pair: Pair) -> Answer:
-        """Check the invariant for one pair. Return Broken, or None if the invariant holds."""
+        """Check the invariant for one pair of shapes. Return a Broken, or None if the invariant holds."""
         raise TypeError(f"{type(self).__name__} must define ask")
 
 
 class Swap(OfPairs):
-    """Invariant U7: swapped shapes give the opposite normal and the same points and depths, bit by bit."""
+    """Invariant U7: swapped shapes have the opposite normal and the same contact points and depths, bit by bit."""
 
     id, word, turn = "U7", "swap", 0
 
     def ask(self, step: Step, pair: Pair) -> Answer:
-        """Check the invariant for one pair. Return Broken, or None if the invariant holds."""
+        """Check the invariant for one pair of shapes. Return a Broken, or None if the invariant holds."""
         if pair.same:
             return None
         margin = step.world.tolerances.speculative
@@ -78,17 +79,17 @@ class Swap(OfPairs):
 
 
 class Turn(OfPairs):
-    """Invariant U8: two shapes, rotated together by quarter turns and shifted by whole pixels, keep their distance.
+    """Invariant U8: the distance of two shapes does not change if both are rotated and shifted together.
 
-    The tolerance is 4 times the rounding error of the poses, see `rounding`. Shapes that are drawn on the pixel grid or
-    do not rotate are only shifted. Mirrored scenes are compared by tests, because they need a second world and 60
-    steps.
+    The rotation is by quarter turns, and the shift is in whole pixels. The tolerance is 4 times the rounding error of
+    the poses, see `rounding`. Shapes that are drawn on the pixel grid or do not rotate are only shifted. Mirrored
+    scenes are compared only by tests, because this needs a second world and 60 steps.
     """
 
     id, word, turn = "U8", "turn", 1
 
     def ask(self, step: Step, pair: Pair) -> Answer:
-        """Check the invariant for one pair. Return Broken, or None if the invariant holds."""
+        """Check the invariant for one pair of shapes. Return a Broken, or None if the invariant holds."""
         quarters = 1 + step.number // TURNS % 3 if pair.hulls else 0
         here = distance(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b)
         there = distance(pair.shape_a, moved(pair.pose_a, quarters), pair.shape_b, moved(pair.pose_b, quarters))
@@ -102,7 +103,7 @@ class Turn(OfPairs):
 
 
 def moved(pose: tuple[float, float, float], quarters: int) -> tuple[float, float, float]:
-    """Return a pose (x, y, angle), rotated about the origin by `quarters` quarter turns, then shifted by SHIFT."""
+    """Return the pose (x, y, angle) after `quarters` quarter turns about the origin and a shift by SHIFT."""
     x, y, angle = pose
     for _ in range(quarters):
         x, y = -y, x
@@ -112,7 +113,7 @@ def moved(pose: tuple[float, float, float], quarters: int) -> tuple[float, float
 def rounding(pair: Pair) -> float:
     """Return the rounding error of the poses of a pair [px].
 
-    It is one ulp of the coordinates, plus one ulp of the angles times the size of the pair.
+    The error is one ulp of the coordinates, plus the pair's size times one ulp of the angles.
     """
     size = pair.size + max(map(abs, SHIFT))
     angle = max(abs(pair.pose_a[2]), abs(pair.pose_b[2])) + 2.0 * math.pi
@@ -120,25 +121,26 @@ def rounding(pair: Pair) -> float:
 
 
 class Agree(OfPairs):
-    """Invariant U10: all queries agree whether two shapes overlap (negative distance, positive depth, contact points).
+    """Invariant U10: all queries agree about whether two shapes overlap.
 
-    In a world without the effect `response`, the contacts of the world are compared, too. With the effect they cannot
-    be compared: they were found before the solver moved the bodies, and include shapes that are about to touch.
+    An overlap means a negative distance, a positive depth, and at least one contact point. In a world without the
+    effect `response`, the world's contacts are also compared. With this effect they cannot be compared: they were found
+    before the solver moved the bodies, and include shapes that are about to touch.
     """
 
     id, word, turn = "U10", "agree", 2
 
     def ask(self, step: Step, pair: Pair) -> Answer:
-        """Check the invariant for one pair. Return Broken, or None if the invariant holds."""
+        """Check the invariant for one pair of shapes. Return a Broken, or None if the invariant holds."""
         found = disagreement(step.world, pair)
         return None if found is None else self.broken(step, pair.bodies, *found)
 
 
 def disagreement(world: World, pair: Pair) -> tuple[float, float, str] | None:
-    """Return (value, allowed, sentence) if the queries about a pair disagree; None if they agree.
+    """Return (value, allowed value, sentence) if the queries about a pair disagree; None if they agree.
 
-    Distance, depth and contact points are compared. In a world without the effect `response`, the contacts that the
-    world reports are compared, too.
+    Distance, depth and contact points are compared. The contacts that the world reports are also compared, if
+    looks_only() and reports_contacts() are True.
     """
     gap = distance(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b).distance
     if math.isinf(gap) or abs(gap) <= BAND * (abs(gap) + pair.size):
@@ -160,9 +162,9 @@ def disagreement(world: World, pair: Pair) -> tuple[float, float, str] | None:
 
 
 def looks_only(world: World) -> bool:
-    """Return whether the world finds its contacts exactly, at the poses at the end of the step.
+    """Return whether the world's contacts are exact for the poses at the end of the step.
 
-    This needs the effect `narrowphase`. No body may move after the contacts are found, so the effects `response` and
+    This requires the effect `narrowphase`. No body may move after the contacts are found, so the effects `response` and
     `continuous` must be off.
     """
     effects = world.effects
@@ -170,9 +172,9 @@ def looks_only(world: World) -> bool:
 
 
 def reports_contacts(world: World, pair: Pair) -> bool:
-    """Return whether the world finds its contacts of this pair from the pair's shapes.
+    """Return whether the world finds the contacts of this pair from the pair's two shapes.
 
-    Sensors report no contacts, and masks are tested by their pixels.
+    This is False for sensors, which report no contacts, and for masks, which are tested by their pixels.
     """
     shapes = world.shapes
     at = np.searchsorted(shapes["id"], (pair.shape_id_a, pair.shape_id_b))

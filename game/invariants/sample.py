@@ -1,4 +1,7 @@
-"""Samples of the candidate pairs of a step, as shapes at poses for collision queries. Each step has another sample."""
+"""Samples of the candidate pairs of a step, as shapes with poses for collision queries.
+
+The sample differs in each step.
+"""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -18,9 +21,9 @@ Pose = tuple[float, float, float]
 
 
 class Pair(NamedTuple):
-    """Two shapes that may touch, with the ids of their bodies.
+    """Two shapes that may touch, with their poses and the ids of their bodies.
 
-    size: distance of the shapes from the origin plus their extents [px], to which rounding errors are proportional.
+    size: greatest coordinate of the poses plus the extents of the bodies [px]. Rounding errors are proportional to it.
     """
 
     body_a: int
@@ -40,22 +43,22 @@ class Pair(NamedTuple):
 
     @property
     def hulls(self) -> bool:
-        """True if both shapes are convex and rotate with their bodies."""
+        """Whether both shapes are convex and rotate with their bodies."""
         return isinstance(self.shape_a, Convex) and isinstance(self.shape_b, Convex)
 
     @property
     def small(self) -> bool:
-        """True if neither shape is a mask or a grid larger than LARGEST."""
+        """Whether neither shape is a mask or a tile grid of more than LARGEST pixels or tiles."""
         return max(extent_of(self.shape_a), extent_of(self.shape_b)) <= LARGEST
 
     @property
     def same(self) -> bool:
-        """True if A and B are the same shape at the same place."""
+        """Whether A and B are the same shape at the same pose."""
         return self.pose_a == self.pose_b and self.shape_a == self.shape_b
 
 
 def sample(step: Step, turn: int, concave: bool) -> Iterator[Pair]:
-    """Yield up to PAIRS of the candidate pairs of a step, each as a Pair. The choice depends only on `turn`.
+    """Yield up to PAIRS of the candidate pairs of a step, each as a Pair. `turn` selects the pairs.
 
     turn: number of checks so far; concave: whether pairs with concave shapes are included.
     """
@@ -80,7 +83,10 @@ def sample(step: Step, turn: int, concave: bool) -> Iterator[Pair]:
 
 
 def pair_of(world: World, shape_a: int, shape_b: int) -> Pair | None:
-    """Return the Pair of two shapes, given by ids; None if a body is disabled, or a pose is not finite."""
+    """Return the Pair of the shapes with these ids.
+
+    Return None if one of the bodies is disabled or one of the poses is not finite.
+    """
     found_a, found_b = placed(world, shape_a), placed(world, shape_b)
     if found_a is None or found_b is None:
         return None
@@ -92,16 +98,16 @@ def pair_of(world: World, shape_a: int, shape_b: int) -> Pair | None:
 
 
 def extent_of(shape: Shape) -> int:
-    """Return the number of pixels of a mask, or of tiles of a grid, including empty ones; 1 for other shapes."""
+    """Return the number of pixels of a mask or of tiles of a tile grid, including empty ones; 1 for other shapes."""
     if isinstance(shape, PixelMask):
         return shape.size[0] * shape.size[1]
     return shape.solid.size if isinstance(shape, TileGrid) else 1
 
 
 def placed(world: World, shape_id: int) -> tuple[int, Shape, Pose, float] | None:
-    """Return (body id, shape, pose, reach) of a shape, given by its id; None if its body is disabled.
+    """Return (body id, shape, pose, reach) of the shape with the id `shape_id`; None if its body is disabled.
 
-    reach: an upper bound of the distance of the body's points from its position [px].
+    reach: an upper bound of the distance of the body's points from the body's position [px].
     """
     shapes, bodies = world.shapes, world.bodies
     at = int(np.searchsorted(shapes["id"], shape_id))

@@ -11,21 +11,21 @@ from physics.settings import CONTACT_HERTZ, HERTZ_SHARE
 
 SLOPS, HEAVY_SLOPS = 2.0, 5.0  # allowed overlap; with masses that differ by more than …
 HEAVY = 100.0  # … this ratio (U6)
-CALM_TIME = 0.5  # [s] a pile has settled once all of it has been slower than the sleeping speeds for so long
+CALM_TIME = 0.5  # [s] time below the sleeping speeds after which a pile has settled
 
 
 class Settled(Invariant):
-    """Invariant U6: bodies at rest hardly overlap.
+    """Invariant U6: bodies at rest overlap by at most two slops.
 
-    A body is at rest if it and all bodies that it touches have been slow for half a second. Two slops are allowed, five
-    where masses differ by more than 100 : 1.
+    A body is at rest if it and all bodies connected to it by contacts or joints have been slow for half a second. Five
+    slops are allowed if masses differ by more than 100 : 1.
 
-    With a fixed number of substeps, contacts are springs of 60 Hz, less stiff than their loads need: the overlap by
-    which they yield (`sag`) is allowed in addition. After the ball has hit the twelve rows of lab/pyramid, they settle
-    at an overlap of 0.328 px with 4 substeps; two slops are 0.320 px, and the sag of one contact is a tenth of a pixel.
+    With a fixed number of substeps, contacts are springs of 60 Hz, which are softer than their loads require. The
+    overlap that this causes (`sag`) is also allowed. After the ball has hit the twelve rows of lab/pyramid, they settle
+    at an overlap of 0.328 px with 4 substeps. Two slops are 0.320 px, and the sag of one contact is a tenth of a pixel.
 
-    U6 is checked in worlds with the effect `stacking`: the other solvers separate the overlaps of one step and
-    guarantee nothing for piles.
+    U6 is checked only in worlds with the effect `stacking`. The other solvers separate only the overlaps of one step,
+    and guarantee nothing for piles.
     """
 
     id, word = "U6", "overlap"
@@ -35,7 +35,7 @@ class Settled(Invariant):
         self.calm = np.zeros(0)  # [s] for which each body has been slow
 
     def look(self, step: Step) -> Answer:
-        """Check the invariant for the last step. Return a Broken, a NotAsked, or None if it holds."""
+        """Check the invariant for `step`. Return a Broken, a NotAsked, or None if the invariant holds."""
         world, now = step.world, step.now
         self._count_calm(step)
         if not world.stacks:
@@ -69,10 +69,10 @@ class Settled(Invariant):
 
 
 def sag(step: Step, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Return (n,) overlap [px] of each contact that its normal force in the step causes, because a contact is a spring.
+    """Return the (n,) overlaps [px] that the contacts have because each contact is a spring under a normal force.
 
-    a, b: (n,) body rows of the contacts. The overlap is F / (m ω²), with m the effective mass of the contact; 0 if the
-    number of substeps follows from the loads.
+    a, b: (n,) rows of the two bodies of each contact. The overlap is F / (m ω²), with m the effective mass of the
+    contact. It is 0 if the number of substeps is chosen by load.
     """
     world, rows, now = step.world, step.contacts, step.now
     substeps = world.substeps

@@ -1,4 +1,4 @@
-"""Finished step of a world: the bodies before and after it, its contacts, and the bodies with outside influence."""
+"""Finished step of a world: the bodies before and after the step, the contacts, and external influences."""
 
 from functools import cached_property
 
@@ -10,7 +10,7 @@ from physics.tables.joint import GEARED
 
 
 class Step:
-    """A finished step. before, now: Bodies before and after it; dt: its length [s].
+    """A finished step of a world. before, now: Bodies before and after the step; dt: length of the step [s].
 
     edited: whether the game changed the world since the previous step. changed, forced: (n,) bool, one for each body
     before the step: whether the game changed the body, and whether a force was applied to it.
@@ -27,7 +27,7 @@ class Step:
 
     @property
     def slop(self) -> float:
-        """Overlap that the solver leaves at a contact, so that the contact persists [px]."""
+        """Overlap [px] that the solver does not remove at a contact, so that the contact persists."""
         return self.world.tolerances.slop
 
     @cached_property
@@ -38,7 +38,7 @@ class Step:
 
     @cached_property
     def max_speed(self) -> np.ndarray:
-        """(n,) speed of each body [px/s]: the greater of the size of its velocity, and its path in the step over dt.
+        """(n,) greater of two speeds of each body [px/s]: size of its velocity, and distance moved in the step / dt.
 
         The two differ because push-out moves a body without changing its velocity.
         """
@@ -49,14 +49,14 @@ class Step:
 
     @cached_property
     def sides(self) -> tuple[np.ndarray, np.ndarray]:
-        """(body rows of A, body rows of B) of the contacts."""
+        """(rows of the bodies A, rows of the bodies B) of the contacts, two arrays of row indices."""
         return self.rows_of(self.contacts["body_a"]), self.rows_of(self.contacts["body_b"])
 
     @cached_property
     def linked(self) -> tuple[np.ndarray, np.ndarray]:
-        """(body rows of A, body rows of B) of the joints that acted in the step; -1 for the world.
+        """(rows of the bodies A, rows of the bodies B) of the joints that acted in the step, two arrays of row indices.
 
-        Joints that broke in the step are included.
+        The row of the world is -1. Joints that broke in the step are included.
         """
         world = self.world
         joints, broken = world.joints[world.joints["enabled"]], world.events.broken
@@ -65,13 +65,13 @@ class Step:
         return np.where(a < 0, -1, self.rows_of(a)), np.where(b < 0, -1, self.rows_of(b))
 
     def rows_of(self, ids: np.ndarray) -> np.ndarray:
-        """Return the rows of the bodies with the given ids."""
+        """Return the indices of the rows of the bodies with the given ids, in the world's table of bodies."""
         return np.searchsorted(self.now.ids, ids)
 
     def spread(self, rows: np.ndarray, through: np.ndarray) -> np.ndarray:
-        """Return (n,) bool: the bodies flagged in `rows`, and all bodies that contacts and joints connect to them.
+        """Return (n,) bool: the bodies flagged in `rows`, and all bodies that contacts and joints connect to these.
 
-        rows: (n,) bool. A contact or joint counts only if both its bodies are flagged in `through`, (n,) bool.
+        rows, through: (n,) bool. A contact or joint counts only if both its bodies are flagged in `through`.
         """
         joined = (self.linked[0] >= 0) & (self.linked[1] >= 0)
         a, b = (np.concatenate([one, other[joined]]) for one, other in zip(self.sides, self.linked, strict=True))
@@ -84,7 +84,7 @@ class Step:
 
     @cached_property
     def moved_by_hand(self) -> np.ndarray:
-        """(n,) bool: whether a body is kinematic, and has a velocity or changed its pose in this step."""
+        """(n,) bool: whether each body is kinematic and moves (has a velocity, or changed its pose in this step)."""
         now = self.now
         moves = (now.vx != 0.0) | (now.vy != 0.0) | (now.turn != 0.0)
         moves |= (now.numbers[:3] != self.before.numbers[:3]).any(axis=0)
@@ -92,7 +92,7 @@ class Step:
 
     @cached_property
     def outside(self) -> str:
-        """A phrase for an outside influence that may act on any body and is in no table; "" if there is none."""
+        """A phrase that names an external influence that may act on any body, such as wind; "" if there is none."""
         world, effects = self.world, self.world.effects
         if len(self.before) != len(self.now):
             return "bodies came or went"
@@ -104,10 +104,11 @@ class Step:
 
     @cached_property
     def alone(self) -> np.ndarray:
-        """(n,) bool: the dynamic bodies on which nothing but gravity acted from outside, for the whole step.
+        """(n,) bool: the isolated bodies.
 
-        They have no applied force and were not stopped within the step. No contact or joint, directly or through
-        others, connects them to the world or to a static, kinematic, sleeping, stopped or forced body.
+        Isolated bodies are dynamic bodies on which only gravity acted from outside in the whole step. They have no
+        applied force and were not stopped within the step. No contact or joint connects them, directly or through other
+        bodies, to the world or to a static, kinematic, sleeping, stopped or forced body.
         """
         rows = self.world.bodies
         still = (self.now.kind != DYNAMIC) | ~rows["awake"] | rows["quarantined"] | self.forced

@@ -1,4 +1,4 @@
-"""Checks of all invariants around every step of one world."""
+"""Checks of all invariants before and after every step of one world."""
 
 from collections.abc import Callable
 from time import perf_counter
@@ -18,9 +18,9 @@ from physics import World
 
 
 def all_invariants(concave: bool = True) -> tuple[Invariant, ...]:
-    """Return new objects of the invariants U1 to U11.
+    """Return new instances of the invariants U1 to U11.
 
-    concave: whether pairs of masks, tiles and chains are checked, too, at ten times the cost.
+    concave: whether pairs of masks, tiles and chains are also checked, at ten times the cost.
     """
     return (
         Finite(),
@@ -40,8 +40,8 @@ def all_invariants(concave: bool = True) -> tuple[Invariant, ...]:
 class Watch:
     """Checks of all invariants of one world. Call before() and after() around each step.
 
-    found: {id of the invariant: its first break since the last collect(), or else its latest result}. seconds: time
-    that the checks took since then.
+    found: {id of the invariant: its first break since the last collect(), or its latest result if there was none}.
+    seconds: time that the checks have taken since the last collect().
     """
 
     def __init__(self, concave: bool = True) -> None:
@@ -53,7 +53,7 @@ class Watch:
         self.edited, self.changed, self.forced, self.time = True, np.zeros(0, bool), np.zeros(0, bool), 0.0
 
     def before(self, world: World) -> None:
-        """Record the changes that the game has made since the last step. Call it right before a step."""
+        """Record the changes that the game has made since the last step. Call this right before a step."""
         started = perf_counter()
         rows, now = world.bodies, Bodies(world)
         same = self.last is not None and now.same_as(self.last)
@@ -64,7 +64,7 @@ class Watch:
         self.seconds += perf_counter() - started
 
     def after(self, world: World) -> None:
-        """Check the invariants. Call it right after a step."""
+        """Check the invariants for the finished step. Call this right after the step."""
         started = perf_counter()
         if self.last is None:
             raise ValueError("before() must be called before the step")
@@ -77,23 +77,23 @@ class Watch:
         self.seconds += perf_counter() - started
 
     def collect(self) -> tuple[dict[str, Answer], float]:
-        """Return ({id of an invariant: result}, seconds that the checks took), both since the last call."""
+        """Return ({id of the invariant: result}, time of the checks [s]), both since the last call."""
         found, self.found = self.found, {}
         seconds, self.seconds = self.seconds, 0.0
         return found, seconds
 
 
 class WatchedWorld(World):
-    """World whose invariants can be checked. watch: the checks around its steps; None: no checks, and no cost.
+    """World whose invariants can be checked. watch: the checks around its steps; None if they are off, at no cost.
 
-    stepped_by(world, dt): function that replaces World.step; None: World.step itself.
+    stepped_by(world, dt): function that replaces World.step; None for World.step itself.
     """
 
     watch: Watch | None = None
     stepped_by: Callable[["WatchedWorld", float | None], None] | None = None
 
     def step(self, dt: float | None = None) -> None:
-        """Step the world, and check its invariants if `watch` is set."""
+        """Step the world. If `watch` is set, also check the world's invariants. dt: as in World.step()."""
         if self.stepped_by is not None:
             return self.stepped_by(self, dt)
         watch = self.watch
