@@ -1,1 +1,1 @@
-"""Measurements made apart from the game: times of named work, errors against references, and advice on settings."""
+"""Measurements outside the game loop: times of named work, errors against references, and advice on settings."""

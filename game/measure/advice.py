@@ -2,7 +2,7 @@
 
 First, settings that differ from the current one by a single change are measured. Then the changes that save time are
 combined, and the combination is measured. A faster setting is advised only if it is certainly faster. This means that
-over all moments the intervals of the two times do not overlap, and the times differ by more than 10 %
+the intervals of the two times, over all snapshots, do not overlap. The times must also differ by more than 10 %
 (pareto_front.TIE).
 """
 
@@ -22,10 +22,10 @@ PARTS = (("broadphase",), ("tier",), ("solver", "substeps"), ("narrowphase",))
 
 
 class Advice(NamedTuple):
-    """The result of `advise`.
+    """The result of `advise`. here: the current setting.
 
-    here: the current setting. best: the advised setting; equal to `here` if no setting is certainly faster; None if no
-    setting is within the error.
+    best: the advised setting. It equals `here` if no setting is certainly faster, and is None if no setting's error is
+    within the limit.
     """
 
     here: Setting
@@ -39,10 +39,10 @@ Report = Callable[[int, int], object]  # called with (runs done, runs in all)
 def measure_settings(
     survey: Survey, moments: Sequence[Moment], settings: Iterable[Setting], report: Report, seed: int
 ) -> None:
-    """Measure the errors and times of `settings` at several states of a world, and add them to the survey.
+    """Measure the errors and times of `settings` from several snapshots of a world, and add them to `survey`.
 
-    moments: snapshots of the world; seed: seed of the random order of the runs. report(number of runs done, number of
-    all runs) is called after each run.
+    moments: the snapshots; seed: seed of the random order of the runs. report(number of finished runs, number of all
+    runs) is called after each run.
     """
     settings, chance, done = list(settings), Random(seed), 0
     survey.planned, of = survey.planned + len(settings), len(moments) * len(settings) * (RUNS + 1)
@@ -67,10 +67,10 @@ def measure_settings(
 def advise(
     moments: Sequence[Moment], error: float, report: Report = lambda done, of: None, seed: int = 0
 ) -> tuple[Advice, Survey]:
-    """Measure the settings around the current one, starting from some snapshots.
+    """Measure the settings near the current one, in runs from `moments`. Return (advice, survey of the measurements).
 
-    moments: the snapshots of a world; error: largest error [px] of an advised setting; report, seed: as in
-    measure_settings(). Raises ValueError if there is no snapshot. Return the advice and the measurements.
+    moments: snapshots of a world; error: largest error [px] of an advised setting; report, seed: as in
+    measure_settings(). Raises ValueError if there is no snapshot.
     """
     if not moments:
         raise ValueError("moments must be one at least (got none)")
@@ -91,8 +91,8 @@ def advise(
 def advised(survey: Survey, here: Setting, error: float = VISIBLE) -> Setting | None:
     """Return the fastest measured setting whose error of every kind is at most `error` [px].
 
-    Return None if no setting is certainly faster than the current one (`here`), or if `here` is the only one within the
-    error. Only settings with enough runs from every snapshot are compared.
+    Return None if no setting is certainly faster than the current one (`here`), or if `here` is the only setting within
+    the limit. Only settings with enough runs from every snapshot are compared.
     """
     within = [each for each in settings_within(survey, error) if survey.dots[each].sure]
     if here not in survey.dots or not survey.dots[here].sure or not within or within[0] == here:
@@ -102,7 +102,7 @@ def advised(survey: Survey, here: Setting, error: float = VISIBLE) -> Setting | 
 
 
 def share(survey: Survey, setting: Setting, here: Setting) -> float:
-    """Return the time of a step under `setting` divided by that under `here`, both as measured in the survey.
+    """Return the median time of a step under `setting`, divided by that under `here`, as measured in the survey.
 
     Raises KeyError or ValueError for a setting without times.
     """
@@ -113,12 +113,12 @@ def share(survey: Survey, setting: Setting, here: Setting) -> float:
 
 
 def settings_within(survey: Survey, error: float) -> list[Setting]:
-    """Return the settings of the survey without failures whose error of every kind is within `error`, fastest first.
+    """Return the settings of the survey whose error of every kind is at most `error`, fastest first.
 
-    error: in pixels; for collision tiers (kinds of collision shape of the sprites), in wrong answers per 100
-    encounters. The interval of the error counts: its upper end for another tier, its lower end for the present tier. So
-    a few encounters neither recommend a tier nor condemn the present one. Settings with another solver of joints are
-    left out: no scene can be changed to one.
+    Settings with failures are left out. error: limit in pixels; for collision tiers (kinds of collision shape of the
+    sprites), in wrong answers per 100 encounters. The upper end of the error's interval is compared for another tier,
+    and the lower end for the current tier. So a few encounters neither recommend another tier nor reject the current
+    one. Settings with another joint solver are left out, because no scene can be changed to one.
     """
     found = {}
     for setting, dot in survey.dots.items():
@@ -133,10 +133,10 @@ def settings_within(survey: Survey, error: float) -> list[Setting]:
 
 
 def _end(survey, setting, error):
-    """Return which end of a setting's error interval is compared with a limit: 0 the lower end, 1 the upper end.
+    """Return which end of a setting's error interval is compared with a limit: 0 for the lower, 1 for the upper end.
 
-    It is the lower end if the error is a rate of wrong answers, and the setting has the collision tier of the setting
-    that was measured first.
+    The lower end is compared for a rate of wrong answers, if the setting has the collision tier of the setting that was
+    measured first.
     """
     first = survey.first
     same = error.verdicts is not None and (setting.tier, setting.narrowphase) == (first.tier, first.narrowphase)
@@ -144,7 +144,7 @@ def _end(survey, setting, error):
 
 
 def is_cheaper(survey: Survey, one: Setting, other: Setting) -> bool:
-    """Return whether `one` is certainly faster than `other`, by the times in the survey.
+    """Return whether the setting `one` is certainly faster than `other`, by the times in the survey.
 
     The upper quartile of the times of `one` must be below all times of `other`, and more than 10 % below the median of
     `other`.
@@ -154,10 +154,10 @@ def is_cheaper(survey: Survey, one: Setting, other: Setting) -> bool:
 
 
 def _together(survey, here, error):
-    """Return `here` with several changes combined, one for each group of fields in PARTS.
+    """Return the setting `here` with several changes combined, one for each group of fields in PARTS.
 
-    A group gets the values of the fastest setting that differs from `here` in this group alone. It is changed only if
-    that setting is certainly faster, or if `here` is not within the error.
+    Each group gets the values of the fastest setting that differs from `here` only in this group. A group is changed
+    only if that setting is certainly faster, or if the error of `here` exceeds the limit `error`.
     """
     together = here
     for part in PARTS:

@@ -1,7 +1,7 @@
 """Inspector of a contact: the result of each stage of the last step for one pair of shapes, with numbers and times.
 
-The time of a stage is that of all pairs in the step. The narrow-phase time of the pair alone is measured on request, as
-the time of a thousand copies of the pair in five runs after a warm-up.
+The time of a stage is the time for all pairs in the step. The narrow-phase time of the single pair is measured on
+request: a thousand copies of the pair are timed in five runs after a warm-up.
 """
 
 from math import atan2, degrees
@@ -26,7 +26,7 @@ class Part(NamedTuple):
 
 
 class Touch(NamedTuple):
-    """A contact point: ids of its bodies and shapes, and its place [px]."""
+    """A contact point: the ids of the two bodies and shapes, and its position (x, y) [px]."""
 
     body_a: int
     body_b: int
@@ -37,7 +37,7 @@ class Touch(NamedTuple):
 
 
 def nearest(world: World, x: float, y: float, reach: float) -> Touch | None:
-    """Return the contact point nearest to (x, y) [px]; None if there is none within `reach` [px]."""
+    """Return the contact point nearest to (x, y) [px]; None if no contact point is within `reach` [px]."""
     found = world.contacts
     if not len(found):
         return None
@@ -57,7 +57,7 @@ def still_there(world: World, touch: Touch) -> bool:
 
 
 def explain(world: World, touch: Touch) -> list[Part]:
-    """Return the results of all stages of the last step for the shapes of `touch`, a list of Part.
+    """Return the results of all stages of the last step for the two shapes of `touch`, one Part for each stage.
 
     Raises ValueError if the shapes do not touch.
     """
@@ -75,7 +75,7 @@ def explain(world: World, touch: Touch) -> list[Part]:
 
 
 def cost_of(world: World, touch: Touch) -> Cost:
-    """Return the narrow-phase time [s] of one pair: the two bodies of `touch` at their current poses."""
+    """Return the narrow-phase time [s] of the two bodies of `touch` at their current poses, as a Cost."""
     bodies = world.body(touch.body_a), world.body(touch.body_b)
     poses = [np.tile((*body.position, body.angle), (LEAST_PAIRS, 1)) for body in bodies]
     batch = PairBatch(bodies[0].shapes, poses[0], bodies[1].shapes, poses[1])

@@ -2,7 +2,7 @@
 
 A declared effect is removed together with all effects that need it. An undeclared effect is added together with the
 effects that it needs, at neutral settings such as friction 0 (NEUTRAL in game/measure/ledger.py). So the cost of an
-undeclared effect is the price of declaring it without using it.
+undeclared effect is the time it takes if it is declared but not used.
 """
 
 from collections.abc import Callable
@@ -18,7 +18,7 @@ from physics import Effects, World
 class Side(NamedTuple):
     """The effects of one of the two worlds that are compared.
 
-    idle: the effects whose settings are made neutral, so that they have nothing to do.
+    idle: the effects whose settings are made neutral, so that these effects do nothing.
     """
 
     effects: Effects
@@ -28,8 +28,8 @@ class Side(NamedTuple):
 class EffectCost(NamedTuple):
     """The cost of one effect.
 
-    cost, without: times of a step with and without the effect [s], None until measured. kernels: number of kernels
-    compiled for this effect alone, counted once per set of argument types; None if not counted yet, or if nothing is
+    cost, without: times of a step with and without the effect [s]; None if not measured yet. kernels: number of kernels
+    compiled only for this effect, counted once per set of argument types; None if not counted yet, or if nothing is
     compiled.
     """
 
@@ -41,20 +41,21 @@ class EffectCost(NamedTuple):
 
     @property
     def price(self) -> float | None:
-        """Time that the effect adds to a step [s]; negative if it saves time, None until measured.
+        """Time that the effect adds to a step [s]; negative if the effect saves time; None if not measured yet.
 
-        The least times with and without the effect are subtracted, because other load only ever adds time.
+        The price is the difference of the least times with and without the effect, because other load only ever adds
+        time.
         """
         return None if self.cost is None or self.without is None else self.cost.least - self.without.least
 
     @property
     def noise(self) -> float:
-        """Sum of (median - least time of a step) with and without the effect [s]."""
+        """Noise of the price [s]: the sum of (median - least time of a step) with the effect and without it."""
         return sum(each.median - each.least for each in (self.cost, self.without) if each is not None)
 
 
 def sides_of(effects: Effects) -> dict[str, tuple[Side, Side]]:
-    """Return {effect: (Side with the effect, Side without it)} of all effects, for a world that declares `effects`."""
+    """Return {effect: (Side with the effect, Side without it)} for all effects, for a world that declares `effects`."""
     found = {}
     for name in EFFECTS:
         if getattr(effects, name):
@@ -66,7 +67,10 @@ def sides_of(effects: Effects) -> dict[str, tuple[Side, Side]]:
 
 
 def world_under(moment: Moment, side: Side) -> World:
-    """Return a world in the state of the snapshot `moment`, with the effects of `side` and all bodies awake."""
+    """Return a world in the state of the snapshot `moment`, but with the effects of `side`.
+
+    All bodies of the world are awake.
+    """
     world = moment.world(moment.here)
     world.set_effects(side.effects)
     for name in side.idle:
@@ -86,7 +90,7 @@ def can_be(moment: Moment, side: Side) -> bool:
 def time_side(moment: Moment, side: Side, steps: int = STEPS) -> float:
     """Return the mean time of a step [s] over `steps` steps from the snapshot `moment`, with the effects of `side`.
 
-    The first run also compiles kernels: do not count it.
+    The first run also compiles kernels, so the caller must not count it.
     """
     return seconds_a_step(world_under(moment, side).step, steps)
 
@@ -96,8 +100,9 @@ def measure_effects(
 ) -> None:
     """Time a step from the snapshot `moment` with and without every effect, in several rounds of random order.
 
-    report(effect, cost with the effect, cost without it) is called after each round. An effect that the world needs is
-    left out (characters need response). The function returns early when goes_on() is False. seed: seed of the order.
+    report(effect, cost with the effect, cost without it) is called for each effect after each round. An effect is left
+    out if the world is invalid without it (characters need response). The function returns early when goes_on() is
+    False. seed: seed of the random order.
     """
     sides = {
         name: pair for name, pair in sides_of(moment.effects).items() if all(can_be(moment, each) for each in pair)

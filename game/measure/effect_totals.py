@@ -1,7 +1,8 @@
-"""The cost of a scene's choice of effects as a whole: as declared, with every effect, and with the fewest possible.
+"""The total cost of a scene's effects for three choices: as declared, every effect, and the fewest possible.
 
-Each of the three has its time of a step, its number of kernels, the time of its first step in a new process, and the
-bytes of its tables. "The fewest possible" includes the declared effects that the world needs.
+Four figures are measured for each choice. They are the time of a step, the number of kernels, the time of the first
+step in a new process, and the bytes of the tables. The fewest possible effects include the declared effects that the
+world needs.
 """
 
 import json
@@ -28,10 +29,11 @@ SCALES = {"time": 1e6, "kernels": 1.0, "start": 1e3, "bytes": 1e-3}  # from the 
 
 
 class EffectTotal(NamedTuple):
-    """Costs of one choice of effects; None: not measured yet.
+    """Costs of one choice of effects. A field is None if it is not measured yet.
 
-    effects: number of effects; time: time of a step [s], a Cost; kernels: number of kernels that such a world can call;
-    start: least time of building the world and of its first step in a new process [s]; bytes: size of its arrays.
+    effects: number of effects; time: time of a step [s], a Cost; kernels: number of kernels that a world with these
+    effects can call. start: least time of building the world and making its first step in a new process [s]; bytes:
+    size of the world's arrays.
     """
 
     effects: int
@@ -41,16 +43,19 @@ class EffectTotal(NamedTuple):
     bytes: int | None = None
 
     def value(self, field: str) -> float | None:
-        """Return the value of a field in FIELDS in its stored unit; the least time for "time", None if unknown."""
+        """Return the value of a field in FIELDS, in its stored unit; None if it is not known yet.
+
+        For the field "time", it is the least time.
+        """
         if field == "time":
             return self.time.least if self.time is not None and self.time.runs >= RUNS else None
         return getattr(self, field)
 
 
 def choices_of(moment: Moment) -> dict[str, Side]:
-    """Return {name in NAMES: Side} of the choices that a world in the state of the snapshot `moment` can have.
+    """Return {name in NAMES: Side} of the choices of effects that are valid in the state of the snapshot `moment`.
 
-    Effects that are added have neutral settings.
+    Added effects have neutral settings.
     """
     declared = moment.effects
     added = tuple(name for name in EFFECTS if not getattr(declared, name) and name in NEUTRAL)
@@ -71,10 +76,10 @@ def measure_totals(
     goes_on: Callable[[], bool],
     seed: int = 0,
 ) -> None:
-    """Time a step of each choice in several rounds of random order, and count the bytes of its world.
+    """Time a step under each choice of effects in several rounds of random order, and count the bytes of its world.
 
     sides: result of choices_of(moment). report(name, {field of EffectTotal: value}) is called with the bytes first, and
-    with the times after each round. The function returns early when goes_on() is False. seed: seed of the order.
+    with the times after each round. The function returns early when goes_on() is False. seed: seed of the random order.
     """
     chance = Random(seed)
     spent: dict[str, list[float]] = {name: [] for name in sides}
@@ -100,10 +105,11 @@ def measure_starts(
     report: Callable[[str, dict[str, Any]], object],
     goes_on: Callable[[], bool],
 ) -> None:
-    """Measure how long a new process takes to build the world of an order and to make its first step.
+    """Measure how long a new process takes to build a world and to make its first step, for each choice of effects.
 
-    order: {"snapshot": file, "broadphase": name}; sides: result of choices_of for its moment. report(name, {"start":
-    seconds}) is called for each choice. The first process of a choice may have to compile kernels; it is not counted.
+    order: {"snapshot": file, "broadphase": name}; sides: result of choices_of() for that snapshot. report(name,
+    {"start": seconds}) is called for each choice. The first process of a choice is not counted, because it may have to
+    compile kernels. The function returns early when goes_on() is False.
     """
     for name, side in sides.items():
         asked = json.dumps([order["snapshot"], order["broadphase"], side.effects.names(), side.idle])
@@ -122,7 +128,10 @@ def measure_starts(
 
 
 def bytes_of(root: object) -> int:
-    """Return the total size [bytes] of the arrays that a world (or another root) holds, each memory block once."""
+    """Return the total size [bytes] of the arrays that `root` (usually a world) refers to.
+
+    Each memory block counts once.
+    """
     blocks: dict[int, int] = {}
     seen: set[int] = set()
     todo: list[Any] = [root]
@@ -146,15 +155,15 @@ def bytes_of(root: object) -> int:
 
 
 def _slots(kind):
-    """Return the names of all slots of a class and its bases."""
+    """Return the names of all slots of the class `kind` and its base classes."""
     return [name for each in kind.__mro__ for name in getattr(each, "__slots__", ()) if name != "__dict__"]
 
 
 def bars_of(totals: Mapping[str, EffectTotal]) -> list[BarRow]:
     """Return the rows of a table of bars: a row for each choice of effects, a column for each of FIELDS.
 
-    A time that differs from the declared one by less than the noise of both has the text "same". A missing value has
-    the text "...".
+    The text of a time is "same" if it differs from the declared choice's time by less than the noise of both. The text
+    of a missing value is "...".
     """
     declared = totals.get(DECLARED, EffectTotal(0))
     rows = []
@@ -177,10 +186,10 @@ def _text(total, declared, field):
 
 
 def sentence_of(totals: Mapping[str, EffectTotal]) -> str:
-    """Return what declaring everything costs, as a sentence; "" while the times are not measured.
+    """Return a sentence on the time of declaring all effects; "" if the times are not measured yet.
 
-    All effects are compared with the declared ones, or with the fewest if the scene declares all. The ratio is that of
-    the least times; a difference inside the noise has no ratio.
+    All effects are compared with the declared ones, or with the fewest possible if the scene declares all. The sentence
+    gives the ratio of the least times. A difference within the noise is reported as "no more time than".
     """
     declared, every, none = (totals.get(name, EffectTotal(0)) for name in NAMES)
     other = declared if declared.effects < every.effects else none

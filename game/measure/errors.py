@@ -1,18 +1,19 @@
 """The errors of a setting, measured in runs from a snapshot ("moment"), against reference runs and exact tests.
 
-There are four kinds of error. `way` [px]: distance of the bodies from their positions in a reference run. `overlap`
-[px]: how deep rigid bodies overlap, which is 0 in an exact solution. `joints` [px]: the widest gap between the anchors
-of a joint, which is 0 likewise; in the second half of the run, since gaps at its start are those of the setting under
-which the scene ran. `verdict`: wrong answers (false hits and missed hits) per 100 encounters. An encounter is a pair of
-bodies that the setting or the exact test reports as touching, see exact_tier. A pair counts once, no matter how long it
-touches, so that encounters are independent.
+There are four kinds of error. `way` [px]: root mean square distance of the bodies from their positions in a reference
+run. `overlap` [px]: how deep rigid bodies overlap, which is 0 in an exact solution. `joints` [px]: the widest gap
+between the anchors of a joint, also 0 in an exact solution. It is measured in the second half of the run, because gaps
+at the start come from the setting under which the scene ran before. `verdict`: wrong answers (false hits and missed
+hits) per 100 encounters. An encounter is a pair of bodies that the setting or the exact test reports as touching (see
+exact_tier). A pair counts once, no matter how long it touches, so that encounters are independent.
 
-The reference run of `way` has 64 times the 4 substeps of a plain run, and the contact stiffness of runs with a fixed
-number of substeps. Erez, Tassa and Todorov (ICRA 2015) compare engines with themselves at smaller steps in this way.
-The reference is valid for the steps in which a second run, with 32 times the substeps, differs from it by at most a
-tenth of a pixel; this excludes chaotic motion. Errors below a floor are not significant. The floor is the larger of two
-numbers. The first is ten times the difference of these two runs. The second is the difference between the reference and
-a third run, which has the stiffest contacts.
+The reference run of `way` has 64 times the 4 substeps of a plain run. Its contacts have the stiffness of runs with a
+fixed number of substeps. Erez, Tassa and Todorov (ICRA 2015) compare engines with themselves at smaller steps in this
+way. A second run has 32 times the substeps. The reference is valid for the steps in which the two runs differ by at
+most a tenth of a pixel. This excludes chaotic motion.
+
+Errors below a floor are not significant. The floor is the larger of two numbers. The first is ten times the difference
+of these two runs. The second is the difference between the reference and a third run, which has the stiffest contacts.
 """
 
 from collections import Counter
@@ -37,9 +38,9 @@ Pairs = frozenset[tuple[int, int]]  # ids of two bodies, the smaller first
 
 @dataclass(frozen=True)
 class Verdicts:
-    """The pairs of bodies that a setting reported as hits in a run, and the pairs that were hits.
+    """The pairs of bodies that a setting reported as hits in a run, and the pairs that were true hits.
 
-    The rates are counted at first use: the plot and the advice read them in every picture.
+    The rates are computed at first use and stored, because the plot and the advice read them in every drawn picture.
     """
 
     reported: Pairs
@@ -66,8 +67,8 @@ class Verdicts:
 class Error:
     """One kind of error of a setting: in pixels, or in wrong answers per 100 encounters if it has `verdicts`.
 
-    floor: errors below it are within the uncertainty of the reference [px]. steps: number of steps after which the
-    error was read. failures: counts of failures during the run, by kind.
+    floor: value [px] below which an error is within the uncertainty of the reference. steps: number of steps after
+    which the error was read. failures: counts of failures during the run, by kind.
     """
 
     value: float
@@ -78,18 +79,22 @@ class Error:
 
     @classmethod
     def of(cls, verdicts: Verdicts, steps: int, failures: dict[str, int]) -> "Error":
-        """Return the error of a setting with these verdicts. verdicts, steps, failures: see Verdicts and Error."""
+        """Return the Error of a setting with these verdicts, in wrong answers per 100 encounters.
+
+        steps, failures: see Error.
+        """
         return cls(100.0 * verdicts.either.share, 0.0, steps, failures, verdicts)
 
     @property
     def above_floor(self) -> bool:
-        """Return whether the error is above the uncertainty of the reference."""
+        """Whether the error is above the uncertainty of the reference."""
         return self.value > self.floor
 
     @property
     def interval(self) -> tuple[float, float]:
-        """The least and the greatest likely error (95 %); for errors in pixels both are the value, or 0 below the
-        floor.
+        """(low, high) ends of the 95 % confidence interval of the error.
+
+        For an error in pixels, both are its value, or 0 if it is not above the floor.
         """
         if self.verdicts is None or self.verdicts.own:
             value = self.value if self.above_floor else 0.0
@@ -109,7 +114,7 @@ class Error:
 
 
 class Reference(NamedTuple):
-    """Reference run, with which the runs of other settings are compared."""
+    """Reference run that the runs of other settings are compared with."""
 
     way: Way
     horizon: int  # number of steps for which the reference is valid
@@ -117,7 +122,10 @@ class Reference(NamedTuple):
 
 
 class References:
-    """The reference run from one snapshot of a world, computed at first use, and the errors of settings against it."""
+    """The reference run from one snapshot of a world, and the errors of settings against it.
+
+    The reference run is computed at its first use.
+    """
 
     def __init__(self, moment: Moment) -> None:
         self.moment = moment
@@ -129,14 +137,17 @@ class References:
 
     @property
     def kinds(self) -> tuple[str, ...]:
-        """The kinds of error that are measured from this snapshot, the most important first."""
+        """The kinds of error that are measured from this snapshot, most important first."""
         if not self.moment.effects.response:
             return ("verdict",)
         return ("overlap", "way") if self.moment.here.joint_solver is None else ("overlap", "way", "joints")
 
     @cached_property
     def reference(self) -> Reference:
-        """The reference run, with the finest steps; the number of steps for which it is valid; and the floor [px]."""
+        """The reference run with the finest steps, as a Reference.
+
+        The Reference includes the number of steps for which the run is valid, and the floor of significant errors [px].
+        """
         if self.moment.effects.stacking:
             fine = self.moment.way(self.truth)
             coarse = self.moment.way(self.truth._replace(substeps=COARSE * PLAIN))
@@ -162,10 +173,10 @@ class References:
         return {kind: found[kind] for kind in self.kinds}
 
     def _verdict(self, setting) -> Error:
-        """Return the "verdict" error of a setting: wrong answers per 100 encounters.
+        """Return the error "verdict" of a setting: wrong answers per 100 encounters.
 
-        At LOOKS steps of the run, the touching pairs are compared with those of an exact world. Bodies move alike in
-        both worlds, because there is no collision response.
+        At LOOKS steps of the run, the touching pairs are compared with those of a world with the exact test. Bodies
+        move in the same way in both worlds, because there is no collision response.
         """
         world, true = self.moment.world(setting), self.moment.world(self.truth)
         reported, hits, failures = set(), set(), Counter()
@@ -181,11 +192,11 @@ class References:
 
 
 def exact_tier(tier: str) -> str:
-    """Return the collision tier (kind of collision shape) whose answers are right in a world that runs under this tier.
+    """Return the collision tier (kind of collision shape) whose answers are correct in a world with the tier `tier`.
 
-    It is the tier that tests the pixels as they are drawn. "mask" tests the pixels at their exact poses. It is right
-    where a scene plays with it. Elsewhere sprites are drawn on whole pixels, and two sprites that overlap by less than
-    half a pixel are drawn side by side.
+    The correct tier is the one that tests the pixels as they are drawn. "mask" tests the pixels at their exact poses,
+    and is correct for a scene that uses "mask". In other scenes sprites are drawn on whole pixels, so "pixels" is
+    correct. Two sprites that overlap by less than half a pixel are then drawn side by side.
     """
     return "mask" if tier == "mask" else "pixels"
 
@@ -193,8 +204,8 @@ def exact_tier(tier: str) -> str:
 def pairs_of(world: World) -> set[tuple[int, int]]:
     """Return the touching pairs of bodies, a set of (id, id) with the smaller id first.
 
-    The order allows worlds with different collision shapes to be compared: which body of a contact is body A depends on
-    the shapes.
+    This order allows the comparison of worlds with different collision shapes, because the shapes determine which body
+    of a contact is body A.
     """
     contacts = world.contacts[world.contacts["separation"] <= 0.0]  # contacts include pairs about to meet
     ids = np.sort(np.stack([contacts["body_a"], contacts["body_b"]], axis=1), axis=1)

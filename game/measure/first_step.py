@@ -1,7 +1,7 @@
-"""`python -m game.measure.first_step`: the time of building a world and of its first step in a new process.
+"""`python -m game.measure.first_step`: measure the time of building a world and making its first step in a new process.
 
-Standard input takes one line of JSON: [file of a snapshot, name of the broad phase, names of the effects, names of the
-idle ones (see Side)]. Standard output gets the seconds.
+Standard input is one line of JSON: [file of a snapshot, name of the broad phase, names of the effects, names of the
+idle effects (see Side)]. Standard output is the time in seconds.
 """
 
 import json
@@ -14,7 +14,7 @@ from physics import Effects, Snapshot
 
 
 def main() -> None:
-    """Measure one first step, then exit."""
+    """Measure one first step, print the seconds, and exit."""
     path, broadphase, effects, idle = json.loads(sys.stdin.readline())
     moment, side = Moment(Snapshot.load(path), broadphase), Side(Effects.named(effects), tuple(idle))
     started = perf_counter()

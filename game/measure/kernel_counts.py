@@ -2,10 +2,10 @@
 
 Kernels run as plain Python and record the types of their arguments; nothing is compiled.
 
-Standard input takes one line: {"effects": names, "broadphase": name, "pieces": shape pairs and queries as in
-physics.warmup, "choices": {name: names of effects}}. Standard output gets one line per choice: [name, number of kernels
-that a world with these effects calls], then one per effect: [name, number of kernels that are called only with this
-effect]. Without a compiler (numba) there is no output.
+Standard input is one line: {"effects": names, "broadphase": name, "pieces": shape pairs and queries as in
+physics.warmup, "choices": {name: names of effects}}. Standard output has one line per choice: [name, number of kernels
+that a world with these effects calls]. One line per effect follows: [name, number of kernels that are called only with
+this effect]. Without a compiler (numba) there is no output.
 """
 
 import json
@@ -23,8 +23,8 @@ from physics.warmup import run_warmup
 def called(effects: Effects, broadphase: str, pieces: tuple[str, ...] | None) -> frozenset:
     """Return the set of (kernel, argument types) of all kernel calls that a world can make.
 
-    effects: effects of the world; broadphase: name of its broad phase; pieces: shape pairs and queries that it uses, as
-    in physics.warmup.
+    effects: effects of the world; broadphase: name of its broad phase; pieces: shape pairs and queries that the world
+    uses, as in physics.warmup; None for all.
     """
     with tiers.collecting(all_calls=True) as found:
         run_warmup(effects, broadphase, pieces=pieces)
@@ -36,9 +36,9 @@ def counts(
 ) -> Iterable[tuple[str, int]]:
     """Yield (name, number of kernels) for every choice of effects, then for every effect.
 
-    The number of an effect counts the kernels that are compiled only because of it. effects: effects of the world;
-    broadphase: name of its broad phase; pieces: shape pairs and queries that it uses, as in physics.warmup; choices:
-    {name: names of effects}.
+    The number for an effect includes only the kernels that are compiled because of it. effects: effects of the world;
+    broadphase: name of its broad phase; pieces: shape pairs and queries that the world uses, as in physics.warmup, None
+    for all. choices: {name of the choice: names of effects}.
     """
     wanted = None if pieces is None else tuple(pieces)
     known = cache(lambda each: called(each, broadphase, wanted))
@@ -49,7 +49,7 @@ def counts(
 
 
 def main() -> None:
-    """Count the kernels for one world, then exit."""
+    """Read one request, print the kernel counts for its world, and exit."""
     order = json.loads(sys.stdin.readline())
     if physics.JIT:
         for found in counts(Effects.named(order["effects"]), order["broadphase"], order["pieces"], order["choices"]):

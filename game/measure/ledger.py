@@ -3,7 +3,7 @@
 Two copies of the scene run side by side with the same input, one with the effect and one without it. A declared effect
 is removed together with all effects that need it. An undeclared effect is added to one copy, after the effects that it
 needs were added to both. Both copies then have neutral settings (gravity 0, friction 0 and so on), so that the added
-effect has nothing to do. The run must stay the same, and the extra time is the price of declaring the effect.
+effect does nothing. The run must not change, and the extra time is the price of declaring the effect.
 """
 
 from collections.abc import Callable
@@ -29,10 +29,10 @@ NEVER_NEUTRAL = ("narrowphase", "response", "stacking", "rotation", "sleeping")
 
 
 class Entry(NamedTuple):
-    """Result for one effect of one scene.
+    """Result for one effect of one scene, from a copy with the effect and a copy without it.
 
-    A field with a frame is the first one in which the two copies differ in that respect (counted from 1), or None if
-    they never do.
+    moved (bodies), reported (events), ruled (state of the rules), parted (digests): first frame, counted from 1, in
+    which the two copies differ in this respect; None if they never differ.
     """
 
     effect: str
@@ -51,9 +51,9 @@ class Entry(NamedTuple):
 
     @property
     def matters(self) -> bool:
-        """True if the effect changes the run, or if the scene cannot run without it.
+        """Whether the effect changes the run, or the scene cannot run without it.
 
-        Sleeping matters if it saves work.
+        The effect `sleeping` matters if it saves work.
         """
         if self.refused:
             return True
@@ -63,10 +63,10 @@ class Entry(NamedTuple):
 
 
 def entry(scene_class: type[Scene], effect: str, frames: int, after: int = AFTER, seed: int = 1) -> Entry:
-    """Run a scene with and without an effect, for at most `frames` frames, and return the differences.
+    """Run a scene with and without an effect, for at most `frames` frames. Return the differences as an Entry.
 
-    after: number of further frames once the two copies differ; seed: seed of the scene. Raises ValueError for a scene
-    that cannot be built with all its declared effects.
+    after: number of further frames after the two copies first differ; seed: seed of the scene. Raises ValueError for a
+    scene that cannot be built with all its declared effects.
     """
     declared = getattr(scene_class.effects, effect)
     if declared:
@@ -86,10 +86,10 @@ def entry(scene_class: type[Scene], effect: str, frames: int, after: int = AFTER
 
 
 def _compared(one, other_class, found, frames, after):
-    """Run both copies frame by frame. Return the Entry `found` with the measured fields filled in.
+    """Run both copies of the scene frame by frame. Return the Entry `found` with its measured fields filled in.
 
     one: Side of the first copy; other_class: scene class of the second copy; frames: greatest number of frames; after:
-    number of further frames once the two copies differ.
+    number of further frames after the two copies first differ.
     """
     try:
         other = Side(other_class, one.scene.seed)
@@ -121,9 +121,9 @@ def _compared(one, other_class, found, frames, after):
 
 
 class Side:
-    """One of the two running copies of a scene, with and without an effect.
+    """One of the two copies of a scene that run side by side, with an effect or without it.
 
-    seconds: time of its last step; worked: sum of the counters WORK of all steps.
+    seconds: time of the worlds' stages in the last step; worked: sum of the counters WORK over all steps.
     """
 
     def __init__(self, scene_class: type[Scene], seed: int) -> None:
@@ -132,7 +132,7 @@ class Side:
         self.seconds, self.worked = 0.0, 0
 
     def bot(self) -> InputFrame:
-        """Return the bot's input for the next step."""
+        """Return the input of the scene's bot for the next step."""
         played = self.scene.bot()
         return played if isinstance(played, InputFrame) else InputFrame(frozenset(played))
 
@@ -160,7 +160,7 @@ class Side:
         ]
 
     def ruled(self) -> tuple[Any, ...]:
-        """Return the scene's own state, without that of its worlds."""
+        """Return the state of the scene's rules, without the state of its worlds."""
         return self.scene.state()
 
     def parted(self) -> list[Any]:
@@ -169,9 +169,9 @@ class Side:
 
 
 def root_mean_square(one: Scene, other: Scene) -> float:
-    """Return the root mean square distance [px] between the bodies of two copies of a scene.
+    """Return the root mean square distance [px] between the same bodies in two copies of a scene.
 
-    Only bodies that exist in both count (same world and id); 0 if there are none.
+    Only bodies that exist in both copies (same world and id) are compared. The result is 0 if there are none.
     """
     squares = []
     for ours, theirs in zip(one.worlds, other.worlds, strict=False):
@@ -184,9 +184,9 @@ def root_mean_square(one: Scene, other: Scene) -> float:
 
 
 def variant(scene_class: type[Scene], effects: Effects, idle: str | None = None) -> type[Scene]:
-    """Return a subclass of the scene with other declared effects.
+    """Return a subclass of the scene class that declares the effects `effects` instead.
 
-    idle: effect whose settings are made neutral before each step, so that it has nothing to do.
+    idle: effect whose settings are made neutral before each step, so that it does nothing; None for no such effect.
     """
     defined: dict[str, Any] = {"effects": effects}
     neutral = NEUTRAL.get(idle or "")

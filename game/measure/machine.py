@@ -1,4 +1,4 @@
-"""Facts about the machine on which figures were measured, without the machine's name."""
+"""Facts about the machine on which figures were measured. They do not include the machine's name."""
 
 import os
 import platform
@@ -9,7 +9,7 @@ PACKAGES = ("numpy", "numba", "pygame-ce", "pygame", "pymunk")
 
 
 def machine() -> dict[str, Any]:
-    """Return {fact: value} about this machine: processor, cores, system, and the versions of Python and packages."""
+    """Return {fact: value} about this machine: processor, cores, system, and versions of Python and packages."""
     return {
         "cpu": cpu_model(),
         "cores": os.cpu_count(),
@@ -25,7 +25,7 @@ def machine_line() -> str:
 
 
 def cpu_model() -> str:
-    """Return the name of the processor, or its architecture if the system does not report one."""
+    """Return the name of the processor, or its architecture if the system does not report a name."""
     try:
         with open("/proc/cpuinfo", encoding="utf-8") as file:
             names = [line.split(":", 1)[1].strip() for line in file if line.startswith("model name")]
@@ -35,7 +35,7 @@ def cpu_model() -> str:
 
 
 def installed(package: str) -> str:
-    """Return the version of a package; "" if it is not installed."""
+    """Return the version of a package; "" if the package is not installed."""
     try:
         return metadata.version(package)
     except metadata.PackageNotFoundError:

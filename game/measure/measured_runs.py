@@ -1,4 +1,4 @@
-"""Timing of several measured runs: each is warmed up, then timed five times over 60 steps or more, in random order."""
+"""Timing of several measured runs. Each is warmed up, then timed five times over 60 steps or more, in random order."""
 
 from collections.abc import Callable, Sequence
 from random import Random
@@ -17,9 +17,9 @@ WARM_STEPS = 2  # steps before the first run, which compile
 class RunFigures(NamedTuple):
     """The figures of one measured run so far.
 
-    cost: the Cost of a step [s], over the repetitions of the run. overlap: deepest overlap [px]. farthest: greatest
+    cost: the Cost of a step [s], over the repetitions of the run; overlap: deepest overlap [px]; farthest: greatest
     distance that a body moved in one step [px]. overlap and farthest cover only the steps that MeasuredRun.judged
-    selects; they are None if it selects none.
+    selects. They are None if it selects none.
     """
 
     cost: Cost
@@ -28,7 +28,7 @@ class RunFigures(NamedTuple):
 
     @property
     def sure(self) -> bool:
-        """True once the run was repeated RUNS times."""
+        """Whether the run was repeated at least RUNS times."""
         return self.cost.runs >= RUNS
 
 
@@ -37,10 +37,11 @@ def measure_runs(
     report: Callable[[int, float, float | None, float | None], object],
     goes_on: Callable[[], bool],
 ) -> None:
-    """Time the runs in RUNS rounds, each in another order, while goes_on() is True.
+    """Time the measured runs in RUNS rounds. Stop early when goes_on() is False.
 
-    report(index of the run, seconds per step, overlap, farthest) is called after each run. The first round keeps the
-    given order. Overlap and greatest motion are measured before the first timed run.
+    report(index of the run, seconds per step, overlap, farthest) is called after each run (see RunFigures). The first
+    round uses the given order, and each later round a random order. overlap and farthest are measured before the first
+    timed run.
     """
     made: dict[str, Snapshot] = {}  # by recipe: several runs start from the same world
     moments = [
@@ -71,9 +72,10 @@ def _snapshot(given, made):
 
 
 def _judge(moment, judged):
-    """Return (deepest overlap, greatest motion of a body in one step) [px] over some steps from a Moment (snapshot).
+    """Return (deepest overlap, greatest distance that a body moved in one step) [px].
 
-    judged: the (first, last) step that counts; if it is None, (None, None) is returned.
+    Both are measured in a run from the snapshot `moment`. judged: the (first, last) step to include. If it is None, the
+    result is (None, None).
     """
     if judged is None:
         return None, None

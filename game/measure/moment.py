@@ -1,7 +1,7 @@
-"""One moment of a world, stepped under other settings: the cost of a step and the resulting motion.
+"""A snapshot of a world, stepped under other settings: the time of a step and the resulting motion.
 
 The scene's rules do not run, so that only the physics is timed, and every setting does the same work. Times and motions
-are always taken in separate runs.
+are always measured in separate runs.
 """
 
 from collections import Counter
@@ -21,7 +21,7 @@ HOLDS = (PINNED, ON_AXIS)
 
 
 class Moment:
-    """Snapshot of a world, with its setting at that moment (`here`).
+    """Snapshot of a world. here: the setting of the world at that moment.
 
     broadphase: name of the world's broad phase.
     """
@@ -59,10 +59,10 @@ class Moment:
     def time_run(self, setting: Setting, steps: int = STEPS, stage: str | None = None, act: Act | None = None) -> float:
         """Return the mean time of a step [s] in one run that starts from this snapshot.
 
-        The first run of a setting also compiles kernels: do not count it.
+        The first run of a setting also compiles kernels, so the caller must not count it.
 
-        stage: name of the only stage to time, None for the whole step; the result is 0 if the step has no such stage.
-        act: operation that is timed in place of the steps. In that case one step is made first, which fills the broad
+        stage: name of the only stage to time, None for the whole step. The result is 0 if the step has no such stage.
+        act: operation that is timed instead of the steps. In that case one step is made first, which fills the broad
         phase, and the operation is called once untimed.
         """
         world = self.world(setting)
@@ -76,7 +76,7 @@ class Moment:
         return seconds_a_step(do, steps)
 
     def way(self, setting: Setting, steps: int = STEPS, divided: int = 1) -> "Way":
-        """Return the motion of the bodies in a run from this snapshot under a setting, a Way.
+        """Return the motion of the bodies in a run from this snapshot under a setting, as a Way.
 
         divided: number of shorter steps that replace each step.
         """
@@ -85,7 +85,10 @@ class Moment:
 
 
 class Way(NamedTuple):
-    """Motion of the bodies in a run: positions, deepest overlap and widest gap after each step, counts of failures."""
+    """Motion of the bodies in a run. failures: counts of failures by kind.
+
+    After each step: places, the centres of mass; overlap, the deepest overlap; gaps, the widest gap of a joint.
+    """
 
     places: np.ndarray  # (steps, bodies, 2) centres of mass [px], in the order of ids
     moves: np.ndarray  # (bodies,) bool: dynamic
@@ -102,7 +105,7 @@ class Way(NamedTuple):
 
 
 def follow(world: World, steps: int, divided: int = 1) -> Way:
-    """Make `steps` steps of a world, and return the motion of its bodies.
+    """Make `steps` steps of a world, and return the motion of its bodies as a Way.
 
     divided: number of shorter steps that replace each step.
     """
@@ -127,12 +130,18 @@ def follow(world: World, steps: int, divided: int = 1) -> Way:
 
 
 def failures_of(world: World) -> Counter[str]:
-    """Return the counts of failures in the last step, a Counter: cap hits and disabled bodies."""
+    """Return {kind: number} of the failures in the last step: cap hits and disabled bodies.
+
+    A cap hit is an iteration that stopped at its limit.
+    """
     return +Counter(cap_hits=world.profile.counters["cap_hits"], disable_body=len(world.events.quarantined))
 
 
 def here_of(world: World, tier: TierName | None) -> Setting:
-    """Return the Setting of a running world. tier: collision tier of its sprites, None if there are none."""
+    """Return the current Setting of a world.
+
+    tier: collision tier (kind of collision shape) of the world's sprites, None if there are none.
+    """
     return setting_of(world.effects, world.broadphase.name, world.solver, world.substeps, tier, world.joint_solver)
 
 
@@ -144,9 +153,10 @@ def setting_of(
     tier: TierName | None,
     joint_solver: JointSolverName,
 ) -> Setting:
-    """Return the Setting of a world with these values. tier: collision tier of its sprites, None if there are none.
+    """Return the Setting of a world with these values.
 
-    The fields `solver`, `substeps` and `joint_solver` are None if the effects do not use them.
+    tier: collision tier (kind of collision shape) of the world's sprites, None if there are none. The fields `solver`,
+    `substeps` and `joint_solver` are None if the effects do not use them.
     """
     used = solver if effects.response else None
     joints = joint_solver if effects.joints and used in SUBSTEPPED else None
@@ -154,9 +164,9 @@ def setting_of(
 
 
 def widest_gap(world: World) -> float:
-    """Return the widest gap of a joint that holds anchors together [px]; 0 without such joints.
+    """Return the widest gap [px] of any joint that holds anchors together; 0 if there is no such joint.
 
-    A Target does not count: it is the joint of a mouse drag, and its separation is the distance to the pointer.
+    A Target is ignored: it is the joint of a mouse drag, and its separation is the distance to the pointer.
     """
     rows = world.joints
     held = rows["separation"][np.isin(rows["hold"], HOLDS) & (rows["point_hertz"] == 0.0) & rows["enabled"]]

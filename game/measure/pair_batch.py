@@ -1,7 +1,7 @@
-"""Batch of narrow-phase tests without a world: many pairs of the same two bodies, each pair at its own poses.
+"""Batch of narrow-phase tests without a world: many pairs of the same two bodies, each pair with its own poses.
 
-A body is one shape or the union of several. The AABB test, which a broad phase would do, runs once when the batch is
-made. test() runs the narrow phase alone, so its time divided by the number of pairs is the time of one test.
+A body is one shape or the union of several shapes. The AABB test, which a broad phase would do, runs once when the
+batch is created. test() runs only the narrow phase, so its time divided by the number of pairs is the time of one test.
 """
 
 from collections.abc import Sequence
@@ -23,7 +23,7 @@ from physics.tables.shape import SHAPE
 class PairBatch:
     """Batch of n pairs of a body A and a body B. poses_a, poses_b: (n, 3) rows of x [px], y [px], angle [rad].
 
-    The rows of the bodies are in a random order drawn from `seed`, as in a world after some play. Raises TypeError or
+    The bodies are stored in a random order drawn from `seed`, as in a world after some play. Raises TypeError or
     ValueError for invalid shapes or poses.
     """
 
@@ -69,10 +69,11 @@ class PairBatch:
         self.bodies["id"][who] = who
 
     def _near(self, rows_a, rows_b, rng):
-        """Return the pairs of shapes whose AABBs overlap, in random order.
+        """Return (rows, pairs) of the pairs of shapes whose AABBs overlap, in random order.
 
-        They are (m, 2) SHAPE rows, and (m,) numbers of the pairs of bodies that they belong to. rows_a, rows_b: for
-        each shape of A and of B, its SHAPE rows in all pairs of bodies; rng: generator of the order.
+        rows: (m, 2) SHAPE rows of the two shapes; pairs: (m,) index of the pair of bodies to which the shapes belong.
+        rows_a, rows_b: one array for each shape of A and of B, with its SHAPE rows in all pairs of bodies. rng:
+        generator of the random order.
         """
         candidates, pairs = [], []
         for a in rows_a:
@@ -89,13 +90,13 @@ class PairBatch:
         return np.ascontiguousarray(both[turn]), owner[turn]
 
     def test(self) -> int:
-        """Run the narrow phase for all pairs, and nothing else. Return the number of manifolds."""
+        """Run only the narrow phase, for all pairs. Return the number of manifolds."""
         candidates, work = self.candidates, no_work()
         self.found = self.narrow_phase.collide(self.library, self.bodies, self.shapes, candidates, 0.0, work)
         return len(self.found)
 
     def met(self) -> np.ndarray:
-        """Return (n,) bool: whether each pair touched in the last test(), in the order of the poses."""
+        """Return (n,) bool: whether each pair of bodies touched in the last test(), in the order of the poses."""
         met = np.zeros(self.count, bool)
         if len(self.found):
             met[self.pair_of[self.found["candidate"]]] = True

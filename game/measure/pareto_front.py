@@ -1,4 +1,4 @@
-"""The Pareto front of (cost, error) points."""
+"""The Pareto front of (cost, error) points, and a test whether one cost is certainly lower than another."""
 
 from collections.abc import Mapping
 from typing import TypeVar
@@ -8,9 +8,9 @@ TIE = 0.1  # costs that differ by less than this share count as equal, whatever 
 
 
 def pareto_front(points: Mapping[Name, tuple[float, float]]) -> list[Name]:
-    """Return the names of the points on the Pareto front, the cheapest first. points: {name: (cost, error)}.
+    """Return the names of the points on the Pareto front, cheapest first. points: {name: (cost, error)}.
 
-    No other point has both less cost and less error than a point on the front.
+    For a point on the front, no other point has both a lower cost and a lower error.
     """
     found, least = [], float("inf")
     for name in sorted(points, key=lambda each: points[each]):
@@ -21,9 +21,9 @@ def pareto_front(points: Mapping[Name, tuple[float, float]]) -> list[Name]:
 
 
 def cheaper(a: tuple[float, float], b: tuple[float, float]) -> bool:
-    """Return whether cost a is certainly below cost b, each given as (least, median).
+    """Return whether cost a is certainly below cost b. Each cost is (least, median) of several runs.
 
-    The median of a must be below the least of b, and more than TIE below the median of b. An upper bound in place of
-    the median of a makes the test stricter.
+    The median of a must be below the least of b, and more than TIE below the median of b. The caller may pass an upper
+    bound instead of the median of a, which makes the test stricter.
     """
     return a[1] < b[0] and a[1] < (1.0 - TIE) * b[1]

@@ -1,4 +1,7 @@
-"""A power law through points of size and cost: cost = factor * size ** exponent, by least squares on the logarithms."""
+"""A power law fitted to (size, cost) points: cost = factor * size ** exponent.
+
+The fit is least squares on the logarithms.
+"""
 
 from math import exp, log, sqrt
 from typing import NamedTuple
@@ -7,7 +10,7 @@ from typing import NamedTuple
 class PowerLaw(NamedTuple):
     """Fitted power law, cost = factor * size ** exponent.
 
-    error: standard error of the exponent; factor: cost at size 1 [unit of the costs].
+    error: standard error of the exponent; factor: cost at size 1, in the unit of the costs.
     """
 
     exponent: float
@@ -15,14 +18,14 @@ class PowerLaw(NamedTuple):
     factor: float
 
     def at(self, size: float) -> float:
-        """Return the cost at a size, by the fitted law."""
+        """Return the cost that the fitted law gives for a size."""
         return self.factor * size**self.exponent
 
 
 def fit_power_law(points: list[tuple[float, float]]) -> PowerLaw:
     """Return the power law fitted to (size, cost) points.
 
-    Raises ValueError for fewer than three sizes (the standard error needs three), or for a value <= 0.
+    Raises ValueError for fewer than three different sizes (the standard error needs three), or for a value <= 0.
     """
     if len({size for size, _ in points}) < 3 or min(map(min, points)) <= 0.0:
         raise ValueError(f"a power law needs three sizes and costs above 0 (got {points})")

@@ -1,4 +1,4 @@
-"""A counted rate with its confidence interval."""
+"""A rate (number of cases out of a total) with its confidence interval."""
 
 from math import sqrt
 from typing import NamedTuple
@@ -19,7 +19,7 @@ class Rate(NamedTuple):
 
     @property
     def interval(self) -> tuple[float, float]:
-        """The 95 % confidence interval of the rate (Wilson 1927), (low, high); (0, 1) if `total` is 0."""
+        """The 95 % confidence interval (low, high) of the rate (Wilson 1927); (0, 1) if `total` is 0."""
         if not self.total:
             return 0.0, 1.0
         n, p, z = self.total, self.share, SURE

@@ -1,7 +1,7 @@
-"""Comparison of all collision tiers of sprites with the exact pixels, in a running world.
+"""Comparison of all collision tiers (kinds of collision shape) of sprites with the exact pixels, in a running world.
 
-ask() tests one tier per call, which keeps each call short. All tiers are tested at one snapshot, then a new one is
-taken. The tests run in a separate world, so that they do not affect the scene.
+ask() tests one tier per call, which keeps each call short. After all tiers are tested at one snapshot, a new snapshot
+is taken. The tests run in a separate world, so that they do not affect the scene.
 """
 
 from collections.abc import Sequence
@@ -21,10 +21,11 @@ Pairs = set[tuple[int, int]]  # ids of bodies
 class ReferenceTier:
     """Comparison of all collision tiers of sprites (circle, box, ... pixels) with the tier "mask", the exact pixels.
 
-    Call ask(world) once per step. `wrong`, `missed`: rates of false hits among the reported hits, and of missed hits
-    among the true hits, by tier. They count encounters over all snapshots at which every tier was tested: a pair of
-    bodies counts once. lit: the tier whose errors are drawn. `seen`: the errors of that tier at the last snapshot, each
-    (True for a false hit, False for a missed hit; outlines of both bodies).
+    Call ask(world) once per step. `wrong` and `missed` are dicts by tier. `wrong` contains the rates of false hits
+    among the reported hits, and `missed` the rates of missed hits among the true hits. They include all snapshots at
+    which every tier was tested. A pair of bodies counts once. lit: the tier whose errors are drawn. `seen`: list of the
+    errors of that tier at the last snapshot. An error is (True for a false hit or False for a missed hit, outlines of
+    both bodies).
     """
 
     def __init__(self, lit: str, tiers: Sequence[str] = TIERS) -> None:
@@ -38,10 +39,10 @@ class ReferenceTier:
         self._hits: dict[str, Pairs] = {}
 
     def ask(self, world: World) -> bool:
-        """Find the colliding pairs with the next collision tier.
+        """Find the colliding pairs of bodies with the next collision tier (kind of collision shape).
 
-        All tiers take their turn at the same snapshot of the world. The call for the first tier takes the snapshot.
-        Return whether this was the last tier; then the next call takes a new snapshot.
+        Return whether it was the last tier. All tiers are tested at the same snapshot of the world, which the call for
+        the first tier takes.
         """
         if self._moment is None:
             self._moment, self._hits = Moment(world.snapshot(), world.broadphase.name), {}
@@ -69,7 +70,7 @@ class ReferenceTier:
         return hits
 
     def state(self) -> tuple[int, ...]:
-        """Return the counts so far, as part of the scene's state for the digest."""
+        """Return the counts so far, which are part of the scene's state for the digest."""
         rates = [*self.wrong.values(), *self.missed.values()]
         return self.moments, len(self._hits), *(number for rate in rates for number in rate)
 

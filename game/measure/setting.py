@@ -1,4 +1,4 @@
-"""Setting of a world, and the list of settings to measure, each of which differs from the current one by one change."""
+"""Setting of a world, and the list of settings to measure. Each of them differs from the current one by one change."""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -13,7 +13,7 @@ JOINT_TIERS: tuple[JointSolverName, ...] = ("iterative", "direct")  # that are c
 
 
 class Setting(NamedTuple):
-    """The settings of a world that trade accuracy for time. A field is None if the world does not use it."""
+    """The settings of a world that affect accuracy and time. A field is None if the world does not use it."""
 
     broadphase: str
     narrowphase: bool
@@ -23,11 +23,11 @@ class Setting(NamedTuple):
     joint_solver: JointSolverName | None = None
 
     def differs(self, other: "Setting") -> tuple[str, ...]:
-        """Return the names of the fields whose values differ from those of another setting."""
+        """Return the names of the fields whose values differ from those of the setting `other`."""
         return tuple(name for name in self._fields if getattr(self, name) != getattr(other, name))
 
     def label(self, other: "Setting") -> str:
-        """Return the differences from another setting as short text; "as it is" if there are none."""
+        """Return the values in which this setting differs from `other`, as short text; "as it is" if there are none."""
         names = self.differs(other)
         words = [_WORDS[name](value) for name in names if (value := getattr(self, name)) is not None]
         if "solver" in names and self.substeps is not None:  # the number follows the solver's name without a unit
@@ -47,11 +47,11 @@ _WORDS = {
 
 
 def settings_around(here: Setting, effects: Effects) -> list[Setting]:
-    """Return the settings to measure: `here`, then all that differ from it by one change.
+    """Return the settings to measure: first `here`, then the settings that differ from `here` by one change.
 
-    A change is another broad phase, narrow phase or collision tier, or another solver, or solver of joints, with each
-    number of substeps. The kinds of change take turns in the list. effects: effects of the world, which decide what can
-    be changed.
+    A change is another broad phase, narrow phase or collision tier (kind of collision shape). Another solver or joint
+    solver is also a change, and is combined with each number of substeps. In the list, the kinds of change alternate.
+    effects: effects of the world, which determine the possible changes.
     """
     rows = [
         list(_solvers(here, effects)),

@@ -47,10 +47,10 @@ AXIS = np.dtype(
 
 
 def sat_axes(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> np.ndarray:
-    """Return the axes that the separating axis test tries, as (n,) AXIS rows, the largest separation first.
+    """Return the axes that the separating axis test tries, as (n,) AXIS rows, largest separation first.
 
-    Poses are (x, y) [px] or (x, y, angle). The largest separation is the distance of the two shapes, or minus the depth
-    of their overlap. Raises TypeError for a shape that is not convex.
+    A pose is (x, y) [px] or (x, y, angle). The largest separation is the distance between the two shapes, or the
+    negative depth of their overlap. Raises TypeError for a shape that is not convex.
     """
     a, b = _core("shape_a", shape_a, "pose_a", pose_a), _core("shape_b", shape_b, "pose_b", pose_b)
     rows = []
@@ -83,7 +83,7 @@ def sat_axes(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> np.n
 def _core(name, shape, pose_name, pose):
     """Return (corners (n, 2) in the world [px], rounding radius [px]) of a convex shape at a pose.
 
-    name, pose_name: names of the arguments `shape` and `pose` in error messages.
+    name, pose_name: names of the arguments `shape` and `pose`, used in error messages.
     """
     if not isinstance(shape.shape if isinstance(shape, Bounds) else shape, Convex):
         hulls = sorted((each for each in SHAPES if issubclass(each, Convex)), key=lambda each: each is Polygon)
@@ -99,10 +99,10 @@ def _core(name, shape, pose_name, pose):
 
 
 def gjk_steps(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> list[dict]:
-    """Return the iterations of GJK for two convex shapes without their rounding radii.
+    """Return the iterations of GJK for two convex shapes without their rounding radii, one dict per iteration.
 
-    If they overlap, the iterations of EPA follow. Each is a dict, see steps_of. Points are relative to the origin of A.
-    Raises TypeError for shapes that are not convex, ValueError for invalid poses.
+    If the shapes overlap, the iterations of EPA follow. steps_of() describes the dicts. Points are relative to the
+    origin of A. Raises TypeError for a shape that is not convex, and ValueError for an invalid pose.
     """
     pose_a = checked_pose("shape_a", shape_a, "pose_a", pose_a)
     pose_b = checked_pose("shape_b", shape_b, "pose_b", pose_b)
@@ -114,11 +114,11 @@ def gjk_steps(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> lis
 
 
 def steps_of(a: np.ndarray, b: np.ndarray) -> list[dict]:
-    """Return the state after each iteration of GJK and EPA, a list of dicts. a, b: corners (n, 2) [px] of two polygons.
+    """Return the state after each iteration of GJK and EPA, one dict per iteration.
 
-    "phase": "gjk" or "epa". "simplex" (k, 2) and, in EPA, "polytope" (k, 2): points of the Minkowski difference A - B.
-    "witness": the nearest points so far on A and on B. "direction": the unit direction of the next search. "distance":
-    the separation so far [px], negative if the polygons overlap.
+    a, b: (n, 2) corners [px] of two polygons. "phase": "gjk" or "epa". "simplex" (k, 2) and, in EPA, "polytope" (k, 2):
+    points of the Minkowski difference A - B. "witness": the nearest points so far, on A and on B. "direction": the unit
+    direction of the next search. "distance": the separation so far [px], negative if the polygons overlap.
     """
     a, b = (np.ascontiguousarray(each, np.float64) for each in (a, b))
     workspace = new_gap_workspace()

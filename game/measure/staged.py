@@ -1,4 +1,4 @@
-"""A step of a world, run stage by stage: stages can be replaced, and the processor time of each is measured.
+"""A step of a world, run stage by stage. Stages can be replaced, and the processor time of each stage is measured.
 
 `world.profile` uses wall-clock time, which includes the time of other processes.
 """
@@ -13,9 +13,9 @@ from physics.tables.step_state import Stage
 
 
 def stages_of(world: World, *instead: Stage) -> tuple[Stage, ...]:
-    """Return the stages of a step of a world without characters.
+    """Return the stages of a step of a world without characters, in order.
 
-    A stage in `instead` replaces the stage of the same name.
+    instead: stages that replace the world's stages of the same name.
     """
     others = {stage.stage: stage for stage in instead}
     own = plan(world.effects, world.solver, characters=False).stages
@@ -23,9 +23,9 @@ def stages_of(world: World, *instead: Stage) -> tuple[Stage, ...]:
 
 
 def advance(world: World, stages: Sequence[Stage], dt: float, spent: dict[str, Any] | None = None) -> None:
-    """Run one step with these stages, as `world.step(dt)` does.
+    """Run one step of a world with the given stages, in the same way as `world.step(dt)`.
 
-    spent: {name of a stage: seconds}, to which the times of this step are added, or None.
+    spent: {name of a stage: seconds}, to which the times of this step are added; None if they are not measured.
     """
     world.profile.begin([stage.stage for stage in stages])
     state = begin(world, dt)
@@ -38,7 +38,7 @@ def advance(world: World, stages: Sequence[Stage], dt: float, spent: dict[str, A
 
 
 def seconds_of_stage(world: World, name: str, steps: int) -> float:
-    """Return the mean time of the stage `name` [s] over `steps` steps.
+    """Return the mean time [s] of the stage `name` over `steps` steps of a world.
 
     Raises KeyError if the world has no such stage.
     """

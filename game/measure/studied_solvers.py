@@ -1,7 +1,7 @@
-"""Variants of the stacking solvers with a part repeated or left out, to measure the effect of each part.
+"""Variants of the stacking solvers with one part repeated or omitted, to measure the effect of each part.
 
-A variant is a stage for staged.stages_of(), where it replaces the stage of the solver. A variant cannot be chosen by
-name as World.solver.
+A variant is a stage to be passed to staged.stages_of(), where it replaces the stage of the solver. It cannot be chosen
+as World.solver.
 """
 
 from collections.abc import Mapping
@@ -15,9 +15,9 @@ from physics.tables.step_state import Stage, StepState, stage
 
 
 def sequential_impulse(passes: int, warm: bool = True) -> Stage:
-    """Return a variant of sequential impulse with `passes` passes per step.
+    """Return a variant of the sequential impulse solver with `passes` passes per step, as a stage.
 
-    warm: if False, each step starts from zero impulses.
+    warm: False starts each step from zero impulses (no warm start).
     """
     solve = partial(solve_in_passes, passes=passes, warm=warm)
 
@@ -29,11 +29,11 @@ def sequential_impulse(passes: int, warm: bool = True) -> Stage:
 
 
 def soft_step(iterations: int = 1, warm: bool = True, relaxed: bool = True) -> Stage:
-    """Return a variant of soft step with `iterations` solve passes per substep.
+    """Return a variant of the soft step solver with `iterations` solve passes per substep, as a stage.
 
-    warm: if False, each substep starts from zero impulses. relaxed: if False, there is no relax pass, so the velocity
-    that separates overlaps is kept, and friction is solved in the solve pass. Raises ValueError for relaxed=False with
-    several iterations.
+    warm: False starts each substep from zero impulses (no warm start). relaxed: False omits the relax pass. The
+    velocity that separates overlaps is then not removed, and friction is solved in the solve pass. Raises ValueError
+    for relaxed=False with several iterations.
     """
     if iterations > 1 and not relaxed:
         raise ValueError(f"impulses are counted once: without relaxing there is one iteration (got {iterations})")

@@ -1,6 +1,6 @@
 """Survey of a scene's settings: their measured costs and errors, collected run by run.
 
-Each setting is a dot of a plot.
+Each setting is drawn as a dot in a plot.
 """
 
 from collections import Counter
@@ -20,9 +20,9 @@ LEAST_HITS = 20  # hits that boxes must have reported before their rate of false
 class Dot:
     """Measurements of one setting, drawn as a dot in the plot of cost and error.
 
-    A moment is a snapshot from which runs start. spent: {number of the moment: seconds per step of each run}. errors:
-    {number of the moment: {kind: Error}}. Values pooled over the moments are cached, because the plot reads each
-    several times per frame.
+    spent: {number of the snapshot from which the runs start: seconds per step of each run}. errors: {number of the
+    snapshot: {kind: Error}}. Values pooled over the snapshots are cached, because the plot reads each several times per
+    frame.
     """
 
     setting: Setting
@@ -34,25 +34,25 @@ class Dot:
     def took(self, moment: int, seconds: float) -> None:
         """Add the result of one timed run.
 
-        moment: number of the snapshot from which it started; seconds: mean time of its steps [s].
+        moment: number of the snapshot from which the run started; seconds: mean time of its steps [s].
         """
         self.spent.setdefault(moment, []).append(seconds)
         self._known.clear()
 
     def erred(self, moment: int, errors: dict[str, Error]) -> None:
-        """Set the errors of runs from snapshot number `moment`, {kind: Error}."""
+        """Set the errors of the runs from a snapshot. moment: number of the snapshot; errors: {kind: Error}."""
         self.errors[moment] = errors
         self._known.clear()
 
     @property
     def cost(self) -> Cost | None:
-        """Seconds per step, the mean over the snapshots from which runs started, a Cost; None before the first run."""
+        """Time per step [s], averaged over the snapshots from which runs started, as a Cost; None without runs."""
         if "cost" not in self._known:
             self._known["cost"] = self._pooled_cost()
         return self._known["cost"]
 
     def error(self, kind: str) -> Error | None:
-        """Return the Error of a kind, pooled over all snapshots from which runs started; None while there is none."""
+        """Return the Error of the kind `kind`, pooled over all snapshots from which runs started; None if unknown."""
         if ("error", kind) not in self._known:
             self._known["error", kind] = self._pooled_error(kind)
         return self._known["error", kind]
@@ -67,7 +67,7 @@ class Dot:
 
     @property
     def sure(self) -> bool:
-        """True if the setting has RUNS runs or more from every snapshot."""
+        """Whether the setting has at least RUNS runs from every snapshot from which it has started."""
         return bool(self.spent) and all(len(runs) >= RUNS for runs in self.spent.values())
 
     def _pooled_error(self, kind):
@@ -85,7 +85,10 @@ class Dot:
 
 
 class Survey:
-    """Measurements of one scene: a Dot for each setting in order of arrival, and conclusions from them."""
+    """Measurements of one scene, and conclusions from them.
+
+    dots: a Dot for each setting, in the order of their first result.
+    """
 
     def __init__(self) -> None:
         self.dots: dict[Setting, Dot] = {}
@@ -97,17 +100,18 @@ class Survey:
 
     @property
     def first(self) -> Setting:
-        """The setting that was measured first: the one under which the scene ran."""
+        """The setting that was measured first, which is the setting of the running scene."""
         return next(iter(self.dots))
 
     def dot(self, setting: Setting) -> Dot:
-        """Return the dot of a setting; it is added if there is none."""
+        """Return the Dot of a setting. If there is none, a new one is added."""
         return self.dots.setdefault(setting, Dot(setting))
 
     def error(self, setting: Setting, kind: str) -> Error | None:
-        """Return the Error of a kind of a measured setting; None if unknown.
+        """Return the Error of the kind `kind` of a measured setting; None if it is unknown.
 
-        It is pooled over all snapshots from which runs started, or taken over the whole recorded run.
+        The error is pooled over all snapshots from which runs started. An error in wrong answers is that of the whole
+        recorded run, if this is known.
         """
         error = self.dots[setting].error(kind)
         verdicts = self.encounters.get(setting.tier or "") if setting.narrowphase else None
@@ -116,7 +120,7 @@ class Survey:
         return Error.of(verdicts, error.steps, error.failures)
 
     def known(self, kind: str) -> dict[Setting, tuple[Cost, Error]]:
-        """Return {setting: (Cost, Error)} of the settings that have a cost and an error of this kind."""
+        """Return {setting: (Cost, Error)} of all settings that have a cost and an error of the kind `kind`."""
         found = {}
         for setting, dot in self.dots.items():
             cost, error = dot.cost, self.error(setting, kind)
@@ -125,18 +129,18 @@ class Survey:
         return found
 
     def pareto_front(self, kind: str) -> list[Setting]:
-        """Return the settings on the Pareto front of cost and error, the cheapest first. kind: kind of error.
+        """Return the settings on the Pareto front of cost and error, cheapest first. kind: kind of error.
 
         Errors below their floor count as 0.
         """
         return pareto_front({s: (cost.median, reported_error(error)) for s, (cost, error) in self.known(kind).items()})
 
     def finding(self, kind: str, here: Setting, proven: Setting | None = None) -> str:
-        """Return one sentence that compares the setting `here` with the others by cost and by this kind of error; "" if
-        too few are measured.
+        """Return one sentence that compares the setting `here` with the others by cost and by the error `kind`.
 
-        Two errors count as different only if their intervals do not overlap. proven: the cheaper setting that has
-        proved itself on the whole run; only this one is said to be cheaper.
+        Return "" if too few settings are measured. Two errors count as different only if their intervals do not
+        overlap. proven: the cheaper setting that was tested on the whole recorded run, None for none. Only this setting
+        is reported as cheaper.
         """
         known = {s: each for s, each in self.known(kind).items() if self.dots[s].sure}
         if here not in known or len(known) < 2:
@@ -166,9 +170,10 @@ class Survey:
         return f"nothing measured here is as exact ({shown(error)}) for less time"
 
     def boxes_and_pixels(self) -> str:
-        """Return a sentence on the false hits of boxes, and on the time that pixels cost; "" without collision tiers.
+        """Return a sentence on the rate of false hits of boxes, and on the time that pixels cost.
 
-        Until boxes have reported LEAST_HITS encounters, it says how far the measuring is.
+        Return "" for a scene without collision tiers. Before boxes have reported LEAST_HITS encounters, the sentence
+        reports the progress of the measurement.
         """
         known = self.known("verdict")
         tiers = {setting.tier: setting for setting in known if self._is_tier_alone(setting)}
@@ -187,15 +192,16 @@ class Survey:
         return f"Boxes: {false}. Pixels: none, for {price}."
 
     def _is_tier_alone(self, setting):
-        """Return whether a setting differs from the one that was measured first by no more than its collision tier."""
+        """Return whether a setting differs from the first measured setting at most in its collision tier."""
         return set(setting.differs(self.first)) <= {"tier"}
 
 
 def own_sentence(hits: Mapping[str, int], tier: str | None) -> str:
-    """Return a sentence on the false hits of the player's box, from the counts that the scene shows; "" without them.
+    """Return a sentence on the false hits of the player's bounding box, from the scene's counts.
 
-    hits: Scene.own_hits; tier: the collision tier of the hull. Boxes contain the shapes of every tier, so that a hit of
-    the box without one of the hull is false.
+    Return "" without counts, or if `tier` is not exact. hits: Scene.own_hits; tier: collision tier of the player's
+    shape, the hull, or None. The box contains the shapes of every tier. Thus a hit of the box that is not a hit of the
+    hull is false.
     """
     boxes, hull = hits.get("box", 0), hits.get("hull", 0)
     if not boxes or tier not in ("pixels", "mask"):
@@ -204,12 +210,12 @@ def own_sentence(hits: Mapping[str, int], tier: str | None) -> str:
 
 
 def reported_error(error: Error) -> float:
-    """Return an Error as a number, or 0 if it is below its floor, the uncertainty of its reference."""
+    """Return the value of an Error, or 0 if it is not above its floor, the uncertainty of its reference."""
     return error.value if error.above_floor else 0.0
 
 
 def shown(error: Error) -> str:
-    """Return the error in words: wrong answers of all encounters, or pixels."""
+    """Return an Error in words: the number of wrong answers among all encounters, or pixels."""
     if error.verdicts is not None:
         rate = error.verdicts.either
         return f"{rate.count} of {rate.total} wrong" if rate.total else "no hit yet"

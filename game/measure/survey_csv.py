@@ -1,4 +1,4 @@
-"""A survey as CSV: each measured setting in a row for each kind of error, with the command that measures it again."""
+"""A survey as CSV. Each row is one kind of error of one setting, with the command that repeats its measurement."""
 
 import csv
 import io
@@ -16,10 +16,10 @@ COLUMNS = (
 
 
 def csv_of(survey: Survey, scene: str, seed: int, steps: int) -> str:
-    """Return the text of the CSV file.
+    """Return the survey as the text of a CSV file.
 
     scene, seed, steps: name of the measured scene, its seed and its number of steps, for the column `command`. Times
-    are in microseconds per step. Errors are in pixels, for tiers in wrong answers per 100 encounters. A number that
+    are in microseconds per step. Errors are in pixels, or for tiers in wrong answers per 100 encounters. A number that
     does not apply is an empty field.
     """
     file = io.StringIO()

@@ -1,4 +1,4 @@
-"""Client of the measuring process: the game sends orders for measurements and receives the results."""
+"""Client of the measuring process: the game sends orders for measurements to it and receives the results."""
 
 import contextlib
 import json
@@ -32,10 +32,11 @@ from physics.jit.workers import end_all, start_module
 
 
 class Surveyor:
-    """Client of the measuring process: the measure methods send orders, turn() stores the results that have arrived.
+    """Client of the measuring process.
 
-    module: name of the module that the process runs. `trouble`: the reason why nothing is measured, or "". The process
-    starts with the first order, and again with the first order after stop().
+    The measure methods send orders, and turn() stores the results that have arrived. module: name of the module that
+    the process runs. `trouble`: the reason why nothing is measured, or "". The process starts with the first order.
+    After stop(), it starts again with the next order.
     """
 
     def __init__(self, module: str = f"{__package__}.worker") -> None:
@@ -58,11 +59,11 @@ class Surveyor:
         self.process: subprocess.Popen[str] | None = None
 
     def measure(self, snapshot: Snapshot, broadphase: str, run: object = None) -> None:
-        """Request the measurement of every setting, starting from `snapshot`. The results go to the attribute `survey`.
+        """Request the measurement of every setting, starting from `snapshot`.
 
-        The request replaces an unfinished earlier one. broadphase: name of the broad phase of the snapshot's world.
-        run: the inputs recorded so far, for a process that also counts which bodies met in the run
-        (game.run.run_worker); None: the run is not recorded.
+        The results are stored in the attribute `survey`. The request replaces an unfinished earlier one. broadphase:
+        name of the broad phase of the snapshot's world. run: the inputs recorded so far, or None if the run is not
+        recorded. A process of game.run.run_worker also counts which bodies met in that run.
         """
         if not self._started():
             return
@@ -80,9 +81,10 @@ class Surveyor:
         self._hand_on_beside(order, save)
 
     def prove(self, run: object, setting: Setting, predicted: float) -> None:
-        """Order that a setting is applied to a whole recorded run; the result goes to `proofs`.
+        """Order a test of a setting on a whole recorded run. The result is appended to `proofs`.
 
-        predicted: time of the setting as a share of the present time. The process must be game.run.run_worker.
+        predicted: expected time under the setting, as a share of the present time. The process must be
+        game.run.run_worker.
         """
         if not self._started():
             return
@@ -93,7 +95,7 @@ class Surveyor:
     def measure_sprites(self, first: PixelMask, second: PixelMask) -> None:
         """Order measurements of every collision tier (kind of collision shape) for the sprites `first` and `second`.
 
-        The results go to `figures`.
+        The results are stored in `figures`.
         """
         if not self._started():
             return
@@ -104,9 +106,9 @@ class Surveyor:
         _hand_on(self.process, order, partial(np.savez, order["sprites"], **arrays), self.found)
 
     def measure_runs(self, request: RunRequest) -> None:
-        """Order those runs of a request that are not measured often enough yet. The results go to `figures`.
+        """Order those runs of a request that have not been measured often enough yet.
 
-        The order replaces an unfinished earlier one.
+        The results are stored in `figures`. The order replaces an unfinished earlier one.
         """
         names = [name for name in request.names if not self.knows(name)]
         if not names or not self._started():
@@ -129,11 +131,11 @@ class Surveyor:
     def measure_effects(
         self, snapshot: Snapshot, broadphase: str, pieces: tuple[str, ...] | None, each: bool = True
     ) -> None:
-        """Order measurements of all choices of effects, and of each effect: its cost, and the kernels compiled for it.
+        """Order measurements of the choices of effects and of each effect: its time, and the kernels compiled for it.
 
-        The results go to `totals` and `effects`. each: False for the choices alone. snapshot: state from which the
-        steps are timed. broadphase: name of the broad phase of its world. pieces: shape pairs and queries that the
-        scene uses, as in physics.warmup.
+        The results are stored in `totals` and `effects`. each: False measures only the choices. snapshot: state from
+        which the steps are timed; broadphase: name of the broad phase of its world; pieces: shape pairs and queries
+        that the scene uses, as in physics.warmup, None for all.
         """
         if not self._started():
             return
@@ -150,12 +152,12 @@ class Surveyor:
         self._hand_on_beside(order, partial(snapshot.save, order["snapshot"]))
 
     def knows(self, name: Hashable) -> bool:
-        """Return whether the measured run of this name was repeated often enough."""
+        """Return whether the measured run with this name has been repeated often enough."""
         figures = self.figures.get(name)
         return isinstance(figures, RunFigures) and figures.sure
 
     def _started(self):
-        """Start the measuring process if it does not run, and mark it as busy. Return whether it runs."""
+        """Start the measuring process if it is not running, and mark it as busy. Return whether it is running."""
         if self.process is None:
             try:
                 self.process = start_module(self.module)
@@ -172,9 +174,10 @@ class Surveyor:
         return True
 
     def _hand_on_beside(self, order, save):
-        """Start a thread that calls save() and then sends the order. save() writes the files that the order names.
+        """Start a thread that calls save() and then sends `order` to the process.
 
-        A thread is used because compressing the pixels of a level takes longer than a frame.
+        save() writes the files that the order names. A thread is used because compressing the pixels of a level takes
+        longer than a frame.
         """
         args = self.process, order, save, self.found
         threading.Thread(target=_hand_on, args=args, name="hand on", daemon=True).start()
@@ -184,13 +187,13 @@ class Surveyor:
         return str(Path(self.folder.name) / name)
 
     def turn(self) -> None:
-        """Store the results that have arrived since the last call. Call it once per frame."""
+        """Store the results that have arrived since the last call. Call this once per frame."""
         with contextlib.suppress(queue.Empty):
             while True:
                 self._take(self.found.get_nowait())
 
     def wait(self, seconds: float) -> None:
-        """Store results as they arrive until the last order is done, for at most `seconds`."""
+        """Store results as they arrive, until the last order is done or `seconds` have passed."""
         end = monotonic() + seconds
         with contextlib.suppress(queue.Empty):
             while self.busy:
@@ -247,7 +250,7 @@ class Surveyor:
         self.figures[name] = RunFigures(Cost.of(seconds, steps), overlap, farthest)
 
     def stop(self) -> None:
-        """End the measuring process. The results so far are kept."""
+        """End the measuring process. The results received so far remain available."""
         process, self.process = self.process, None
         folder, self.folder = self.folder, None
         self.busy = False
@@ -260,8 +263,8 @@ class Surveyor:
 def _hand_on(process, order, save, found):
     """Call save(), which writes the files that `order` names, then send the order to the measuring process `process`.
 
-    If save() fails while the process runs, the failure is put into the queue `found` like a result. If the process has
-    ended, nothing is done here, because the thread that reads its results reports that.
+    If save() fails while the process is running, a report of the failure is put into the queue `found`, like a result.
+    If the process has ended, nothing is done, because the thread that reads its results reports the end.
     """
     try:
         save()
@@ -283,20 +286,20 @@ def _listen(process, found):
 
 
 def figures_of(values: list[Any]) -> TierFigures:
-    """Return the TierFigures that the measuring process sent as JSON. values: its fields in order."""
+    """Return the TierFigures that the measuring process sent as JSON. values: the fields in order."""
     tier, shapes, hit, miss, wrong, missed, build, fit = values
     costs, rates = (Cost(*hit), Cost(*miss)), (Rate(*wrong), Rate(*missed))
     return TierFigures(tier, shapes, *costs, *rates, Cost(*build), Fit(*fit))
 
 
 def error_of(values: dict[str, Any]) -> Error:
-    """Return an Error from its JSON form."""
+    """Return the Error that the measuring process sent. values: its JSON form (see worker.sent)."""
     verdicts = values["verdicts"]
     return Error(**{**values, "verdicts": None if verdicts is None else verdicts_of(verdicts)})
 
 
 def verdicts_of(values: list[Any]) -> Verdicts:
-    """Return Verdicts from their JSON form."""
+    """Return the Verdicts that the measuring process sent. values: their JSON form (see worker.sent_verdicts)."""
     reported, true, own = values
     return Verdicts(_pairs(reported), _pairs(true), own)
 

@@ -1,4 +1,7 @@
-"""Measurement of a scene's requests in this process, which waits for the results; for runs without a player."""
+"""Measurement of a scene's requests in this process, which waits for the results.
+
+This module is used in runs without a player.
+"""
 
 from game.measure.effect_totals import EffectTotal, choices_of, measure_totals
 from game.measure.measured_runs import RunFigures, measure_runs
@@ -12,7 +15,8 @@ from game.scene import Scene
 def measure_requests(scene: Scene) -> None:
     """Make the measurements that the scene requests and that have no results yet.
 
-    Store the results in scene.figures. If the scene measures its effects, store their times and bytes in scene.totals.
+    The results are stored in scene.figures. If the scene measures its effects, their times and bytes are stored in
+    scene.totals.
     """
     request = scene.measured()
     if isinstance(request, SpriteRequest) and not scene.figures:

@@ -1,8 +1,8 @@
-"""Costs and error rates of every collision tier for two sprites, over random relative poses.
+"""Costs and error rates of every collision tier (kind of collision shape) for two sprites, over random relative poses.
 
-Offsets are drawn uniformly from a disc, and angles from a full turn. The radius of the disc is chosen so that about
-half of the poses are hits, because error rates depend on the share of hits. The reference is the exact test of pixel
-squares. Hits and misses are timed separately, each on a batch of real pairs.
+Offsets are drawn uniformly from a disc, and angles uniformly from a full turn. The radius of the disc is chosen so that
+about half of the poses are hits, because error rates depend on the share of hits. The reference is the exact test of
+pixel squares. Hits and misses are timed separately, each on a batch of real pairs.
 """
 
 from collections.abc import Callable, Sequence
@@ -24,9 +24,9 @@ REPEATS = 3  # tests of a batch per run: 40 us alone would be short for a clock
 
 
 class TierFigures(NamedTuple):
-    """Figures of one collision tier for a pair of sprites, against the exact masks.
+    """Figures of one collision tier (kind of collision shape) for a pair of sprites, compared with the exact masks.
 
-    Costs of tests are seconds per pair.
+    Times of tests are in seconds per pair.
     """
 
     tier: str
@@ -51,7 +51,7 @@ class Poses(NamedTuple):
 
 
 def poses_around(first: PixelMask, second: PixelMask, count: int = POSES, seed: int = 0) -> Poses:
-    """Return `count` random Poses of two sprites (PixelMasks), of which about half are hits.
+    """Return `count` random Poses of two sprites (PixelMasks). In about half of the pairs, the sprites touch.
 
     Raises ValueError for a sprite without solid pixels.
     """
@@ -88,10 +88,10 @@ def measure_tiers(
     tiers: Sequence[TierName] = TIERS,
     seed: int = 0,
 ) -> None:
-    """Measure the collision tiers for two sprites (PixelMasks) over random relative poses.
+    """Measure the collision tiers (kinds of collision shape) for two sprites over random relative poses.
 
-    report(TierFigures) is called for each tier. tiers: their names; seed: seed of the poses and of the order of runs.
-    Raises ValueError for a sprite without solid pixels.
+    report(TierFigures) is called for each tier. tiers: names of the tiers; seed: seed of the poses and of the order of
+    runs. Raises ValueError for a sprite without solid pixels.
     """
     measure_at(first, second, poses_around(first, second, seed=seed), report, tiers, seed)
 
@@ -104,9 +104,9 @@ def measure_at(
     tiers: Sequence[TierName] = TIERS,
     seed: int = 0,
 ) -> None:
-    """Measure the collision tiers for two sprites (PixelMasks) at given poses.
+    """Measure the collision tiers (kinds of collision shape) for two sprites at the given poses.
 
-    report(TierFigures) is called for each tier. poses: Poses, which must include hits and misses; tiers: their names;
+    report(TierFigures) is called for each tier. poses: Poses that include hits and misses; tiers: names of the tiers;
     seed: seed of the order of the runs.
     """
     shapes = {tier: (fit(first, tier), fit(second, tier)) for tier in tiers}
@@ -131,9 +131,9 @@ def measure_at(
 
 
 def _build(mask, tier):
-    """Fit the shapes of a collision tier to a mask without the cache. Return the shapes.
+    """Return the shapes of a collision tier (kind of collision shape), fitted to a mask without use of the cache.
 
-    A new PixelMask is made, because each mask caches its fits.
+    A new PixelMask is created for this, because each mask caches its fits.
     """
     return fit(PixelMask(mask.solid, mask.origin), tier)
 

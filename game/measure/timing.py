@@ -1,7 +1,8 @@
-"""Times of named functions: warmed up, called in random order, given as the least and the median of several runs.
+"""Times of named functions, which are warmed up and called in random order.
 
-Other load on the machine only ever adds time. So the least time is the cost of the function, and the difference between
-the median and the least time is the noise. All functions run in every round, so that load affects them alike.
+For each function, the result is the least, the median and the upper quartile of its times in several runs. Other load
+on the machine only ever adds time. So the least time is taken as the cost of the function, and the difference between
+the median and the least time as the noise. Every round runs all functions, so that load affects them equally.
 """
 
 import gc
@@ -22,7 +23,7 @@ clock = time.thread_time if time.get_clock_info("thread_time").resolution <= FIN
 
 
 class Cost(NamedTuple):
-    """Seconds per piece of work (a step, a pair) over several runs: least, median and upper quartile."""
+    """Time per piece of work (a step, a pair) [s] over several runs: least, median and upper quartile."""
 
     least: float
     median: float
@@ -32,9 +33,10 @@ class Cost(NamedTuple):
 
     @classmethod
     def of(cls, seconds: list[float], pieces: int) -> "Cost":
-        """Return the Cost of several runs. seconds: seconds per piece of each run; pieces: pieces of work in a run.
+        """Return the Cost of several runs.
 
-        Raises ValueError without runs or pieces.
+        seconds: time per piece of work [s] of each run; pieces: pieces of work in a run. Raises ValueError if there are
+        no runs or no pieces.
         """
         if not seconds or pieces < 1:
             raise ValueError(f"a cost needs runs and pieces (got {len(seconds)} runs of {pieces} pieces)")
@@ -44,13 +46,13 @@ class Cost(NamedTuple):
 
     @property
     def noise(self) -> float:
-        """Median minus least time, as a share of the least time."""
+        """Median minus least time, divided by the least time."""
         return self.median / self.least - 1.0 if self.least > 0.0 else 0.0
 
 
 @contextmanager
 def undisturbed() -> Iterator[None]:
-    """Disable garbage collection within the `with` block, so that its time is not counted."""
+    """Disable garbage collection within the `with` block, so that its time is not measured."""
     was_on = gc.isenabled()
     gc.disable()
     try:
@@ -61,7 +63,7 @@ def undisturbed() -> Iterator[None]:
 
 
 def seconds_a_step(step: Callable[[], object], steps: int) -> float:
-    """Return the mean time [s] of `steps` calls of step(), each timed by itself."""
+    """Return the mean time [s] of `steps` calls of step(). Each call is timed separately."""
     spent = 0.0
     with undisturbed():
         for _ in range(steps):
@@ -72,9 +74,9 @@ def seconds_a_step(step: Callable[[], object], steps: int) -> float:
 
 
 def timed_steps(steps: Mapping[Name, Callable[[], object]], count: int = 60, runs: int = RUNS) -> dict[Name, Cost]:
-    """Return {name: Cost} of one call of each function in `steps`.
+    """Return {name: Cost} of the functions in `steps`. The Cost is the time of one call.
 
-    There are `runs` runs, each of which times `count` calls of every function in turn: 300 calls of each by default.
+    There are `runs` runs. In each run, `count` calls of every function are timed, one function after another.
     """
     spent: dict[Name, list[float]] = {name: [] for name in steps}
     for _ in range(runs):
@@ -86,9 +88,10 @@ def timed_steps(steps: Mapping[Name, Callable[[], object]], count: int = 60, run
 def timed_in_turns(
     works: Mapping[str, Callable[[], object]], pieces: Mapping[str, int], runs: int = RUNS, seed: int = 0
 ) -> dict[str, Cost]:
-    """Return {name: Cost} of the functions `works`, each called `runs` times in random order.
+    """Return {name: Cost} of the functions `works`. Each is called `runs` times, in random order.
 
-    A call of works[name] does pieces[name] pieces of work. The first call is not counted. seed: seed of the order.
+    A call of works[name] does pieces[name] pieces of work. One call of each function before the first run is not timed.
+    seed: seed of the order.
     """
     order, spent = list(works), {name: [] for name in works}
     chance = Random(seed)

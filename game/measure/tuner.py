@@ -1,7 +1,7 @@
-"""Tuner: applies the advice on settings automatically while the player plays.
+"""Tuner: automatic application of the advice on settings while the player plays.
 
-A setting is applied only if it has proved itself on the recorded run, and is faster over the whole interval of its runs
-(advice.is_cheaper). So noise does not undo decisions.
+A setting is applied only if it was confirmed on the recorded run and is certainly faster (advice.is_cheaper). So noise
+does not cause changes back and forth.
 """
 
 from collections.abc import Callable
@@ -13,7 +13,7 @@ from game.measure.survey import Survey
 
 
 class Decision(NamedTuple):
-    """A change of settings by the tuner."""
+    """A decision of the tuner to change the setting, applied or refused."""
 
     frame: int  # of the scene
     before: Setting
@@ -23,11 +23,11 @@ class Decision(NamedTuple):
 
 
 class Tuner:
-    """Automatic use of a survey's advice on settings. on: whether it is in use, False at first.
+    """Automatic application of a survey's advice on settings. on: whether the tuner is active, False at first.
 
     apply(setting) applies a setting. It returns the reason for a refusal, or "" if the setting was applied.
-    prove(setting) tries a setting on the recorded run. It returns the time as a share of the present time, a text with
-    the reason why the advice is withdrawn, or None while it is being tried.
+    prove(setting) tests a setting on the recorded run. It returns the time as a share of the present time, or None
+    while the test is running. If the advice is withdrawn, it returns a text with the reason.
     """
 
     def __init__(
@@ -38,7 +38,10 @@ class Tuner:
         self.decisions: list[Decision] = []
 
     def step(self, frame: int, here: Setting) -> Decision | None:
-        """Apply the present advice, unless it was refused before. Return the decision, None if there is none."""
+        """Apply the present advice if it is confirmed, unless it was refused before.
+
+        Return the Decision, or None if no decision was made. frame: frame of the scene; here: the current setting.
+        """
         if not self.on:
             return None
         best = advised(self.survey, here)

@@ -1,7 +1,7 @@
 """`python -m game.measure.worker`: the measuring process, which measures settings of worlds, sprites, runs and effects.
 
-Each line of JSON on standard input is an order that replaces the one before. Lines of JSON on standard output are
-results. The process ends when its standard input closes, so it never outlives the program that started it.
+Each line of JSON on standard input is an order, which replaces the previous one. Each line of JSON on standard output
+is a result. The process ends when its standard input closes, so it never outlives the program that started it.
 """
 
 import contextlib
@@ -34,12 +34,12 @@ NICE = 19  # of 0 to 19: the game has priority
 
 
 def sent(error: Error) -> dict[str, Any]:
-    """Return the JSON form of an error, which surveyor.error_of reads."""
+    """Return the JSON form of an error, which surveyor.error_of() reads."""
     return {**vars(error), "verdicts": None if error.verdicts is None else sent_verdicts(error.verdicts)}
 
 
 def sent_verdicts(verdicts: Verdicts) -> tuple[list, list, bool]:
-    """Return the JSON form of verdicts, which surveyor.verdicts_of reads."""
+    """Return the JSON form of verdicts, which surveyor.verdicts_of() reads."""
     return sorted(verdicts.reported), sorted(verdicts.true), verdicts.own
 
 
@@ -54,7 +54,7 @@ class Orders:
         self.changed = threading.Condition()
 
     def listen(self) -> None:
-        """Read orders until standard input closes, then exit the process at once."""
+        """Read orders until standard input closes. Then exit the process at once."""
         for line in sys.stdin:
             with self.changed:
                 self.latest = json.loads(line)
@@ -62,21 +62,24 @@ class Orders:
         os._exit(0)
 
     def next(self, after: dict[str, Any] | None) -> dict[str, Any]:
-        """Wait until the latest order is not `after`, and return it."""
+        """Wait until there is an order other than `after`, and return the latest order.
+
+        after: the previous order, or None.
+        """
         with self.changed:
             self.changed.wait_for(lambda: self.latest is not after)
             assert self.latest is not None
             return self.latest
 
     def holds(self, order: dict[str, Any]) -> bool:
-        """Return whether this order is still the latest."""
+        """Return whether `order` is still the latest order."""
         return self.latest is order
 
 
 def measure(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure every setting of a world, starting from the snapshot file that an order names.
+    """Measure every setting of a world. Each run starts from the snapshot file that the order names.
 
-    First, the errors and one timed run of each setting are reported, then further timed runs in random order while
+    First, the errors and one timed run of each setting are reported. Further timed runs in random order follow while
     goes_on() is True. report(line of JSON) is called for each result.
     """
     number = order["moment"]
@@ -105,7 +108,7 @@ def measure(order: dict[str, Any], report: Callable[[str], object], goes_on: Cal
 
 
 def measure_sprites(order: dict[str, Any], report: Callable[[str], object]) -> None:
-    """Measure every collision tier of the two sprites of an order, which names an .npz file.
+    """Measure every collision tier (kind of collision shape) for the two sprites in the .npz file that the order names.
 
     The file contains solid_0, origin_0, solid_1, origin_1. report(line of JSON) is called for each tier.
     """
@@ -116,10 +119,10 @@ def measure_sprites(order: dict[str, Any], report: Callable[[str], object]) -> N
 
 
 def measure_stored_runs(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure the runs of an order, and call report(line of JSON) after each run, while goes_on() is True.
+    """Measure the runs of an order while goes_on() is True. report(line of JSON) is called after each run.
 
-    order["runs"]: a dict of the fields of MeasuredRun for each run, with file names in place of snapshots, and lists in
-    place of Recipe and Act.
+    order["runs"]: for each run, a dict of the fields of MeasuredRun. It contains file names instead of snapshots, and
+    lists instead of Recipe and Act.
     """
     loaded = cache(Snapshot.load)  # a snapshot that several runs share is read once
 
@@ -144,10 +147,10 @@ def measure_stored_runs(order: dict[str, Any], report: Callable[[str], object], 
 
 
 def measure_costs(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure the cost of each choice of effects and of each effect from the snapshot of an order, with their kernels.
+    """Measure the time and the kernels of each choice of effects and of each effect, from the snapshot of an order.
 
-    report(line of JSON) is called for each result. The timing ends when goes_on() is False. order["each"]: whether the
-    single effects are timed.
+    report(line of JSON) is called for each result. The timing ends when goes_on() is False. order["each"]: whether each
+    effect is also timed.
     """
     moment = Moment(Snapshot.load(order["snapshot"]), order["broadphase"])
     choices = choices_of(moment)
@@ -173,7 +176,7 @@ def measure_costs(order: dict[str, Any], report: Callable[[str], object], goes_o
         threading.Thread(target=_listen, args=(counting.stdout, counted), daemon=True).start()
 
         def send_counts(wait):
-            """Report the kernel counts that have arrived. wait: whether to wait for all of them."""
+            """Report the kernel counts that have arrived. wait: True waits for all counts."""
             while wait or not counted.empty():
                 line = counted.get()
                 if line is None:
@@ -202,7 +205,7 @@ def measure_costs(order: dict[str, Any], report: Callable[[str], object], goes_o
 
 
 def _listen(lines, heard):
-    """Put each line into the queue `heard`, and None after the last line."""
+    """Put each line of `lines` into the queue `heard`, and None after the last line."""
     for line in lines:
         heard.put(line)
     heard.put(None)
@@ -212,9 +215,9 @@ Work = Callable[[dict[str, Any], Callable[[str], object], Callable[[], bool]], N
 
 
 def main(also: Mapping[str, Work] = MappingProxyType({})) -> None:
-    """Carry out orders until standard input closes.
+    """Execute orders until standard input closes.
 
-    also: {key: function} for orders that hold the key; the function is called with (order, report, goes_on).
+    also: {key: function} for orders that contain the key. The function is called with (order, report, goes_on).
     """
     with contextlib.suppress(OSError, AttributeError):
         os.nice(NICE)
