@@ -10,7 +10,10 @@ LegendLine = tuple[Color, str]
 
 
 class Layer:
-    """Overlay layer. key: the key that switches it; color: colour of its check box and of its first legend line."""
+    """Overlay layer.
+
+    key: the key that switches the layer; color: colour of its check box and of its first legend line.
+    """
 
     name: str
     title: str
@@ -21,19 +24,25 @@ class Layer:
     under: bool = False  # drawn before the other layers, since it fills areas
 
     def begin(self, views: int = 1) -> None:
-        """Start a new picture, in which the layer is drawn once in each of `views` views.
+        """Start a new picture with `views` views. draw() or draw_on_canvas() is then called once per view.
 
-        The views share the layer's limit of drawn objects evenly.
+        The layer's limit on drawn objects is divided evenly among the views.
         """
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the layer for a world at window resolution, if the layer has `on_frame`. lens: maps world to frame."""
+        """Draw the layer for a world at window resolution, if `on_frame` is set.
+
+        lens: maps world to frame coordinates.
+        """
 
     def draw_on_canvas(self, canvas: Canvas, camera: Camera, world: World) -> None:
-        """Draw the layer for a world on the canvas, as the camera shows it, if the layer has `on_canvas`."""
+        """Draw the layer for a world on the canvas, as seen by the camera, if `on_canvas` is set."""
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write the labels of the drawn objects where there is room. Called after all layers have been drawn."""
+        """Draw the labels of the drawn objects that cover no other text.
+
+        This is called after all layers have been drawn.
+        """
 
     def notes(self) -> list[LegendLine]:
         """Return the layer's lines for the legend, a list of (color, text)."""

@@ -1,6 +1,6 @@
 """Bounding boxes, the input of the broad phase: AABBs of shapes, and swept AABBs of bodies.
 
-A swept AABB, or bounding motion rectangle, covers a body's motion in one step.
+A swept AABB, also called bounding motion rectangle, covers a body's motion in one step.
 """
 
 from collections.abc import Sequence
@@ -22,10 +22,10 @@ BOX_BUDGET = 3000  # boxes drawn per picture; the note says how many there are
 
 
 def draw_boxes(frame: Frame, lens: Lens, rows: np.ndarray, palette: Sequence[Color], colors: np.ndarray) -> None:
-    """Draw the outlines of boxes at window resolution, small ones over large ones.
+    """Draw the outlines of boxes at window resolution. Large boxes are drawn first, so that small ones are over them.
 
-    rows: (n, 4) world boxes (min x, min y, max x, max y); palette: colours; colors: (n,) index into the palette for
-    each box.
+    rows: (n, 4) world boxes (min x, min y, max x, max y); palette: list of colours; colors: (n,) index into `palette`
+    of each box.
     """
     x0, y0 = lens.points(rows[:, 0], rows[:, 1])
     x1, y1 = lens.points(rows[:, 2], rows[:, 3])
@@ -50,9 +50,9 @@ def draw_boxes(frame: Frame, lens: Lens, rows: np.ndarray, palette: Sequence[Col
 
 @lru_cache(maxsize=2048)
 def outline(color: Color, width: int, height: int) -> pygame.Surface:
-    """Return an image of a box's outline. width, height [frame px].
+    """Return an image of the outline of a box of `width` x `height` frame px.
 
-    Images are cached, so that many equal boxes are drawn by one blit call.
+    The images are cached, so that many equal boxes can be drawn by one blit call.
     """
     image = pygame.Surface((width, height))
     clear = (0, 0, 0) if color[:3] != (0, 0, 0) else (255, 255, 255)
@@ -65,13 +65,13 @@ def outline(color: Color, width: int, height: int) -> pygame.Surface:
 class Bounds(Layer):
     """The tight AABB of every shape: orange if it is in a candidate pair, red if it is in contact, otherwise green.
 
-    Static shapes are grey, sensors pink.
+    AABBs of static shapes are grey, and those of sensors pink.
     """
 
     name, title, key, color = "bounds", "Bounding boxes", "1", GREEN
 
     def begin(self, views: int = 1) -> None:
-        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
+        """Start a new picture with `views` views. The limit on drawn objects is divided evenly among the views."""
         self.drawn = self.total = 0
         self.room = BOX_BUDGET // views
 
@@ -88,7 +88,7 @@ class Bounds(Layer):
         draw_boxes(frame, lens, rows[seen][order], COLORS, state[order])
 
     def notes(self) -> list[LegendLine]:
-        """Return (color, text) lines for the legend."""
+        """Return the lines of the layer for the legend, a list of (color, text)."""
         return [(self.color, f"boxes {self.drawn} of {self.total}"), (ORANGE, "boxes meet"), (RED, "touch")]
 
 
@@ -110,12 +110,12 @@ class Motion(Layer):
     name, title, key, color = "motion", "Motion rectangles", "2", SKY
 
     def begin(self, views: int = 1) -> None:
-        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
+        """Start a new picture with `views` views. The limit on drawn objects is divided evenly among the views."""
         self.drawn = self.total = 0
         self.room = BOX_BUDGET // views
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the swept AABBs of a world; lens: maps world to frame coordinates."""
+        """Draw the swept AABBs of a world's moving bodies. lens: maps world to frame coordinates."""
         rows = debug.motion(world)
         self.total += len(rows)
         if len(rows) == 0:
@@ -125,5 +125,5 @@ class Motion(Layer):
         draw_boxes(frame, lens, rows[seen], (self.color,), np.zeros(len(seen), int))
 
     def notes(self) -> list[LegendLine]:
-        """Return (color, text) lines for the legend."""
+        """Return the lines of the layer for the legend, a list of (color, text)."""
         return [(self.color, f"motion {self.drawn} of {self.total}")]

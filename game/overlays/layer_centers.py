@@ -1,4 +1,4 @@
-"""Centres of mass: for each body the point about which it rotates, its velocity, and its origin if elsewhere."""
+"""Centres of mass of bodies, with their velocities. A body rotates about its centre of mass."""
 
 import numpy as np
 import pygame
@@ -19,18 +19,18 @@ APART = 1.0  # [px] minimum distance of a drawn origin from the centre of mass
 class Centers(Layer):
     """A mark at the centre of mass of each dynamic body, as on a crash-test dummy.
 
-    An arrow shows the motion in 0.1 s, and a line leads to the body's origin if it is elsewhere.
+    An arrow shows the motion in 0.1 s. A line leads to the body's origin if that is another point.
     """
 
     name, title, key, color = "centers", "Centres of mass", "c", GOLD
 
     def begin(self, views: int = 1) -> None:
-        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
+        """Start a new picture with `views` views. The limit on drawn objects is divided evenly among the views."""
         self.drawn = self.total = 0
         self.room = CENTER_BUDGET // views
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the centres of mass of a world; lens: maps world to frame coordinates."""
+        """Draw the marks of a world's dynamic bodies. lens: maps world to frame coordinates."""
         bodies = world.bodies
         bodies = bodies[(bodies["kind"] == DYNAMIC) & ~bodies["quarantined"]]
         self.total += len(bodies)
@@ -51,12 +51,12 @@ class Centers(Layer):
             mark(frame.surface, x, y, angle, 2.0 * frame.scale)
 
     def notes(self) -> list[LegendLine]:
-        """Return (color, text) lines for the legend."""
+        """Return the lines of the layer for the legend, a list of (color, text)."""
         return [(self.color, f"centres {self.drawn} of {self.total}, arrow: 0.1 s"), (FOG, "origin, where elsewhere")]
 
 
 def mark(surface: pygame.Surface, x: float, y: float, angle: float, radius: float) -> None:
-    """Draw a crash-test mark: a disc of two dark and two light quarters, rotated by the body's angle [rad].
+    """Draw a crash-test mark: a disc of two dark and two light quarters, rotated by `angle` [rad].
 
     x, y, radius: centre and radius of the disc [surface px].
     """

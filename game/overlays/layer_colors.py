@@ -1,4 +1,4 @@
-"""Graph colouring: contacts of one colour share no dynamic body, so they can be solved in parallel."""
+"""Graph colours of the contacts. Contacts of one colour share no dynamic body, so they can be solved in parallel."""
 
 import numpy as np
 import pygame
@@ -25,7 +25,7 @@ class Colors(Layer):
     name, title, key, color = "colors", "Graph colours", "g", PINK
 
     def begin(self, views: int = 1) -> None:
-        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
+        """Start a new picture with `views` views. The limit on drawn objects is divided evenly among the views."""
         self.drawn = self.total = 0
         self.counts = np.zeros(0, int)
         self.overflow = 0
@@ -33,7 +33,7 @@ class Colors(Layer):
         self.labels = []
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the coloured contacts of a world; lens: maps world to frame coordinates."""
+        """Draw the contacts of a world in their colours. lens: maps world to frame coordinates."""
         rows = debug.contact_points(world)
         rows = rows[(rows["state"] == 1) | (rows["state"] == 2)]
         self.total += len(rows)
@@ -68,13 +68,13 @@ class Colors(Layer):
         self.counts = found
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write the numbers of the colours where there is room."""
+        """Write the number of the graph colour beside each contact, where it covers no other text."""
         scale = frame.text_scale
         for text, x, y, color in self.labels:
             frame.text_if_free(text, x + 3 * scale, y - 6 * scale, color, SMALL, scale, "left", True)
 
     def notes(self) -> list[LegendLine]:
-        """Return (color, text) lines for the legend."""
+        """Return the lines of the layer for the legend, a list of (color, text)."""
         used = np.flatnonzero(self.counts).tolist()
         lines = [(self.color, f"coloured {self.drawn} of {self.total} contacts, {len(used)} colours")]
         lines += [(color_of(i), f"{i}: {self.counts[i]}") for i in used[:LISTED]]
@@ -86,5 +86,5 @@ class Colors(Layer):
 
 
 def color_of(number: int) -> Color:
-    """Return the display colour of a graph colour; white for a negative number, which means no colour."""
+    """Return the display colour of a graph colour. A negative number means no graph colour, and gives white."""
     return SERIES[number % (len(SERIES) - 1)] if number >= 0 else WHITE

@@ -1,4 +1,4 @@
-"""Contacts: points where two shapes touch or are about to, with normals, depths and distances."""
+"""Contacts: the points where two shapes touch or are about to touch, with normals, depths and distances."""
 
 import numpy as np
 import pygame
@@ -19,19 +19,19 @@ COLORS = (FOG, GREEN, SKY, PINK, SLATE)
 
 
 class Contacts(Layer):
-    """A dot for each contact point in the colour of its state, with its normal from shape A to B and its depth [px]."""
+    """A dot at each contact point in the colour of its state, with its normal (from A to B) and its depth [px]."""
 
     name, title, key, color = "contacts", "Contacts and normals", "6", ORANGE
 
     def begin(self, views: int = 1) -> None:
-        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
+        """Start a new picture with `views` views. The limit on drawn objects is divided evenly among the views."""
         self.drawn = self.total = 0
         self.states = np.zeros(len(STATES), int)
         self.room = CONTACT_BUDGET // views
         self.labels = []  # (text, x, y, align, colour), drawn after all fixed text is placed
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the contact points of a world; lens: maps world to frame coordinates."""
+        """Draw the contact points of a world. lens: maps world to frame coordinates."""
         rows = debug.contact_points(world)
         self.total += len(rows)
         if len(rows) == 0:
@@ -70,17 +70,17 @@ class Contacts(Layer):
             self.labels.append((f"{depth:.1f}", end_x, end_y, "left" if nx >= 0 else "right", GOLD))
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write the depths of contacts, and the distances of speculative contacts, where there is room."""
+        """Write the depths of contacts and the distances of speculative contacts, where they cover no other text."""
         for text, x, y, align, color in self.labels:
             frame.text_if_free(text, x, y, color, SMALL, frame.text_scale, align, True)
 
     def notes(self) -> list[LegendLine]:
-        """Return (color, text) lines for the legend."""
+        """Return the lines of the layer for the legend, a list of (color, text)."""
         states = [(COLORS[i], f"{count} {STATES[i]}") for i, count in enumerate(self.states.tolist()) if count]
         return [(self.color, f"contacts {self.drawn} of {self.total}, px deep, + px apart"), *states]
 
 
 def seen_points(lens: Lens, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return the indices of the points (x, y) [frame px] that lie in the view."""
+    """Return the indices of the points (x, y) [frame px] that are inside the view of `lens`."""
     clip = lens.clip
     return np.flatnonzero((x >= clip.left) & (x < clip.right) & (y >= clip.top) & (y < clip.bottom))

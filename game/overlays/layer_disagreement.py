@@ -1,4 +1,4 @@
-"""False box hits: pairs with a sprite whose bounding boxes overlap but whose pixels do not."""
+"""False box hits: pairs of shapes, one of them a sprite, whose bounding boxes overlap although their pixels do not."""
 
 from collections import deque
 
@@ -21,10 +21,10 @@ OWN = "your box would have died here"
 
 
 def false_hits(world: World) -> tuple[np.ndarray, np.ndarray]:
-    """Return (hits, lies), two (n, 2) arrays of SHAPE rows: pairs whose bounding boxes overlap.
+    """Return (hits, lies), two (n, 2) arrays of SHAPE rows. Each row is a pair whose bounding boxes overlap.
 
-    hits: candidate pairs of the last step with a sprite in them; lies: those of them without a contact. Pairs with a
-    sensor are left out.
+    hits: candidate pairs of the last step that include a sprite; lies: the pairs of `hits` without a contact. Pairs
+    with a sensor are not included.
     """
     ids, pairs = np.ascontiguousarray(world.shapes["id"]), world.candidates.astype(np.int64)
     none = np.zeros((0, 2), np.int64)
@@ -45,7 +45,7 @@ def false_hits(world: World) -> tuple[np.ndarray, np.ndarray]:
 
 
 class Disagreement(Layer):
-    """The boxes of false hits, in red. Call note(scene) after each step while the layer is on.
+    """Overlay that draws the boxes of false hits in red. Call note(scene) after each step while the layer is on.
 
     A false hit on the player's body is also marked with a text.
     """
@@ -57,7 +57,7 @@ class Disagreement(Layer):
         self.begin()
 
     def clear(self) -> None:
-        """Reset the counts, because the scene changed or restarted."""
+        """Reset the counts. This is called when the scene has changed or restarted."""
         self.counts: deque[tuple[int, int]] = deque(maxlen=REMEMBERED)  # (box hits, false hits), by step
         self.marks: list[list] = []  # [age in steps, the player's box] of false hits on the player
         self.inside: dict[int, list] = {}  # body whose box overlaps the player's -> [player's box, whether they hit]
@@ -77,7 +77,7 @@ class Disagreement(Layer):
     def _mark_own(self, scene, hits, lies):
         """Add a mark for each false hit on the player's body that has ended in this step.
 
-        It has ended if the other body's box no longer overlaps the player's, and there was no contact while it did.
+        A false hit lasts while another body's box overlaps the player's box without any contact between the two bodies.
         hits, lies: results of false_hits().
         """
         own, world = scene.own_body, scene.world
@@ -98,13 +98,16 @@ class Disagreement(Layer):
         self.inside = now
 
     def begin(self, views: int = 1) -> None:
-        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
+        """Start a new picture with `views` views. The limit on drawn objects is divided evenly among the views."""
         self.drawn = self.total = 0
         self.room = LIE_BUDGET // views
         self.labels: list[tuple[int, float, float]] = []
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the boxes of false hits in a world, and the marks; lens: maps world to frame coordinates."""
+        """Draw the boxes of false hits in a world, and the marks on the player.
+
+        lens: maps world to frame coordinates.
+        """
         _, lies = false_hits(world)
         self.total += len(lies)
         boxes = debug.bounds(world)
@@ -126,7 +129,7 @@ class Disagreement(Layer):
                 frame.text_if_free(OWN, x, y - 8 * frame.text_scale, GOLD, SMALL, frame.text_scale, "center", True)
 
     def notes(self) -> list[LegendLine]:
-        """Return (color, text) lines for the legend."""
+        """Return the lines of the layer for the legend, a list of (color, text)."""
         hits, lies = (sum(column) for column in zip(*self.counts, strict=True)) if self.counts else (0, 0)
         lines = [(self.color, f"box hits without a shared pixel {self.drawn} of {self.total}")]
         if hits:

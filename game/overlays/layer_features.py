@@ -1,4 +1,7 @@
-"""Feature ids: numbers of the corners or faces that identify a contact point from step to step."""
+"""Feature ids of contact points.
+
+A feature id is the number of a corner or face, and identifies the point in later steps.
+"""
 
 import pygame
 
@@ -14,18 +17,21 @@ PER_LINK = 4096  # feature id on a chain or grid: PER_LINK times the number of t
 
 
 class Features(Layer):
-    """The feature id of each contact point, with a colour for each id. Both stay the same while a body slides."""
+    """The feature id of each contact point, in a colour that depends on the id.
+
+    Id and colour stay the same while a body slides.
+    """
 
     name, title, key, color = "features", "Feature ids", "f", PAPER
 
     def begin(self, views: int = 1) -> None:
-        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
+        """Start a new picture with `views` views. The limit on drawn objects is divided evenly among the views."""
         self.drawn = self.total = 0
         self.room = FEATURE_BUDGET // views
         self.labels = []
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the contact points of a world; lens: maps world to frame coordinates."""
+        """Draw the contact points of a world. lens: maps world to frame coordinates."""
         rows = debug.contact_points(world)
         self.total += len(rows)
         if len(rows) == 0:
@@ -39,7 +45,7 @@ class Features(Layer):
             self.labels.append((text_of(feature), x, y, color))
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write each id beside its point, at the first free one of four places."""
+        """Write each feature id beside its point, at the first of four positions where it covers no other text."""
         scale = frame.text_scale
         for text, x, y, color in self.labels:
             for dx, dy, align in ((3, -7, "left"), (-3, -7, "right"), (3, 3, "left"), (-3, 3, "right")):
@@ -48,14 +54,14 @@ class Features(Layer):
                     break
 
     def notes(self) -> list[LegendLine]:
-        """Return (color, text) lines for the legend.
+        """Return the layer's lines for the legend, a list of (color, text).
 
-        The count is that of the points, because the ids are written after the legend.
+        The legend counts the contact points, because the ids are written after the legend.
         """
         return [(self.color, f"feature ids {len(self.labels)} of {self.total}, where room")]
 
 
 def text_of(feature: int) -> str:
-    """Return a feature id as text: a number, or "link:corner" on chains and tiles."""
+    """Return a feature id as text: a number, or "link:corner" for chains and tiles."""
     link, corner = divmod(int(feature), PER_LINK)
     return f"{link}:{corner}" if link else f"{corner}"

@@ -1,6 +1,6 @@
-"""Collision filters: shapes with the same membership and mask have the same colour.
+"""Collision filters: shapes with the same membership and mask are drawn in the same colour.
 
-The legend says which may collide.
+The legend lists the filters and names the kinds of bodies that may collide.
 """
 
 import numpy as np
@@ -17,9 +17,9 @@ EVERYBODY = (0xFFFFFFFF, 0xFFFF)  # masks that include every kind
 
 
 class Filters(Layer):
-    """The box of each shape, drawn slightly smaller, in the colour of its filter.
+    """The box of each shape, drawn slightly smaller, in the colour of the shape's filter.
 
-    Two shapes may collide if the membership of each is in the other's mask.
+    Two shapes may collide if the membership of each is in the mask of the other.
     """
 
     name, title, key, color = "filters", "Filters by colour", "7", PINK
@@ -29,13 +29,13 @@ class Filters(Layer):
         self.begin()
 
     def begin(self, views: int = 1) -> None:
-        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
+        """Start a new picture with `views` views. The limit on drawn objects is divided evenly among the views."""
         self.kinds = {}  # (membership, mask) -> [colour, count]
         self.drawn = self.total = self.filtered = 0
         self.room = BOX_BUDGET // views
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the shapes' boxes of a world; lens: maps world to frame coordinates."""
+        """Draw the boxes of a world's shapes. lens: maps world to frame coordinates."""
         rows, shapes = debug.bounds(world), debug.shape_rows(world)
         self.total += len(rows)
         self.filtered += int(world.profile.counters["filtered"])
@@ -56,9 +56,10 @@ class Filters(Layer):
         draw_boxes(frame, lens, inner, colors, which[seen])
 
     def _who(self, word, written=32):
-        """Return the names of the kinds whose bits are set in `word`, a filter mask, as text.
+        """Return the names of the kinds of bodies whose bits are set in the filter mask `word`, as text.
 
-        written: greatest number of names in "a, b"; the others are counted. "all but c" is used where that is shorter.
+        written: greatest number of names in the text "a, b". Further names are only counted. If all kinds but c are
+        set, the text is "all but c".
         """
         if word in EVERYBODY:
             return "all"
@@ -74,7 +75,7 @@ class Filters(Layer):
         return ", ".join(named[:written]) + (f" and {more} more" if more > 0 else "") if named else "nobody"
 
     def notes(self) -> list[LegendLine]:
-        """Return (color, text) lines for the legend."""
+        """Return the lines of the layer for the legend, a list of (color, text)."""
         lines: list[LegendLine] = [(FOG, f"filter {self.drawn} of {self.total}, {self.filtered} pairs filtered")]
         listed = list(self.kinds.items())
         for (membership, mask), (color, count) in listed[:KINDS_LISTED]:

@@ -1,4 +1,4 @@
-"""Times of impact: the poses of fast bodies at their impacts during a step, and the poses without the impacts."""
+"""Impacts of fast bodies during a step: the poses at their times of impact, and the poses without the impacts."""
 
 import numpy as np
 import pygame
@@ -20,7 +20,8 @@ KEPT = 45  # steps for which an impact stays visible, fading
 class Ghosts(Layer):
     """Recent impacts of fast bodies, each with its time as a share of the step.
 
-    White: the body at its time of impact. Blue: the pose at which it would have ended the step without the impact.
+    The body at its time of impact is drawn in white. The pose that it would have had at the end of the step without the
+    impact is drawn in blue.
     """
 
     name, title, key, color = "ghosts", "Times of impact", "h", WHITE
@@ -30,13 +31,13 @@ class Ghosts(Layer):
         self.begin()
 
     def begin(self, views: int = 1) -> None:
-        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
+        """Start a new picture with `views` views. The limit on drawn objects is divided evenly among the views."""
         self.drawn = self.total = 0
         self.room = GHOST_BUDGET // views
         self.labels = []
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the recent impacts of a world; lens: maps world to frame coordinates."""
+        """Draw the recent impacts in a world. lens: maps world to frame coordinates."""
         kept = self._note(world)
         self.total += sum(1 for ghost in kept if ghost[0] == 0)
         width = max(1, frame.scale - 1)
@@ -55,9 +56,9 @@ class Ghosts(Layer):
                 self.labels.append((f"{fraction:.2f}", place[0], place[1], faded(WHITE, fading)))
 
     def _note(self, world):
-        """Return the recent impacts of a world, and update them if the world has been stepped since the last picture.
+        """Return the recent impacts in a world. They are updated if the world has been stepped since the last picture.
 
-        An update adds one to their ages, drops the old ones, and adds the impacts of the last step.
+        The update increments their ages, removes the old ones, and adds the impacts of the last step.
         """
         kept, step, last = self.kept.get(id(world), ([], None, None))
         now = world.events  # a new object in every step
@@ -72,10 +73,10 @@ class Ghosts(Layer):
         return kept
 
     def _fresh(self, world):
-        """Return the impacts of the last step.
+        """Return the impacts of the last step, each as [age 0, outlines, time, position, position without impact].
 
-        Each has the outlines of its body at two poses: at the time of impact, and at the end of the step without the
-        impact.
+        outlines: pairs of outlines of the body, at the time of impact and at the end of the step without the impact.
+        The time of impact is a share of the step. The positions are (x, y) [px].
         """
         ghosts = debug.impact_ghosts(world)[:GHOST_BUDGET]
         bodies, shapes = world.bodies, world.shapes
@@ -97,12 +98,12 @@ class Ghosts(Layer):
         return found
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write the times of impact, as shares of the step, where there is room."""
+        """Write the times of impact, as shares of the step, where they cover no other text."""
         for text, x, y, color in self.labels:
             frame.text_if_free(text, x, y - 4 * frame.text_scale, color, SMALL, frame.text_scale, "left", True)
 
     def notes(self) -> list[LegendLine]:
-        """Return (color, text) lines for the legend."""
+        """Return the lines of the layer for the legend, a list of (color, text)."""
         return [
             (self.color, f"impacts {self.drawn} of {self.total} in this step"),
             (SKY, "where they were going"),

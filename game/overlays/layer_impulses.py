@@ -19,9 +19,9 @@ FADE = 0.95  # factor per picture by which the scale decays after a peak
 
 
 class Impulses(Layer):
-    """Arrows for the impulses of each contact: normal impulse in red, friction impulse in yellow.
+    """Arrows for the impulses of each contact: the normal impulse in red, the friction impulse in yellow.
 
-    They are drawn as they act on body B, or on A if B cannot move. The legend names the scale.
+    The arrows show the impulses on body B, or on body A if B cannot move. The legend shows the scale.
     """
 
     name, title, key, color = "impulses", "Impulses", "9", RED
@@ -31,14 +31,14 @@ class Impulses(Layer):
         self.begin()
 
     def begin(self, views: int = 1) -> None:
-        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
+        """Start a new picture with `views` views. The limit on drawn objects is divided evenly among the views."""
         self.drawn = self.total = 0
         self.room = IMPULSE_BUDGET // views
         self.unit = step_of(self.level)
         self.level *= FADE
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the impulses of a world; lens: maps world to frame coordinates."""
+        """Draw the impulses of a world's contacts. lens: maps world to frame coordinates."""
         rows = debug.contact_points(world)
         rows = rows[(rows["normal_impulse"] != 0.0) | (rows["tangent_impulse"] != 0.0)]
         self.total += len(rows)
@@ -59,20 +59,23 @@ class Impulses(Layer):
             arrow(frame, at_x, at_y, -ny * across, nx * across, YELLOW)
 
     def notes(self) -> list[LegendLine]:
-        """Return (color, text) lines for the legend."""
+        """Return the lines of the layer for the legend, a list of (color, text)."""
         scale = f", {REFERENCE:.0f} px is {short(self.unit)}" if self.unit else ""
         return [(self.color, f"impulses {self.drawn} of {self.total}{scale}"), (YELLOW, "friction")]
 
 
 def can_move(bodies: np.ndarray, ids: np.ndarray) -> np.ndarray:
-    """Return (n,) bool: whether each body exists and has a finite mass. bodies: BODY rows; ids: (n,) body ids."""
+    """Return (n,) bool: whether each body exists and has finite mass.
+
+    bodies: BODY rows; ids: (n,) ids of the bodies.
+    """
     known = np.ascontiguousarray(bodies["id"])
     rows = np.minimum(np.searchsorted(known, ids), len(known) - 1)
     return (known[rows] == ids) & (bodies["inverse_mass"][rows] > 0.0)
 
 
 def arrow(frame: Frame, x: float, y: float, dx: float, dy: float, color: Color) -> None:
-    """Draw an arrow from (x, y) by (dx, dy) [frame px], shortened to at most LONGEST.
+    """Draw an arrow from (x, y) to (x + dx, y + dy) [frame px], shortened to at most LONGEST canvas px.
 
     An arrow shorter than a canvas pixel is not drawn.
     """
@@ -92,9 +95,9 @@ def arrow(frame: Frame, x: float, y: float, dx: float, dy: float, color: Color) 
 
 
 def step_of(value: float) -> float:
-    """Return the smallest of ..., 1, 2, 5, 10, 20, ... that is not below a positive value; 0 for 0.
+    """Return the smallest of the numbers ..., 1, 2, 5, 10, 20, ... that is at least `value`.
 
-    It is used as a scale that changes seldom.
+    Return 0 if `value` is not positive. Such a number is used as a scale that seldom changes.
     """
     if not 0.0 < value < float("inf"):
         return 0.0
@@ -103,7 +106,7 @@ def step_of(value: float) -> float:
 
 
 def short(value: float) -> str:
-    """Return a value that is 1, 2 or 5 times a power of ten as short text, such as "20k"."""
+    """Return `value`, which is 1, 2 or 5 times a power of ten, as short text such as "20k"."""
     for limit, divisor, letter in ((1e3, 1, ""), (1e6, 1e3, "k"), (1e9, 1e6, "M")):
         if value < limit:
             return f"{value / divisor:g}{letter}"

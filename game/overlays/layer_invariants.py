@@ -1,4 +1,4 @@
-"""Invariants of the simulation: eleven indicators, U1 to U11. Green: holds; red: broken; grey: off."""
+"""Invariants of the simulation, shown by eleven indicators, U1 to U11. Green: holds; red: broken; grey: not checked."""
 
 from collections.abc import Iterator
 
@@ -19,9 +19,10 @@ COUNTED = 999  # greatest number of breaks that is written
 
 
 class Invariants(Layer):
-    """Strip of indicators, each with its id, a word, and the number of times its invariant was broken.
+    """Strip of indicators. Each shows an invariant's id, a word, and the number of times the invariant was broken.
 
-    Below them is a message about the indicator under the pointer, or else about the invariant that was broken last.
+    Below them is a message about the indicator under the pointer. If the pointer is elsewhere, the message is about the
+    invariant that was broken last.
     """
 
     name, title, key, color = "invariants", "Invariants", "u", GREEN
@@ -32,7 +33,7 @@ class Invariants(Layer):
         self.places: list[tuple[pygame.Rect, InvariantStatus]] = []  # of the last picture
 
     def note(self, monitor: InvariantMonitor | None) -> None:
-        """Record the time that checking the invariants took in the last step. Call it after every step.
+        """Record the time that the checks of the invariants took in the last step. Call this after every step.
 
         monitor: the scene's monitor; None while the invariants are not checked.
         """
@@ -40,20 +41,26 @@ class Invariants(Layer):
             self.cost.note(monitor.seconds)
 
     def sizes(self, frame: Frame) -> Iterator[tuple[int, int]]:
-        """Yield the possible sizes (width, height) [frame px] of the strip, the widest first."""
+        """Yield the possible sizes (width, height) [frame px] of the strip, widest first."""
         scale = frame.text_scale
         for rows in ROWS:
             columns = -(-len(self.monitor.statuses) // rows)
             yield columns * self._width(frame) + 2 * MARGIN * scale, ((rows + 1) * LINE + 2 * MARGIN) * scale
 
     def _width(self, frame):
-        """Return the width [frame px] of an indicator with the gap beside it. All are as wide as the widest."""
+        """Return the width [frame px] of one indicator, including the gap beside it.
+
+        All indicators have the same width.
+        """
         scale = frame.text_scale
         widest = max(frame.measure(label_of(status), SMALL, scale)[0] for status in self.monitor.statuses)
         return widest + (LAMP + 2 + GAP) * scale
 
     def draw_strip(self, frame: Frame, rect: pygame.Rect, pointer: tuple[int, int] = (-1, -1)) -> None:
-        """Draw the strip into a frame rectangle of one of the sizes(). pointer: position of the mouse [frame px]."""
+        """Draw the strip into the frame rectangle `rect`, which has one of the sizes().
+
+        pointer: mouse position [frame px].
+        """
         scale = frame.text_scale
         frame.surface.fill(faded(NIGHT, 0.3), rect)
         pygame.draw.rect(frame.surface, SLATE, rect, 1)
@@ -84,8 +91,8 @@ class Invariants(Layer):
     def message_at(self, pointer: tuple[int, int]) -> tuple[Color, str]:
         """Return (colour, text) of the message below the indicators.
 
-        It is about the indicator under the pointer, or else about the invariant that was broken last, or else a
-        summary.
+        The message is about the invariant whose indicator is at `pointer`. If there is no indicator, the message is
+        about the invariant that was broken last. If no invariant was broken, it is a summary.
         """
         for place, status in self.places:
             if place.collidepoint(pointer):
@@ -100,7 +107,10 @@ class Invariants(Layer):
         return FOG, self.summary()
 
     def summary(self) -> str:
-        """Return a text: how many invariants hold, are broken and are off, and the time of checking them per frame."""
+        """Return text with the numbers of invariants that hold, are broken and are not checked.
+
+        The text also contains the time of the checks per frame.
+        """
         count = [status.state for status in self.monitor.statuses].count
         return (
             f"{count(states.GREEN)} hold, {count(states.RED)} broken, {count(states.GREY)} not asked, "
@@ -108,7 +118,7 @@ class Invariants(Layer):
         )
 
     def notes(self) -> list[LegendLine]:
-        """Return (color, text) legend lines for the invariants that are off, grouped by reason."""
+        """Return legend lines, a list of (color, text), for the invariants that are not checked, grouped by reason."""
         reasons: dict[str, list[str]] = {}
         for status in self.monitor.statuses:
             if status.state == states.GREY:
@@ -117,7 +127,7 @@ class Invariants(Layer):
 
 
 def label_of(status: InvariantStatus) -> str:
-    """Return the label of an indicator: id, word, and the number of times its invariant was broken.
+    """Return the label of an indicator: the id, a word, and the number of times the invariant was broken.
 
     status: the InvariantStatus that the indicator shows.
     """

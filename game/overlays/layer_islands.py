@@ -1,6 +1,6 @@
-"""Islands: groups of bodies connected by contacts.
+"""Islands: groups of bodies that are connected by contacts or joints.
 
-An island is solved together, and sleeps when all its bodies rest.
+The bodies of an island are solved together, and fall asleep together when all of them rest.
 """
 
 from collections.abc import Sequence
@@ -23,23 +23,23 @@ FILL, ASLEEP_FILL, EDGE = 46, 120, 200  # opacity of 255
 
 
 class Islands(Layer):
-    """Convex hull and shapes of each island in the island's colour.
+    """Convex hull of each island, and outlines of its shapes, in the island's colour.
 
-    Sleeping islands are grey, with a z on each body.
+    Sleeping islands are grey, with the letter z on each body.
     """
 
     name, title, key, color = "islands", "Islands, sleeping", "i", SERIES[1]
     under = True  # drawn before the other layers, since it fills areas
 
     def begin(self, views: int = 1) -> None:
-        """Start a new picture. Its `views` views share the limits of drawn objects evenly."""
+        """Start a new picture with `views` views. The limits on drawn objects are divided evenly among the views."""
         self.drawn = self.total = self.asleep = self.islands = 0
         self.found = False  # whether any world has the effect sleeping
         self.room, self.hulls = BODY_BUDGET // views, ISLAND_BUDGET // views
         self.labels = []
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the islands of a world; lens: maps world to frame coordinates."""
+        """Draw the islands of a world. lens: maps world to frame coordinates."""
         self.found |= world.effects.sleeping
         islands, bodies = debug.islands(world), world.bodies
         moving = bodies["kind"] == 2
@@ -67,8 +67,8 @@ class Islands(Layer):
     def _draw_hulls(self, frame, lens, boxes, islands, asleep):
         """Draw the translucent hulls of the islands, each on a surface of its own size.
 
-        A surface as large as the picture would cost 2 ms. boxes, islands, asleep: AABB (4,), number of the island (-1:
-        none) and sleep flag of each shape.
+        A surface of the picture's size would cost 2 ms. boxes, islands, asleep: for each shape, its AABB (4,), the
+        number of its island (-1 for none), and whether its body sleeps.
         """
         members = np.flatnonzero(islands >= 0)
         if len(members) == 0:
@@ -83,12 +83,12 @@ class Islands(Layer):
             draw_hull(frame.surface, lens.clip, hull, color, ASLEEP_FILL if sleeping else FILL, max(1, frame.scale - 1))
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write a z on each sleeping body, where there is room."""
+        """Write the letter z on each sleeping body, where it covers no other text."""
         for text, x, y, color in self.labels:
             frame.text_if_free(text, x, y, color, SMALL, frame.text_scale, "center", True)
 
     def notes(self) -> list[LegendLine]:
-        """Return (color, text) lines for the legend."""
+        """Return the lines of the layer for the legend, a list of (color, text)."""
         if not self.found:
             return [(FOG, "no islands: sleeping is not declared")]
         return [
@@ -98,7 +98,7 @@ class Islands(Layer):
 
 
 def hull_of(points: np.ndarray) -> list[list[float]]:
-    """Return an approximate convex hull of (n, 2) points: the farthest point in each of DIRECTIONS directions."""
+    """Return an approximate convex hull of `points` (n, 2): the farthest point in each of DIRECTIONS directions."""
     angles = np.arange(DIRECTIONS) * (2 * np.pi / DIRECTIONS)
     ways = np.column_stack((np.cos(angles), np.sin(angles)))
     return points[np.argmax(points @ ways.T, axis=0)].tolist()
@@ -107,9 +107,9 @@ def hull_of(points: np.ndarray) -> list[list[float]]:
 def draw_hull(
     surface: pygame.Surface, clip: pygame.Rect, hull: Sequence[Sequence[float]], color: Color, fill: int, width: int
 ) -> None:
-    """Draw the polygon `hull`, filled with opacity `fill` (0..255), and its edge.
+    """Draw the polygon `hull` with its edge, filled with opacity `fill` (0..255).
 
-    hull: corners (k, 2) on the surface; width: width of the edge [px]. The part outside `clip` costs no time.
+    hull: corners (k, 2) on the surface; width: width of the edge [px]. The part outside `clip` is not drawn.
     """
     x, y = zip(*hull, strict=True)
     left, top = floor(min(x)) - width, floor(min(y)) - width
@@ -124,5 +124,5 @@ def draw_hull(
 
 
 def color_of(island: int) -> Color:
-    """Return the colour of an island. island: its number; neighbouring numbers have different colours."""
+    """Return the colour of the island with the number `island`. Consecutive numbers have different colours."""
     return SERIES[int(island) * 5 % (len(SERIES) - 1)]

@@ -1,4 +1,4 @@
-"""Joints: anchors, axes, limits with the present value, and forces, of all joints of a world."""
+"""Joints of a world: their anchors, axes, limits with the present values, and forces."""
 
 from math import atan2, ceil, cos, hypot, inf, pi, sin
 
@@ -30,10 +30,10 @@ COLUMNS = (
 
 
 class Joints(Layer):
-    """The anchors of each joint with a line between them, its axis, its limits with the present value, and its force.
+    """For each joint: its anchors with a line between them, its axis, its limits with the present value, and its force.
 
-    Joints of trees that are solved exactly are green, those that are solved iteratively are blue, and sleeping or
-    disabled ones are grey. An arrow is the force on body B. A bar is the share of the breaking force.
+    Joints that the direct solver solves (trees) are green, those that are solved iteratively are blue, and sleeping or
+    disabled ones are grey. An arrow shows the force on body B. A bar shows the force as a share of the breaking force.
     """
 
     name, title, key, color = "joints", "Joints", "q", GREEN
@@ -43,7 +43,7 @@ class Joints(Layer):
         self.begin()
 
     def begin(self, views: int = 1) -> None:
-        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
+        """Start a new picture with `views` views. The limit on drawn objects is divided evenly among the views."""
         self.drawn = self.total = self.direct = self.asleep = self.breakable = 0
         self.found = False  # whether any world has the effect joints
         self.room = JOINT_BUDGET // views
@@ -52,7 +52,7 @@ class Joints(Layer):
         self.level *= FADE
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the joints of a world; lens: maps world to frame coordinates."""
+        """Draw the joints of a world. lens: maps world to frame coordinates."""
         self.found |= world.effects.joints
         if not len(world.joints):
             return
@@ -82,7 +82,7 @@ class Joints(Layer):
             draw_anchors(frame, lens, joint, tone)
 
     def _draw_spokes(self, frame, lens, world, rows):
-        """Draw a faint line from each anchor to the centre of mass of its body, which shows what a joint connects."""
+        """Draw a faint line from each anchor to the centre of mass of its body, which shows the connected bodies."""
         for side in ("a", "b"):
             held = rows[(rows[f"body_{side}"] != WORLD) & (rows["hold"] != GEARED)]
             bodies = world.bodies[world.rows(held[f"body_{side}"])]
@@ -92,7 +92,10 @@ class Joints(Layer):
                 pygame.draw.line(frame.surface, frame.tone(FOG), start, end)
 
     def _draw_line(self, frame, lens, joint, tone):
-        """Draw the line between the anchors; that of a pulley runs over its wheels, and a slack rope is thin."""
+        """Draw the line between the anchors of a joint in the colour `tone`. A slack rope is thin.
+
+        The line of a pulley joint runs over its wheels.
+        """
         slack = joint["coordinate"] == LENGTH and joint["value"] < joint["upper"] - 0.01 and joint["upper"] < inf
         width = 1 if slack or joint["hold"] in (GEARED, FREE) else max(1, frame.scale - 1)
         names = [("ax", "ay"), ("bx", "by")]
@@ -104,7 +107,7 @@ class Joints(Layer):
             pygame.draw.circle(frame.surface, tone, (x, y), 3 * frame.scale, max(1, frame.scale - 1))
 
     def _draw_limits(self, frame, lens, joint, tone):
-        """Draw the axis, the limits of the joint's coordinate, and the present value."""
+        """Draw the axis of a joint, the limits of its coordinate, and the present value, in the colour `tone`."""
         lower, upper = joint["lower"], joint["upper"]
         limited = lower > -inf or upper < inf
         if joint["coordinate"] == ANGLE and limited:
@@ -134,7 +137,10 @@ class Joints(Layer):
         self._label(f"{round(joint['value'], 2) + 0.0:.2f}", tip[0], tip[1], YELLOW)
 
     def _draw_range(self, frame, lens, joint, tone):
-        """Draw the range of a translation along the axis, or of a length from A's anchor, with a mark at its value."""
+        """Draw the range of a joint's coordinate, with a mark at its present value.
+
+        The coordinate is a translation along the axis, or the length of the joint measured from A's anchor.
+        """
         along = joint["coordinate"] == LENGTH
         free = OPEN * frame.scale / lens.scale
         low = max(joint["lower"], joint["value"] - free) if joint["lower"] == -inf else joint["lower"]
@@ -157,7 +163,10 @@ class Joints(Layer):
         self._label(f"{round(joint['value'], 1) + 0.0:.1f}", x + tick, y, YELLOW)
 
     def _draw_force(self, frame, lens, joint, share, awake):
-        """Draw the force on B as an arrow, and its share of the breaking force (negative: unbreakable) as a bar."""
+        """Draw the force on body B as an arrow, and `share` as a bar.
+
+        share: force divided by breaking force, negative if the joint is unbreakable; awake: whether the arrow is drawn.
+        """
         x, y = lens.points(joint["bx"], joint["by"])
         if self.unit and awake:
             scale = REFERENCE * frame.scale / self.unit
@@ -177,12 +186,12 @@ class Joints(Layer):
             self.labels.append((text, x, y, color))
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write the values of limited joints, and the shares of breaking forces, where there is room."""
+        """Write the values of limited joints and the shares of breaking forces, where they cover no other text."""
         for text, x, y, color in self.labels:
             frame.text_if_free(text, x, y, frame.tone(color), SMALL, frame.text_scale, "left", True)
 
     def notes(self) -> list[LegendLine]:
-        """Return (color, text) lines for the legend."""
+        """Return the lines of the layer for the legend, a list of (color, text)."""
         if not self.found:
             return [(FOG, "no joints: joints is not declared")]
         iterative = self.total - self.asleep - self.direct
@@ -199,9 +208,10 @@ class Joints(Layer):
 
 
 def anchored(world: World) -> np.ndarray:
-    """Return the rows of debug.joints(world); joints without anchors have the centres of mass of their bodies.
+    """Return the rows of debug.joints(world), with anchors added to the joints that have none.
 
-    These are the kinds that act on angles alone, and those that only prevent contacts.
+    These joints act on angles alone, or only prevent contacts. Their anchors are set to the centres of mass of the
+    bodies.
     """
     rows, bodies = debug.joints(world), world.bodies
     loose = ((rows["hold"] == FREE) & (rows["coordinate"] != LENGTH)) | (rows["hold"] == TOOTHED)
@@ -217,7 +227,7 @@ def anchored(world: World) -> np.ndarray:
 
 
 def is_awake(world: World) -> np.ndarray:
-    """Return (n,) bool: whether a body of each joint is dynamic and awake, in the order of world.joints."""
+    """Return (n,) bool: whether a dynamic body of each joint is awake, in the order of world.joints."""
     found, bodies = np.zeros(len(world.joints), bool), world.bodies
     for ids in (world.joints["body_a"], world.joints["body_b"]):
         mine = np.flatnonzero(ids != WORLD)
@@ -227,7 +237,7 @@ def is_awake(world: World) -> np.ndarray:
 
 
 def boxes_of(rows: np.ndarray) -> np.ndarray:
-    """Return the AABBs (n, 4) [px] of the anchors, and of the pulleys, of DRAWN_JOINT rows (n,)."""
+    """Return the (n, 4) AABBs [px] of the anchors and pulley wheels of joints. rows: (n,) DRAWN_JOINT."""
     x, y = (np.stack([rows["a" + axis], rows["b" + axis]]) for axis in ("x", "y"))
     hung = rows["hold"] == SLUNG
     if hung.any():
@@ -239,7 +249,7 @@ def boxes_of(rows: np.ndarray) -> np.ndarray:
 
 
 def draw_anchors(frame: Frame, lens: Lens, joint: dict, tone: Color) -> None:
-    """Draw a ring at A's anchor and a dot at B's. joint: a row of debug.joints as a dict."""
+    """Draw a ring at A's anchor and a dot at B's anchor. joint: a row of debug.joints() as a dict."""
     a, b = lens.points(joint["ax"], joint["ay"]), lens.points(joint["bx"], joint["by"])
     radius = frame.scale + 1
     if joint["coordinate"] == NO_COORDINATE and joint["hold"] == FREE:  # it has no forces

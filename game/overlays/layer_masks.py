@@ -1,7 +1,7 @@
 """Pixel masks as they are tested, the pixels in which two masks overlap, and the outlines used for collision response.
 
-Masks are drawn on the canvas before it is scaled: a mask pixel is a canvas pixel, so that the overlay lies exactly on
-the sprite. Outlines are drawn over it at window resolution, at the exact pose.
+Masks are drawn on the canvas before it is scaled. A mask pixel is a canvas pixel, so that the overlay matches the
+sprite exactly. The outlines are drawn over the masks at window resolution, at the exact pose.
 """
 
 from collections import OrderedDict
@@ -30,9 +30,10 @@ CACHE_SIZE = 512  # number of cached images; a rotating sprite has one for each 
 
 
 class Masks(Layer):
-    """Masks in blue with a light edge; pixels in which two masks overlap, in yellow.
+    """Masks in blue with a light edge. Pixels in which two masks overlap are yellow.
 
-    With collision response, the outline of each mask is drawn in white, with orange seams between its convex parts.
+    With collision response, the outline of each mask is drawn in white, and the seams between its convex parts in
+    orange.
     """
 
     name, title, key, color = "masks", "Masks, outlines", "5", BLUE
@@ -43,12 +44,12 @@ class Masks(Layer):
         self.begin()
 
     def begin(self, views: int = 1) -> None:
-        """Start a new picture. Its `views` views share the layer's limit of outline parts evenly."""
+        """Start a new picture with `views` views. The limit on outline parts is divided evenly among the views."""
         self.drawn = self.total = self.lit = self.parts = self.parts_in_all = 0
         self.room = PART_BUDGET // views
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the mask outlines of a world; lens: maps world to frame coordinates."""
+        """Draw the mask outlines of a world. lens: maps world to frame coordinates."""
         rows = np.flatnonzero(world.shapes["role"] == PART)
         self.parts_in_all += len(rows)
         if not len(rows):
@@ -60,7 +61,10 @@ class Masks(Layer):
         draw_lines(frame.surface, lens, edges.outer, WHITE, max(1, frame.scale - 1))
 
     def draw_on_canvas(self, canvas: Canvas, camera: Camera, world: World) -> None:
-        """Draw the masks of a world on the canvas. A zoomed view is skipped, because its pixels are not mask pixels."""
+        """Draw the masks of a world on the canvas.
+
+        Nothing is drawn if the camera is zoomed: canvas px are then not mask px.
+        """
         if camera.zoom != 1.0:
             return
         left, top = camera.view()
@@ -94,9 +98,10 @@ class Masks(Layer):
         del pixels  # unlocks the surface
 
     def _images(self, solid, place, view, palette):
-        """Yield (image, place) for the visible parts of the mask `solid`: one image, or one per block of a large mask.
+        """Yield (image, position) for the visible parts of the mask `solid`. A large mask has one image per block.
 
-        place: (x, y) of the mask on the canvas; view: visible rectangle of the canvas; palette: name of the colours.
+        place: (x, y) of the mask on the canvas; view: visible rectangle of the canvas; palette: name of the colour
+        palette.
         """
         (height, width), (x, y) = solid.shape, place
         if height <= BLOCK and width <= BLOCK:
@@ -111,8 +116,8 @@ class Masks(Layer):
     def _block(self, solid, left, top, palette):
         """Return the image of a block of a large mask; None if the block is empty.
 
-        left, top: first column and row of the block in `solid`. Images are cached by place and pixels, since carving
-        changes few blocks. palette: name of the colours.
+        left, top: first column and first row of the block in `solid`. Images are cached by position and pixels, since
+        carving changes few blocks. palette: name of the colour palette.
         """
         # With a margin of one pixel, so that no edge is drawn at the border of the block.
         part = solid[max(top - 1, 0) : top + BLOCK + 1, max(left - 1, 0) : left + BLOCK + 1]
@@ -127,9 +132,9 @@ class Masks(Layer):
         return image
 
     def _tinted(self, solid, palette):
-        """Return the image of a mask, cached by the id of the array `solid`.
+        """Return the image of the mask `solid`, cached by the id of the array `solid`.
 
-        The cache also holds the array itself, so that no other array gets the same id. palette: name of the colours.
+        The cache also holds the array, so that no other array can get the same id. palette: name of the colour palette.
         """
         kept, image = self.tinted.get((id(solid), palette), (None, None))
         if kept is not solid:
@@ -145,7 +150,7 @@ class Masks(Layer):
             self.tinted.popitem(last=False)
 
     def notes(self) -> list[LegendLine]:
-        """Return (color, text) lines for the legend."""
+        """Return the lines of the layer for the legend, a list of (color, text)."""
         lines = [(self.color, f"masks {self.drawn} of {self.total}"), (YELLOW, f"shared pixels {self.lit}")]
         if self.parts_in_all:
             lines.append((WHITE, f"outlines, {self.parts} of {self.parts_in_all} parts"))
@@ -154,7 +159,10 @@ class Masks(Layer):
 
 
 def mask_image(solid: np.ndarray, palette: str = "standard") -> pygame.Surface:
-    """Return a translucent image of a mask with light edge pixels. solid: (height, width) bool."""
+    """Return a translucent image of a mask with light edge pixels.
+
+    solid: (height, width) bool; palette: name of the palette.
+    """
     fill = (*toned(BLUE, palette), FILL)
     padded = np.pad(solid, 1)
     inner = padded[:-2, 1:-1] & padded[2:, 1:-1] & padded[1:-1, :-2] & padded[1:-1, 2:]

@@ -21,7 +21,7 @@ Edge = tuple[tuple[float, float], tuple[float, float], bool]  # start, end, whet
 
 
 class Outlines(Layer):
-    """The outline of every shape: green dynamic, blue kinematic, grey static, pink sensor.
+    """The outline of every shape: green for dynamic, blue for kinematic, grey for static bodies, and pink for sensors.
 
     Chains are hatched on their solid side. A mask is drawn as the outline used for collision, with darker seams between
     its convex parts.
@@ -30,12 +30,12 @@ class Outlines(Layer):
     name, title, key, color = "outlines", "Shapes", "l", GREEN
 
     def begin(self, views: int = 1) -> None:
-        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
+        """Start a new picture with `views` views. The limit on drawn objects is divided evenly among the views."""
         self.drawn = self.total = 0
         self.room = OUTLINE_BUDGET // views
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the outlines of a world's shapes; lens: maps world to frame coordinates."""
+        """Draw the outlines of a world's shapes. lens: maps world to frame coordinates."""
         boxes = debug.bounds(world)
         self.total += len(boxes)
         if len(boxes) == 0:
@@ -64,16 +64,19 @@ class Outlines(Layer):
                 draw_outline(frame.surface, lens, outline, color, width, frame.scale)
 
     def _draw_parts(self, frame, lens, world, rows, color, width):
-        """Draw the convex parts of mask outlines. rows: rows of world.shapes; width: width of the lines [frame px]."""
+        """Draw the convex parts of mask outlines.
+
+        rows: indices of rows of world.shapes; width: line width [frame px].
+        """
         if len(rows):
             edges = mask_edges(world, rows, lens.scale)
             draw_lines(frame.surface, lens, edges.inner, faded(color, 0.6))
             draw_lines(frame.surface, lens, edges.outer, color, width)
 
     def _draw_tiles(self, frame, lens, world, shape_id, color, width):
-        """Draw the edges of a tile grid's solid cells in `color`, and the tops of its one-way cells in orange.
+        """Draw the edges of a tile grid's solid cells in `color`, and the upper edges of its one-way cells in orange.
 
-        shape_id: id of the grid's shape; width: width of the lines [frame px].
+        shape_id: id of the tile grid's shape; width: line width [frame px].
         """
         row = world.shapes[np.searchsorted(world.shapes["id"], shape_id)]
         body = world.body(int(row["body"]))
@@ -83,7 +86,7 @@ class Outlines(Layer):
             pygame.draw.line(frame.surface, from_below if one_way else color, start, end, width)
 
     def notes(self) -> list[LegendLine]:
-        """Return (color, text) lines for the legend."""
+        """Return the lines of the layer for the legend, a list of (color, text)."""
         return [
             (self.color, f"shapes {self.drawn} of {self.total}"),
             (SKY, "kinematic"),
@@ -93,9 +96,9 @@ class Outlines(Layer):
 
 
 def edges_of(grid: Any, lens: Lens, x: float, y: float) -> Iterator[Edge]:
-    """Yield (start, end, one-way) for each edge of the visible cells of a TileGrid, in frame coordinates.
+    """Yield (start, end, one-way) for each edge of the visible cells of a TileGrid. Points are (x, y) [frame px].
 
-    x, y: position of its body [px]; one-way: whether the edge belongs to a one-way cell.
+    x, y: position of the grid's body [px]; one-way: whether the edge belongs to a one-way cell.
     """
     size, (rows, columns) = grid.tile_size, grid.solid.shape
     clip = lens.clip

@@ -1,4 +1,4 @@
-"""Candidate pairs: the pairs of shapes that the broad phase and the filter pass to the narrow phase."""
+"""Candidate pairs: the pairs of shapes that the broad phase and the filter pass on to the narrow phase."""
 
 import numpy as np
 import pygame
@@ -18,12 +18,12 @@ class Pairs(Layer):
     name, title, key, color = "pairs", "Candidate pairs", "4", RED
 
     def begin(self, views: int = 1) -> None:
-        """Start a new picture. Its `views` views share the limit of drawn objects evenly."""
+        """Start a new picture with `views` views. The limit on drawn objects is divided evenly among the views."""
         self.drawn = self.total = self.hits = 0
         self.room = PAIR_BUDGET // views
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the candidate pairs of a world; lens: maps world to frame coordinates."""
+        """Draw the candidate pairs of a world. lens: maps world to frame coordinates."""
         rows = debug.pairs(world)
         self.total += len(rows)
         if len(rows) == 0:
@@ -49,5 +49,5 @@ class Pairs(Layer):
             line(surface, hit if rows[seen[i], 4] else miss, starts[i], ends[i])
 
     def notes(self) -> list[LegendLine]:
-        """Return (color, text) lines for the legend."""
+        """Return the lines of the layer for the legend, a list of (color, text)."""
         return [(self.color, f"pairs {self.drawn} of {self.total}, {self.hits} hit")]

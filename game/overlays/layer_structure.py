@@ -1,4 +1,4 @@
-"""Structure of the broad phase: cells of the grid, boxes of the tree (coloured by depth), or intervals of the sweep."""
+"""Structure of the broad phase: cells of a grid, boxes of a tree (coloured by depth), or intervals of a sweep."""
 
 from collections.abc import Iterable
 
@@ -17,18 +17,18 @@ DEPTHS = tuple(faded(color, amount) for color in (PINK, YELLOW, GREEN, SKY, BLUE
 
 
 class Structure(Layer):
-    """The data structure of the world's broad phase. For brute force, which has none, the legend says so."""
+    """The data structure of the world's broad phase. Brute force has no structure, and the legend says so."""
 
     name, title, key, color = "structure", "Structure", "3", YELLOW
 
     def begin(self, views: int = 1) -> None:
-        """Start a new picture. Its `views` views share the layer's limits of drawn objects evenly."""
+        """Start a new picture with `views` views. The limits on drawn objects are divided evenly among the views."""
         self.drawn = self.total = 0
         self.views = views
         self.kinds = []
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the broad phase's structure of a world; lens: maps world to frame coordinates."""
+        """Draw the structure of a world's broad phase. lens: maps world to frame coordinates."""
         found = debug.structure(world)
         self.kinds.append(found.kind)
         self._rects(frame, lens, found)
@@ -47,9 +47,9 @@ class Structure(Layer):
         draw_boxes(frame, lens, rows[seen], DEPTHS, found.depth[seen] % len(DEPTHS))
 
     def _intervals(self, frame, lens, rows):
-        """Draw the sweep's intervals as bars along the top of the view (x axis) and along its left side (y axis).
+        """Draw the intervals of the sweep as bars: x axis along the top of the view, y axis along its left side.
 
-        rows (n, 3): axis (0 for x, 1 for y), low and high end [px] of each interval.
+        rows: (n, 3) axis (0 for x, 1 for y), low end [px] and high end [px] of each interval.
         """
         self.total += len(rows)
         if len(rows) == 0:
@@ -72,7 +72,7 @@ class Structure(Layer):
                 frame.surface.fill(pink, (clip.left + across, clip.top + first, thick, last - first))
 
     def notes(self) -> list[LegendLine]:
-        """Return (color, text) lines for the legend."""
+        """Return the lines of the layer for the legend, a list of (color, text)."""
         kinds = "/".join(dict.fromkeys(self.kinds))
         if self.total == 0:
             return [(FOG, f"{kinds}: keeps no structure")]
@@ -84,10 +84,10 @@ class Structure(Layer):
 def covered(
     low: np.ndarray, high: np.ndarray, lanes: np.ndarray, count: int, length: int
 ) -> Iterable[tuple[int, int, int]]:
-    """Return (lane, first, last) bars that cover the same places as the intervals. Overlapping intervals are merged.
+    """Return (lane, first, last) of the bars that cover the given intervals.
 
-    low, high: (n,) ends of the intervals, whole numbers 0..length; lanes: (n,) lane in which each is drawn, below
-    `count`.
+    Overlapping intervals in a lane are merged. low, high: (n,) ends of the intervals, whole numbers 0..length; lanes:
+    (n,) lane in which each interval is drawn; count: number of lanes.
     """
     edges = np.zeros((count, length + 1), int)
     np.add.at(edges, (lanes, low), 1)
@@ -98,7 +98,7 @@ def covered(
 
 
 def thinned(rows: np.ndarray, room: int) -> np.ndarray:
-    """Return at most `room` elements of the array `rows`, evenly spaced in it; all if there are no more than `room`."""
+    """Return at most `room` elements of the array `rows`, evenly spaced; all elements if there are at most `room`."""
     if len(rows) <= room:
         return rows
     return rows[np.linspace(0, len(rows) - 1, room).astype(int)]

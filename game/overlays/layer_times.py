@@ -38,16 +38,16 @@ PLOT_LEAST = 10  # [text px] least height of the bars under the text
 
 
 class Table(NamedTuple):
-    """A table: a heading and (colour, name, value) lines."""
+    """A table with a heading, and rows of (colour, name, value)."""
 
     head: str
     rows: Sequence[tuple[Color, str, str]]
 
 
 class Times(Layer):
-    """Stage times of a scene. Call note(scene) once per step.
+    """Stage times of a scene's steps. Call note(scene) once per step.
 
-    draw_graph() draws the graph and the tables into a rectangle.
+    draw_graph() draws a graph and tables of the times into a rectangle.
     """
 
     name, title, key, color = "times", "Stage times", "8", GOLD
@@ -56,7 +56,7 @@ class Times(Layer):
         self.clear()
 
     def clear(self) -> None:
-        """Clear the history. Called when the scene has changed."""
+        """Clear the history. This is called when the scene has changed."""
         self.steps = []  # per step: {stage: ms}
         self.totals = []  # [ms] sum over the stages of each of these steps
         self.total = Typical()  # [ms]
@@ -67,7 +67,7 @@ class Times(Layer):
         self.sheet, self.sheet_for = pygame.Surface((0, 0)), None
 
     def note(self, scene: Scene) -> None:
-        """Record the stage times and counters of the last step of all worlds."""
+        """Record the stage times and counters of the last step, summed over all worlds of the scene."""
         step, counters = {}, {}
         for world in scene.worlds:
             for name, seconds in world.profile.stages.items():
@@ -85,9 +85,9 @@ class Times(Layer):
             self.stages[name].note(spent)
 
     def sizes(self, frame: Frame) -> Iterator[tuple[int, int]]:
-        """Yield useful sizes (width, height) [frame px] of the graph with its tables, the largest first.
+        """Yield useful sizes (width, height) [frame px] of the graph with its tables, largest first.
 
-        All sizes show every stage.
+        All of these sizes have room for every stage.
         """
         stages, counters = self._tables()
         wide = [_column_width(frame, table, 1) + GAP for table in (stages, counters)]
@@ -101,10 +101,10 @@ class Times(Layer):
             yield (width + 2 * MARGIN) * scale, (height + 2 * MARGIN) * scale
 
     def draw_graph(self, frame: Frame, rect: pygame.Rect) -> None:
-        """Draw the graph at the left of a frame rectangle, the table of stages beside it, the counters at the right.
+        """Draw the graph, the table of stages and the table of counters into a frame rectangle, from left to right.
 
-        If there is no room for both tables, the counters are left out. In a narrow rectangle the stages are drawn below
-        the graph.
+        If both tables do not fit, the counters are left out. In a narrow rectangle, the stages are drawn below the
+        graph.
         """
         scale, self.rect = frame.text_scale, pygame.Rect(rect)
         frame.surface.fill(faded(NIGHT, 0.3), rect)
@@ -144,7 +144,10 @@ class Times(Layer):
         return SERIES[names.index(name) % len(SERIES)] if name in self.stages else FOG
 
     def _graph(self, frame, rect, scale):
-        """Draw up to three lines of text, and the bars of the stage times below them."""
+        """Draw up to three lines of text, and below them the graph of the stage times as bars.
+
+        scale: frame px per text px.
+        """
         totals = sorted(self.totals) or [0.0]
         # A single slow step (compilation, garbage collection) must not flatten the others: it is cut, with a white cap.
         top = round_up(max(LEAST_TOP, totals[int(len(totals) * SCALED_TO)] * 1.1))
@@ -163,10 +166,10 @@ class Times(Layer):
             pygame.draw.line(frame.surface, SLATE, (plot.left, y), (plot.right - 1, y))
 
     def _scroll(self, size, top, palette):
-        """Update the image of the bars: scroll it, and paint the new steps at its right side.
+        """Update the image of the bars: scroll the image to the left, and paint the new steps at its right side.
 
-        size: size of the image [frame px]; top: time at its upper edge [ms]; palette: name of the colours. If one of
-        these has changed, everything is painted.
+        size: size of the image [frame px]; top: time at its upper edge [ms]; palette: name of the colour palette. If
+        size, top or palette has changed, the whole image is painted.
         """
         column = max(1, size[0] // HISTORY)
         new = self.noted - self.painted
@@ -196,13 +199,16 @@ class Times(Layer):
 
 
 def _split(table, lines):
-    """Return a table as a list of tables of at most `lines` lines, each with the same heading."""
+    """Return a table as a list of tables of at most `lines` lines. Each has the heading as its first line."""
     rows = max(1, lines - 1)
     return [Table(table.head, table.rows[first : first + rows]) for first in range(0, max(len(table.rows), 1), rows)]
 
 
 def _cut(table, lines):
-    """Return a table cut to `lines` lines. The last line of a cut table says how many are left out."""
+    """Return a table shortened to `lines` lines.
+
+    The last line of a shortened table contains the number of omitted rows.
+    """
     if len(table.rows) < lines:
         return table
     kept = table.rows[: max(lines - 2, 0)]
@@ -219,9 +225,9 @@ def _draw_table(frame, table, x, y, width, scale):
 
 
 def round_up(value: float) -> float:
-    """Return the smallest of 0.1, 0.2, 0.5, 1, 2, 5, 10, ... that is not below a value.
+    """Return the smallest of the numbers 0.1, 0.2, 0.5, 1, 2, 5, 10, ... that is at least `value`.
 
-    Such a scale is readable and changes seldom.
+    Such a number makes a readable scale that seldom changes.
     """
     power = 0.1
     while True:
@@ -232,7 +238,10 @@ def round_up(value: float) -> float:
 
 
 def _column_width(frame, table, scale):
-    """Return the width [frame px] of a table at a text scale, with its longest name and longest expected number."""
+    """Return the width [frame px] that a table needs for its longest name and its longest expected number.
+
+    scale: frame px per text px.
+    """
     longest = max((frame.measure(plain_name(name), SMALL, scale)[0] for _, name, _ in table.rows), default=0)
     digits = " 999999" if table.head.startswith("stage") else " 9999999"
     return longest + frame.measure(digits, SMALL, scale)[0] + 6 * scale

@@ -11,9 +11,9 @@ from physics.tables.shape import PART, POLYGON
 
 
 class MaskEdges(NamedTuple):
-    """Edges of the convex parts of masks, for drawing: `outer` on the outline, `inner` between two parts.
+    """Edges of the convex parts of masks, for drawing. `outer`: edges on the outline; `inner`: seams between two parts.
 
-    Each is an (n, 4) array of lines in world coordinates [px], with columns ax, ay, bx, by.
+    `outer` and `inner` are (n, 4) arrays of lines in world coordinates [px], with columns ax, ay, bx, by.
     """
 
     outer: np.ndarray  # edges that contacts, casts and characters use
@@ -21,11 +21,11 @@ class MaskEdges(NamedTuple):
 
 
 def mask_edges(world: World, rows: np.ndarray, scale: float = 1.0) -> MaskEdges:
-    """Return the lines of mask outlines, a MaskEdges.
+    """Return the lines of mask outlines, as MaskEdges.
 
-    rows: rows of world.shapes; rows that are no part of a mask's outline are ignored. The edges of a rounded part lie
-    `radius` outside its polygon, with arcs around the corners. scale: frame px per world px, which sets the fineness of
-    the arcs.
+    rows: indices of rows of world.shapes. Rows that are not part of a mask's outline are ignored. The edges of a
+    rounded part are at the distance `radius` outside its polygon, with arcs around the corners. scale: frame px per
+    world px, which determines the number of segments per arc.
     """
     edges = debug.part_edges(world, rows)
     outer, inner = [], []
@@ -49,10 +49,10 @@ def mask_edges(world: World, rows: np.ndarray, scale: float = 1.0) -> MaskEdges:
 
 
 def _arcs(edges, facing, scale):
-    """Yield (lines, hidden) for the arc around each corner of a rounded part. hidden: whether it is inside the outline.
+    """Yield (lines, hidden) for the arc around each corner of a rounded part.
 
-    edges: rows of debug.part_edges(); facing: (n,) angle of each edge's outward normal [rad]; scale: as in
-    mask_edges().
+    hidden: whether the arc is inside the outline. edges: rows of debug.part_edges(); facing: (n,) angle of each edge's
+    outward normal [rad]; scale: as in mask_edges().
     """
     rounded = np.flatnonzero(edges["radius"] > 0.0)
     if not len(rounded):

@@ -1,4 +1,7 @@
-"""Thin lines around shapes of every kind, made from the outlines of physics.debug; used by overlays and labs."""
+"""Thin lines around shapes of every kind, made from the outlines of physics.debug.
+
+Overlays and labs draw these lines.
+"""
 
 from collections.abc import Sequence
 from itertools import pairwise
@@ -20,10 +23,10 @@ TICK_BUDGET = 400  # most ticks drawn for one chain
 
 
 def ring(points: Sequence[Sequence[float]], radius: float, scale: float) -> list[Point]:
-    """Return the outline of a convex shape rounded by `radius`, as a list of corners (x, y).
+    """Return the outline of a convex shape that is rounded by `radius`, as a list of corners (x, y).
 
-    points: (k, 2) corners of the shape, clockwise on the screen; scale: frame px per world px, which sets the fineness
-    of the arcs.
+    points: (k, 2) corners of the shape, clockwise on the screen; scale: frame px per world px, which determines the
+    number of segments per arc.
     """
     count = len(points)
     if count == 1:
@@ -53,9 +56,9 @@ def _steps(turn, radius, scale):
 
 
 def corners_of(outline: tuple, scale: float = 1.0) -> tuple[list[Point], bool] | None:
-    """Return (corners [(x, y), ...] in the world, whether the outline is closed); None for masks and tiles.
+    """Return (corners, closed) of an outline of physics.debug; None for masks and tiles.
 
-    outline: an outline of physics.debug; scale: as in ring().
+    corners: list of (x, y) in the world; closed: whether the outline is closed; scale: as in ring().
     """
     kind = outline[0]
     if kind == "circle":
@@ -73,7 +76,7 @@ def corners_of(outline: tuple, scale: float = 1.0) -> tuple[list[Point], bool] |
 
 
 def clockwise(points: ArrayLike) -> list[list[float]]:
-    """Return the corners of a polygon as a list, reversed if they are not clockwise on the screen."""
+    """Return the corners of a polygon as a list, in clockwise order on the screen. Other orders are reversed."""
     points = np.asarray(points, float)
     x, y = points[:, 0], points[:, 1]
     area = float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
@@ -81,9 +84,9 @@ def clockwise(points: ArrayLike) -> list[list[float]]:
 
 
 def moved(outline: tuple, start: Pose, end: Pose) -> tuple:
-    """Return an outline of physics.debug, or ("lines", (2n, 2) points), moved along with its body.
+    """Return an outline, moved with its body from the pose `start` to the pose `end`.
 
-    start, end: poses (x, y, angle) of the body before and after.
+    outline: an outline of physics.debug, or ("lines", (2n, 2) points). A pose is (x, y, angle).
     """
     turn = end[2] - start[2]
     cosine, sine = cos(turn), sin(turn)
@@ -106,9 +109,9 @@ def moved(outline: tuple, start: Pose, end: Pose) -> tuple:
 def draw_outline(
     surface: pygame.Surface, lens: Lens, outline: tuple, color: Color, width: int = 1, scale: int = 1
 ) -> None:
-    """Draw an outline of physics.debug; a chain gets hatching on its solid side.
+    """Draw an outline of physics.debug. A chain is also hatched on its solid side.
 
-    lens: maps world to frame; width: width of the lines [frame px]; scale: frame px per canvas px.
+    lens: maps world to frame coordinates; width: line width [frame px]; scale: frame px per canvas px.
     """
     kind = outline[0]
     if kind == "lines":
@@ -130,7 +133,10 @@ def draw_outline(
 
 
 def draw_lines(surface: pygame.Surface, lens: Lens, lines: np.ndarray, color: Color, width: int = 1) -> None:
-    """Draw separate lines. lines: (n, 4) in world coordinates, with columns ax, ay, bx, by."""
+    """Draw separate lines.
+
+    lines: (n, 4) in world coordinates, with columns ax, ay, bx, by; width: line width [frame px].
+    """
     ax, ay = lens.points(lines[:, 0], lines[:, 1])
     bx, by = lens.points(lines[:, 2], lines[:, 3])
     draw = pygame.draw.line
@@ -139,7 +145,7 @@ def draw_lines(surface: pygame.Surface, lens: Lens, lines: np.ndarray, color: Co
 
 
 def _draw_ticks(surface, clip, points, color, scale):
-    """Draw hatching on the solid side of a chain, which is opposite to its normals.
+    """Draw hatching on the solid side of a chain, which is the side opposite to its normals.
 
     points: corners of the chain [frame px]; scale: frame px per canvas px.
     """

@@ -1,4 +1,4 @@
-"""The stack of overlay layers over a scene: which layers are on, their drawing, and their legend."""
+"""The stack of overlay layers over a scene: the layers that are on, their drawing, and their legend."""
 
 from collections.abc import Iterable, Sequence
 from typing import TypeVar
@@ -71,21 +71,21 @@ class Overlays:
         self.on = set(on)
 
     def _only(self, kind: type[Kind]) -> Kind:
-        """Return the layer of the class `kind`, of which there is exactly one."""
+        """Return the only layer of the class `kind`."""
         return next(each for each in self.layers if isinstance(each, kind))
 
     def toggle(self, name: str) -> None:
-        """Switch a layer on or off."""
+        """Switch the layer `name` on or off."""
         self.on ^= {name}
 
     def toggle_all(self) -> None:
-        """Switch all layers off if any is on, else all on."""
+        """Switch all layers off if any layer is on. Otherwise, switch all layers on."""
         self.on = set() if self.on else {layer.name for layer in self.layers}
 
     def note(self, scene: Scene) -> None:
-        """Record a step in the layers that need every step. Call it after every step.
+        """Record a step in the layers that need every step. Call this after every step.
 
-        Monitoring of the invariants begins one step after their layer is shown.
+        The checks of the invariants begin one step after the layer of the invariants is shown.
         """
         self.times.note(scene)
         self.invariants.note(scene.monitor)
@@ -94,9 +94,9 @@ class Overlays:
         self.watch(scene)
 
     def watch(self, scene: Scene) -> None:
-        """Start monitoring the scene's invariants if their layer is on, and stop it if the layer is off.
+        """Start the checks of the scene's invariants if the layer of the invariants is on. Otherwise, stop them.
 
-        A strict monitor keeps running.
+        The checks of a strict monitor are not stopped.
         """
         shown = "invariants" in self.on
         if shown and scene.monitor is None:
@@ -105,11 +105,11 @@ class Overlays:
             scene.watch_invariants(False)
 
     def shows_geometry(self) -> bool:
-        """Return whether a layer is on that draws things of the world. Sprites are then drawn at exact poses."""
+        """Return whether a layer is on that draws objects of the world. Sprites are then drawn at exact poses."""
         return bool(self.on - {"times", "invariants"})
 
     def draw_on_canvas(self, canvas: Canvas, scene: Scene) -> None:
-        """Draw the layers that must match canvas pixels exactly. Call it before the canvas is scaled."""
+        """Draw the layers that must match canvas pixels exactly. Call this before the canvas is scaled."""
         for layer in self._active("on_canvas"):
             layer.begin(len(scene.views()))
             for world, camera in scene.views():
@@ -130,18 +130,21 @@ class Overlays:
             surface.set_clip(None)
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write the labels of drawn objects. Call it last, because labels are only written at free places."""
+        """Write the labels of the drawn objects.
+
+        Call this last, because labels are only written where they cover no other text.
+        """
         for layer in self._active("on_frame"):
             layer.draw_labels(frame)
 
     def legend(self) -> list[LegendLine]:
-        """Return the (color, text) legend lines of all layers that are on, in the order of the panel."""
+        """Return the legend lines (color, text) of all layers that are on, in the order of the panel."""
         return [line for layer in self.layers if layer.name in self.on for line in layer.notes()]
 
     def draw_floating(self, frame: Frame, legend_at: tuple[int, int] | None = None) -> None:
-        """Draw the legend, the stage times and the invariants over the game, at places without text.
+        """Draw the legend, the stage times and the invariants over the game, where they cover no text.
 
-        legend_at: place to try first for the legend [canvas px], or None.
+        legend_at: position to try first for the legend [canvas px], or None.
         """
         area = frame.area.clip(frame.rect)
         scale = frame.text_scale
@@ -158,7 +161,7 @@ class Overlays:
         self._draw_legend(frame, area, legend_at, scale)
 
     def _draw_invariants(self, frame, area, scale):
-        """Draw the strip of invariants, centred, close to the bottom or the top, in as few rows as fit."""
+        """Draw the strip of invariants, centred, near the lower or upper edge of `area`, in as few rows as fit."""
         for size in self.invariants.sizes(frame):
             margin = 4 * scale
             top, bottom = area.top + margin, area.bottom - size[1] - margin
@@ -170,13 +173,17 @@ class Overlays:
                 return
 
     def put_invariants(self, frame: Frame, rect: pygame.Rect) -> None:
-        """Draw the strip of invariants into a rectangle, and reserve it so that no other text is placed there."""
+        """Draw the strip of invariants into a rectangle, and reserve the rectangle so that other text avoids it."""
         there = pygame.display.get_init() and pygame.mouse.get_focused()
         self.invariants.draw_strip(frame, rect, pygame.mouse.get_pos() if there else (-1, -1))
         frame.reserve(rect)
 
     def _draw_legend(self, frame, area, legend_at, scale):
-        """Draw the legend at a free place. If lines are left out to make it fit, its last line counts them."""
+        """Draw the legend where it covers no text.
+
+        If the legend does not fit, lines are left out, and its last line gives their number. legend_at: position to try
+        first [canvas px], or None; scale: frame px per text px.
+        """
         lines = self.legend()
         for room in (len(lines), *(count for count in SHORTER if count < len(lines))):
             if not lines:
@@ -197,7 +204,7 @@ class Overlays:
                 return
 
     def _active(self, where):
-        """Return the layers that are on and have the attribute `where`, in drawing order.
+        """Return the layers that are on and whose attribute `where` is True, in drawing order.
 
         where: "on_canvas" or "on_frame". Layers that fill areas are drawn first.
         """
@@ -206,7 +213,7 @@ class Overlays:
 
 
 def legend_size(frame: Frame, lines: Sequence[LegendLine], scale: int) -> tuple[int, int]:
-    """Return (width, height) [frame px] of a legend with its margin."""
+    """Return (width, height) [frame px] of a legend including its margin. scale: frame px per text px."""
     widest = max(frame.measure(text, SMALL, scale)[0] for _, text in lines)
     return widest + 12 * scale, len(lines) * 7 * scale + 5 * scale
 
@@ -216,7 +223,7 @@ def legend_columns(
 ) -> list[list[LegendLine]]:
     """Return the legend's lines as columns that fit into width x height [frame px]; an empty list if nothing fits.
 
-    If lines are left out, the last line counts them. scale: frame pixels of a text pixel.
+    If lines are left out, the last line gives their number. scale: frame px per text px.
     """
     rows = max(1, (height - 5 * scale) // (7 * scale))
     for shown in range(len(lines), 0, -1):
@@ -228,7 +235,10 @@ def legend_columns(
 
 
 def draw_legend(frame: Frame, lines: Sequence[LegendLine], x: int, y: int, scale: int) -> None:
-    """Draw the legend, a coloured square and a text for each line, with its top left at (x, y)."""
+    """Draw the legend with its top left corner at (x, y). Each line is a coloured square and a text.
+
+    scale: frame px per text px.
+    """
     for index, (color, text) in enumerate(lines):
         top = y + 3 * scale + index * 7 * scale
         frame.surface.fill(frame.tone(color), (x + 3 * scale, top, 3 * scale, 5 * scale))
@@ -236,9 +246,9 @@ def draw_legend(frame: Frame, lines: Sequence[LegendLine], x: int, y: int, scale
 
 
 def _corners(area, size, margin):
-    """Return the places (x, y) to try for a box of `size` in an area, at least `margin` from its border.
+    """Return the positions (x, y) to try for a box of `size` in `area`, at least `margin` from the border of the area.
 
-    Their order: corners and middles of the sides, then places down the left and right edges.
+    The corners and the middles of the sides come first. Positions along the left and right sides follow.
     """
     left, right = area.left + margin, area.right - size[0] - margin
     top, bottom = area.top + margin, area.bottom - size[1] - margin
