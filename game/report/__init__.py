@@ -1,1 +1,1 @@
-"""`--report DIR`: measure accuracy against time in jobs, whose results are kept, and write one page of charts."""
+"""`--report DIR`: measure accuracy against time in jobs, store their results, and write a page of charts."""

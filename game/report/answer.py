@@ -1,4 +1,4 @@
-"""The answer with which the report opens: how often boxes are wrong, and what exact pixels cost, in one sentence."""
+"""The first sentence of the report: how often boxes give false hits, and what exact pixels cost."""
 
 from collections.abc import Sequence
 
@@ -12,11 +12,11 @@ WAITS = "The answer comes with the first chart: its jobs are not done yet."
 
 
 def answer_of(rows: Sequence[Row]) -> str:
-    """Return the answer as a sentence. rows: rows of the chart "tiers".
+    """Return the first sentence of the report. rows: rows of the chart "tiers".
 
-    The rate of false hits is pooled over the sprites, with its 95 % interval (Wilson). The time of a hit by exact
-    pixels is given as the range of its ratio over the sprites. If the intervals of all ratios contain 1, the sentence
-    says that there is no difference.
+    The sentence gives the rate of false hits, pooled over the sprites, with its 95 % interval (Wilson). It also gives
+    the time of a hit by exact pixels, divided by the time by boxes, as a range over the sprites. If the intervals of
+    all these ratios contain 1, the sentence says that there is no difference.
     """
     mine = [row for row in rows if row.get("panel") == AROUND]
     costs = {(row["sprite"], row["series"]): row["hit_cost"] for row in mine}

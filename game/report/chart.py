@@ -1,4 +1,4 @@
-"""A chart of the report: the jobs that measure it, its plots, and the claims that it tests."""
+"""A chart of the report: the jobs that measure its data, its plots, and the claims that it tests."""
 
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
@@ -14,10 +14,10 @@ SECOND = {"ns": 1e9, "us": 1e6, "ms": 1e3, "s": 1.0}
 
 
 class Axis(NamedTuple):
-    """One axis of a plot. label: name and unit. read: reads the figure of a row.
+    """One axis of a plot. label: name and unit; read: function that reads the axis's figure from a row.
 
-    log: whether it is logarithmic if the values span a decade. mark: position of a line, such as the smallest error
-    that a player sees. decades: greatest span of a logarithmic axis.
+    log: whether the axis is logarithmic if the values span a decade. mark: position of a line, such as the smallest
+    error that a player can see. decades: greatest span of a logarithmic axis.
     """
 
     label: str
@@ -28,18 +28,18 @@ class Axis(NamedTuple):
 
 
 class Curve(NamedTuple):
-    """A theoretical line y = at(x) in a plot, such as the limit of floating-point arithmetic."""
+    """A theoretical curve y = at(x) in a plot, such as the limit of floating-point arithmetic."""
 
     label: str
     at: Callable[[float], float]
 
 
 class Panel(NamedTuple):
-    """One plot of a chart; each row is a dot.
+    """One plot of a chart. Each row of data is a dot.
 
-    line: the line to draw. "front": the Pareto front of the dots; "medians": the Pareto front of the series' medians;
-    "series": through the dots of each series in the order of x; "": none. shows(row): whether the row is shown;
-    series(row): name of the series to which the row belongs.
+    line: the line to draw. "front" is the Pareto front of the dots, and "medians" the Pareto front of the series'
+    medians. "series" joins the dots of each series in the order of x. "" draws no line. shows(row): whether the row is
+    shown; series(row): name of the series that the row belongs to.
     """
 
     title: str
@@ -52,10 +52,9 @@ class Panel(NamedTuple):
 
 
 class Chart(NamedTuple):
-    """One chart of the report, made of plots. Its rows of measured data have the keys "series" and "label".
+    """One chart of the report. It consists of plots. Its rows of measured data have the keys "series" and "label".
 
-    key: first part of the names of its jobs; truth: a sentence that names the reference against which errors are
-    measured.
+    key: first part of the names of its jobs; truth: a sentence that names the reference for the measured errors.
     """
 
     number: int
@@ -70,9 +69,9 @@ class Chart(NamedTuple):
 
 
 def time(key: str, unit: str = "us") -> Reading:
-    """Return a reading of a cost in `unit`: a function of a row that returns (least, median, upper quartile).
+    """Return a function that reads a cost from a row and returns (least, median, upper quartile) in `unit`.
 
-    key: the cost's key in the row. The function returns None if the row does not have it.
+    key: the cost's key in the row. If the row lacks the key, the function returns None.
     """
 
     def read(row):
@@ -86,10 +85,10 @@ def time(key: str, unit: str = "us") -> Reading:
 
 
 def value(key: str, scale: float = 1.0) -> Reading:
-    """Return a reading of the number `key` of a row, times `scale`.
+    """Return a function that reads a number from a row, times `scale`, and returns (low, middle, high).
 
-    The reading is a function of a row that returns (low, middle, high). A row stores one number, which is used three
-    times, or a list of three.
+    key: the number's key in the row. The row stores one number, which is used three times, or a list of three. If the
+    row lacks the key, the function returns None.
     """
 
     def read(row):
@@ -103,9 +102,10 @@ def value(key: str, scale: float = 1.0) -> Reading:
 
 
 def percent(key: str) -> Reading:
-    """Return a reading of the rate `key` of a row in percent: a function of a row that returns (low, middle, high).
+    """Return a function that reads a rate from a row and returns it in percent, (low, middle, high).
 
-    A row stores the rate as [count, total]. low and high are the ends of the confidence interval (Wilson).
+    key: the rate's key in the row. The row stores the rate as [count, total]. low and high are the ends of the
+    confidence interval (Wilson).
     """
 
     def read(row):
@@ -119,5 +119,5 @@ def percent(key: str) -> Reading:
 
 
 def panel_is(name: str) -> Callable[[Row], bool]:
-    """Return a function of a row that returns whether the row belongs to the panel with that name."""
+    """Return a predicate on rows: whether the row belongs to the panel with the given name."""
     return lambda row: row.get("panel") == name

@@ -1,4 +1,4 @@
-"""A claim: a sentence that the measurements confirm, contradict, or leave open."""
+"""A claim: a sentence that the measurements confirm, contradict, or leave undecided."""
 
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -11,8 +11,8 @@ HOLDS, FAILS, TIE = "holds", "does not hold", "a tie"
 class Claim(NamedTuple):
     """One claim about the measured figures, with a verdict.
 
-    text: the claim as a sentence; figure: the measured value; verdict: HOLDS, FAILS or TIE; source: paper or manual
-    that claims it, "" for none.
+    text: the claim as a sentence; figure: the measured value as text; verdict: HOLDS, FAILS or TIE; source: paper or
+    manual that makes the claim, "" for none.
     """
 
     text: str
@@ -24,11 +24,11 @@ class Claim(NamedTuple):
 
 
 def ordering(what: str, costs: Mapping[str, tuple[float, float]], unit: float = 1e6, word: str = "us") -> Claim:
-    """Return the claim that one of several methods is the cheapest: HOLDS if that is certain, otherwise TIE.
+    """Return the claim that one of several methods is the cheapest.
 
-    A TIE names all methods that may be the cheapest. what: subject of the sentence. costs: {name: (least, median)
-    seconds}. Two costs tie if their intervals overlap or they differ by less than 10 %. unit, word: factor and name of
-    the printed unit. Raises ValueError for fewer than two costs.
+    The verdict is HOLDS if this is certain, otherwise TIE. A TIE names all methods that may be the cheapest. what:
+    subject of the sentence; costs: {name: (least, median) [s]}. Two costs tie if their intervals overlap or they differ
+    by less than 10 %. unit, word: factor and name of the printed unit. Raises ValueError for fewer than two costs.
     """
     if len(costs) < 2:
         raise ValueError(f"an ordering needs two costs at least (got {len(costs)})")
@@ -44,9 +44,9 @@ def ordering(what: str, costs: Mapping[str, tuple[float, float]], unit: float = 
 def at_least(text: str, ratio: tuple[float, float, float], limit: float, source: str = "", unit: str = "x") -> Claim:
     """Return the claim that a measured ratio is at least `limit`.
 
-    HOLDS if the whole interval is at least `limit`, FAILS if the whole interval is below `limit`, otherwise TIE. text:
-    the claim as a sentence; ratio: (low, middle, high); source: paper that claims it, or ""; unit: printed after the
-    ratio.
+    The verdict is HOLDS if the whole interval is at least `limit`, FAILS if the whole interval is below `limit`, and
+    otherwise TIE. text: the claim as a sentence; ratio: (low, middle, high); source: paper that makes the claim, or "";
+    unit: text after the ratio.
     """
     low, middle, high = ratio
     verdict = HOLDS if low >= limit else FAILS if high < limit else TIE
@@ -56,9 +56,9 @@ def at_least(text: str, ratio: tuple[float, float, float], limit: float, source:
 def at_most(text: str, ratio: tuple[float, float, float], limit: float, source: str = "", unit: str = "x") -> Claim:
     """Return the claim that a measured ratio is at most `limit`.
 
-    HOLDS if the whole interval is at most `limit`, FAILS if the whole interval is above `limit`, otherwise TIE. text:
-    the claim as a sentence; ratio: (low, middle, high); source: paper that claims it, or ""; unit: printed after the
-    ratio.
+    The verdict is HOLDS if the whole interval is at most `limit`, FAILS if the whole interval is above `limit`, and
+    otherwise TIE. text: the claim as a sentence; ratio: (low, middle, high); source: paper that makes the claim, or "";
+    unit: text after the ratio.
     """
     low, middle, high = ratio
     verdict = HOLDS if high <= limit else FAILS if low > limit else TIE
@@ -66,11 +66,11 @@ def at_most(text: str, ratio: tuple[float, float, float], limit: float, source: 
 
 
 def ratio_of(a: Mapping, b: Mapping) -> tuple[float, float, float]:
-    """Return (low, middle, high) of the ratio a / b of two costs, each as spread() stores it in a row."""
+    """Return (low, middle, high) of the ratio a / b of two costs. a, b: costs in the form of job.spread()."""
     first, second = a["seconds"], b["seconds"]
     return first[0] / second[2], first[1] / second[1], first[2] / second[0]
 
 
 def pair(cost: Mapping) -> tuple[float, float]:
-    """Return (least, median) [s] of a cost, as spread() stores it in a row."""
+    """Return (least, median) [s] of a cost in the form of job.spread()."""
     return cost["seconds"][0], cost["seconds"][1]

@@ -1,7 +1,7 @@
 """A job of the report: the name of a function and its arguments, so that any process can run it.
 
 A job returns rows: dicts of JSON values. A value whose key ends in "cost" is a time (see `spread`). All other values
-are equal in every run.
+are the same in every run.
 """
 
 from collections.abc import Iterable, Mapping
@@ -18,7 +18,10 @@ COST = "cost"  # the keys of times end in it
 
 
 class ReportScope(NamedTuple):
-    """Extent of the report. quick: fewer and smaller measurements; scenes: {name: "module:Class"} of all scenes."""
+    """Extent of the report.
+
+    quick: True makes fewer and smaller measurements; scenes: {name: "module:Class"} of all scenes.
+    """
 
     quick: bool
     scenes: Mapping[str, str]
@@ -27,7 +30,7 @@ class ReportScope(NamedTuple):
 class Job(NamedTuple):
     """One measurement of the report, made by one process. name: the chart's key, a slash, and the subject.
 
-    work: "module:function", whose function returns rows of measured data; params: its arguments.
+    work: "module:function", a function that returns rows of measured data; params: its arguments.
     """
 
     name: str
@@ -40,7 +43,7 @@ def run_job(name: str, work: str, params: Mapping[str, Any]) -> Row:
     """Run a job: call the function `work` ("module:function") with the arguments `params`.
 
     Return {name, rows, spent, compiled}, or {name, failed, spent} with the text of the error. spent: duration [s];
-    compiled: the part of it in which kernels were compiled, which no cost includes.
+    compiled: time [s] of compiling kernels within it, which no cost includes.
     """
     started = perf_counter()
     found: Row = {"name": name}
@@ -55,7 +58,7 @@ def run_job(name: str, work: str, params: Mapping[str, Any]) -> Row:
 
 
 def spread(cost: Cost) -> Row:
-    """Return a Cost as a row stores it, with the keys "seconds", "runs" and "pieces".
+    """Return a Cost in the form in which a row stores it, a dict with the keys "seconds", "runs" and "pieces".
 
     "seconds": [least, median, upper quartile] per piece of work; "pieces": pieces of work per run.
     """
@@ -63,10 +66,10 @@ def spread(cost: Cost) -> Row:
 
 
 def counted(rate: Rate) -> list[int]:
-    """Return a Rate as a row stores it: [count, total]."""
+    """Return a Rate in the form in which a row stores it: [count, total]."""
     return [rate.count, rate.total]
 
 
 def facts_of(rows: Iterable[Row]) -> list[Row]:
-    """Return copies of the rows without their times."""
+    """Return copies of the rows without the values that are times (keys that end in "cost")."""
     return [{key: value for key, value in row.items() if not key.endswith(COST)} for row in rows]

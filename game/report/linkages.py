@@ -1,7 +1,7 @@
-"""Rods on joints under load, in this project's worlds: chains, a bridge, an arm of welds, and the gaps of their joints.
+"""Linkages under load, in this project's worlds: chains, a bridge, an arm of welds, and the gaps of their joints.
 
-Lengths are in pixels, 32 to the metre. A linkage hangs on a base, a body that stays in place and may turn at a constant
-speed. Its bodies pass through each other.
+A linkage consists of rods and balls that are connected by joints, and hangs on a base. The base is a body that stays in
+place and may rotate at a constant speed. Lengths are in pixels, 32 per metre. The bodies pass through each other.
 """
 
 from collections.abc import Sequence
@@ -27,7 +27,7 @@ Pair = tuple[float, float]
 
 
 class Pin(NamedTuple):
-    """Two bodies, by their index, and the place (x, y) [px] at the start at which they are held together."""
+    """A joint. a, b: indices of its two bodies; at: the point (x, y) [px] at which they are joined at the start."""
 
     a: int
     b: int
@@ -35,10 +35,10 @@ class Pin(NamedTuple):
 
 
 class Linkage(NamedTuple):
-    """Rods and balls, and the joints between them. The bodies are the base, the rods, and the balls, in this order.
+    """Rods and balls, and the joints between them. The order of the bodies is: base, rods, balls.
 
-    rods: start and end of each [px]; balls: (middle [px], mass [rods], speed to the right [px/s]) of each; judged: pins
-    whose gap is the error.
+    rods: (start, end) of each rod [px]; balls: (centre [px], mass in masses of a rod, velocity to the right [px/s]) of
+    each ball; judged: the pins whose gap is the error.
     """
 
     rods: Sequence[tuple[Pair, Pair]]
@@ -50,20 +50,20 @@ class Linkage(NamedTuple):
 
 
 def along(distance: float, angle: float, start: Pair = (0.0, 0.0)) -> Pair:
-    """Return the point at a distance [px] from `start`, at an angle clockwise from the right."""
+    """Return the point at `distance` [px] from `start`, in the direction `angle` [rad], clockwise from the right."""
     return start[0] + distance * cos(angle), start[1] + distance * sin(angle)
 
 
 def _row_of_rods(places: Sequence[Pair]) -> tuple[list[tuple[Pair, Pair]], list[Pin]]:
-    """Return the rods between neighbouring places, and their joints, of which the first holds the base."""
+    """Return (rods, pins) of rods between consecutive points. The first pin joins the first rod to the base."""
     rods = list(zip(places, places[1:], strict=False))
     return rods, [Pin(k, k + 1, at) for k, (at, _) in enumerate(rods)]
 
 
 def chain(ratio: float, share: float, count: int = 20) -> Linkage:
-    """Return a chain of rods, let go straight, with a ball of `ratio` rods at its end.
+    """Return a straight chain of `count` rods with a ball at its end. The ball has the mass of `ratio` rods.
 
-    share: 0 .. 1, which of the cases: the angle at the start, level to 50 degrees down.
+    share: number of the case, 0..1. It determines the angle at the start, from level to 50 degrees down.
     """
     angle = radians(50.0 * share)
     rods, joints = _row_of_rods([along(METER * k, angle) for k in range(count + 1)])
@@ -72,9 +72,10 @@ def chain(ratio: float, share: float, count: int = 20) -> Linkage:
 
 
 def bridge(ratio: float, share: float, count: int = 20) -> Linkage:
-    """Return a bridge of rods, let go as a V, with a ball of `ratio` rods in its middle.
+    """Return a bridge of `count` rods in the form of a V, with a ball in its middle.
 
-    share: 0 .. 1, which of the cases: the speed of the ball to the side at the start, none to FASTEST.
+    The ball has the mass of `ratio` rods. share: number of the case, 0..1. It determines the sideways velocity of the
+    ball at the start, from 0 to FASTEST.
     """
     turn, places = radians(20.0), [(0.0, 0.0)]
     for k in range(count):
@@ -86,9 +87,10 @@ def bridge(ratio: float, share: float, count: int = 20) -> Linkage:
 
 
 def arm(share: float, count: int = 8) -> Linkage:
-    """Return an arm of welded rods on a base that turns; its error is the distance of the tip from its place.
+    """Return an arm of `count` welded rods on a rotating base.
 
-    share: 0 .. 1, which of the cases: the angle at the start, level to nearly a whole turn.
+    The error of this linkage is the distance of the arm's tip from its ideal position. share: number of the case, 0..1.
+    It determines the angle at the start, from level to nearly a whole turn.
     """
     angle = radians(320.0 * share)
     rods, joints = _row_of_rods([along(METER * k, angle) for k in range(count + 1)])
@@ -96,7 +98,7 @@ def arm(share: float, count: int = 8) -> Linkage:
 
 
 def world_of(linkage: Linkage, tier: JointSolverName, substeps: Substeps) -> World:
-    """Return a world with the linkage. tier: its solver of joints."""
+    """Return a world with the linkage. tier: joint solver of the world; substeps: its number of substeps."""
     world = World(EFFECTS, gravity=(0.0, GRAVITY), substeps=substeps)
     world.joint_solver = tier
     base = world.add_body(Circle(RADIUS), kind="kinematic", angular_velocity=linkage.spin, filter=ALONE)
@@ -119,20 +121,26 @@ def middle(start: Pair, end: Pair) -> Pair:
 
 
 def turn_of(start: Pair, end: Pair) -> float:
-    """Return the angle of the way from one point to another [rad]."""
+    """Return the direction from one point to another, as an angle [rad]."""
     return atan2(end[1] - start[1], end[0] - start[0])
 
 
 def poses_in(world: World) -> np.ndarray:
-    """Return x [px], y [px] and angle [rad] of all bodies, an array of shape (3, bodies)."""
+    """Return x [px], y [px] and angle [rad] of all bodies, as an array of shape (3, bodies)."""
     return np.array([world.bodies[name] for name in ("x", "y", "angle")])
 
 
 class Gaps:
-    """The widest gap of the judged pins of a linkage, from poses of its bodies in any engine."""
+    """Measurement of the widest gap of a linkage's judged pins.
+
+    The poses of the bodies may come from any physics engine.
+    """
 
     def __init__(self, linkage: Linkage, poses: np.ndarray) -> None:
-        """poses: of the start, as of poses_in()."""
+        """Store the position of each judged pin in the frames of its two bodies.
+
+        poses: poses of the bodies at the start, in the form of poses_in().
+        """
         pins = linkage.judged
         self.rows = np.array([pin.a for pin in pins] + [pin.b for pin in pins])
         x, y, angle = poses[:, self.rows]
@@ -140,7 +148,7 @@ class Gaps:
         self.local = np.cos(angle) * u + np.sin(angle) * v, np.cos(angle) * v - np.sin(angle) * u
 
     def widest(self, poses: np.ndarray) -> float:
-        """Return the widest gap [px] at these poses."""
+        """Return the widest gap [px] of the judged pins. poses: current poses, in the form of poses_in()."""
         x, y, angle = poses[:, self.rows]
         u, v = self.local
         x, y = x + np.cos(angle) * u - np.sin(angle) * v, y + np.sin(angle) * u + np.cos(angle) * v

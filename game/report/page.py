@@ -29,7 +29,10 @@ PAGE = Path(__file__).with_name("page.html")
 
 
 class Measured(NamedTuple):
-    """A chart with the results of its jobs. failed: {name of a job: reason}; left: number of jobs not run yet."""
+    """A chart with the results of its jobs.
+
+    failed: {name of a job: reason}; left: number of jobs that have not run yet.
+    """
 
     chart: Chart
     rows: list[Row]  # each with the name of its job under "job"
@@ -38,10 +41,10 @@ class Measured(NamedTuple):
 
 
 def write_page(measured: Sequence[Measured], manifest: Mapping[str, Any], folder: str, spent: float) -> str:
-    """Return the HTML text of the page. measured: the charts with their results.
+    """Return the HTML text of the report's page. measured: the charts with their results.
 
-    manifest: description of the report, see Store; folder: the report's folder as on the command line, for the commands
-    that measure a dot again; spent: duration of all jobs [s].
+    manifest: description of the report, see Store; folder: the report's folder as on the command line, used in the
+    commands that measure a dot again; spent: total duration of the jobs [s].
     """
     reported: dict[str, Any] = {}
     quick = bool(manifest["quick"])
@@ -72,7 +75,7 @@ def write_page(measured: Sequence[Measured], manifest: Mapping[str, Any], folder
 
 
 def _groups(measured):
-    """Return a list of (question, charts that answer it) of the charts in `measured`."""
+    """Return a list of (question, charts of `measured` that answer the question)."""
     known = {key: number for number, (_, keys) in enumerate(QUESTIONS) for key in keys}
     found = [(question, []) for question, _ in QUESTIONS]
     for each in measured:
@@ -88,7 +91,10 @@ def _contents(number, question, members):
 
 
 def _headline(measured, reported, folder, quick):
-    """Return the figure that follows the answer: the first panel of the chart HEADLINE; "" while it has no dots."""
+    """Return the HTML figure at the top of the page, the first panel of the chart HEADLINE; "" without dots.
+
+    measured: the charts with their results; reported, folder, quick: as in _figure().
+    """
     for each in measured:
         if each.chart.key == HEADLINE and isinstance(each.chart.panels, tuple):
             return _figure(each.chart.panels[0], each.rows, "headline", reported, folder, quick)
@@ -96,7 +102,10 @@ def _headline(measured, reported, folder, quick):
 
 
 def _figure(panel, rows, name, reported, folder, quick):
-    """Return a panel as a figure, "" if it has no dots. Add the texts of its dots to `reported`, {id: texts}."""
+    """Return a panel as an HTML figure; "" if it has no dots. Add the texts of its dots to `reported`, {id: texts}.
+
+    name: name of the panel, the first part of the ids; folder, quick: values of --report and --quick.
+    """
     svg, dots = draw(panel, rows, name)
     if not svg:
         return ""
@@ -106,7 +115,7 @@ def _figure(panel, rows, name, reported, folder, quick):
 
 
 def _script(value):
-    """Return a value as JSON text in which nothing can end the HTML element around it."""
+    """Return a value as JSON text for a <script> element. "</" is escaped, so that the text cannot end the element."""
     return json.dumps(value).replace("</", "<\\/")
 
 
@@ -171,12 +180,12 @@ def _table(rows, folder, quick):
 
 
 def columns(rows: Iterable[Row]) -> list[str]:
-    """Return the keys of all rows, in order of first appearance."""
+    """Return the keys of all rows, in the order of their first appearance."""
     return list(dict.fromkeys(name for row in rows for name in row))
 
 
 def cell(value: Any) -> str:
-    """Return a value of a row as text for a table."""
+    """Return a value of a row as the text of a table cell."""
     if value is None:
         return ""
     if isinstance(value, dict) and "seconds" in value:
@@ -187,7 +196,7 @@ def cell(value: Any) -> str:
 
 
 def as_csv(rows: Sequence[Row]) -> str:
-    """Return the rows as CSV text. Each time takes three columns [s]: least, median and upper quartile."""
+    """Return the rows as CSV text. Each time has three columns [s]: least, median and upper quartile."""
     flat = []
     for row in rows:
         line: Row = {}

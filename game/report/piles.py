@@ -1,4 +1,4 @@
-"""Piles of bodies whose correct behaviour is known: they stay at rest, at their height, without overlap."""
+"""Piles of bodies whose correct behaviour is known: the bodies do not move and do not overlap."""
 
 from collections.abc import Callable, Sequence
 from math import atan2, cos, radians, sin
@@ -18,7 +18,7 @@ CARD, THICK, LEAN, PLANK = 48.0, 2.0, radians(25.0), 4.0  # [px] between a card'
 class Pile(NamedTuple):
     """A pile: positions [px], densities, shapes and angles [rad] of its bodies.
 
-    rests: whether the bodies should stay where they are.
+    rests: whether the bodies should remain at rest.
     """
 
     places: list[tuple[float, float]]
@@ -34,23 +34,23 @@ class Pile(NamedTuple):
 
 
 def boxes(places: list[tuple[float, float]], density: Sequence[float] = (), size: float = BOX) -> Pile:
-    """Return a pile of upright boxes of one size [px] at these places [px].
+    """Return a pile of upright boxes at the positions `places` [px]. size: side of each box [px].
 
-    density: density of each box; empty: 1 for all.
+    density: density of each box; if empty, every density is 1.
     """
     count = len(places)
     return Pile(places, list(density) or [1.0] * count, [Polygon.box(size, size)] * count, [0.0] * count)
 
 
 def stack(count: int, size: float = BOX) -> Pile:
-    """Return a column of `count` boxes."""
+    """Return a column of `count` boxes. size: side of each box [px]."""
     return boxes([(0.0, -size / 2 - size * k) for k in range(count)], size=size)
 
 
 def pyramid(rows: int, across: float = 1.1, up: float = 1.0) -> Pile:
-    """Return a pyramid of boxes, in which each row has one box less than the row below.
+    """Return a pyramid of boxes with `rows` rows. Each row has one box fewer than the row below it.
 
-    across, up: distance between the centres of neighbours, in box sizes.
+    across, up: horizontal and vertical distance between the centres of neighbours, in box sizes.
     """
     return boxes(
         [
@@ -62,12 +62,12 @@ def pyramid(rows: int, across: float = 1.1, up: float = 1.0) -> Pile:
 
 
 def heavy(ratio: float) -> Pile:
-    """Return a light box with a box of `ratio` times its density on top."""
+    """Return a column of two boxes. The density of the upper box is `ratio` times that of the lower box."""
     return boxes(stack(2).places, [1.0, ratio])
 
 
 def crooked(count: int, seed: int = 1, aside: float = 0.64) -> Pile:
-    """Return a column of `count` boxes, each shifted sideways at random by at most `aside` [px].
+    """Return a column of `count` boxes. Each box is shifted sideways by a random distance of at most `aside` [px].
 
     The default of `aside` corresponds to 2 cm.
     """
@@ -76,9 +76,9 @@ def crooked(count: int, seed: int = 1, aside: float = 0.64) -> Pile:
 
 
 def card_house(storeys: int) -> Pile:
-    """Return a card house with this number of storeys.
+    """Return a card house with `storeys` storeys.
 
-    Pairs of cards lean on each other, with planks on them, as in lab/card_house.
+    Pairs of cards lean against each other and support planks, as in lab/card_house.
     """
     reach, rise = CARD * sin(LEAN), CARD * cos(LEAN)
     apart, storey = 2.0 * (reach + 2.0 * THICK) + 1.0, rise + 2.0 * THICK + PLANK
@@ -112,7 +112,7 @@ PILES: dict[str, Callable[[], Pile]] = {
 def world_of(
     pile: Pile, solver: SolverName, substeps: Substeps, effects: Effects = EFFECTS, away: float = 0.0
 ) -> World:
-    """Return a world with the pile on wide ground.
+    """Return a world with the pile on a wide ground.
 
     solver, substeps, effects: settings of the world; away: x and y of the pile's origin [px].
     """
@@ -140,7 +140,7 @@ def overlap(world: World) -> float:
 
 
 def sunk(world: World, pile: Pile) -> float:
-    """Return how far the highest centre of mass is below its initial height [px]."""
+    """Return how far the highest centre of mass has fallen from its initial height [px]; negative if it has risen."""
     return pile.height + float(world.bodies["center_y"][1:].min())
 
 

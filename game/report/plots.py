@@ -1,6 +1,6 @@
 """Panels of the report, drawn as SVG by matplotlib, in the page's light or dark colours.
 
-The page can show the data of each dot. Raises UsageError if matplotlib is not installed.
+The page can show the data of each dot. The functions raise UsageError if matplotlib is not installed.
 """
 
 import io
@@ -29,7 +29,7 @@ CURVES = (":", "-.")
 
 
 class Dot(NamedTuple):
-    """A dot of a panel: its row, and x and y as (low, middle, high)."""
+    """A dot of a panel: its row of data, and its x and y, each as (low, middle, high)."""
 
     row: Row
     x: Interval
@@ -38,7 +38,10 @@ class Dot(NamedTuple):
 
 @cache
 def library() -> Any:
-    """Return matplotlib's Figure class, which draws without a window. Raises UsageError without matplotlib."""
+    """Return matplotlib's Figure class, which draws without a window.
+
+    Raises UsageError if matplotlib is not installed.
+    """
     try:
         import matplotlib
         from matplotlib.figure import Figure
@@ -49,7 +52,7 @@ def library() -> Any:
 
 
 def dots_of(panel: Panel, rows: Sequence[Row]) -> list[Dot]:
-    """Return the dots of a panel: those rows that it shows and that have finite figures for x and y."""
+    """Return the dots of a panel, one for each row that it shows and that has finite x and y."""
     found = []
     for row in rows:
         if not panel.shows(row):
@@ -61,9 +64,9 @@ def dots_of(panel: Panel, rows: Sequence[Row]) -> list[Dot]:
 
 
 def draw(panel: Panel, rows: Sequence[Row], name: str) -> tuple[str, list[Dot]]:
-    """Return (SVG text of a panel, its dots). The text is "" if there is nothing to show.
+    """Return (SVG text, dots) of a panel. The SVG text is "" if there are no dots.
 
-    name: name of the panel in the SVG; dot number k has the id "{name}-{k}".
+    name: name of the panel in the SVG. Dot number k has the id "{name}-{k}".
     """
     figure = library()(figsize=SIZE, layout="constrained")
     dots = dots_of(panel, rows)
@@ -121,7 +124,7 @@ def _bars(axes, dot, color):
 
 
 def _curves(axes, panel, dots):
-    """Draw the panel's curves as dotted lines over the measured range of x. Values below the axis are cut off."""
+    """Draw the panel's theoretical curves as dotted lines over the measured range of x."""
     at = sorted({dot.x[1] for dot in dots if dot.x[1] > 0.0})
     for curve, style in zip(panel.curves, CURVES, strict=False):
         axes.plot(at, [curve.at(x) for x in at], linestyle=style, color=INK, linewidth=1.0, label=curve.label)
@@ -131,7 +134,7 @@ def _scale(axes, which, axis: Axis, values: Sequence[Interval]):
     """Make an axis logarithmic if `axis.log` is set and the values span at least a decade.
 
     Over a shorter span, tick labels would overlap. which: "x" or "y". Values more than axis.decades below the largest
-    one are drawn at the lower end, together with zero. Call it after all dots are drawn.
+    value are drawn at the lower end, together with zero. Call this after all dots are drawn.
     """
     positive = [high for _, _, high in values if high > 0.0]
     if not axis.log or not positive or max(positive) < 10.0 * min(low for low, _, _ in values):
@@ -187,9 +190,9 @@ def _page_colors(figure) -> str:
 
 
 def shown(dot: Dot, panel: Panel) -> Mapping[str, str]:
-    """Return the text of the box that appears when the pointer is over a dot, {label: text}.
+    """Return the texts of the box that appears when the pointer is over a dot, {label: text}.
 
-    It contains the figures of both axes with their intervals, failures, and ignored effects.
+    The texts contain the figures of both axes with their intervals, the failures, and the ignored effects.
     """
     reported = {
         "": f"{dot.row['series']}: {dot.row['label']}" if dot.row["label"] != dot.row["series"] else dot.row["label"]

@@ -1,6 +1,6 @@
-"""Moving sprites for chart 14: pygame programs that find which of them share a pixel, and worlds that do the same.
+"""Moving sprites for chart 14: pygame programs that find the sprites that share a pixel, and worlds that do the same.
 
-Every program plays the same frames: each sprite moves by whole pixels, there and back, because pygame compares whole
+Every program plays the same frames. Each sprite moves back and forth by whole pixels, because pygame compares whole
 pixels. A frame includes moving the sprites and finding all hits.
 """
 
@@ -28,10 +28,10 @@ Hits = set[tuple[int, int]]  # pairs of indices of sprites, the lower one first
 
 
 class Traffic:
-    """The same moving sprites for every program. count: number of sprites.
+    """The moving sprites, equal for every program. count: number of sprites.
 
-    positions: FRAMES lists of the corners (x, y) of all sprites [px], one list for each frame. In frame 0 the sprites
-    are at the ends of their way; the path is closed.
+    positions: FRAMES lists, one for each frame, of the top left corners (x, y) of all sprites [px]. In frame 0 the
+    sprites are at one end of their paths. The paths are closed.
     """
 
     def __init__(self, count: int) -> None:
@@ -47,7 +47,7 @@ class Traffic:
         self.masks = [masks[k] for k in self.which]
 
     def truth(self, frame: int) -> Hits:
-        """Return the pairs that share a pixel in a frame. All pairs are tested, without rectangles."""
+        """Return the pairs of sprites that share a pixel in a frame. All pairs are tested, without rectangles."""
         masks, at = self.masks, self.positions[frame]
         return {
             (k, j)
@@ -65,7 +65,7 @@ def _pygame_mask(mask):
 
 
 def hits_after_rects(rects: list[pygame.Rect], masks: list[pygame.Mask]) -> Hits:
-    """Return the pairs that share a pixel: collidelistall of each rectangle, then Mask.overlap."""
+    """Return the pairs of sprites that share a pixel: collidelistall for each rectangle, then Mask.overlap."""
     found = set()
     for k, (rect, mask) in enumerate(zip(rects, masks, strict=True)):
         for j in rect.collidelistall(rects):
@@ -75,7 +75,7 @@ def hits_after_rects(rects: list[pygame.Rect], masks: list[pygame.Mask]) -> Hits
 
 
 class Sprite(pygame.sprite.Sprite):
-    """A sprite as pygame's collision functions expect it. place: its index."""
+    """A sprite with the attributes that pygame's collision functions need. place: index of the sprite."""
 
     def __init__(self, place: int, mask: pygame.Mask, rect: pygame.Rect) -> None:
         super().__init__()
@@ -83,12 +83,15 @@ class Sprite(pygame.sprite.Sprite):
 
 
 def group_of(rects: list[pygame.Rect], masks: list[pygame.Mask]) -> Any:
-    """Return a pygame Group of Sprites that share these rectangles and masks."""
+    """Return a pygame Group of new Sprites with these rectangles and masks."""
     return pygame.sprite.Group(*(Sprite(k, *each) for k, each in enumerate(zip(masks, rects, strict=True))))
 
 
 def hits_of_groupcollide(group: Any) -> Hits:
-    """Return the pairs of a group that share a pixel, as tutorials find them: groupcollide with collide_mask."""
+    """Return the pairs of sprites in a group that share a pixel, found with groupcollide and collide_mask.
+
+    Tutorials find hits in this way.
+    """
     collide: Any = pygame.sprite.collide_mask  # the stubs ask for a bool; it returns a point or None
     hits: Any = pygame.sprite.groupcollide(group, group, False, False, collide)
     return {(a.place, b.place) for a, others in hits.items() for b in others if a.place < b.place}
@@ -98,9 +101,9 @@ def hits_of_groupcollide(group: Any) -> Hits:
 
 
 class Program(ABC):
-    """A program that plays the frames of a Traffic, one per call of play(), and begins at frame 1.
+    """Base class of programs that play the frames of a Traffic, one frame per call of play(), starting with frame 1.
 
-    hits: the pairs that share a pixel in the last frame, as the program keeps them; found(): the same as Hits.
+    hits: the pairs that share a pixel in the last frame, in the program's own form; found(): the same pairs as Hits.
     """
 
     def __init__(self, traffic: Traffic) -> None:
@@ -109,15 +112,15 @@ class Program(ABC):
 
     @abstractmethod
     def play(self) -> None:
-        """Move the sprites to their places in the next frame, and find the hits."""
+        """Move the sprites to their positions in the next frame, and find the hits."""
 
     def found(self) -> Hits:
-        """Return the hits of the last frame."""
+        """Return the hits of the last frame as Hits, a set of pairs of sprite indices."""
         return self.hits
 
 
 class Plain(Program):
-    """The usual exact pygame program: collidelistall of each rectangle, then Mask.overlap."""
+    """The usual exact pygame program: collidelistall for each rectangle, then Mask.overlap."""
 
     def __init__(self, traffic: Traffic) -> None:
         super().__init__(traffic)
@@ -131,12 +134,12 @@ class Plain(Program):
         self.hits = self.test()
 
     def test(self) -> Hits:
-        """Return the hits at the present rectangles."""
+        """Return the pairs of sprites that share a pixel at their present positions."""
         return hits_after_rects(self.rects, self.traffic.masks)
 
 
 class RectsOnly(Plain):
-    """The first version of many games: rectangles that overlap are hits."""
+    """The simplest program of many games: each pair of sprites whose rectangles overlap is a hit."""
 
     def test(self) -> Hits:
         rects = self.rects
@@ -144,10 +147,10 @@ class RectsOnly(Plain):
 
 
 class Sorted(Plain):
-    """The best pygame program that we know: sorted along x, each sprite tested in the window that it can overlap.
+    """The best pygame program that we know: sweep and prune in Python.
 
-    Sweep and prune in Python: the window holds the sprites whose left edge lies between those of this sprite's sides.
-    Source of the method: Cohen et al., I-COLLIDE, 1995.
+    The sprites are sorted along x. Each sprite is tested only against later sprites in this order. The last of these
+    has a left edge that is left of the sprite's right edge. Source of the method: Cohen et al., I-COLLIDE, 1995.
     """
 
     def test(self) -> Hits:
@@ -183,9 +186,9 @@ class GroupCollide(Plain):
 
 
 class Stepped(Program):
-    """A world whose step moves the sprites by their velocities, and finds the hits as contacts, which are not read.
+    """A world whose step moves the sprites by their velocities and finds the hits as contacts.
 
-    tested: pairs that its broad phase has tested so far.
+    play() does not read the hits; found() does. tested: pairs that the world's broad phase has tested so far.
     """
 
     def __init__(self, traffic: Traffic, strategy: Any, tier: TierName) -> None:
@@ -213,7 +216,7 @@ class Stepped(Program):
 
 
 class Moved(Stepped):
-    """A world whose sprites the caller moves in one call with arrays; the hits are read as ids."""
+    """A world whose sprites are moved by one call with an array of positions. The hits are read as pairs of ids."""
 
     def play(self) -> None:
         self.world.move(self.ids, self.traffic.arrays[next(self.frames)])
@@ -223,7 +226,7 @@ class Moved(Stepped):
 
 
 class Recipe(Plain):
-    """The recipe of docs/physics_alone.md: sprites with a rectangle and a body, three lines a frame."""
+    """The recipe of docs/physics_alone.md: a rectangle and a body per sprite, and three lines of code per frame."""
 
     def __init__(self, traffic: Traffic) -> None:
         super().__init__(traffic)
@@ -242,7 +245,10 @@ class Recipe(Plain):
 
 
 class Way(NamedTuple):
-    """A way to find the hits. make(Traffic) returns its Program; most: greatest number of sprites it is measured on."""
+    """A way to find the hits.
+
+    make(Traffic): returns its Program; most: greatest number of sprites it is measured with.
+    """
 
     make: Callable[[Traffic], Program]
     most: int
@@ -266,7 +272,7 @@ WAYS = {
 
 
 def programs(traffic: Traffic) -> Iterator[tuple[str, Program]]:
-    """Yield (name, new Program) for every way that is measured with this number of sprites."""
+    """Yield (name, new Program) for every way that is measured with the number of sprites of `traffic`."""
     for name, way in WAYS.items():
         if traffic.count <= way.most:
             yield name, way.make(traffic)

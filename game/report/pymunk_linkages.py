@@ -1,4 +1,7 @@
-"""The report's linkages in pymunk, for comparison. Without pymunk a ModuleNotFoundError names the pip extra."""
+"""The report's linkages in pymunk, for comparison.
+
+Without pymunk, a ModuleNotFoundError names the pip extra to install.
+"""
 
 from math import dist
 from typing import Any
@@ -13,9 +16,10 @@ BIASES = {"": 0.9**60, ", error_bias 0.1^60": 0.1**60}  # default; 90 % of an er
 
 
 class Space:
-    """A pymunk space with a linkage. bodies: those of the linkage, in its order.
+    """A pymunk space with a linkage. bodies: the pymunk bodies of the linkage, in the linkage's order.
 
-    iterations: of pymunk's solver; substeps: number of its steps in a step of 1/60 s; bias: error_bias of all joints.
+    iterations: iterations of pymunk's solver; substeps: number of pymunk steps per step of 1/60 s; bias: error_bias of
+    all joints.
     """
 
     def __init__(self, linkage: Linkage, iterations: int, substeps: int, bias: float) -> None:
@@ -47,7 +51,7 @@ class Space:
         self.bodies.append(body)
 
     def _hold(self, a: Any, b: Any, at: tuple[float, float], welded: bool) -> None:
-        """Pin two bodies together. A weld is a pin and a gear."""
+        """Join two bodies at the point `at`. welded: True also fixes their relative angle, with a gear joint."""
         joints = [self.pymunk.PivotJoint(a, b, at)]
         if welded:
             joints.append(self.pymunk.GearJoint(a, b, b.angle - a.angle, 1.0))
@@ -56,10 +60,10 @@ class Space:
             self.space.add(joint)
 
     def step(self) -> None:
-        """Step a sixtieth of a second."""
+        """Simulate a sixtieth of a second."""
         for _ in range(self.substeps):
             self.space.step(1.0 / 60.0 / self.substeps)
 
     def poses(self) -> np.ndarray:
-        """Return x [px], y [px] and angle [rad] of all bodies, an array of shape (3, bodies)."""
+        """Return x [px], y [px] and angle [rad] of all bodies, as an array of shape (3, bodies)."""
         return np.array([(*body.position, body.angle) for body in self.bodies]).T

@@ -1,6 +1,6 @@
 """The report's piles of boxes in pymunk, for comparison.
 
-Without pymunk a ModuleNotFoundError names the pip extra that installs it.
+Without pymunk, a ModuleNotFoundError names the pip extra that installs it.
 """
 
 from typing import Any
@@ -13,7 +13,7 @@ ITERATIONS = 10  # pymunk's default
 
 
 def library() -> Any:
-    """Return the module pymunk. Raises ModuleNotFoundError, which names the extra that installs it."""
+    """Return the module pymunk. If it is missing, raise ModuleNotFoundError, which names the extra that installs it."""
     try:
         import pymunk
     except ModuleNotFoundError as error:
@@ -22,9 +22,9 @@ def library() -> Any:
 
 
 def space_of(pile: Pile, iterations: int = ITERATIONS) -> Any:
-    """Return a pymunk space with the pile's boxes, all of one density, on wide ground.
+    """Return a pymunk space with the pile's boxes, all of the same density, on a wide ground.
 
-    iterations: number of iterations of pymunk's solver.
+    iterations: iterations of pymunk's solver.
     """
     pymunk = library()
     space = pymunk.Space()
@@ -43,7 +43,7 @@ def space_of(pile: Pile, iterations: int = ITERATIONS) -> Any:
 
 
 def overlap_in(space: Any) -> float:
-    """Return the depth of the deepest contact point that pymunk reports at the current poses [px]."""
+    """Return the depth [px] of the deepest contact point that pymunk reports at the current poses."""
     found = 0.0
     for shape in space.shapes:
         if shape.body is not space.static_body:

@@ -1,6 +1,6 @@
-"""`--report DIR`: run the jobs that are not done yet, store the result of each, and write the page.
+"""`--report DIR`: run the jobs that have no result yet, store the result of each, and write the page.
 
-An interrupted report resumes where it stopped; only the job that was running is repeated.
+An interrupted report resumes where it stopped. Only the job that was running is repeated.
 """
 
 import json
@@ -30,7 +30,7 @@ from physics.background import compile_jobs
 def run_report(options: Options, registry: Registry) -> int:
     """Make the report's measurements (jobs), and write its HTML page.
 
-    Raises UsageError if the report cannot begin. Return the exit code: 1 if a job failed, otherwise 0.
+    Return the exit code: 1 if a job failed, otherwise 0. Raises UsageError if the report cannot start.
     """
     assert options.report is not None
     library()  # matplotlib is required before anything is measured
@@ -87,7 +87,7 @@ def all_jobs(scope: ReportScope) -> list[Job]:
 
 
 def chosen_jobs(jobs: Sequence[Job], only: str | None) -> list[Job]:
-    """Return the jobs selected by `only`: a pattern for names of jobs, or the name of a chart; None: all jobs.
+    """Return the jobs that `only` selects: a pattern for names of jobs, or the name of a chart. None selects all jobs.
 
     Raises UsageError if no job is selected.
     """
@@ -108,7 +108,7 @@ def _is_done(store, job):
 
 
 def gather(store: Store, jobs: Sequence[Job]) -> list[Measured]:
-    """Return the stored results of the jobs, grouped by chart."""
+    """Return the stored results of the jobs, grouped by chart, as one Measured per chart."""
     found = []
     for chart in CHARTS:
         rows, failed, left = [], {}, 0
@@ -127,7 +127,7 @@ def gather(store: Store, jobs: Sequence[Job]) -> list[Measured]:
 
 
 def write(store: Store, jobs: Sequence[Job], options: Options) -> None:
-    """Write the report's HTML page, and the rows of each chart as JSON and CSV beside it. Raises OSError."""
+    """Write the report's HTML page and, in the same folder, the rows of each chart as JSON and CSV. Raises OSError."""
     measured = gather(store, jobs)
     spent = sum(found["spent"] for job in jobs if (found := store.result(job.name)) is not None)
     page = write_page(measured, store.manifest, str(options.report), spent)
@@ -138,7 +138,7 @@ def write(store: Store, jobs: Sequence[Job], options: Options) -> None:
 
 
 class Progress:
-    """Progress on standard error: after each job, a line with the number of finished jobs and the remaining time."""
+    """Progress on standard error: a line after each job, with the number of finished jobs and the remaining time."""
 
     def __init__(self, jobs: Sequence[Job]) -> None:
         self.weights = {job.name: job.seconds for job in jobs}

@@ -1,7 +1,7 @@
 """Three ways to run the jobs of a report, with the same results.
 
-They run in this process, in worker processes, or on a Dask cluster. A job whose process dies is run once more, and then
-reported as failed.
+The jobs run in this process, in worker processes, or on a Dask cluster. A job whose process dies is run once more. If
+it dies again, it is reported as failed.
 """
 
 import json
@@ -21,15 +21,15 @@ DIED = "the process that did it ended, twice"
 
 
 def run_here(jobs: Sequence[Job]) -> Iterator[Row]:
-    """Run the jobs one after the other in this process, and yield their results."""
+    """Run the jobs one after another in this process, and yield their results."""
     for job in jobs:
         yield run_job(*job[:3])
 
 
 def run_in_processes(jobs: Sequence[Job], workers: int) -> Iterator[Row]:
-    """Run the jobs in `workers` processes, and yield results as they finish.
+    """Run the jobs in `workers` processes, and yield each result when its job finishes.
 
-    The processes share the machine's cores and caches, which affects times.
+    The processes share the machine's cores and caches, which affects the measured times.
     """
     waiting: queue.SimpleQueue[tuple[Job, int]] = queue.SimpleQueue()
     found: queue.SimpleQueue[Row | Exception] = queue.SimpleQueue()
@@ -59,7 +59,8 @@ def run_in_processes(jobs: Sequence[Job], workers: int) -> Iterator[Row]:
 def _serve(waiting, found, running, stopped):
     """Run jobs from the queue `waiting` in a worker process, and put their results into the queue `found`.
 
-    A dead process is replaced. running: list to which each started process is added; stopped: event that ends the loop.
+    A worker process that dies is replaced. running: list to which each started process is added; stopped: event that
+    ends the loop.
     """
     process: Any = None
     while not stopped.is_set():
@@ -92,7 +93,7 @@ def _serve(waiting, found, running, stopped):
 
 
 def connect(address: str) -> Any:
-    """Return a client of the Dask cluster at an address.
+    """Return a client of the Dask cluster at `address`.
 
     Raises UsageError if Dask is missing, the address is invalid, or no scheduler answers.
     """
@@ -112,7 +113,7 @@ def connect(address: str) -> Any:
 
 
 def run_on_dask(jobs: Sequence[Job], client: Any) -> Iterator[Row]:
-    """Run the jobs on a Dask cluster, and yield results as they finish. Close the client at the end.
+    """Run the jobs on a Dask cluster, and yield each result when its job finishes. Close the client at the end.
 
     This program must be installed on the cluster's workers.
     """

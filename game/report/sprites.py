@@ -1,4 +1,4 @@
-"""Sprites of the games, as the report measures them."""
+"""Sprites of the games that the report measures."""
 
 from game.drawing.sprites import load_atlas
 from physics import PixelMask
@@ -19,5 +19,5 @@ FEW = (SPRITES[1], SPRITES[2], SPRITES[5])
 
 
 def mask_of(atlas: str, name: str) -> PixelMask:
-    """Return the PixelMask of a sprite. atlas, name: as for load_atlas() and its mask()."""
+    """Return the PixelMask of a sprite. atlas, name: name of the atlas, and name of the sprite in the atlas."""
     return load_atlas(atlas).mask(name)

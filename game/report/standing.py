@@ -1,4 +1,4 @@
-"""Accuracy of a standing pile: measured after every step, and reported at the end."""
+"""Accuracy of a pile that should remain at rest: measured after every step, and reported at the end."""
 
 from collections import deque
 
@@ -12,7 +12,7 @@ FALLEN = 0.5 * BOX  # [px] sag of the highest body that counts as a fall
 
 
 class Watch:
-    """Measurements of one pile over its steps: the worst values so far, and the time of its fall [s]."""
+    """Measurements of one pile over its steps: the worst values so far, and the time at which it fell [s]."""
 
     settle = SETTLE
 
@@ -23,7 +23,7 @@ class Watch:
         self.sunk: deque[float] = deque(maxlen=LAST)
 
     def look(self) -> None:
-        """Measure the pile and update the worst values. Call it after each step."""
+        """Measure the pile, and update the worst values. Call this after each step."""
         self.overlaps.append(overlap(self.world))
         self.sunk.append(sunk(self.world, self.pile))
         self.deepest = max(self.deepest, self.overlaps[-1])
@@ -34,10 +34,10 @@ class Watch:
     def found(self) -> Row:
         """Return the measurements as fields of a report row.
 
-        overlap: deepest contact [px]; off: distance of the highest body from its start, up or down [px]; each is the
-        worst of the last LAST steps. error: the greater of the two. deepest: deepest contact of all steps [px]. won:
-        energy gained, as a share of the pile's initial energy. stands_s: time of the fall [s], None if the pile stands.
-        For a pile that is not to stay in place, off is None.
+        overlap: deepest contact [px]. off: distance of the highest body from its initial height, up or down [px]; None
+        for a pile that need not stay in place. Both are the worst values in the last LAST steps. error: the greater of
+        overlap and off. deepest: deepest contact of all steps [px]. won: energy gained, as a share of the pile's
+        initial energy. stands_s: time at which the pile fell [s], None if it stands.
         """
         deep, off = max(self.overlaps), max(map(abs, self.sunk)) if self.pile.rests else None
         return {

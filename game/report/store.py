@@ -1,6 +1,6 @@
 """The folder of a report. The result of each job is written to its own file at once, so that no result is lost.
 
-manifest.json describes the report; a report of another version or of another extent (--quick) is not continued.
+manifest.json describes the report. A report of another version, or of another extent (--quick), is not continued.
 """
 
 import json
@@ -72,7 +72,7 @@ class Store:
         return self.folder / RESULTS / f"{name.replace('/', '--')}.json"
 
     def result(self, name: str) -> dict[str, Any] | None:
-        """Return the stored result of a job. None if the job has not run, or if its file is damaged."""
+        """Return the stored result of a job; None if the job has not run, or if its file is damaged."""
         try:
             found = read_json(self._path(name))
         except FileError:
@@ -80,5 +80,5 @@ class Store:
         return found if isinstance(found, dict) and found.get("name") == name else None
 
     def keep(self, found: dict[str, Any]) -> None:
-        """Store the result of a job, as run_job() returns it. Raises OSError."""
+        """Store the result of a job, in the form that run_job() returns. Raises OSError."""
         write_atomically(self._path(found["name"]), json.dumps(found))

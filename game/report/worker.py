@@ -1,7 +1,7 @@
-"""`python -m game.report.worker`: worker process that runs jobs of a report, one after the other.
+"""`python -m game.report.worker`: worker process that runs jobs of a report, one after another.
 
-Each line of standard input is a job as JSON; each line of standard output is its result. The process ends when its
-standard input closes.
+Each line of standard input is a job as JSON. For each job, one line with its result is written to standard output. The
+process ends when its standard input closes.
 """
 
 import json
@@ -12,7 +12,7 @@ from game.report.job import run_job
 
 
 def main() -> None:
-    """Run jobs from standard input until it ends."""
+    """Run jobs from standard input until it closes."""
     startup.prepare_environment()
     results, sys.stdout = sys.stdout, sys.stderr  # prints of a job must not mix with the results
     for line in sys.stdin:

@@ -1,4 +1,4 @@
-"""The charts of the report, in their order."""
+"""The charts of the report, in the order in which the report shows them."""
 
 from game.report.charts import (
     broadphases,

@@ -1,7 +1,7 @@
-"""Chart 8: cost of the broad phases over the number of bodies, and number of candidate pairs that they report.
+"""Chart 8: cost of the broad phases against the number of bodies, and the number of candidate pairs that they report.
 
-Layouts and shares of moving bodies are those of Broadmark (Serpa and Rodrigues 2020). `every pair` is the naive
-baseline with which each broad phase is compared: it tests all n (n - 1) / 2 pairs in every step.
+Layouts and shares of moving bodies are those of Broadmark (Serpa and Rodrigues 2020). Each broad phase is compared with
+the naive baseline `every pair`, which tests all n (n - 1) / 2 pairs in every step.
 """
 
 import math
@@ -35,26 +35,29 @@ Places = tuple[np.ndarray, np.ndarray]  # centres (n, 2) and radii (n,) [px]
 def even(rng: np.random.Generator, n: int) -> Places:
     """Return (positions (n, 2), radii (n,)) [px] of n discs, spread evenly with about one overlap per disc.
 
-    All layouts are functions of a random generator and n.
+    Each layout is a function with these arguments and results. rng: random generator.
     """
     return rng.uniform(0, SPACING * math.sqrt(n), (n, 2)), np.full(n, RADIUS)
 
 
 def line(rng: np.random.Generator, n: int) -> Places:
-    """Return (positions, radii) [px] of n discs spread along the ground, in a long and low strip."""
+    """Return (positions (n, 2), radii (n,)) [px] of n discs spread along the ground, in a long and low strip."""
     return np.column_stack([rng.uniform(0, 0.5 * SPACING * n, n), rng.exponential(20.0, n)]), np.full(n, RADIUS)
 
 
 def clusters(rng: np.random.Generator, n: int) -> Places:
-    """Return (positions, radii) [px] of n discs in n / 100 clusters, each with a standard deviation of 60 px."""
+    """Return (positions (n, 2), radii (n,)) [px] of n discs in n / 100 clusters.
+
+    Each cluster has a standard deviation of 60 px. rng: random generator.
+    """
     middles = rng.uniform(0, SPACING * math.sqrt(n), (max(1, n // 100), 2))
     return middles[rng.integers(0, len(middles), n)] + rng.normal(0, 60.0, (n, 2)), np.full(n, RADIUS)
 
 
 def mixed(rng: np.random.Generator, n: int) -> Places:
-    """Return (positions, radii) [px] of n discs with radii of 1 to 100 px, small ones more often.
+    """Return (positions (n, 2), radii (n,)) [px] of n discs with radii of 1 to 100 px. Small radii are more frequent.
 
-    They cover the same share of the area as those of `even`. rng: random generator.
+    The discs cover the same share of the area as those of `even`. rng: random generator.
     """
     radii = np.round(100.0 ** (rng.random(n) ** 3), 1)  # rounded, so that few different shapes are needed
     side = math.sqrt(float((math.pi * radii**2).sum()) * SPACING**2 / (math.pi * RADIUS**2))
@@ -62,7 +65,7 @@ def mixed(rng: np.random.Generator, n: int) -> Places:
 
 
 def point(rng: np.random.Generator, n: int) -> Places:
-    """Return (positions, radii) [px] of n discs at nearly the same point, so that every pair overlaps."""
+    """Return (positions (n, 2), radii (n,)) [px] of n discs at nearly the same point, so that every pair overlaps."""
     return rng.normal(0, 0.1, (n, 2)), np.full(n, RADIUS)
 
 
@@ -77,10 +80,10 @@ LAYOUTS = {"even": even, "line": line, "clusters": clusters, "mixed sizes": mixe
 
 
 def world_of(strategy: Any, layout: str, n: int, moving: float, seed: int = 5) -> World:
-    """Return a world of n discs in a layout of LAYOUTS, represented by their boxes.
+    """Return a world of n discs in a layout of LAYOUTS. The shapes are the bounding boxes of the discs.
 
     strategy: the broad phase. moving: share 0..1 of the discs that move, all at the same speed in random directions;
-    the others are static.
+    the other discs are static.
     """
     rng = np.random.default_rng(seed)
     places, radii = LAYOUTS[layout](rng, n)
@@ -99,7 +102,7 @@ def world_of(strategy: Any, layout: str, n: int, moving: float, seed: int = 5) -
 
 
 def measure(layout: str, n: int, moving: str) -> list[Row]:
-    """Return a row for each broad phase: its cost in a step, its candidate pairs, and the pairs whose boxes overlap.
+    """Return a row for each broad phase: time per step, number of candidate pairs, number of overlapping boxes.
 
     layout, moving: keys of LAYOUTS and MOVERS; n: number of discs.
     """
@@ -160,8 +163,8 @@ def _jobs(scope: ReportScope) -> list[Job]:
 def growth(rows: Sequence[Row], series: str, panel: str) -> tuple[float, float] | None:
     """Return (p, standard error of p) of a fit in which the cost of a broad phase grows as n^p.
 
-    It is fitted to the rows of a series in a panel with at least FROM bodies. None for fewer than three sizes, which
-    give no standard error.
+    The fit uses the rows of a series in a panel that have at least FROM bodies. Return None for fewer than three
+    numbers of bodies, for which there is no standard error.
     """
     mine = [row for row in rows if row["series"] == series and row["panel"] == panel and row["n"] >= FROM]
     points = [(row["n"], row["cost"]["seconds"][1]) for row in mine]
@@ -180,14 +183,17 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
 
 
 def _of_papers(rows) -> Iterator[Claim]:
-    """Yield a Claim, with its verdict, for each claim of a paper about broad phases, at NAIVE_LIMIT bodies.
+    """Yield the claims of papers about broad phases, each as a Claim with its verdict, at NAIVE_LIMIT bodies.
 
-    rows: measured rows of the chart. NAIVE_LIMIT is the largest size at which testing every pair is measured.
+    rows: measured rows of the chart. NAIVE_LIMIT is the largest size at which the test of every pair is measured.
     """
     known = {(row["series"], row["layout"], row["moving"], row["n"]): row for row in rows}
 
     def beside(first, second):
-        """Return the ratio of the costs of two rows, given by their keys in `known`; None if one is not measured."""
+        """Return the ratio of the costs of two rows; None if one of them is not measured.
+
+        first, second: keys of the rows in `known`.
+        """
         return ratio_of(known[first]["cost"], known[second]["cost"]) if first in known and second in known else None
 
     n, all_move, few = NAIVE_LIMIT, *list(MOVERS)[:: len(MOVERS) - 1]

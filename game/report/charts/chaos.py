@@ -1,7 +1,8 @@
-"""Chart 11: predictability of a run. A bullet strikes a pyramid, and its start is shifted a little from run to run.
+"""Chart 11: predictability of a run. A bullet strikes a pyramid.
 
-The shifts are multiples of 1e-9 px. There is no reference: the chart shows the time at which runs diverge, and their
-distance at the end (Chung and Pollard 2016 call it predictability).
+The bullet's start position is shifted a little from run to run. The shifts are multiples of 1e-9 px. There is no
+reference. The chart shows the time at which the runs diverge, and their distance at the end (Chung and Pollard 2016
+call it predictability).
 """
 
 from collections.abc import Sequence
@@ -31,10 +32,10 @@ def _world(solver, substeps, aside):
 
 
 def measure(seeds: int) -> list[Row]:
-    """Return a row for each setting: the time until a run from a shifted start differs, and the distance at the end.
+    """Return a row for each setting: the time at which runs from shifted starts diverge, and their distance at the end.
 
-    A run differs when its bodies are a pixel (RMS) from those of the run from the unshifted start. seeds: number of
-    runs from shifted starts.
+    A run has diverged when the RMS distance of its bodies from those of the run from the unshifted start is a pixel.
+    seeds: number of runs from shifted starts.
     """
     rows, steps = {}, {}
     for solver, substeps in WAYS:
@@ -56,7 +57,7 @@ def measure(seeds: int) -> list[Row]:
 
 
 def _way(world):
-    """Return the centres of mass of all bodies after each step, (STEPS, bodies, 2) [px]."""
+    """Return the centres of mass of all bodies after each of STEPS steps, a list of (bodies, 2) arrays [px]."""
     found = []
     for _ in range(STEPS):
         world.step()

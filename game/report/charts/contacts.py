@@ -1,7 +1,7 @@
 """Chart 2: cost of a contact, and the errors of its normal and depth, for each tier of collision shape.
 
-The truth is analytic: a disc against a disc or an upright square. The tiers are fitted to pixel masks of these shapes.
-The outline of the pixels cannot serve as truth, because its normals have four directions only.
+The reference is analytic: a disc against a disc or an upright square. The tiers are fitted to pixel masks of these
+shapes. The outline of the pixels cannot be the reference, because its normals have only four directions.
 """
 
 from collections.abc import Callable, Sequence
@@ -23,20 +23,20 @@ REPEATS = 10  # tests of a batch in a run: 40,000 pairs, 200,000 in all
 
 
 def disc_mask() -> PixelMask:
-    """Return the PixelMask of all pixels whose centres lie in the disc."""
+    """Return the PixelMask of all pixels whose centres are inside the disc."""
     side = int(2 * RADIUS)
     at = np.arange(side) + 0.5 - RADIUS
     return PixelMask(at[:, None] ** 2 + at[None, :] ** 2 <= RADIUS**2, origin=(RADIUS, RADIUS))
 
 
 def square_mask() -> PixelMask:
-    """Return the PixelMask of the square; all its pixels are solid."""
+    """Return the PixelMask of the square. All its pixels are solid."""
     side = int(2 * RADIUS)
     return PixelMask(np.ones((side, side), bool), origin=(RADIUS, RADIUS))
 
 
 def of_disc(offset: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the exact (normals (n, 2), depths (n,) [px]) of a disc at the origin against equal discs.
+    """Return the exact (normals (n, 2), depths (n,) [px]) of a disc at the origin against discs of the same size.
 
     offset: (n, 2) positions of the other discs [px].
     """
@@ -62,9 +62,10 @@ BODIES = {
 
 
 def offsets(truth: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]], count: int) -> np.ndarray:
-    """Return (count, 2) random offsets [px] of touching pairs, uniform in area.
+    """Return (count, 2) random offsets [px] at which two shapes touch, distributed uniformly over the area.
 
-    truth: of_disc or of_square. The pairs overlap by less than the share DEEPEST of a disc's diameter.
+    truth: of_disc or of_square, which determines the shapes. The shapes overlap by less than the share DEEPEST of a
+    disc's diameter.
     """
     chance, found = np.random.default_rng(4), np.zeros((0, 2))
     while len(found) < count:
@@ -100,9 +101,10 @@ def measure(body: str, count: int) -> list[Row]:
 
 
 def _row(body, name, batch, normals, depths):
-    """Return a row with the errors of the contacts that a batch finds. Of each pair, the deepest manifold counts.
+    """Return a row with the errors of the contacts that a batch of pairs finds.
 
-    body, name: the row's panel and series; normals, depths: true normal and depth [px] of each pair.
+    For each pair, the deepest manifold is used. body, name: panel and series of the row; normals, depths: exact normal
+    and depth [px] of each pair.
     """
     batch.test()
     pairs = batch.pair_of[batch.found["candidate"]]

@@ -1,8 +1,9 @@
 """Charts 6 and 7: fast discs that fly at a thin plate.
 
-The charts show the share of discs that tunnel, the delay of the contact of the others, and the cost. The truth is
-analytic: a disc on a straight path first touches an upright plate when its centre comes within its radius. A discrete
-test between steps misses max(0, 1 - (w + 2r) / (v dt)) of the discs that fly at the plate's face.
+The charts show the share of discs that tunnel and the cost. For the other discs, they show the distance of the reported
+contact from the exact contact. The reference is analytic. A disc on a straight path first touches an upright plate when
+the distance of its centre from the plate equals its radius. A discrete test between steps misses max(0, 1 - (w + 2r) /
+(v dt)) of the discs that fly at the plate's face.
 """
 
 from collections.abc import Sequence
@@ -37,15 +38,16 @@ EFFECTS = Effects(response=True, continuous=True)
 def name_of(way: str, divided: int) -> str:
     """Return the name of a method in the chart. way: kind of continuous collision.
 
-    divided: number of steps into which a step is divided; if it is not 1, the method is named after it.
+    divided: number of parts into which each step is divided. If it is not 1, the name contains only this number.
     """
     return way if divided == 1 else f"{divided} steps in one"
 
 
 def starts(lanes: int, step: float) -> np.ndarray:
-    """Return (lanes, 2) start positions [px] of the discs, one in each lane. step: path of a disc in one step [px].
+    """Return the start positions [px] of the discs, (lanes, 2), one disc per lane.
 
-    They begin at all phases of a step, and fly at the plate's face, at its ends, or past it.
+    step: path of a disc in one step [px]. The distances of the discs from the plate are spread over the length of a
+    step. The discs fly at the plate's face, at its ends, or past it.
     """
     chance = np.random.default_rng(8)
     x = -RUN_UP * step - RADIUS - WIDTH - step * (np.arange(lanes) + 0.5) / lanes
@@ -54,7 +56,7 @@ def starts(lanes: int, step: float) -> np.ndarray:
 
 
 def first_touch(aside: np.ndarray) -> np.ndarray:
-    """Return (n,) x [px] of the discs' centres at their first contact with the plate, NaN for discs that miss it.
+    """Return (n,) x [px] of the discs' centres at their first contact with the plate; NaN for discs that miss it.
 
     aside: (n,) distances [px] of the discs' paths from the plate's middle.
     """
@@ -66,10 +68,10 @@ def first_touch(aside: np.ndarray) -> np.ndarray:
 
 
 def world_of(way: ContinuousName, divided: int, lanes: int, ratio: float, plates: bool = True) -> World:
-    """Return a world of lanes, each with a disc and a plate.
+    """Return a world of parallel lanes, each with a disc and a plate.
 
-    way: kind of continuous collision; divided: number of steps into which a step of 1/60 s is divided; ratio: path of a
-    disc in a step of 1/60 s [diameters]; plates: False leaves out the plates.
+    way: kind of continuous collision; divided: number of parts into which a step of 1/60 s is divided; ratio: path of a
+    disc in 1/60 s [diameters]; plates: False omits the plates.
     """
     step = ratio * 2.0 * RADIUS
     world = World(EFFECTS, dt=1.0 / 60.0 / divided)
@@ -81,10 +83,10 @@ def world_of(way: ContinuousName, divided: int, lanes: int, ratio: float, plates
 
 
 def measure(ratio: float, lanes: int) -> list[Row]:
-    """Return a row for each method: missed hits, false hits, and the error of the place of contact.
+    """Return a row for each method: missed hits, false hits, and the error of the position of the contact.
 
-    That error is the distance of the reported contact from the first touch [px]. ratio: disc diameters per step; lanes:
-    number of discs.
+    The error is the distance of the disc at the reported contact from its position at the first touch [px]. ratio: path
+    of a disc in 1/60 s [diameters]; lanes: number of discs.
     """
     step = ratio * 2.0 * RADIUS
     begin = starts(lanes, step)
@@ -129,7 +131,7 @@ def measure(ratio: float, lanes: int) -> list[Row]:
 def measure_times(count: int) -> list[Row]:
     """Return a row for each method: the time to simulate 1/60 s with `count` discs.
 
-    Each disc moves ten diameters in that time. There is one plate for every ten discs.
+    Each disc moves ten diameters in 1/60 s. There is one plate for every ten discs.
     """
     ratio, spent = 10.0, {}  # diameters per step
     rates = {row["series"]: row for row in measure(ratio, 200)}
@@ -158,9 +160,9 @@ def measure_times(count: int) -> list[Row]:
 
 
 def _traffic(way, divided, count, ratio):
-    """Return a world of discs that fly through a field of plates; most of them hit no plate.
+    """Return a world of discs that fly through a field of plates. Most discs hit no plate.
 
-    count: number of discs; other arguments: as for world_of.
+    count: number of discs; the other arguments are those of world_of().
     """
     step = ratio * 2.0 * RADIUS
     world = World(EFFECTS, dt=1.0 / 60.0 / divided)
@@ -228,7 +230,7 @@ def _time_claims(rows: Sequence[Row]) -> list[Claim]:
 def _expected(ratio):
     """Return the share of hits that a discrete test misses in theory, averaged over all paths that meet the plate.
 
-    ratio: disc diameters per step.
+    ratio: path of a disc per step [diameters].
     """
     step = ratio * 2.0 * RADIUS
     aside = np.abs(np.linspace(0.0, HALF + RADIUS, 20_001))[:-1]

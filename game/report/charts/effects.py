@@ -1,4 +1,4 @@
-"""Chart 10: benefit and cost of each effect: how a scene's run changes without it, and its time per step."""
+"""Chart 10: benefit and cost of each effect: the change of a scene's run without the effect, and its time per step."""
 
 from collections.abc import Sequence
 
@@ -17,9 +17,10 @@ MICRO = 1e6
 
 
 def measure(scene: str, where: str, frames: int) -> list[Row]:
-    """Return a row for each effect of a scene. Its time is the median difference of steps with and without it.
+    """Return a row for each effect of a scene.
 
-    where: "module:Class" of the scene; frames: greatest length of a run.
+    The time in a row is the median difference between the steps with and without the effect. where: "module:Class" of
+    the scene; frames: greatest length of a run.
     """
     start_dummy_display()
     made = scene_class(where)

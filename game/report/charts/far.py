@@ -1,4 +1,4 @@
-"""Chart 9: how far from the origin a pile still behaves as it does at the origin."""
+"""Chart 9: the distance from the origin up to which a pile behaves as it does at the origin."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -31,10 +31,10 @@ def round_poses(world: World) -> None:
 
 
 def measure(solver: SolverName) -> list[Row]:
-    """Return rows for each distance from the origin: one with poses in float64, one with poses rounded to float32.
+    """Return two rows for each distance from the origin: one with poses in float64, one with poses rounded to float32.
 
-    They contain the greatest distance of a box from its place in the run at the origin, and the overlap. Poses are
-    rounded after every step. Only float64 rows have a time, because no solver works in float32.
+    A row contains the greatest distance of a box from its position in the run at the origin, and the overlap. Poses are
+    rounded after every step. Only the float64 rows have a time, because no solver works in float32.
     """
     steps, rows, near = {}, {}, None
     for single in (False, True):

@@ -1,6 +1,6 @@
 """Chart 5: cost of a second of motion, and its error against the exact solution, for several lengths of the step.
 
-A slope is level ground under tilted gravity. A first-order error halves with the length of the step; a second-order
+A slope is level ground under tilted gravity. If the step is halved, a first-order error halves, and a second-order
 error falls to a quarter.
 """
 
@@ -26,9 +26,10 @@ SOLVERS = ("projection", "sequential_impulse", "soft_step")
 
 
 class Case(NamedTuple):
-    """A motion with a known result. error(position, velocity) returns the error [px] of a body after SECONDS.
+    """A motion with a known result.
 
-    Position and velocity are relative to the start. slope: angle of the ground [rad].
+    error(position, velocity): function that returns the error [px] of a body after SECONDS. Its arguments are relative
+    to the start. slope: angle of the ground [rad].
     """
 
     effects: Effects
@@ -56,7 +57,10 @@ DROP = 40.0  # [px]
 
 
 def _bounce(position, velocity):
-    """Return the error [px] of a bouncing ball with restitution 1: its gain or loss of energy, as a height."""
+    """Return the error [px] of a ball that bounces with restitution 1: its change of energy, as a height.
+
+    position, velocity: state of the ball after SECONDS, relative to the start.
+    """
     return abs(position.y - 0.5 * velocity.y**2 / G)
 
 
@@ -72,7 +76,7 @@ CASES = {
 
 
 def world_of(case: Case, solver: SolverName, rate: int) -> World:
-    """Return a world of COPIES equal bodies at the case's height over the ground, too far apart to meet.
+    """Return a world of COPIES equal bodies at the case's height above the ground, too far apart to meet.
 
     solver: solver of the world; rate: steps per second.
     """
@@ -114,9 +118,10 @@ def measure(case: str) -> list[Row]:
 
 
 def order_of(rows: Sequence[Row]) -> tuple[float, float] | None:
-    """Return (p, its standard error), where the error is proportional to dt^p; by least squares on the logarithms.
+    """Return (p, standard error of p) of a fit in which the error is proportional to dt^p.
 
-    None for fewer than three lengths of the step with more than a rounding error.
+    The fit is by least squares on the logarithms. Return None if fewer than three rows have errors above the rounding
+    error.
     """
     points = [(row["dt"], row["error"]) for row in rows if row["error"] > 1e-9 * G]
     return fit_power_law(points)[:2] if len(points) >= 3 else None

@@ -1,6 +1,6 @@
-"""Chart 16: error of joints under load, and cost of a step, for both solvers of joints and pymunk.
+"""Chart 16: error of joints under load, and cost of a step, for both joint solvers and pymunk.
 
-Each setting begins every case of a scene anew, and is timed over the whole run in which its error is measured.
+Each case of a scene is run from its start with each setting. The run is timed while its error is measured.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -39,7 +39,10 @@ QUICK = ("ball of 100 rods on a chain", "arm of eight welds")
 
 
 class Setting(NamedTuple):
-    """One way to solve joints. solver: ITERATIVE, DIRECT or PEER. iterations, bias: of pymunk."""
+    """One way to solve joints. solver: ITERATIVE, DIRECT or PEER (pymunk).
+
+    substeps: number of substeps; iterations, bias: settings of pymunk. bias is a key of BIASES.
+    """
 
     solver: str
     substeps: Substeps
@@ -48,17 +51,17 @@ class Setting(NamedTuple):
 
     @property
     def series(self) -> str:
-        """Name of the curve to which the setting belongs."""
+        """Name of the curve in the chart that the setting belongs to."""
         return self.solver if self.solver != PEER else f"{PEER}, {substeps_text(self.substeps)}"
 
     @property
     def label(self) -> str:
-        """Name of the setting."""
+        """Name of the setting, as shown in the chart."""
         times = f" x {self.iterations} iterations{self.bias}" if self.solver == PEER else ""
         return f"{self.solver}, {substeps_text(self.substeps)}{times}"
 
     def started(self, linkage: Linkage) -> tuple[Callable[[], object], Callable[[], np.ndarray]]:
-        """Return the functions that step the linkage and read its poses, from its start."""
+        """Return (step, poses) of a new simulation of the linkage: functions that make a step and read the poses."""
         if self.solver == PEER:
             space = Space(linkage, self.iterations, int(self.substeps), BIASES[self.bias])
             return space.step, space.poses
@@ -67,12 +70,12 @@ class Setting(NamedTuple):
 
 
 def substeps_text(count: Substeps) -> str:
-    """Return a number of substeps as text."""
+    """Return a number of substeps as text, also for "auto"."""
     return "1 substep" if count == 1 else f"{count} substeps"
 
 
 def settings_of(quick: bool) -> list[Setting]:
-    """Return the settings to measure. quick: fewer of them."""
+    """Return the settings to measure. quick: True returns fewer settings."""
     counts: tuple[Substeps, ...] = (1, 4, 16) if quick else (1, 2, 4, 8, 16, "auto")
     steps, iterations = ((1, 4), (5, 20)) if quick else ((1, 2, 4, 8), (5, 10, 20, 40, 80))
     return [
@@ -82,7 +85,7 @@ def settings_of(quick: bool) -> list[Setting]:
 
 
 def run_case(setting: Setting, linkage: Linkage, steps: int = STEPS) -> tuple[float, float]:
-    """Return (greatest error [px], mean time of a step [s]) of one setting from the start of a linkage."""
+    """Return (greatest error [px], mean time of a step [s]) of a linkage, run from its start with one setting."""
     step, poses = setting.started(linkage)
     gaps, worst, spent = Gaps(linkage, poses()), 0.0, 0.0
     for _ in range(steps):
@@ -96,8 +99,8 @@ def run_case(setting: Setting, linkage: Linkage, steps: int = STEPS) -> tuple[fl
 def measure(scene: str, quick: bool) -> list[Row]:
     """Return a row for each setting: its error over all cases of a scene, and the cost of a step.
 
-    scene: key of SCENES; quick: whether fewer settings and cases are measured. A setting of pymunk is that of its
-    `error_bias` with the smaller error. Without pymunk a row without figures says so.
+    scene: key of SCENES; quick: True measures fewer settings and cases. For pymunk, each setting is measured with every
+    `error_bias`, and the row with the smallest error is returned. Without pymunk, a row without figures says so.
     """
     make, _ = SCENES[scene]
     settings, missing = settings_of(quick), ""
@@ -122,7 +125,7 @@ def measure(scene: str, quick: bool) -> list[Row]:
 
 
 def row_of(scene: str, setting: Setting, errors: list[float], spent: list[float]) -> Row:
-    """Return the row of a setting. errors, spent: of each case [px, s a step]."""
+    """Return the row of a setting. errors: error [px] of each case; spent: mean time of a step [s] in each case."""
     return {
         "series": setting.series,
         "label": setting.label,
@@ -138,7 +141,10 @@ def row_of(scene: str, setting: Setting, errors: list[float], spent: list[float]
 
 
 def best_biases(rows: Sequence[Row]) -> list[Row]:
-    """Return the rows, of those that differ in their bias alone only that with the smaller error."""
+    """Return the rows, with only the best bias of each setting.
+
+    Of the rows that differ only in their bias, the one with the smallest median error is returned.
+    """
     best: dict[tuple, Row] = {}
     for row in rows:
         key = row["solver"], row["substeps"], row["iterations"]
@@ -160,13 +166,13 @@ def _jobs(scope: ReportScope) -> list[Job]:
 
 
 def times_wider(wide: Row, narrow: Row) -> tuple[float, float, float]:
-    """Return (low, middle, high) of the ratio of two rows' errors, case by case."""
+    """Return (low, middle, high) of the ratio of the errors of two rows, computed for each case."""
     ratios = [max(a, LEAST) / max(b, LEAST) for a, b in zip(wide["cases"], narrow["cases"], strict=True)]
     return min(ratios), median(ratios), max(ratios)
 
 
 def claims_of(scene: str, rows: Sequence[Row]) -> Iterator[Claim]:
-    """Yield the claims about one scene. rows: those of the scene."""
+    """Yield the claims about one scene. rows: the rows of this scene."""
     measured = [row for row in rows if "cases" in row]
     yield from (Claim(f"{scene}: beside {row['series']}", row["label"], TIE) for row in rows if "cases" not in row)
     known = {(row["solver"], row["substeps"]): row for row in measured if row["solver"] != PEER}

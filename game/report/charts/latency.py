@@ -1,4 +1,4 @@
-"""Chart 12: step times of every scene, played by its bot, up to the slowest step, and the memory of a step.
+"""Chart 12: step times of every scene, played by its bot, up to the slowest step, and the memory that a step allocates.
 
 A step is a step of the whole scene, as `--headless` runs it without drawing: bot, rules and physics.
 """
@@ -25,14 +25,14 @@ RUNS, TRACED = 3, 30  # runs, of which each step's least time counts; steps whos
 
 
 def scene_class(where: str) -> type[Scene]:
-    """Return the scene class that `where` names as "module:Class"."""
+    """Return the scene class with the name `where`, "module:Class"."""
     return resolve_name(where)
 
 
 def measure(scene: str, where: str, frames: int) -> list[Row]:
-    """Return a list of one row: the 50th, 95th and 100th percentile of the scene's step times, and the memory.
+    """Return a list of one row: percentiles 50, 95 and 100 of the scene's step times, and the memory of a step.
 
-    All runs make the same steps, and the least time of each step over the runs counts. where: "module:Class" of the
+    All runs make the same steps. The time of each step is its least time over the runs. where: "module:Class" of the
     scene; frames: length of a run.
     """
     start_dummy_display()
@@ -65,7 +65,7 @@ def measure(scene: str, where: str, frames: int) -> list[Row]:
 
 
 def _peaks(made, frames):
-    """Return (frames,) [bytes]: the greatest memory during each step, minus the memory at its start.
+    """Return (frames,) greatest memory in use during each step, minus the memory at the start of the step [bytes].
 
     made: class of the scene.
     """

@@ -19,9 +19,9 @@ SETTLE = 120
 
 
 def measure_corners() -> list[Row]:
-    """Return the cost of testing a pair of polygons: two rows for each number of corners.
+    """Return the time to test a pair of polygons: two rows for each number of corners.
 
-    One row is for touching pairs ("hit"), one for pairs of which only the boxes overlap ("miss").
+    One row is for touching pairs ("hit"), the other for pairs whose boxes overlap but which do not touch ("miss").
     """
     chance = np.random.default_rng(10)
     works, pieces = {}, {}
@@ -52,9 +52,9 @@ def measure_corners() -> list[Row]:
 
 
 def measure_iterations() -> list[Row]:
-    """Return the mean number of GJK iterations per time of impact: a row for each number of corners.
+    """Return the mean number of GJK iterations per call of the time-of-impact search, a row for each number of corners.
 
-    The bodies are polygons that rotate in flight.
+    The bodies are polygons that fly and rotate.
     """
     rows = []
     for corners in (4, 8, 16):
@@ -87,7 +87,7 @@ def measure_iterations() -> list[Row]:
 
 
 def measure_events() -> list[Row]:
-    """Return two rows with the cost of a step of a pyramid: with and without events for persisting contacts."""
+    """Return two rows with the cost of a step of a pyramid, one with and one without events for persisting contacts."""
     worlds = {}
     for name, effects in (("without", EFFECTS), ("with", EFFECTS.with_(persist=True))):
         world = world_of(pyramid(20), "soft_step", 4, effects)

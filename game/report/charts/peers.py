@@ -1,8 +1,8 @@
-"""Chart 14: the same work done by common libraries: pygame's rectangles and masks, pymunk's solver.
+"""Chart 14: the same work done by common libraries: pygame's rectangles and masks, and pymunk's solver.
 
-A peer is shown at its best: pygame as a plain and as the best program that we know, pymunk over its overlap slop, its
-iterations and its substeps. Sprites are moved by whole pixels, because pygame compares whole pixels. The truth is the
-set of pairs of masks that share a pixel, found by testing all pairs.
+Each library is shown at its best. pygame is measured as a plain program and as the best program that we know. pymunk is
+measured with several overlap slops, iterations and substeps. Sprites are moved by whole pixels, because pygame compares
+whole pixels. The reference is the set of pairs of masks that share a pixel, found by testing all pairs.
 """
 
 from collections.abc import Callable, Sequence
@@ -29,10 +29,10 @@ ALIKE = (1.0, 0.1, 0.03)  # [px] overlaps at which the engines' times are compar
 
 
 def measure_sprites(count: int) -> list[Row]:
-    """Return a row for each way to find all hits among `count` sprites: its time of a frame, its false and missed hits.
+    """Return a row for each way to find all hits among `count` sprites: time per frame, false and missed hits.
 
-    All ways play the same frames. tested: pairs of boxes that a broad phase tested in the measured frames. Raises
-    RuntimeError for a world that tested none, because its time would mean nothing.
+    All ways play the same frames. The field "tested" is the number of pairs of boxes that a broad phase tested in the
+    measured frames. Raises RuntimeError for a world that tested none, because its time would have no meaning.
     """
     traffic = Traffic(count)
     made = dict(programs(traffic))
@@ -67,7 +67,10 @@ def measure_sprites(count: int) -> list[Row]:
 
 
 def _settled(step: Callable[[], object], depth: Callable[[], float]) -> float:
-    """Return the deepest overlap of the last LAST of SETTLE steps [px]. step: makes one; depth: measures one."""
+    """Make SETTLE steps, and return the greatest overlap in the last LAST of these steps [px].
+
+    step: function that makes one step; depth: function that measures the overlap [px].
+    """
     found = []
     for number in range(SETTLE):
         step()
@@ -144,7 +147,11 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
 
 
 def _at_overlap(panel, most, rows) -> Claim:
-    """Return the claim which engine is the fastest of those that overlap by at most `most` [px], each at its best."""
+    """Return a Claim that names the fastest engine at an overlap of at most `most` [px].
+
+    Each engine is represented by its fastest setting within this limit. panel: name of the panel; rows: its measured
+    rows.
+    """
     about = f"{panel} boxes, overlap of at most {most:g} px"
     curves, best = fronts(rows, panel), cheapest(rows, panel, most)
     if len(best) > 1:
@@ -155,7 +162,10 @@ def _at_overlap(panel, most, rows) -> Claim:
 
 
 def fronts(rows: Sequence[Row], panel: str) -> dict[str, list[Row]]:
-    """Return {engine: its rows in a panel that no other of its settings beats in time and overlap}, fastest first."""
+    """Return {engine: rows on the Pareto front of time and overlap}, fastest first.
+
+    rows: measured rows; panel: name of the panel whose rows are used.
+    """
     found = {}
     for engine in ("ours", "pymunk"):
         mine = {row["label"]: row for row in rows if row["panel"] == panel and row["series"] == engine}
@@ -165,7 +175,10 @@ def fronts(rows: Sequence[Row], panel: str) -> dict[str, list[Row]]:
 
 
 def cheapest(rows: Sequence[Row], panel: str, most: float) -> dict[str, Row]:
-    """Return {engine: its cheapest row in a panel with an overlap of at most `most` [px]}, without engines of none."""
+    """Return {engine: its fastest row in a panel with an overlap of at most `most` [px]}.
+
+    Engines without such a row are omitted.
+    """
     within = {
         engine: next((row for row in curve if row["overlap"] <= most), None)
         for engine, curve in fronts(rows, panel).items()

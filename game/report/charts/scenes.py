@@ -1,6 +1,6 @@
-"""Chart 13: cost and error of every setting of each scene, measured at one state of the bot's run.
+"""Chart 13: cost and error of every setting of each scene, measured from one state of the bot's run.
 
-The game's panel of accuracy and cost shows the same live.
+The game's panel of accuracy and cost shows the same measurement live.
 """
 
 from collections.abc import Sequence
@@ -58,7 +58,10 @@ def measure(scene: str, where: str) -> list[Row]:
 
 
 def _with_interval(error):
-    """Return (least, reported, greatest) of an error: its interval, or in pixels the value with its floor."""
+    """Return [low, reported, high] of an Error. An error in wrong answers has a confidence interval.
+
+    An error in pixels has the interval from value - floor to value + floor.
+    """
     if error.verdicts is None:
         return [max(0.0, error.value - error.floor), reported_error(error), error.value + error.floor]
     least, most = error.interval

@@ -1,8 +1,8 @@
 """Chart 4, the parts of a solver: substeps and iterations, warm starting, the relaxation pass.
 
 A line joins the settings of equal work (substeps times iterations). It shows whether many substeps or many iterations
-are better (Macklin et al., Small Steps in Physics Simulation, SCA 2019). Sequential impulses have no substeps: the step
-is divided into shorter steps instead, each with its own collision detection.
+are better (Macklin et al., Small Steps in Physics Simulation, SCA 2019). The sequential impulse solver has no substeps.
+Its step is divided into shorter steps instead, each with its own collision detection.
 """
 
 from collections import Counter
@@ -29,7 +29,10 @@ LEAST = 0.01  # [px] smaller errors are rounding errors, whose ratio has no mean
 
 
 class Parts(NamedTuple):
-    """One combination of the parts of a solver. warm: with warm starting; relaxed: with the relaxation pass."""
+    """One combination of the parts of a solver.
+
+    warm: whether it has warm starting; relaxed: whether it has a relaxation pass.
+    """
 
     solver: SolverName
     substeps: int
@@ -54,7 +57,7 @@ WAYS = (
 
 
 class Studied:
-    """A world that is stepped with one combination of solver parts, in place of its own solver."""
+    """A world that is stepped with one combination of solver parts instead of its own solver."""
 
     def __init__(self, parts: Parts, world: World) -> None:
         self.world, self.divided, stage = world, 1, studied.soft_step(parts.iterations, parts.warm, parts.relaxed)
@@ -64,7 +67,7 @@ class Studied:
         self.failures: Counter[str] | None = None  # counted only if the caller asks for it
 
     def step(self) -> None:
-        """Make one step of the world with these solver parts."""
+        """Make one step of the world with this combination of solver parts."""
         for _ in range(self.divided):
             advance(self.world, self.stages, self.world.dt / self.divided)
             if self.failures is not None:
@@ -72,7 +75,7 @@ class Studied:
 
 
 def measure(pile: str) -> list[Row]:
-    """Return a row for each combination of parts in WAYS, for one pile."""
+    """Return a row for each combination of parts in WAYS, for the pile `pile`."""
     made = PILES[pile]()
     steps, rows = {}, {}
     for parts in WAYS:
@@ -97,7 +100,7 @@ def measure(pile: str) -> list[Row]:
 
 
 def jobs(scope: ReportScope) -> list[Job]:
-    """Return one job per pile; none for a quick report."""
+    """Return one job per pile; no jobs for a quick report."""
     return [
         Job(
             f"solvers/parts-{pile}".replace(" ", "-").replace(":", "-to-"),
@@ -130,7 +133,10 @@ def panels(pile: str) -> list[Panel]:
 
 
 def claims(rows: Sequence[Row]) -> Iterator[Claim]:
-    """Yield the claims of papers about substeps and warm starting, tested on each pile."""
+    """Yield the claims of papers about substeps and warm starting, tested on each pile.
+
+    rows: measured rows of the chart.
+    """
     for pile in PILES:
         known = {Parts(*(row[name] for name in Parts._fields)): row for row in rows if row["panel"] == f"{pile}: parts"}
         if not known:
@@ -143,9 +149,9 @@ def claims(rows: Sequence[Row]) -> Iterator[Claim]:
 
 
 def beside(text: str, better: Row, worse: Row, source: str) -> Claim:
-    """Return the claim `text`: that the row `better` has an error at least a tenth below that of the row `worse`.
+    """Return the claim `text`: that the error of the row `better` is at least a tenth below that of the row `worse`.
 
-    source: its paper. Errors are the same in every run, so that no interval is needed.
+    source: paper that makes the claim. Errors are the same in every run, so no interval is needed.
     """
     a, b = better["error"], worse["error"]
     figure = ", ".join(f"{row['error']:.3g} px in {1e6 * row['cost']['seconds'][1]:.3g} us" for row in (better, worse))

@@ -1,7 +1,7 @@
 """Chart 4: cost of a step of a pile, and the pile's accuracy, for each solver and number of substeps.
 
-The truth is rest: stacked boxes stay in place, so that any rise or sag of the highest box, and any overlap, is an
-error. The question comes from Small Steps (Macklin et al. 2019).
+The reference is rest: stacked boxes should not move. So any rise or fall of the highest box, and any overlap, is an
+error. Macklin et al., Small Steps (2019), compare solvers in this way.
 """
 
 from collections import Counter
@@ -24,9 +24,9 @@ WAYS = [
 
 
 def measure(pile: str, quick: bool) -> list[Row]:
-    """Return a row for each setting: the pile's accuracy over two seconds, and then the cost of a step.
+    """Return a row for each setting: the pile's accuracy over two seconds, and after that the cost of a step.
 
-    The cost is measured even if the pile has fallen. pile: key of PILES; quick: whether fewer settings are measured.
+    The cost is measured even if the pile has fallen. pile: key of PILES; quick: True measures fewer settings.
     """
     made = PILES[pile]()
     ways = [way for way in WAYS if not quick or way[1] not in (2, 16)]

@@ -1,8 +1,8 @@
 """Charts 1 and 3: cost per pair, error rate, memory and fit of each tier (kind of collision shape) of a sprite.
 
-Two sets of poses are measured, because all rates depend on the share of hits and on their depth. The first set has
-poses all around each other, about half of them hits. The second has poses within two pixels of touching, where tiers
-differ.
+Two sets of relative poses are measured, because all rates depend on the share of hits and on their depth. In the first
+set, the second sprite is anywhere around the first, and about half of the poses are hits. In the second set, the
+sprites are within two pixels of touching, where tiers differ.
 """
 
 from collections.abc import Sequence
@@ -25,9 +25,9 @@ AROUND, NEAR = "poses all around", "within 2 px of touching"
 
 
 def poses_near(first: PixelMask, second: PixelMask, tried: int) -> Poses:
-    """Return the poses of two sprites (PixelMasks) at which their exact distance is less than BAND.
+    """Return those of `tried` random poses of two sprites (PixelMasks) at which their exact distance is less than BAND.
 
-    They are selected from `tried` random poses. Raises ValueError for fewer than LEAST_EACH hits or misses.
+    Raises ValueError for fewer than LEAST_EACH hits or misses.
     """
     poses = poses_around(first, second, tried, seed=1)
     a, b = fit(first, "mask")[0], fit(second, "mask")[0]
@@ -43,9 +43,10 @@ def poses_near(first: PixelMask, second: PixelMask, tried: int) -> Poses:
 
 
 def measure(atlas: str, name: str, tried: int) -> list[Row]:
-    """Return two rows for each tier (kind of collision shape) of a sprite against itself, one for each set of poses.
+    """Return two rows for each tier (kind of collision shape) of a sprite, one for each set of poses.
 
-    atlas: name of the sprite's atlas; name: name of the sprite in it; tried: see poses_near().
+    The sprite is tested against a copy of itself. atlas: name of the sprite's atlas; name: name of the sprite in the
+    atlas; tried: see poses_near().
     """
     mask, rows = mask_of(atlas, name), []
     for panel, poses in ((AROUND, poses_around(mask, mask)), (NEAR, poses_near(mask, mask, tried))):
@@ -111,7 +112,7 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
 
 
 def _fit_claims(rows: Sequence[Row]) -> list[Claim]:
-    """Return claims about the tiers that fit every sprite within a pixel: least memory, and fastest to build.
+    """Return claims about the tiers that fit every sprite within a pixel: the least memory, and the fastest to build.
 
     A tier is a kind of collision shape. rows: rows of the chart.
     """
