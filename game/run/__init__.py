@@ -1,1 +1,1 @@
-"""Running a scene: its steps, recording and replay, state digest, measurements, and the finished picture."""
+"""Running a scene: its steps, recording and replay, state digest, measurements, and the drawn picture."""

@@ -1,5 +1,7 @@
-"""`--advise SCENE`: let the bot play the scene, measure each setting over the recorded run, and print the recommended
-setting once it has proved itself on the whole run.
+"""`--advise SCENE`: advise on the settings of a scene.
+
+The bot plays the scene. Each setting is then measured at several moments of the recorded run. The recommended setting
+is printed after it was confirmed on the whole run.
 """
 
 import json
@@ -28,9 +30,10 @@ EVERY = 2.0  # [s] between two lines of progress
 
 
 def run_advice(options: Options, registry: Registry) -> int:
-    """Measure the settings, and print the advice. Return the exit code: 1 if no setting is within the allowed error.
+    """Measure the settings of a scene, and print the advice.
 
-    Raises UsageError for a run that is shorter than SECOND steps.
+    Return the exit code: 1 if no setting is within the allowed error, otherwise 0. Raises UsageError for a run that is
+    shorter than SECOND steps.
     """
     frames = options.frames or DEFAULT_FRAMES
     if frames < SECOND:
@@ -51,7 +54,7 @@ def run_advice(options: Options, registry: Registry) -> int:
 
 
 def recorded_run(options: Options, registry: Registry, frames: int) -> RecordedRun:
-    """Let the bot play the scene for a number of steps, and return the recording."""
+    """Let the bot play the scene for `frames` steps, and return the recording."""
     scene = make_scene(options, registry)
     recorder = Recorder(scene, bot=True, every=frames)
     session = Session(scene, BotSource(), recorder)
@@ -79,8 +82,8 @@ class Progress:
 def lines_of(options: Options, error: float, proven: Proven) -> list[str]:
     """Return the report as lines of text: the measured run, the measured settings, and the advice.
 
-    error: the allowed error, in pixels, or in wrong answers per 100 encounters where collision tiers are measured;
-    proven: Proven, the advice with its measurements.
+    error: the allowed error, in pixels, or in wrong answers per 100 encounters if collision tiers are measured; proven:
+    the advice with its measurements.
     """
     advice, tried, survey, overview = proven
     here, best = advice.here, advice.best
@@ -116,7 +119,7 @@ def _encounters(overview):
 
 
 def _tried(applied: Applied, here: Setting) -> str:
-    """Return a line of text on a setting that was applied to the whole run. here: the present setting."""
+    """Return a line of text on a setting that was tested on the whole run. here: the current setting."""
     if applied.refused:
         return f"tried   {applied.setting.label(here)}: {applied.refused}"
     least, most = applied.interval
@@ -128,7 +131,7 @@ def _tried(applied: Applied, here: Setting) -> str:
 def as_json(options: Options, error: float, proven: Proven) -> dict:
     """Return the report as a dict for JSON: the measured run, the allowed error, the advice, and the measured settings.
 
-    proven: Proven, the advice with its measurements.
+    error: the allowed error, as in lines_of(); proven: the advice with its measurements.
     """
     advice, tried, survey, overview = proven
     best, here = advice.best, advice.here

@@ -1,6 +1,6 @@
-"""Compilation in the background while the program runs: the played scene first, then all others.
+"""Compilation in the background while the program runs: first the kernels of the played scene, then all others.
 
-While a game runs, one core is left to it.
+While a game runs, one core is not used for compilation.
 """
 
 import contextlib
@@ -18,7 +18,7 @@ from physics.jit.workers import cores_here
 class Beside:
     """The background compiler. Kernels run as plain Python until they are compiled, so that the game does not wait.
 
-    Compilation begins with start() or the first turn(), which comes after the title is shown.
+    Compilation begins with start() or with the first turn(), which is called after the title is shown.
     """
 
     def __init__(self, registry: Registry, cores: int | None = None) -> None:
@@ -27,20 +27,26 @@ class Beside:
         self.background: Background | None = None
 
     def _all_scenes(self, registry) -> Iterator[type[Scene]]:
-        """Yield the scene classes one by one. Each is imported when it is due; scenes with errors are skipped."""
+        """Yield the scene classes one by one. Each class is imported when it is requested.
+
+        Scenes with errors are skipped.
+        """
         for name in registry.names:
             with contextlib.suppress(UsageError):
                 yield registry.scene_class(name)
 
     def start(self, plays: bool = False) -> None:
-        """Begin compilation in the background, if it has not begun. plays: leave one core to a running scene."""
+        """Start compilation in the background, if it has not started.
+
+        plays: True leaves one core to a running scene.
+        """
         if self.background is None and physics.JIT:
             self.background = physics.compile_in_background(self.cores)
         if self.background is not None:
             self.background.workers.limit = max(1, self.cores - plays)
 
     def turn(self, plays: bool) -> None:
-        """Continue compilation. Call it once per iteration of the program's loop.
+        """Continue compilation. Call this once per iteration of the program's loop.
 
         plays: whether a scene is on the screen. If so, one core is left to the scene, and no other scene is imported.
         """
@@ -50,11 +56,11 @@ class Beside:
 
     @property
     def share(self) -> float:
-        """Share of the called kernels that ran compiled, 0..1."""
+        """Share (0..1) of compiled kernels among the kernels called so far."""
         return 1.0 if self.background is None else self.background.share
 
     def stop(self) -> None:
-        """End the compiler's processes. Kernels that are compiled stay usable."""
+        """End the compiler's processes. Compiled kernels remain usable."""
         if self.background is not None:
             self.background.stop()
             self.background = None

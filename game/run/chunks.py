@@ -1,6 +1,6 @@
-"""Compressed store for the bytes of a scene's state, in which successive states share their equal parts.
+"""Compressed store for the bytes of a scene's state. Successive states share the parts in which they are equal.
 
-Arrays are cut into blocks of bytes, called chunks. Tables are cut column by column, since most columns stay the same
+Arrays are cut into blocks of bytes, called chunks. Tables are cut column by column, since most columns do not change
 from one state to the next. Equal chunks are found by Python's hash of their bytes: 64 bits, with a different key in
 each process.
 """
@@ -18,14 +18,14 @@ WORD = 8  # bytes: tables whose rows are whole words are stored by columns
 ALIGNED = 16  # bytes: kernels are compiled for arrays aligned to their items
 LONGEST = 8  # most chunks in a chain in which each is compressed with the previous one as zlib dictionary
 WORTH = 0.8  # a dictionary is used if it reduces the compressed size of a chunk below this share
-ALIKE = 0.2  # below this share of the original size with a dictionary, compression without one is not tried
+ALIKE = 0.2  # share of the original size below which a chunk with a dictionary is not also tried without one
 LEVEL = 6  # of zlib: level 1 is three times as fast, for a sixth more bytes
 
 
 class Chunk:
     """A block of bytes, possibly compressed.
 
-    like: the chunk at the same place in the previous state, which serves as dictionary for the compression; None: no
+    like: the chunk at the same position in the previous state, used as the dictionary of the compression; None for no
     dictionary.
     """
 
@@ -37,7 +37,7 @@ class Chunk:
 
     @property
     def depth(self) -> int:
-        """Number of other chunks that must be decompressed in order to read this one."""
+        """Number of other chunks that must be decompressed before this one can be read."""
         return 0 if self.like is None else 1 + self.like.depth
 
     @property
@@ -46,7 +46,10 @@ class Chunk:
         return self if self.like is None else self.like.first
 
     def pack(self) -> None:
-        """Compress the chunk if that makes it smaller, with the bytes of `like` as dictionary if that saves enough."""
+        """Compress the chunk if this makes it smaller.
+
+        Use the bytes of `like` as the dictionary if this saves enough.
+        """
         by_like = None if self.like is None else _deflated(self.data, self.like.content())
         alike = by_like is not None and len(by_like) < ALIKE * len(self.data)
         own = b"" if alike else _deflated(self.data, b"")
@@ -58,7 +61,7 @@ class Chunk:
             self.data, self.packed = own, True
 
     def content(self) -> bytes:
-        """Return the chunk's original bytes."""
+        """Return the original bytes of the chunk."""
         if not self.packed:
             return self.data
         reader = zlib.decompressobj(zdict=self.like.content()) if self.like is not None else zlib.decompressobj()
@@ -74,7 +77,8 @@ class Chunks:
     """The contents of several buffers, stored in order as chunks.
 
     raw: the buffers. widths: size of an array item in each buffer [bytes], 0 if the buffer is not an array. before: the
-    Chunks of an earlier state of the same buffers: a chunk that is equal there is not stored again. new: the others.
+    Chunks of an earlier state of the same buffers, or None. A chunk that occurs in `before` is not stored again. new:
+    list of the chunks that do not occur in `before`.
     """
 
     def __init__(self, raw: Sequence[memoryview], widths: Sequence[int], before: "Chunks | None" = None) -> None:
@@ -119,7 +123,7 @@ class Chunks:
         return (chunk for part in self.parts for chunk in part)
 
     def _sizes(self):
-        """Return a list of (size, row size) of the buffers [bytes]. For the row size see _row()."""
+        """Return (size, row size) of each buffer [bytes]. _row() defines the row size."""
         count = len(self.layout) // 2
         return zip(self.layout[:count], self.layout[count:], strict=True)
 
@@ -138,7 +142,7 @@ class Chunks:
 
 
 def bytes_of(many: Iterable[Chunks]) -> int:
-    """Return the memory that several Chunks take together [bytes], including Python's overhead.
+    """Return the total memory of several Chunks [bytes], including Python's overhead.
 
     A chunk that several of them share counts once.
     """
@@ -153,7 +157,7 @@ def bytes_of(many: Iterable[Chunks]) -> int:
 
 
 def _row(size, width):
-    """Return the row size [bytes] of a buffer that is stored by columns; 1 for another array, 0 for no array.
+    """Return the row size [bytes] of a buffer that is stored by columns; 1 for any other array, and 0 for no array.
 
     size: size of the buffer [bytes]; width: size of its array items [bytes], 0 for no array.
     """
@@ -161,7 +165,7 @@ def _row(size, width):
 
 
 def _by_columns(view, width):
-    """Return the bytes of a table of 8-byte words in the order of its columns; other data unchanged.
+    """Return the bytes of a table of 8-byte words in the order of its columns. Other data are returned unchanged.
 
     width: size of a row [bytes].
     """
@@ -172,7 +176,10 @@ def _by_columns(view, width):
 
 
 def _by_rows(data: np.ndarray, width: int) -> np.ndarray:
-    """Return the bytes in the order of the rows: the inverse of _by_columns(). width: size of a row [bytes]."""
+    """Return the bytes of a table in the order of its rows. This is the inverse of _by_columns().
+
+    width: row size [bytes].
+    """
     if width <= WORD:
         return data
     words = np.frombuffer(data, np.uint64).reshape(width // WORD, -1)

@@ -7,7 +7,7 @@ from game.scene import Scene
 
 
 def scene_digest(scene: Scene) -> str:
-    """Return the digest of the scene's worlds, Scene.state() and random numbers, as 32 hex digits.
+    """Return the digest of the scene's worlds, Scene.state() and random generator, as 32 hex digits.
 
     Floats are hashed by their bits, with -0.0 as 0.0. Raises TypeError if Scene.state() contains a type that cannot be
     hashed.

@@ -1,4 +1,7 @@
-"""The numbers that a scene has found in a run, as CSV, each with the command that finds it again."""
+"""The numbers that a scene has measured in a run, as CSV.
+
+Each row contains the command that measures the number again.
+"""
 
 import csv
 import io
@@ -15,9 +18,10 @@ from game.startup import start_line
 
 
 class Figure(NamedTuple):
-    """One row of the file. of: source of the number, which is "headline", "goal", "finding", "own hits", "run", ...
+    """One row of the CSV file. of: source of the number, which is "headline", "goal", "finding", "own hits", "run", ...
 
-    value: a number or a text; low, high: its interval, for times the least and the upper quartile; "" for none.
+    value: a number or a text; low, high: interval of the value, "" for none. For times, they are the least time and the
+    upper quartile.
     """
 
     of: str
@@ -35,8 +39,8 @@ COLUMNS = ("scene", "seed", "step", *Figure._fields, "command", "machine")
 def command_of(scene: Scene, replay: str | None = None, bot: bool = False) -> str:
     """Return the command that makes the same run again and writes its numbers to figures.csv.
 
-    replay: file of the recorded run, None for a run without a recording. bot: whether the scene's bot played that run;
-    otherwise it had no input.
+    replay: file of the recorded run, None for a run without a recording. bot: whether the scene's bot played that run.
+    If not, the run had no input.
     """
     if replay is not None:
         run = ["--replay", replay]
@@ -49,7 +53,7 @@ def command_of(scene: Scene, replay: str | None = None, bot: bool = False) -> st
 def figures_csv(scene: Scene, command: str) -> str:
     """Return the text of the CSV file: the headline, the goals, the finding, and all measured runs, tiers and effects.
 
-    command: see command_of(). A number that is not known yet has no row.
+    command: command that makes the same run again, see command_of(). A number that is not known yet has no row.
     """
     file = io.StringIO()
     writer = csv.writer(file, lineterminator="\n")
@@ -61,7 +65,7 @@ def figures_csv(scene: Scene, command: str) -> str:
 
 
 def figures_of(scene: Scene) -> Iterator[Figure]:
-    """Yield all numbers that the scene has found in this run so far."""
+    """Yield all numbers that the scene has measured in this run so far."""
     headline = scene.headline()
     if headline is not None and headline.known:
         yield Figure("headline", headline.sentence, headline.number, headline.unit)
@@ -82,7 +86,7 @@ def figures_of(scene: Scene) -> Iterator[Figure]:
 
 
 def _name_of(name):
-    """Return the name of a measured run as text: its parts, separated by blanks."""
+    """Return the name of a measured run as text: the parts of the name, separated by blanks."""
     return " ".join(map(str, name)) if isinstance(name, tuple) else f"{name}"
 
 

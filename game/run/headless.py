@@ -1,4 +1,4 @@
-"""A run without window or sound, as fast as possible. Pictures are drawn only if an option needs them."""
+"""A run without window and sound, as fast as possible. Pictures are drawn only if an option needs them."""
 
 import json
 import os
@@ -86,7 +86,7 @@ def save_or_fail(save: Callable[[str], object], path: str) -> None:
 
 
 def finish(scene: Scene, report: RunReport, options: Options, broken: str = "") -> int:
-    """Print the requested results and return the exit code.
+    """Print the results that the options request, and return the exit code.
 
     report: RunReport of the run; broken: message about the broken invariant that ended the run, or "".
     """
@@ -108,7 +108,7 @@ def finish(scene: Scene, report: RunReport, options: Options, broken: str = "") 
 def summary_line(scene: Scene, report: RunReport, check: Check, played: bool) -> str:
     """Return one line of text about the run.
 
-    report: RunReport of the run; check: result of judge() or not_judged(); played: whether the bot played.
+    report: RunReport of the run; check: result of judge() or not_judged(); played: whether a bot played.
     """
     verdict = ("check ok" if check["ok"] else "check FAILED") if played else "nobody played, so nothing was checked"
     pending = f", {len(check['pending'])} goals pending" if played and check["pending"] else ""

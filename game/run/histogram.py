@@ -8,7 +8,7 @@ BINS = floor(log(LONGEST / SHORTEST) / WIDTH) + 1
 
 
 class Histogram:
-    """Histogram of durations [s], added one by one."""
+    """Histogram of durations [s], which are added one by one."""
 
     def __init__(self) -> None:
         self.bins = [0] * BINS
@@ -16,7 +16,7 @@ class Histogram:
         self.total = self.largest = 0.0
 
     def add(self, seconds: float) -> None:
-        """Count a duration [s]."""
+        """Add a duration [s] to the histogram."""
         place = floor(log(max(seconds, SHORTEST) / SHORTEST) / WIDTH)
         self.bins[min(place, BINS - 1)] += 1
         self.count += 1
@@ -25,11 +25,14 @@ class Histogram:
 
     @property
     def mean(self) -> float:
-        """Exact mean [s]; 0 before the first duration."""
+        """Exact mean of the durations [s]; 0 if there are none."""
         return self.total / self.count if self.count else 0.0
 
     def quantile(self, share: float) -> float:
-        """Return a quantile [s], correct to half a percent; 0 without durations. share: 0..1, 0.5 for the median."""
+        """Return a quantile of the durations [s], with an error of at most half a percent; 0 if there are none.
+
+        share: the quantile, 0..1, for example 0.5 for the median.
+        """
         left = share * (self.count - 1) + 1.0
         for place, count in enumerate(self.bins):
             left -= count

@@ -1,4 +1,4 @@
-"""Effects that a running scene declares but its solver does not support, and a warning about them on the picture."""
+"""Effects that a running scene declares but its solver does not support, and a warning about them in the picture."""
 
 from collections.abc import Iterable
 
@@ -19,7 +19,7 @@ SHADE = (20, 16, 32, 225)
 def ignored_by_solver(worlds: Iterable[World]) -> dict[str, list[str]]:
     """Return {solver: names of the declared effects that it ignores}, in the order of the worlds.
 
-    Solvers that ignore no effect are left out.
+    Solvers that ignore no effect are not included.
     """
     found: dict[str, set[str]] = {}
     for world in worlds:
@@ -30,7 +30,7 @@ def ignored_by_solver(worlds: Iterable[World]) -> dict[str, list[str]]:
 
 
 def ignored_effects(scene: Scene) -> list[str]:
-    """Return the names of all effects that a world of the scene declares and that its solver ignores."""
+    """Return the names of all effects that a world of the scene declares and that this world's solver ignores."""
     return in_order({name for names in ignored_by_solver(scene.worlds).values() for name in names})
 
 
@@ -40,7 +40,7 @@ def in_order(names: set[str]) -> list[str]:
 
 
 def sentences(scene: Scene) -> list[str]:
-    """Return a list with a sentence for each solver that ignores effects of the scene."""
+    """Return one sentence for each solver that ignores effects of the scene."""
     return [
         f"{plain_name(solver)} ignores {', '.join(map(plain_name, names))}"
         for solver, names in ignored_by_solver(scene.worlds).items()
@@ -48,9 +48,10 @@ def sentences(scene: Scene) -> list[str]:
 
 
 def draw_ignored(frame: Frame, scene: Scene) -> None:
-    """Write the sentences into a free corner of the game's part of a frame, in the largest text that fits.
+    """Write the sentences on ignored effects into a free corner of the game's part of a frame.
 
-    They are below the game's top line. If no place is free, they are at the bottom left, over any text there.
+    The sentences have the largest text that fits, and are below the game's top line. If no corner is free, they are at
+    the bottom left, over any text there.
     """
     shown_ignored = sentences(scene)
     if not shown_ignored:
@@ -75,7 +76,7 @@ def _size(frame, rows, scale):
 
 
 def _places(area, size, scale):
-    """Yield places (x, y) for a box of `size` in an area: at the left edge from the bottom up, then at the right."""
+    """Yield positions (x, y) for a box of `size` in `area`: upwards along the left edge, then along the right edge."""
     step, edge = LINE * scale, EDGE * scale
     for x in (area.left + edge, area.right - size[0] - edge):
         for y in range(area.bottom - size[1] - edge, area.top - 1, -step):

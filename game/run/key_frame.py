@@ -1,6 +1,6 @@
 """Key frame: a compact copy of the complete state of a scene, which can be restored into the same scene.
 
-Restoring changes the contents of the scene's objects and keeps the objects themselves, so that references to them stay
+Restoring changes the contents of the scene's objects but not the objects themselves, so that references to them remain
 valid. The contents are pickled, with arrays outside the pickle. Constant objects are stored only by reference:
 pictures, shapes, code, and objects whose deep copy is the object itself.
 """
@@ -27,7 +27,10 @@ KEPT = (type, FunctionType, np.dtype, pygame.Surface)  # types of constant objec
 
 
 class KeyFrame:
-    """Stored state of a scene. before: an earlier key frame of the scene, whose unchanged data are shared."""
+    """Stored state of a scene.
+
+    before: an earlier key frame of the scene, with which unchanged data are shared, or None.
+    """
 
     def __init__(self, scene: Scene, before: "KeyFrame | None" = None) -> None:
         self.scene = scene
@@ -44,7 +47,7 @@ class KeyFrame:
         self.chunks = Chunks(raw, [0, *writer.widths], before and before.chunks)
 
     def restore(self) -> None:
-        """Restore the stored state of the scene."""
+        """Restore the stored state into the scene."""
         stream, *buffers = self.chunks.contents()
         reader = _Reader(io.BytesIO(stream), self.kept, buffers)
         scene = self.scene
@@ -59,22 +62,25 @@ class KeyFrame:
 
 
 def bytes_held(frames: Iterable[KeyFrame]) -> int:
-    """Return the memory that several key frames take together [bytes]. Shared data count once."""
+    """Return the total memory of several key frames [bytes]. Data that they share count once."""
     lists = {id(kept): kept for frame in frames for kept in (frame.kept, frame.worlds)}
     return sum(map(sys.getsizeof, lists.values())) + bytes_of([frame.chunks for frame in frames])
 
 
 def table_of(rows: np.ndarray, capacity: int) -> Table:
-    """Return a table with these rows and this capacity. Called on unpickling: a pickle contains only the used rows."""
+    """Return a table with the given rows and capacity.
+
+    The function is called on unpickling, because a pickle contains only the used rows of a table.
+    """
     table = Table(rows.dtype, capacity)
     table.append(len(rows)).view(np.uint8)[:] = rows.view(np.uint8)
     return table
 
 
 def shared(number: int) -> object:
-    """Represent, in a pickle, the object `kept[number]` of its key frame.
+    """Represent the object `kept[number]` of a key frame in the key frame's pickle.
 
-    A key frame's own reader replaces this function. A call of the function itself raises LookupError.
+    The key frame's own reader replaces this function. A call of the function itself raises LookupError.
     """
     raise LookupError(f"object {number} is not in this pickle: a key frame holds it")
 
@@ -82,7 +88,7 @@ def shared(number: int) -> object:
 class _Writer(pickle.Pickler):
     """Pickler of a key frame. kept: the objects that are stored by reference.
 
-    worlds: the worlds among them, whose state is pickled separately.
+    worlds: the worlds among these objects. Their state is pickled separately.
     """
 
     def __init__(self, file, scene):
@@ -128,9 +134,9 @@ class _Reader(pickle.Unpickler):
 
 
 def _same(new, old):
-    """Return `old` if it contains the same objects as `new`, otherwise `new`.
+    """Return `old` if it contains the same objects as `new`, otherwise `new`. new, old: tuples, or old is None.
 
-    Tuples with the same objects are then stored once.
+    A tuple with the same objects is thus stored once.
     """
     if old is not None and len(new) == len(old) and all(map(is_, new, old)):
         return old

@@ -1,6 +1,6 @@
-"""Fixed time step: real time is converted into whole steps of 1/60 s. The remaining fraction of a step is alpha.
+"""Fixed time step: real time is converted into whole steps of 1/60 s. The remaining fraction of a step is called alpha.
 
-Time is read from perf_counter: pygame's Clock.tick(60) counts whole milliseconds and so gives 62 frames a second.
+Time is read from perf_counter. pygame's Clock.tick(60) counts whole milliseconds, and thus gives 62 frames per second.
 """
 
 from game.scene import STEP_SECONDS
@@ -12,7 +12,10 @@ SPEEDS = (1.0, 0.5, 0.25, 0.1, 0.05)  # slow motion, as fractions of real time
 
 
 class FixedStep:
-    """Time accumulator. advance(now) returns the number of due steps; alpha is the remaining fraction of a step."""
+    """Accumulator of real time.
+
+    advance(now) returns the number of due steps. alpha is the remaining fraction of a step.
+    """
 
     def __init__(self, step: float = STEP_SECONDS) -> None:
         self.step = step
@@ -42,14 +45,14 @@ class FixedStep:
 
     @property
     def behind(self) -> bool:
-        """True if the machine cannot make the steps in time.
+        """Whether the machine is too slow to make the steps in time.
 
-        The game then slows down to one step per frame, so that steps do not pile up.
+        If it is, the game slows down to one step per frame, so that steps do not pile up.
         """
         return self.load is not None and self.load > 1.0
 
     def note(self, busy: float) -> None:
-        """Record the time [s] that this frame took for its steps and its picture."""
+        """Record the time [s] that the steps and the picture of this frame took."""
         if not self.due:  # a frame without steps does not measure their time; until one does, make one step per frame
             self.load = WORST_LOAD if self.load is None else self.load
             return
@@ -57,17 +60,17 @@ class FixedStep:
         self.load = load if self.load is None else self.load + (load - self.load) * SMOOTHING
 
     def rest(self) -> None:
-        """Stop counting time until the next advance(). Called when another screen is shown."""
+        """Stop counting time until the next advance(). This is called when another screen is shown."""
         self.before = None
         self.requested = 0
 
     @property
     def alpha(self) -> float:
-        """Interpolation between the previous step (0) and the last step (1), for drawing; 1 while paused."""
+        """Position between the previous step (0) and the last step (1) for interpolation in drawing; 1 while paused."""
         return 1.0 if self.paused else self.accumulator / self.step
 
     def request_step(self) -> None:
-        """Request a single step while paused. The next advance() then returns 1."""
+        """Request a single step while the clock is paused. The next advance() then returns 1."""
         self.requested += 1
 
     def slower(self) -> None:

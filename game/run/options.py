@@ -1,4 +1,4 @@
-"""The options of a run, as read from the command line."""
+"""The options of a run of the program, as read from the command line."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -46,19 +46,25 @@ class Options:
 
     @property
     def is_a_run(self) -> bool:
-        """True if the run of one scene is measured, saved or limited in length. The program then ends with the run."""
+        """Whether the run of one scene is measured, saved or limited in length.
+
+        If so, the program ends with the run.
+        """
         return bool(
             self.frames or self.record or self.json or self.profile or self.screenshot or self.csv or self.strict
         )
 
     @property
     def played_by_bot(self) -> bool:
-        """True if the scene's bot plays, or played the recording that is replayed. Only then are the goals checked."""
+        """Whether the scene's bot plays, or played the recording that is replayed.
+
+        The goals are checked only in this case.
+        """
         return self.bot or bool(self.recording and self.recording.bot)
 
     @property
     def last_frame(self) -> int | None:
-        """Number of frames after which the run ends; None if the player ends it."""
+        """Number of frames after which the run ends; None if the player decides when it ends."""
         return self.frames or (self.recording.frames if self.recording else None)
 
 
@@ -69,7 +75,7 @@ def scene_class_of(options: Options, registry: Registry) -> type[Scene]:
 
 
 def make_scene(options: Options, registry: Registry) -> Scene:
-    """Build and return the scene that the options name. Raises FileError for an invalid level file."""
+    """Return a new scene of the class that the options name. Raises FileError for an invalid level file."""
     return scene_class_of(options, registry)(
         options.seed or 0, options.broadphase, options.solver, options.tier, options.level
     )

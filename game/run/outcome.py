@@ -17,7 +17,10 @@ EVENTS = ("begin", "persist", "end", "hits")
 
 
 class RunReport:
-    """Measurements of a run, added step by step. Times are seconds here, and milliseconds in to_json()."""
+    """Measurements of a run, added step by step.
+
+    Times are in seconds in the object, and in milliseconds in to_json().
+    """
 
     def __init__(self) -> None:
         self.steps = 0
@@ -30,7 +33,7 @@ class RunReport:
         self.quarantined = 0
 
     def note_step(self, scene: Scene, seconds: float) -> None:
-        """Add the measurements of all worlds' last step. seconds: duration of the scene's step."""
+        """Add the measurements of the last step of all worlds. seconds: duration of the scene's step."""
         self.steps += 1
         self._close_frame()
         self.last = seconds
@@ -48,7 +51,7 @@ class RunReport:
             self.stages.setdefault(name, Histogram()).add(spent)
 
     def note_drawing(self, seconds: float) -> None:
-        """Add drawing time to the frame of the last step. seconds: duration of the drawing."""
+        """Add the time of drawing to the frame of the last step. seconds: duration of the drawing."""
         if self.last is not None:
             self.last += seconds
 
@@ -58,9 +61,9 @@ class RunReport:
             self.last = None
 
     def strict_failures(self) -> list[str]:
-        """Return the failures that --strict reports at the end of a run, a list of texts.
+        """Return texts about the failures that --strict reports at the end of a run.
 
-        They are disabled bodies, and iterations that hit their cap.
+        The failures are disabled bodies, and iterations that reached their cap.
         """
         failures = []
         if self.quarantined:
@@ -70,7 +73,7 @@ class RunReport:
         return failures
 
     def to_json(self, scene: Scene, check: Check) -> dict[str, Any]:
-        """Return the object that --json prints, a dict. check: result of judge()."""
+        """Return the object that --json prints, as a dict. check: result of judge() or not_judged()."""
         self._close_frame()
         return {
             "scene": scene.name,
@@ -106,17 +109,17 @@ class RunReport:
 
 
 def solver_name(scene: Scene) -> str | None:
-    """Return the name of the solver in use; None if it is not known yet.
+    """Return the name of the solver in use: that of the first world, or the scene's choice if there is no world yet.
 
-    If the scene leaves the choice to World, it is the world's solver.
+    Return None if there is no world and the scene leaves the choice to World.
     """
     return scene.worlds[0].solver if scene.worlds else scene.solver
 
 
 def summary(times: Histogram, wanted: Iterable[str]) -> dict[str, float]:
-    """Return some statistics of durations in milliseconds, {name: value}; 0 if nothing was measured.
+    """Return statistics of durations in milliseconds, {name: value}. All are 0 if nothing was measured.
 
-    wanted: names out of mean, p50, p99 and max.
+    wanted: names of the statistics: mean, p50, p99, max.
     """
     found = {"mean": times.mean, "p50": times.quantile(0.5), "p99": times.quantile(0.99), "max": times.largest}
     return {name: round(1000.0 * found[name], 4) for name in wanted}
@@ -125,7 +128,7 @@ def summary(times: Histogram, wanted: Iterable[str]) -> dict[str, float]:
 def judge(scene: Scene, frames: int, extra: Iterable[str] = ()) -> Check:
     """Check the scene's goals after `frames` frames, and return {ok, failures, pending}. extra: further failures.
 
-    A goal that is due later is pending, not failed.
+    An unmet goal that is due later counts as pending, not as failed.
     """
     failures, pending = list(extra), []
     for goal in scene.check():
@@ -140,7 +143,7 @@ def judge(scene: Scene, frames: int, extra: Iterable[str] = ()) -> Check:
 
 
 def not_judged(scene: Scene, extra: Iterable[str] = ()) -> Check:
-    """Return {ok, failures, pending} of a run that no bot played: all goals are pending.
+    """Return {ok, failures, pending} for a run that was not played by a bot. All goals are pending.
 
     extra: failures of --strict.
     """

@@ -1,4 +1,4 @@
-"""The finished picture of a scene: canvas, scaling, overlays, panel. A window and a screenshot use the same code."""
+"""The drawn picture of a scene: canvas, scaling, overlays and panel. A window and a screenshot use the same code."""
 
 from collections.abc import Callable
 from io import BytesIO
@@ -21,23 +21,23 @@ GRAPH_LEAST = 120  # [text px] least width of the graph of stage times
 
 
 class Drawable(Protocol):
-    """An object that draws a whole picture on the canvas: a title, menu or message screen."""
+    """Interface of an object that draws a whole picture on the canvas: a title, menu or message screen."""
 
     def draw(self, canvas: Canvas, alpha: float) -> None:
-        """Draw the picture. alpha: interpolation between the last two steps, 0..1."""
+        """Draw the picture. alpha: position between the last two steps, 0..1."""
         ...
 
 
 class Docked(Protocol):
-    """An object that is drawn beside a scene, such as the panel."""
+    """Interface of an object that is drawn beside a scene, such as the panel."""
 
     def draw(self, frame: Frame, rect: pygame.Rect) -> None:
-        """Draw the object into a rectangle of the frame."""
+        """Draw the object into the rectangle `rect` of the frame."""
         ...
 
 
 class Picture:
-    """Drawing of finished pictures onto `surface`, such as the window's; None: onto a new one of screenshot size."""
+    """Drawing of pictures onto `surface`, such as the window's surface. None creates a surface of screenshot size."""
 
     def __init__(self, surface: pygame.Surface | None = None) -> None:
         if surface is None:
@@ -53,11 +53,11 @@ class Picture:
         panel: Docked | None = None,
         reserve: Callable[[Frame], None] | None = None,
     ) -> Frame:
-        """Draw the whole picture of a scene, with an optional panel beside it, and return the frame.
+        """Draw the whole picture of a scene and return the frame. panel: panel to draw beside the scene, or None.
 
-        alpha: position (0..1) between the last two steps; it is taken as 1 if overlays show geometry, so that sprites
-        match the shapes. reserve(frame): called before text of the overlays is placed, to reserve places for drawing
-        that comes later.
+        alpha: position between the last two steps, 0..1. If overlays show geometry, 1 is used instead, so that sprites
+        match the shapes. reserve(frame): called before text of the overlays is placed, to reserve rectangles for later
+        drawing.
         """
         if overlays.shows_geometry():
             alpha = 1.0
@@ -92,9 +92,10 @@ class Picture:
         return frame
 
     def draw_without(self, draw: Callable[[Frame], None], overlays: Overlays, panel: Docked | None = None) -> Frame:
-        """Make a picture with draw(frame) in place of a scene, with an optional panel beside it. Return the frame.
+        """Draw a picture with draw(frame) instead of a scene. Return the frame.
 
-        overlays: the overlays for the strip that is shown with a panel.
+        panel: panel to draw beside the picture, or None; overlays: the overlays whose strip is shown together with a
+        panel.
         """
         self.canvas.begin(INK)
         self.presenter.docked = panel is not None
@@ -121,8 +122,8 @@ class Picture:
 def draw_strip(frame: Frame, rect: pygame.Rect, overlays: Overlays) -> None:
     """Draw the strip below a game that is shown beside a panel.
 
-    Its parts are the legend at the left, the stage times at the right and the invariants above; each is drawn only if
-    its overlay is on.
+    The strip shows the legend at the left, the stage times at the right, and the invariants above them. Each part is
+    drawn only if its overlay is on.
     """
     scale = frame.text_scale
     if rect.height < 40 * scale:
@@ -140,9 +141,9 @@ def draw_strip(frame: Frame, rect: pygame.Rect, overlays: Overlays) -> None:
 
 
 def _invariants_above(frame, rect, overlays, scale):
-    """Draw the table of invariants, if its overlay is on, in the widest form that fits.
+    """Draw the table of invariants at the top of `rect`, if its overlay is on, in the widest form that fits.
 
-    Return the rest of `rect` below.
+    Return the part of `rect` below the table.
     """
     if "invariants" in overlays.on:
         for width, height in overlays.invariants.sizes(frame):
@@ -153,7 +154,7 @@ def _invariants_above(frame, rect, overlays, scale):
 
 
 def save_png(surface: pygame.Surface, path: str | Path) -> None:
-    """Write a surface as a PNG file, whatever the file is called. Raises OSError.
+    """Write a surface as a PNG file, whatever the suffix of the file is. Raises OSError.
 
     The write is atomic: the file appears complete or not at all.
     """

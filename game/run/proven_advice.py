@@ -1,7 +1,7 @@
-"""Advice on a scene from a recorded run: the advised setting is tried on the whole run before it is given.
+"""Advice on a scene from a recorded run. The advised setting is tested on the whole run before it is recommended.
 
-The run is played with the present setting and with the advised one in turns, with the scene's rules. If the measured
-times do not confirm the advice, it is withdrawn, and the next best setting is tried.
+The run is played alternately with the current setting and with the advised one, with the scene's rules. If the measured
+times do not confirm the advice, it is withdrawn, and the next best setting is tested.
 """
 
 from itertools import islice
@@ -21,7 +21,7 @@ MOST_TRIED = 3  # settings tried on the whole run, if the first ones do not hold
 
 
 class Applied(NamedTuple):
-    """An advised setting that was tried on a whole run. Times are shares of the time with the present setting."""
+    """An advised setting that was tested on a whole run. Times are shares of the time with the current setting."""
 
     setting: Setting
     predicted: float  # at the moments
@@ -32,18 +32,21 @@ class Applied(NamedTuple):
 
     @classmethod
     def from_json(cls, values: list) -> "Applied":
-        """Return the value from its JSON form, a list of its fields."""
+        """Return the Applied whose JSON form is `values`, a list of its fields."""
         setting, predicted, mean, interval, p99, refused = values
         return cls(Setting(*setting), predicted, mean, (interval[0], interval[1]), p99, refused)
 
     @property
     def holds(self) -> bool:
-        """True if the whole run is certainly faster, and its slowest steps no slower, than with the present setting."""
+        """Whether the whole run is certainly faster than with the current setting, and its slowest steps are no slower.
+
+        The slowest steps are compared by their 99th percentile.
+        """
         return not self.refused and self.interval[1] < 1.0 - TIE and self.p99 < 1.0 + TIE
 
 
 class Proven(NamedTuple):
-    """Advice that was tried on a whole run, with the measurements on which it is based."""
+    """Advice that was tested on a whole run, with the measurements that it is based on."""
 
     advice: Advice
     applied: tuple[Applied, ...]  # the settings that were tried on the whole run; the last one counts
@@ -52,10 +55,10 @@ class Proven(NamedTuple):
 
 
 def advise_on_run(run: RecordedRun, error: float, report: Report = lambda done, of: None, seed: int = 0) -> Proven:
-    """Measure the settings of a recorded run, and return the advice on them. It is tried on the whole run first.
+    """Measure the settings of a recorded run, and return advice that was tested on the whole run.
 
-    error: as in advise; report, seed: as in measure_settings(). If the whole run shows that the advised setting is no
-    gain, the next best setting is tried. Raises ValueError for a run without steps.
+    error: largest error of an advised setting, as in advise(); report, seed: as in measure_settings(). If the whole run
+    shows no gain from the advised setting, the next best setting is tested. Raises ValueError for a run without steps.
     """
     overview = look_over(run)
     advice, survey = advise(overview.moments, error, report, seed)
@@ -75,9 +78,10 @@ def advise_on_run(run: RecordedRun, error: float, report: Report = lambda done, 
 
 
 def apply_to_run(run: RecordedRun, setting: Setting, predicted: float) -> Applied:
-    """Play a whole run with the present setting and with another one by turns, APPLIED_RUNS times each.
+    """Play a whole run alternately with the current setting and with `setting`, APPLIED_RUNS times each.
 
-    Return the times with the other setting. predicted: its time in runs from snapshots, as a share of the present time.
+    Return the times with `setting`, as an Applied. predicted: time with `setting` in runs from snapshots, as a share of
+    the time with the current setting.
     """
     changes = changes_to(setting, run.make())
     if isinstance(changes, str):

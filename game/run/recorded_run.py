@@ -1,8 +1,8 @@
-"""Recorded runs: a scene played again from its inputs, with its rules, under any setting that it can play with.
+"""Recorded runs: a scene is played again from its inputs, with its rules, under any setting that it supports.
 
-Advice on a scene is measured over the whole of such a run. Three things are measured: the busiest second of the run,
-the encounters of its bodies under every collision tier (kind of collision shape), and the time of its steps under a
-setting.
+Advice on a scene is based on three measurements of such a run. The first is the busiest second of the run. The second
+is the encounters of its bodies under every collision tier (kind of collision shape). The third is the time of its steps
+under a setting.
 """
 
 from collections.abc import Iterator, Sequence
@@ -27,12 +27,12 @@ from physics import TIERS
 SECOND = 60  # steps
 STRATA = 4  # equal parts of a run; a moment is taken in the middle of each
 LOOK_EVERY = 6  # steps between two looks at the touching pairs
-WORK = ("bodies_integrated", "candidates", "contacts")  # counters that tell how busy a step is
+WORK = ("bodies_integrated", "candidates", "contacts")  # counters that measure the work of a step
 Changes = Sequence[tuple[str, Any]]
 
 
 class RecordedRun(NamedTuple):
-    """The inputs of a run, and the arguments of the scene that was run."""
+    """The inputs of a run, and the arguments with which the scene is created."""
 
     scene: str  # "module:class"
     arguments: tuple[Any, ...]  # seed, broad phase, solver, tier, path of the level file or None
@@ -40,7 +40,7 @@ class RecordedRun(NamedTuple):
 
     @classmethod
     def of(cls, scene: Scene, recorder: Recorder) -> "RecordedRun":
-        """Return the run that a recorder has recorded so far from the start of a scene."""
+        """Return the run of a scene that a recorder has recorded so far."""
         head, level = recorder.head, scene.level_file
         arguments = (head["seed"], head["broadphase"], head["solver"], head["tier"], level and str(level))
         inputs = tuple((count, frame) for count, frame in recorder.runs)
@@ -52,7 +52,7 @@ class RecordedRun(NamedTuple):
         return sum(count for count, _ in self.inputs)
 
     def make(self) -> Scene:
-        """Return a new scene, at the start of the run. Raises ValueError if its class cannot be found."""
+        """Return a new scene at the start of the run. Raises ValueError if the scene's class cannot be found."""
         module, name = self.scene.split(":")
         found: Any = import_module(module)
         for part in name.split("."):
@@ -63,18 +63,18 @@ class RecordedRun(NamedTuple):
         return found(*first, level and Path(level))
 
     def frames(self) -> Iterator[InputFrame]:
-        """Yield the input of each step."""
+        """Yield the input of each recorded step."""
         for count, frame in self.inputs:
             yield from repeat(frame, count)
 
     def continues(self, other: "RecordedRun", steps: int) -> bool:
-        """Return whether the first `steps` steps of this run are those of another one."""
+        """Return whether the first `steps` steps of this run are the same as those of `other`."""
         pairs = islice(zip(self.frames(), other.frames(), strict=False), steps)
         same = (self.scene, self.arguments) == (other.scene, other.arguments)
         return same and self.steps >= steps and all(a == b for a, b in pairs)
 
     def play(self, changes: Changes = ()) -> Iterator[Scene]:
-        """Play the run. Yield the scene after each step. changes: see Player."""
+        """Play the run, and yield the scene after each step. changes: see Player."""
         player = Player(self, changes)
         for frame in self.frames():
             player.step(frame)
@@ -82,10 +82,10 @@ class RecordedRun(NamedTuple):
 
 
 class Player:
-    """A scene that is played from recorded inputs.
+    """Player of a scene with recorded inputs.
 
-    changes: (name, value) pairs for Scene.change, applied before the first step; later changes of the same names in the
-    inputs are left out.
+    changes: (name, value) pairs for Scene.change(), applied before the first step. Changes of the same names in the
+    recorded inputs are ignored.
     """
 
     def __init__(self, run: RecordedRun, changes: Changes = ()) -> None:
@@ -94,14 +94,17 @@ class Player:
             self.scene.change(name, value)
 
     def step(self, frame: InputFrame) -> None:
-        """Make one step with this input."""
+        """Make one step with the input `frame`."""
         self.state.set(replace(frame, changes=tuple(each for each in frame.changes if each[0] not in self.fixed)))
         self.scene.step(self.state)
         self.scene.observe()
 
 
 def changes_to(setting: Setting, scene: Scene) -> Changes | str:
-    """Return the (name, value) changes that bring a scene to a setting, or a sentence on why that is impossible."""
+    """Return the changes that give a scene the setting `setting`, a list of (name, value).
+
+    If this is impossible, return a sentence with the reason instead.
+    """
     changes = []
     for name in setting.differs(here_of(scene.views()[0][0], scene.tier)):
         change = _change(scene, name, getattr(setting, name))
@@ -112,8 +115,9 @@ def changes_to(setting: Setting, scene: Scene) -> Changes | str:
 
 
 def _change(scene, name, value):
-    """Return the (name, value) changes for one part of a setting, or a sentence that says why the scene cannot change
-    it.
+    """Return the changes for one field of a setting, a list of (name, value).
+
+    If the scene cannot be changed in this way, return a sentence with the reason instead.
     """
     if value is None:
         return []
@@ -134,7 +138,7 @@ def _change(scene, name, value):
 
 
 class Overview(NamedTuple):
-    """Result of look_over: snapshots to measure from, the busiest second of the run, and the encounters of bodies."""
+    """Result of look_over(): snapshots to measure from, the busiest second, and the encounters of bodies."""
 
     moments: list[Moment]  # in the middle of each of STRATA parts, and at the start of the busiest second
     at: list[int]  # the steps after which they were taken
@@ -143,14 +147,14 @@ class Overview(NamedTuple):
 
 
 class Encounters:
-    """The pairs of bodies that met so far in a run, under every collision tier (kind of collision shape)."""
+    """The pairs of bodies that have met so far in a run, under every collision tier (kind of collision shape)."""
 
     def __init__(self) -> None:
         self.met: dict[str, set[tuple[int, int]]] = {}
         self.exact = ""  # the tier whose answers are right
 
     def look(self, scene: Scene) -> None:
-        """Add the pairs that touch now in the scene's first visible world, whose bodies have a collision tier."""
+        """Add the pairs of bodies that touch now in the scene's first visible world, for every collision tier."""
         moment = moment_of(scene)
         self.exact = exact_tier(moment.here.tier or "")
         for tier in TIERS:
@@ -159,21 +163,24 @@ class Encounters:
             self.met.setdefault(tier, set()).update(pairs_of(world))
 
     def verdicts(self) -> dict[str, Verdicts]:
-        """Return {tier: Verdicts}: its pairs, and the pairs that the exact tier reported; {} before the first look."""
+        """Return {tier: Verdicts} for every collision tier (kind of collision shape); {} before the first look().
+
+        Verdicts contains the pairs that this tier reported and the pairs that the exact tier reported.
+        """
         true = frozenset(self.met.get(self.exact, ()))
         return {tier: Verdicts(frozenset(pairs), true, tier == self.exact) for tier, pairs in self.met.items()}
 
 
 def moment_of(scene: Scene) -> Moment:
-    """Return a snapshot to measure from, of the scene's first visible world."""
+    """Return a snapshot of the scene's first visible world, from which measurements can start, as a Moment."""
     world = scene.views()[0][0]
     return Moment(world.snapshot(), world.broadphase.name)
 
 
 def look_over(run: RecordedRun) -> Overview:
-    """Return the Overview of a run, which is played twice.
+    """Return the Overview of a run. For this, the run is played twice.
 
-    The first time finds the busiest second; the second time takes snapshots and counts the encounters of bodies. Raises
+    The first pass finds the busiest second. The second pass takes snapshots and counts the encounters of bodies. Raises
     ValueError for a run without steps.
     """
     if not run.steps:
@@ -195,9 +202,10 @@ def _work_of(scene):
 
 
 def busiest(work: np.ndarray) -> int:
-    """Return the step after which the busiest second begins: the SECOND steps with the most work.
+    """Return the number of the step after which the busiest second begins.
 
-    work (steps,): work of each step. For a run of up to a second the result is the first step.
+    The busiest second is the SECOND consecutive steps with the most work. work: (steps,) work of each step. For a run
+    of up to a second, the result is the first step.
     """
     if len(work) <= SECOND:
         return 1
@@ -206,7 +214,7 @@ def busiest(work: np.ndarray) -> int:
 
 
 def seconds_of_steps(run: RecordedRun, changes: Changes) -> np.ndarray:
-    """Return (steps,) seconds that the physics of each step of a run took, with these changes applied."""
+    """Return (steps,) time [s] that the physics of each step of a run took, with the given changes applied."""
     with undisturbed():
         spent = [sum(sum(w.profile.stages.values()) for w in scene.worlds) for scene in run.play(changes)]
     return np.array(spent)

@@ -1,8 +1,8 @@
 """Recordings: the seed, the input of every step, and digests of the scene's state.
 
-A replay runs the scene again and reports the first frame whose digest differs. The file is JSON; repeated input takes
+A replay runs the scene again and reports the first frame whose digest differs. The file is JSON. Repeated input takes
 one line, so that the file can be read, compared and repaired by hand. Version 2 adds level, date and result; version 1
-can still be read. A recording of another physics version is played as well; its first different frame is only noted.
+can still be read. A recording of another physics version is also played, but its first difference is only noted.
 """
 
 import json
@@ -55,7 +55,7 @@ class Recorder:
         self.digests = []
 
     def note(self, frame: InputFrame, scene: Scene) -> None:
-        """Record a step. Call it after the step; frame: the step's input."""
+        """Record a step. Call this after the step. frame: input of the step."""
         self.frames += 1
         if self.runs and self.runs[-1][1] == frame:
             self.runs[-1][0] += 1
@@ -65,7 +65,10 @@ class Recorder:
             self.digests.append(scene_digest(scene)[:DIGITS])
 
     def cut(self, frames: int) -> None:
-        """Keep only the first `frames` frames. Called when the player has rewound to that frame and plays on."""
+        """Remove all but the first `frames` frames.
+
+        This is called when the player has rewound to that frame and continues there.
+        """
         left = self.frames - frames
         self.frames -= max(0, left)
         while left > 0:
@@ -77,7 +80,10 @@ class Recorder:
         del self.digests[self.frames // self.every :]
 
     def save(self, path: str | Path, result: Result | None = None) -> None:
-        """Write the recording to a file. result: result of the game, or None. Raises OSError."""
+        """Write the recording to a file.
+
+        result: result of the game, or None if the game has not ended. Raises OSError.
+        """
         ended = result and {"won": bool(result.won), "points": int(result.points), "seconds": float(result.seconds)}
         head = {**self.head, "result": ended, "frames": self.frames}
         lines = [json.dumps(head)[:-1] + ",", '"inputs": [']
@@ -87,9 +93,9 @@ class Recorder:
 
 
 def chosen_before(scene: Scene) -> list[tuple[str, Any]]:
-    """Return the (name, value) changes that bring a new scene to this scene's current settings.
+    """Return the changes that give a new scene the current settings of `scene`, a list of (name, value).
 
-    Settings that the head of a recording contains are left out.
+    Settings that the head of a recording contains are not included.
     """
     changes: list[tuple[str, Any]] = [
         (f"slider:{s.name}", scene.values[s.name]) for s in scene.sliders if scene.values[s.name] != s.start
@@ -102,7 +108,10 @@ def chosen_before(scene: Scene) -> list[tuple[str, Any]]:
 
 
 class Replay:
-    """A recording that was read. next() returns the input of each step, verify() compares the scene's state."""
+    """A recording that was read from a file.
+
+    next() returns the input of each step, and verify() compares the scene's state.
+    """
 
     def __init__(self, path: str | Path, data: dict[str, Any], frames: list[InputFrame]) -> None:
         self.path = path
@@ -129,7 +138,7 @@ class Replay:
     def level_path(self) -> Path | None:
         """Return the level file that was played; None for the scene's own level.
 
-        Raises FileError if the file has changed since.
+        Raises FileError if the file has changed since the recording.
         """
         if self.level is None:
             return None
@@ -144,15 +153,15 @@ class Replay:
         return path
 
     def next(self, scene: object) -> InputFrame:
-        """Return the input of the next step, and empty input after the last one. scene: not used."""
+        """Return the input of the next step; empty input after the last step. scene: not used."""
         self.index += 1
         return self.inputs[self.index - 1] if self.index <= len(self.inputs) else NOTHING
 
     def verify(self, scene: Scene) -> None:
         """Compare the scene's state after a step with the recorded digest, if there is one for this frame.
 
-        Raises ReplayDiverged, which names the frame, if they differ. For a recording of another physics version, the
-        first difference is recorded in `parted` instead.
+        Raises ReplayDiverged, which names the frame, if they differ. For a recording of another physics version, a
+        message about the first difference is stored in `parted` instead.
         """
         frame = self.index
         if frame % self.every or frame // self.every > len(self.digests):
@@ -167,9 +176,7 @@ class Replay:
 
 
 def load_replay(path: str | Path) -> Replay:
-    """Read a recording, and return it as a Replay. Raises FileError, which names the file, the place, and the
-    reason.
-    """
+    """Read a recording, and return it as a Replay. Raises FileError, which names the file, the place and the reason."""
     data = read_json(path)
     if isinstance(data, dict) and data.get("version") == 1:
         data = {**data, "level": None, "date": "", "result": None}

@@ -1,6 +1,6 @@
-"""Check that a scene can play a recording.
+"""Check that a recording can be played by its scene.
 
-Every name and value is checked, because files come from friends and from other versions.
+Every name and value is checked, because files may come from other people and from other versions.
 """
 
 from pathlib import Path
@@ -15,7 +15,7 @@ from physics import BROADPHASES
 def load_replay_for(path: str | Path, registry: Registry) -> tuple[Replay, type[Scene]]:
     """Read a recording. Return (recording, class of its scene).
 
-    Raises FileError if the file is damaged, or if its scene cannot play it.
+    Raises FileError if the file is damaged, or if the scene cannot play the recording.
     """
     recording = load_replay(path)
     if recording.scene not in registry.names:
@@ -28,7 +28,7 @@ def load_replay_for(path: str | Path, registry: Registry) -> tuple[Replay, type[
 
 
 def check_recording(recording: Replay, scene_class: type[Scene]) -> None:
-    """Check the values of a recording against its scene.
+    """Check that the values of a recording are valid for its scene.
 
     Raises FileError, which names the first value that the scene does not accept.
     """

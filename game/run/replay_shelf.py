@@ -19,17 +19,17 @@ SHORTEST = 120  # frames: shorter runs are not kept
 
 
 def replays_folder() -> Path:
-    """Return the folder of the replays that the player keeps. Files from friends belong there, too."""
+    """Return the path of the folder of replays that the player keeps. Replays from other people belong there, too."""
     return data_folder() / "replays"
 
 
 def recent_folder() -> Path:
-    """Return the folder of the runs that are saved automatically."""
+    """Return the path of the folder of runs that are saved automatically."""
     return replays_folder() / "recent"
 
 
 def shelf() -> list[tuple[Path, bool]]:
-    """Return a list of (path, whether the player keeps it) of all replays, newest first."""
+    """Return a list of (path, kept) of all replays, newest first. kept: whether the player has chosen to keep it."""
     found = [(changed, path, True) for changed, path in files_of(replays_folder())]
     found += [(changed, path, False) for changed, path in files_of(recent_folder())]
     return [(path, kept) for _, path, kept in sorted(found, key=lambda each: (-each[0], each[1].name))]
@@ -38,7 +38,7 @@ def shelf() -> list[tuple[Path, bool]]:
 def files_of(folder: Path) -> list[tuple[float, Path]]:
     """Return a list of (modification time, path) of the replays in a folder.
 
-    Folders, broken links and files deleted meanwhile are left out.
+    Folders, broken links, and files deleted in the meantime are not included.
     """
     found = []
     try:
@@ -56,9 +56,10 @@ def files_of(folder: Path) -> list[tuple[float, Path]]:
 
 
 def put_recent(recorder: Recorder, result: Result | None = None) -> Path | None:
-    """Save a run in recent/, and delete the oldest runs there. Return its path; None if it is too short to keep.
+    """Save a run in recent/, and delete the oldest runs there.
 
-    result: result of its game, or None. Raises OSError.
+    Return the path; None if the run is too short to be saved. result: result of the run's game, or None. Raises
+    OSError.
     """
     if recorder.frames < SHORTEST:
         return None
@@ -74,8 +75,8 @@ def put_recent(recorder: Recorder, result: Result | None = None) -> Path | None:
 def keep(path: Path) -> Path:
     """Copy a replay from recent/ to replays/, so that it is not deleted. Return the copy's path. Raises OSError.
 
-    If replays/ has a file of that name with the same content, that file serves as the copy. If its content differs, the
-    copy gets another name.
+    If replays/ already has a file with the same name and content, nothing is copied. If the content differs, the copy
+    gets another name.
     """
     content = path.read_bytes()
     names = chain((path.name,), (f"{path.stem}-{number}{path.suffix}" for number in count(2)))

@@ -1,12 +1,15 @@
-"""Rewind: store the last ten seconds of a running scene, so that the state after any step in them can be restored.
+"""Rewind: store the last ten seconds of a running scene, so that the state after any of these steps can be restored.
 
-Key frames (stored states) are taken at intervals, and between them the inputs of the steps are stored. A seek restores
-the last key frame before the wanted step and makes the steps from there again. A key frame is due once the steps since
-the previous one took KEY_SECONDS, or once there are MOST_STEPS of them. This bounds the time of a seek. An expensive
-key frame waits until the steps took twice its own time, or is not taken at all. If key frames hold more than
-MOST_BYTES, the oldest are dropped. A restart by the player clears the past.
-While kernels run uncompiled, which makes steps slow, a key frame waits PLAIN times as long, and nothing is compressed.
-A seek in the first seconds of a first start may therefore take that much longer.
+Key frames (stored states) are taken at intervals. The inputs of the steps between them are stored. A seek restores the
+last key frame before the requested step, and repeats the steps from there.
+
+A key frame is due once the steps since the previous one took KEY_SECONDS, or once there are MOST_STEPS of them. This
+limits the time of a seek. An expensive key frame waits until the steps have taken twice its own time, or is not taken
+at all. If key frames need more than MOST_BYTES, the oldest are removed. A restart by the player clears the stored
+steps.
+
+While kernels are not compiled, steps are slow. Then a key frame waits PLAIN times as long, and nothing is compressed.
+Therefore a seek in the first seconds of a first start may take PLAIN times as long.
 """
 
 import pickle
@@ -34,9 +37,9 @@ MOST_RAW = 2048  # chunks that wait for compression (16 MB); if there are more, 
 
 
 class Stretch:
-    """A key frame, and the inputs of the steps from it to the next key frame.
+    """A key frame, and the inputs of the steps from this key frame to the next one.
 
-    start: number of the step of the key frame. before: input of the step that led to the key frame.
+    start: number of the step of the key frame; before: input of the step that led to the key frame.
     """
 
     def __init__(self, start: int, key: KeyFrame, before: InputFrame) -> None:
@@ -52,22 +55,22 @@ class Stretch:
         return pickle.loads(zlib.decompress(self.packed)) if self.open is None else self.open
 
     def close(self) -> None:
-        """Compress the inputs. Called when no more will follow."""
+        """Compress the inputs. This is called when no more inputs will follow."""
         if self.open is not None:
             self.packed, self.open = zlib.compress(pickle.dumps(self.open, 5)), None
 
     def cut(self, steps: int) -> None:
-        """Keep only the inputs of the first `steps` steps. New ones may be added after them."""
+        """Remove all but the inputs of the first `steps` steps. New inputs can be added after them."""
         inputs = self.inputs
         self.spent *= steps / max(1, len(inputs))
         self.open = inputs[:steps]
 
 
 class Rewind:
-    """The past steps of a session. Call note() after every step of the session.
+    """The past steps of a session, to which the session can return. Call note() after every step of the session.
 
-    position: number of the step whose result the scene shows; end: number of the last step made. prepared(): called
-    after a key frame was restored, before steps are made from it.
+    position: number of the step whose result the scene shows; end: number of the last step that was made. prepared():
+    called after a key frame is restored and before steps are made from it.
     """
 
     def __init__(self, session: Session, prepared: Callable[[], None] = lambda: None) -> None:
@@ -84,17 +87,17 @@ class Rewind:
 
     @property
     def start(self) -> int:
-        """Earliest step that a seek can reach."""
+        """Number of the earliest step that a seek can reach."""
         return max(self.stretches[0].start, self.end - STEPS)
 
     @property
     def live(self) -> bool:
-        """True if the scene shows the result of the last step made; False after a seek into the past."""
+        """Whether the scene shows the result of the last step that was made. False after a seek into the past."""
         return self.position == self.end
 
     @property
     def following(self) -> InputFrame | None:
-        """Recorded input of the step that follows the current state; None at the last step made."""
+        """Recorded input of the step after the current state; None if the current state is that of the last step."""
         if self.live:
             return None
         stretch = next(each for each in reversed(self.stretches) if each.start <= self.position)
@@ -102,7 +105,7 @@ class Rewind:
 
     @property
     def bytes(self) -> int:
-        """Memory that the stored past takes [bytes]."""
+        """Memory of the stored steps [bytes]."""
         inputs = sum(len(each.packed) + 300 * len(each.open or ()) for each in self.stretches)
         return inputs + bytes_held([each.key for each in self.stretches])
 
@@ -114,7 +117,7 @@ class Rewind:
     def note(self) -> None:
         """Record a step of the session.
 
-        After a seek into the past, call drop_future() before the step; otherwise note() raises ValueError.
+        Raises ValueError after a seek into the past. In this case, call drop_future() before the step.
         """
         if not self.live:
             raise ValueError(f"step {self.position} of {self.end} is not the last: drop_future() before it is made")
@@ -141,9 +144,9 @@ class Rewind:
     def _is_due(self, last):
         """Return whether to take a key frame now: there are enough steps since the last one, and it is cheap.
 
-        last: Stretch of the last key frame. Enough: its steps took KEY_SECONDS (PLAIN times that while kernels run
-        uncompiled), or there are MOST_STEPS of them. Cheap: a key frame takes at most DEAREST [s], and at most half the
-        time of these steps.
+        last: Stretch of the last key frame. Enough: its steps took KEY_SECONDS (PLAIN times as long while kernels are
+        not compiled), or there are MOST_STEPS of them. Cheap: taking a key frame is expected to last at most DEAREST
+        [s], and at most half the time of these steps.
         """
         enough = KEY_SECONDS * (PLAIN if tiers.wanted else 1)
         if last.spent < enough and len(last.open) < MOST_STEPS:
@@ -153,7 +156,7 @@ class Rewind:
     def _cost(self):
         """Return the expected time of taking a key frame [s].
 
-        It follows from the least time per byte of the last ones.
+        The time is computed from the least time per byte of the recent key frames.
         """
         return min(self.rates) * _weight(self.session.scene)
 
@@ -175,7 +178,7 @@ class Rewind:
             del self.stretches[0]
 
     def seek(self, step: int) -> None:
-        """Restore the scene's state after step number `step`, which is limited to `start` .. `end`."""
+        """Restore the scene's state after the step number `step`, which is limited to `start` .. `end`."""
         step = max(self.start, min(self.end, step))
         self.steps_made = 0
         if step == self.position:
@@ -197,9 +200,9 @@ class Rewind:
         session.scene.cues.clear()
 
     def _put_back(self, stretch, inputs, step):
-        """Restore the last stored state at or before `step`. inputs: inputs of the stretch.
+        """Restore the last stored state in `stretch` at or before the step `step`. inputs: inputs of the stretch.
 
-        The state is that of the stretch's key frame, or of an extra key frame (`stones`) from an earlier seek.
+        The stored state is the key frame of the stretch, or an extra key frame (`stones`) from an earlier seek.
         """
         last = stretch.start + len(inputs)
         self.stones = {at: stone for at, stone in self.stones.items() if stretch.start < at <= last}
@@ -212,7 +215,7 @@ class Rewind:
         self.prepared()
 
     def drop_future(self) -> None:
-        """Drop the steps after the current state, in the recorder, too.
+        """Remove the steps after the current state, also from the recorder.
 
         The game then continues from the current state.
         """
@@ -230,9 +233,9 @@ class Rewind:
 
 
 def _weight(scene):
-    """Return the size of the scene's largest tables plus FIXED [bytes].
+    """Return the size of the scene's largest tables, plus FIXED [bytes].
 
-    The time of taking a key frame is proportional to it.
+    The time of taking a key frame is proportional to this size.
     """
     tables = ((world.bodies, world.shapes, world.contact_rows) for world in scene.worlds)
     return FIXED + sum(table.nbytes for each in tables for table in each)

@@ -1,8 +1,9 @@
-"""`python -m game.run.run_worker`: the measuring process of a played scene, which also plays its recorded run.
+"""`python -m game.run.run_worker`: the measuring process of a played scene, which also plays the scene's recorded run.
 
-Besides the orders of game.measure.worker it takes two with a recorded run. "prove": apply a setting to the whole run. A
-snapshot ("moment") with a run: count the encounters of bodies in the run so far under every collision tier, then
-measure from the snapshot as usual. A run that goes on is not played from its start again.
+In addition to the orders of game.measure.worker, it accepts two orders with a recorded run. "prove" tests a setting on
+the whole run. A snapshot ("moment") with a run counts the encounters of bodies in the run so far, under every collision
+tier. Measurements from the snapshot follow as usual. If a run continues the previous one, only its new steps are
+played.
 """
 
 import json
@@ -24,7 +25,7 @@ LOOK_EVERY = 12  # steps between two looks at the touching pairs
 
 
 class Follower:
-    """Plays a recorded run as far as it goes, and counts the encounters of bodies under every collision tier."""
+    """Player of a recorded run that grows. It counts the encounters of bodies under every collision tier."""
 
     def __init__(self) -> None:
         self.run: RecordedRun | None = None
@@ -33,10 +34,10 @@ class Follower:
         self.encounters = Encounters()
 
     def follow(self, run: RecordedRun, goes_on: Callable[[], bool]) -> dict[str, Verdicts]:
-        """Play on to the end of `run` while goes_on() is True.
+        """Play the new steps of `run` while goes_on() is True. Return {collision tier: Verdicts} of the encounters.
 
-        A run that does not continue the last one, because of a restart or a rewind, is played from its start. Return
-        the encounters by collision tier; {} without tiers.
+        A run that does not continue the previous one, because of a restart or a rewind, is played from its start. The
+        result is {} for a scene without collision tiers.
         """
         if self.run is None or self.player is None or not run.continues(self.run, self.steps):
             self.player, self.steps, self.encounters = Player(run), 0, Encounters()
@@ -54,9 +55,9 @@ class Follower:
 def measure_played(
     follower: Follower, order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]
 ) -> None:
-    """Report the encounters of the recorded run of an order, then measure its snapshot as worker.measure does.
+    """Report the encounters in the recorded run of an order, then measure its snapshot as worker.measure() does.
 
-    follower: Follower of the run; report(line of JSON) is called for each result, while goes_on() is True.
+    follower: Follower of the run; report(line of JSON): called for each result. The work stops when goes_on() is False.
     """
     met = follower.follow(_loaded(order), goes_on)
     found = {tier: sent_verdicts(verdicts) for tier, verdicts in met.items()}
@@ -65,9 +66,9 @@ def measure_played(
 
 
 def prove(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Apply the setting of an order to its whole run, and report the measured times.
+    """Test the setting of an order on its whole run, and report the measured times.
 
-    report(line of JSON) is called with the result; goes_on: not used.
+    report(line of JSON): called with the result; goes_on: not used.
     """
     setting, predicted = order["prove"]
     applied = apply_to_run(_loaded(order), Setting(*setting), predicted)

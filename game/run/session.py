@@ -1,4 +1,4 @@
-"""Session: runs a scene step by step, with its input, recording, invariants and measurements."""
+"""Session: a run of a scene, step by step, with its input, recording, invariants and measurements."""
 
 from time import perf_counter
 
@@ -11,7 +11,7 @@ from game.scene import Scene
 
 
 class Session:
-    """One run of a scene. source.next(scene) returns the input of each step; recorder and replay are optional.
+    """One run of a scene. source.next(scene) returns the input of each step. recorder and replay are optional.
 
     strict: whether the run ends at the first broken invariant.
     """
@@ -34,10 +34,10 @@ class Session:
             scene.watch_invariants(strict=True)
 
     def step(self) -> None:
-        """Make one fixed step.
+        """Make one fixed step of the scene.
 
-        Raises ReplayDiverged if the state differs from the replay's digest, and StrictFailure for a broken invariant if
-        `strict`. The time for checking invariants does not count as time of the scene.
+        Raises ReplayDiverged if the state differs from the replay's digest. Raises StrictFailure for a broken invariant
+        if the session is strict. The time of checking invariants does not count as time of the scene.
         """
         frame = self.source.next(self.scene)
         self.inputs.set(frame)

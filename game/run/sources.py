@@ -11,27 +11,30 @@ class Source(Protocol):
     """Interface of an object that supplies the input of each step."""
 
     def next(self, scene: Scene) -> InputFrame:
-        """Return the input of the next step."""
+        """Return the InputFrame of the next step."""
         ...
 
 
 class ScriptSource:
-    """Source with a list of inputs (InputFrames, or sets of actions). After its end it supplies empty input."""
+    """Source that supplies a list of inputs (InputFrames, or sets of actions).
+
+    After its end, it supplies empty input.
+    """
 
     def __init__(self, frames: Iterable[InputFrame | Iterable[str]]) -> None:
         self.frames = [f if isinstance(f, InputFrame) else InputFrame(frozenset(f)) for f in frames]
         self.index = 0
 
     def next(self, scene: object) -> InputFrame:
-        """Return the input of the next step; empty input after the end of the list."""
+        """Return the input of the next step; empty input after the end of the list. scene: not used."""
         self.index += 1
         return self.frames[self.index - 1] if self.index <= len(self.frames) else NOTHING
 
 
 class BotSource:
-    """Source in which the scene's bot plays.
+    """Source that supplies the input of the scene's bot.
 
-    person: source of a person's input, or None. The person's changes of settings are added to the bot's input; the
+    person: source of a person's input, or None. The person's changes of settings are added to the bot's input. The
     person's other input is ignored.
     """
 
@@ -52,5 +55,5 @@ class IdleSource:
     """Source of empty input."""
 
     def next(self, scene: object) -> InputFrame:
-        """Return empty input."""
+        """Return empty input. scene: not used."""
         return NOTHING

@@ -1,8 +1,8 @@
 """Step inspector: stop a step of a scene after any of its stages, and move forwards and backwards between stages.
 
 The scene starts from a key frame, and its rules run until they step the world. The world's step is aborted after the
-chosen stage, and the scene is left in that state. Every state is reached from the key frame in this way, so that going
-back gives the same bits. At the end the key frame is restored.
+chosen stage, and the scene remains in that state. Every state is reached from the key frame in this way, so that moving
+backwards gives bit-identical states. At the end, the key frame is restored.
 """
 
 from collections.abc import Callable
@@ -30,7 +30,7 @@ class Halted(Exception):
 
 
 class Done(NamedTuple):
-    """A finished stage, and the changes that it made."""
+    """A finished stage of a step, and the changes that the stage made."""
 
     stage: Stage
     counted: dict[str, int]  # increments of the counters
@@ -42,8 +42,8 @@ class StepInspector:
     """Inspector of one step of a world. before: input of the previous step.
 
     following(): returns the input of the inspected step. stages: stages of all steps that the world makes in this
-    frame, in order; empty if it makes none. starts: indices in `stages` at which these steps begin. place: number of
-    stages that have run. done: the stage that ran last, with its changes.
+    frame, in order; empty if there is no step. starts: indices in `stages` at which these steps begin. place: number of
+    stages that have run. done: the stage that ran last, with its changes, or None.
     """
 
     def __init__(
@@ -78,7 +78,7 @@ class StepInspector:
             )
 
     def leave(self) -> None:
-        """End the inspection: restore the scene's state before the step."""
+        """End the inspection, and restore the scene's state before the step."""
         self.key.restore()
 
     def _run(self):
@@ -94,7 +94,10 @@ class StepInspector:
             self.world.stepped_by = None
 
     def _make(self, world, dt):
-        """Make a step of the world up to stage number `stop`. The scene calls this in place of World.step()."""
+        """Make a step of the world, and abort it after stage number `stop`.
+
+        The scene calls this instead of World.step().
+        """
         with closing(staged_step(world, dt)) as steps:
             for stage in steps:
                 if stage is None:
@@ -119,10 +122,10 @@ class StepInspector:
 
 
 def next_input(session: Session, rewind: Rewind) -> tuple[Callable[[], InputFrame], str]:
-    """Return (function, sentence) for the next step of a session.
+    """Return (function, sentence) about the input of the next step of a session.
 
-    The function returns the step's input; call it in the state before that step. The sentence says where the input
-    comes from: the recorded steps of `rewind`, the bot, or the keys that are held now.
+    The function returns the step's input. It must be called in the state before that step. The sentence names the
+    source of the input: the recorded steps of `rewind`, the bot, or the keys that are held now.
     """
     recorded, held = rewind.following, replace(session.inputs.now, wheel=0, changes=())
     if recorded is not None:
@@ -139,7 +142,7 @@ def photographed(world: WatchedWorld) -> dict[str, np.ndarray]:
 
 
 def compared(stage: Stage, before: dict[str, np.ndarray], after: dict[str, np.ndarray]) -> Done:
-    """Return a stage with the changes that it made. before, after: results of photographed().
+    """Return a stage with the changes that it made, as a Done. before, after: results of photographed().
 
     Values are compared as bytes: NaN equals NaN, and -0.0 differs from 0.0.
     """
@@ -163,7 +166,7 @@ def compared(stage: Stage, before: dict[str, np.ndarray], after: dict[str, np.nd
 
 
 def _differing(old, new):
-    """Return the number of rows in which two columns of the same length differ."""
+    """Return the number of rows in which two arrays of the same length differ."""
     if not len(new):
         return 0
     old, new = (np.ascontiguousarray(each).view(np.uint8).reshape(len(each), -1) for each in (old, new))

@@ -1,7 +1,8 @@
 """Playback of a recording, step by step, with seeks to any frame by means of key frames.
 
-A key frame is a deep copy of the scene and its input. Copies share pictures, because game rules never draw on them. Key
-frames are KEY_SECONDS apart, or more in a long recording that would need more than MOST_KEYS of them (see `spacing`).
+A key frame is a deep copy of the scene and its input. The copies share pictures, because game rules never draw on them.
+Key frames are KEY_SECONDS apart. In a long recording, the distance is increased so that there are at most MOST_KEYS of
+them (see `spacing`).
 """
 
 import copy
@@ -52,11 +53,14 @@ class Tape:
 
     @property
     def ended(self) -> bool:
-        """True after the last frame of the recording."""
+        """Whether the last frame of the recording has been played."""
         return self.position >= self.length
 
     def step(self) -> None:
-        """Play one frame, if one is left. A difference from the recording is noted, and playback continues."""
+        """Play one frame, if the recording has not ended.
+
+        A difference from the recording is noted, and playback continues.
+        """
         if self.ended:
             return
         try:
@@ -73,15 +77,15 @@ class Tape:
             self.keys[self.position] = copy.deepcopy((self.scene, self.session.inputs))
 
     def seek(self, frame: int) -> None:
-        """Move to a frame. The call returns once the steps up to this frame have been played."""
+        """Move to the frame `frame`. The call returns after the steps up to this frame have been played."""
         self.begin_seek(frame)
         while self.goal is not None:
             self.seek_on(60.0)
 
     def begin_seek(self, frame: int) -> None:
-        """Begin to move to a frame: restore the nearest key frame before it. seek_on() plays the rest.
+        """Start to move to the frame `frame`: restore the nearest key frame before it.
 
-        A seek that has not ended is cancelled.
+        seek_on() plays the remaining steps. An unfinished earlier seek is cancelled.
         """
         frame = max(0, min(self.length, frame))
         nearest = max(key for key in self.keys if key <= frame)
@@ -91,7 +95,7 @@ class Tape:
         self.goal = frame if frame != self.position else None
 
     def seek_on(self, seconds: float) -> None:
-        """Continue a seek: play on towards its frame, for at most about `seconds` of real time."""
+        """Continue a seek: play steps towards its frame, for about `seconds` of real time at most."""
         started = perf_counter()
         while self.goal is not None and self.position < self.goal:
             self.step()

@@ -19,10 +19,10 @@ BAR = 32  # characters
 def jobs_of(
     scene_class: type[Scene], broadphase: str | None = None, solver: str | None = None, everything: bool = False
 ) -> list[Job]:
-    """Return the kernels that one scene's worlds need at the start, as jobs: dicts of arguments of physics.warmup().
+    """Return the kernels that a scene's worlds need at the start, as jobs: dicts of arguments of physics.warmup().
 
-    broadphase, solver: the user's choices, or None. everything: whether all optional parts of physics and all broad
-    phases are included, and not only those that the scene declares.
+    broadphase, solver: the user's choices, or None. everything: True includes all optional parts of physics and all
+    broad phases. False includes only those that the scene declares.
     """
     return [
         {
@@ -36,7 +36,7 @@ def jobs_of(
 
 
 def warm_up_scene(scene_class: type[Scene], broadphase: str | None = None, solver: str | None = None) -> None:
-    """Compile the kernels that one scene needs at its start, on all cores, and load them.
+    """Compile the kernels that a scene needs at its start, on all cores, and load them.
 
     broadphase, solver: the user's choices, or None. Progress is written to standard error.
     """
@@ -49,7 +49,7 @@ def warm_up_scene(scene_class: type[Scene], broadphase: str | None = None, solve
 
 
 def strategy_of(scene_class: type[Scene], chosen: str | None = None) -> str:
-    """Return the name of the broad phase with which a scene's worlds begin; "all" if each world has its own.
+    """Return the name of the broad phase of a scene's worlds at the start; "all" if each world has its own.
 
     chosen: the user's choice, or None.
     """
@@ -57,7 +57,7 @@ def strategy_of(scene_class: type[Scene], chosen: str | None = None) -> str:
 
 
 def solvers_of(scene_class: type[Scene], chosen: str | None = None) -> tuple[str | None, ...]:
-    """Return the names of all solvers that a scene's worlds may use. None in the result stands for World's default.
+    """Return the names of all solvers that a scene's worlds may use. None in the result means World's default.
 
     chosen: the user's choice, or None.
     """
@@ -65,7 +65,7 @@ def solvers_of(scene_class: type[Scene], chosen: str | None = None) -> tuple[str
 
 
 def worlds_of(scene_class: type[Scene], chosen: str | None = None) -> list[tuple[Effects, str | None]]:
-    """Return (effects, solver) of all kinds of worlds that a scene may build. A solver None stands for World's default.
+    """Return (effects, solver) of each kind of world that a scene may build. A solver of None means World's default.
 
     chosen: the user's choice of solver, or None.
     """
@@ -77,7 +77,7 @@ def worlds_of(scene_class: type[Scene], chosen: str | None = None) -> list[tuple
 def pieces_of(scene_class: type[Scene]) -> tuple[str, ...] | None:
     """Return the optional parts ("pieces") of physics that a scene uses; None if the scene does not restrict them.
 
-    They are those that it declares, and "queries" if bodies can be dragged.
+    These are the parts that the scene declares, and "queries" if its bodies can be dragged.
     """
     if scene_class.pieces is None:
         return None
@@ -87,7 +87,7 @@ def pieces_of(scene_class: type[Scene]) -> tuple[str, ...] | None:
 def warm_up_all(registry: Registry, out: TextIO | None = None) -> int:
     """Run --warmup: compile the kernels of all scenes and broad phases, on all cores. Return the exit code.
 
-    out: stream for the progress; None: standard output.
+    out: stream for the progress; None means standard output.
     """
     stream: TextIO = sys.stdout if out is None else out
     started = perf_counter()
@@ -105,7 +105,7 @@ def warm_up_all(registry: Registry, out: TextIO | None = None) -> int:
 
 
 def draw_bar(out: TextIO, share: float, name: str) -> None:
-    """Write a progress line over the previous one: a bar of which `share` (0..1) is filled, and a name.
+    """Write a progress line over the previous one: a bar that is filled by `share` (0..1), and a name.
 
     Nothing is written if `out` is not a terminal.
     """
@@ -117,9 +117,9 @@ def draw_bar(out: TextIO, share: float, name: str) -> None:
 
 
 class StderrProgress:
-    """Progress of compilation on standard error, written once compilation has taken `quiet` seconds.
+    """Progress of compilation on standard error. Nothing is written before compilation has taken `quiet` seconds.
 
-    On a terminal it is one line that is updated, otherwise a new line every ten seconds.
+    On a terminal, the progress is one line that is updated. Otherwise, a new line is written every ten seconds.
     """
 
     def __init__(self, quiet: float = 1.0) -> None:
@@ -128,7 +128,10 @@ class StderrProgress:
         self.shown = False
 
     def __call__(self, done: int, total: int, name: str) -> None:
-        """Write the progress if it is due. done, total: numbers of kernels."""
+        """Write the progress if it is due.
+
+        done, total: numbers of compiled kernels and of all kernels; name: not used.
+        """
         now = perf_counter()
         if sys.stderr is None or now - self.started < self.quiet:
             return
