@@ -1,1 +1,1 @@
-"""Screens: title, menus, play, replays, and the stack that leads from one to the next."""
+"""Screens: title, menus, play and replays, and the stack that switches between them."""

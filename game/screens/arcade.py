@@ -15,7 +15,7 @@ from game.startup import say
 
 
 class Arcade:
-    """State shared by all screens. running: set to False to end the program.
+    """State shared by all screens. running: if set to False, the program ends.
 
     message: warning about settings or records that could not be read, or "".
     """
@@ -35,7 +35,7 @@ class Arcade:
         self.running = True
 
     def apply_settings(self) -> None:
-        """Apply the settings after a change: window mode, keys, buttons and volumes."""
+        """Apply the settings after they have changed: window mode, keys, buttons and volumes."""
         if mode_of(self.settings) != self.mode:
             self.mode = mode_of(self.settings)
             try:
@@ -46,7 +46,7 @@ class Arcade:
         self.sounds.master, self.sounds.effects = self.settings.master, self.settings.effects
 
     def save_settings(self) -> None:
-        """Write the settings. A failed save is reported and does not stop the game."""
+        """Write the settings to their file. A failure is reported and does not stop the game."""
         try:
             save_settings(self.settings)
         except OSError as error:

@@ -1,4 +1,4 @@
-"""The demonstration that starts when the title is idle: bots play the games and two labs. Any key ends it."""
+"""The demonstration that starts when the title screen is idle: bots play the games and two labs. Any key ends it."""
 
 from collections.abc import Callable, Sequence
 
@@ -24,9 +24,10 @@ ENDS_IT = (pygame.KEYDOWN, pygame.MOUSEBUTTONDOWN, pygame.CONTROLLERBUTTONDOWN, 
 
 
 class Attract(SceneScreen):
-    """Demonstration of one scene after the other. make(name) builds a scene; names: the scenes that exist.
+    """Demonstration of several scenes, one after another. make(name) builds a scene; names: the scenes that exist.
 
-    `outcome` becomes ("back",) when it ends. `quiet`: the music is played low.
+    `outcome`, the request for the next screen, becomes ("back",) at the end. `quiet`: True plays the music at low
+    volume.
     """
 
     shows_pointer = False
@@ -48,18 +49,21 @@ class Attract(SceneScreen):
 
     @property
     def tune(self) -> str | None:
-        """Name of the current scene's music."""
+        """Name of the current scene's music; "title" before a scene is built."""
         return self.demo.scene.music if self.demo else "title"
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """End the demonstration on any key, button or click. Return whether the event was one of these."""
+        """End the demonstration on any key, button or click. Return whether the event was such an input."""
         if event.type in ENDS_IT:
             self.outcome = ("back",)
             return True
         return False
 
     def advance(self, now: float) -> None:
-        """Make the steps due at `now` [s]. After SECONDS of a scene, change to the next one."""
+        """Make the steps due at `now` [s].
+
+        After STEPS steps of a scene, or soon after its game ends, change to the next scene.
+        """
         if self.demo is None:
             self._begin()
         if self.demo is not None:
@@ -84,7 +88,7 @@ class Attract(SceneScreen):
         self.demo = Demo(scene, self.accessibility)
 
     def draw(self, picture: Picture) -> Frame:
-        """Draw the scene, and a line of text that says it is a demonstration. Return the frame."""
+        """Draw the scene, and a line of text which says that this is a demonstration. Return the frame."""
         if self.demo is None:
             return picture.presenter.frame
         frame = self.demo.draw(picture)

@@ -24,7 +24,10 @@ FOOT = "\u2191 \u2193 choose   Enter plays   Esc back"
 
 
 class Menu(CanvasScreen):
-    """Menu of scenes. `outcome` becomes ("play", name, level file or None) or ("back",)."""
+    """Menu of scenes.
+
+    `outcome`, the request for the next screen, becomes ("play", name, level file or None) or ("back",).
+    """
 
     tune = "title"
 
@@ -43,7 +46,7 @@ class Menu(CanvasScreen):
         self.time = 0.0
 
     def _entries(self):
-        """Rebuild self.rows, and return a list of (scene class or None, level file or None), one for each row."""
+        """Rebuild self.rows, and return (scene class or None, level file or None) of each row, as a list."""
         entries, self.rows, group = [], [], None
         order = list(HEADINGS)
         for scene_class in sorted(self.registry.all_classes(), key=lambda each: order.index(each.question)):
@@ -68,7 +71,7 @@ class Menu(CanvasScreen):
         self.outcome = ("back",)
 
     def resume(self) -> None:
-        """Read the list again when the screen is shown again, because the level folder may have new files."""
+        """Rebuild the list when the screen is shown again, because the level folder may have new files."""
         mark = self.list.mark
         self.tables.clear()
         self.entries = self._entries()
@@ -76,7 +79,7 @@ class Menu(CanvasScreen):
         self.list.show_marked()
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """Make one fixed step of `dt` [s] with the player's input."""
+        """Process the player's input of a step of `dt` [s], and advance the background."""
         self.time += dt
         if inputs.pressed("cancel"):
             self.cues.append("back")
@@ -114,9 +117,9 @@ class Menu(CanvasScreen):
             y += height
 
     def _table(self, scene_class, level):
-        """Return the key of the high-score table of a scene, or of a level file if `level` is given.
+        """Return the key of a scene's high-score table, or of a level's table if `level` is given.
 
-        It is None for an unreadable level file, whose error is shown when the player starts the level.
+        Return None for an unreadable level file. Its error is shown when the player starts the level.
         """
         if (scene_class, level) not in self.tables:
             try:
@@ -126,7 +129,7 @@ class Menu(CanvasScreen):
         return self.tables[scene_class, level]
 
     def _draw_best(self, canvas, scene_class, level, x, y):
-        """Draw the best entry of the scene's high-score table beside the scene's picture."""
+        """Draw the best entry in the high-score table of a scene or level, beside the scene's picture."""
         if scene_class.ranked_by is None or self.records is None:
             return
         best = self.records.best(self._table(scene_class, level))

@@ -1,4 +1,4 @@
-"""Screen with a message, such as why a file cannot be used. Enter, Esc or a click goes back."""
+"""Screen with a message, for example why a file cannot be used. Enter, Esc or a click closes it."""
 
 from collections.abc import Sequence
 
@@ -15,7 +15,10 @@ MOST_LINES = 6  # of one part; longer text is cut
 
 
 class MessageScreen(CanvasScreen):
-    """Screen that shows a title and `parts`, a list of (label, text). `outcome` becomes ("back",)."""
+    """Screen that shows a title and `parts`, a list of (label, text).
+
+    `outcome`, the request for the next screen, becomes ("back",).
+    """
 
     def __init__(self, title: str, parts: Sequence[tuple[str, str]], ground: Background | None = None) -> None:
         super().__init__()
@@ -24,14 +27,14 @@ class MessageScreen(CanvasScreen):
         self.time = 0.0
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """Make one fixed step of `dt` [s] with the player's input."""
+        """Advance the background by `dt` [s]. Close the screen if the player confirms, cancels or clicks."""
         self.time += dt
         if confirmed(inputs) or inputs.pressed("cancel") or inputs.pointer_pressed:
             self.cues.append("back")
             self.outcome = ("back",)
 
     def draw(self, canvas: Canvas, alpha: float) -> None:
-        """Draw the box with its title and parts."""
+        """Draw a box with the title and the parts of the message."""
         self.ground.draw(canvas, self.time)
         lines = []
         for label, text in self.parts:
@@ -50,9 +53,9 @@ class MessageScreen(CanvasScreen):
 
 
 def _broken(canvas, line, width):
-    """Yield the parts of a line that is too wide and has no spaces, such as a path.
+    """Yield the pieces of a line that is too wide and has no spaces, such as a path.
 
-    Each part fits into `width` [px].
+    Each piece fits into `width` [px].
     """
     while canvas.measure(line)[0] > width:
         end = len(line)
@@ -64,5 +67,8 @@ def _broken(canvas, line, width):
 
 
 def error_message(error: UsageError, ground: Background | None = None) -> MessageScreen:
-    """Return a MessageScreen about a UsageError; a FileError is shown in three parts. ground: its background."""
+    """Return a MessageScreen about a UsageError. A FileError is shown in three parts.
+
+    ground: background of the screen; None for the default.
+    """
     return MessageScreen(error.headline, error.parts, ground)

@@ -1,7 +1,8 @@
-"""The picture that opens "What accuracy costs": one flight past near misses on a split screen, by boxes and by pixels.
+"""The introduction to "What accuracy costs": a flight past near misses on a split screen, with boxes and with pixels.
 
-Both halves fly the same course in a world of their own. By boxes the plane dies where there is sky between the sprites;
-by pixels it lives. Deaths and microseconds are counted below, live. Enter leads to the plot in a real game.
+Both halves show the same flight, each in its own world. With boxes, the plane dies although there is sky between the
+sprites. With pixels, it survives. The numbers of deaths and the step times [us] are shown below. Enter opens the plot
+in a real game.
 """
 
 from functools import lru_cache
@@ -32,13 +33,13 @@ COMING = ("gunship_0", "saucer_0", "dart_0", "gunship_1", "hornet_0", "saucer_2"
 CLEAR = 2  # [px] of sky at least between the sprites
 DRIFT = 20.0  # [px/s] of the backdrop
 GONE = 0.6  # [s] after a death, while the plane explodes and cannot be hit
-HITS = 5  # hits by boxes before the sentence is said
+HITS = 5  # hits by boxes before the times are compared
 SECOND = 60  # steps
 KEPT = 12  # seconds whose times are compared
 
 
 class Miss(NamedTuple):
-    """An enemy plane that comes down beside the player's flight and is never touched."""
+    """An enemy plane that passes close to the player's plane without touching it."""
 
     sprite: str
     x: float  # [canvas px] within a half
@@ -46,18 +47,21 @@ class Miss(NamedTuple):
 
 
 def flight_x(time: float) -> float:
-    """Return the x of the player's plane at a time [s], in px from the left edge of its half of the split screen."""
+    """Return the x [px] of the player's plane at a time [s], from the left edge of its half of the split screen."""
     return HALF / 2 + SWING * sin(2 * pi * time / WEAVE)
 
 
 def corner(image: pygame.Surface, x: float, y: float) -> tuple[int, int]:
-    """Return the pixel (x, y) of an image's top left corner if the centre of the image is at (x, y)."""
+    """Return the pixel (x, y) of an image's top left corner if the image is centred at (x, y)."""
     return round(x) - image.get_width() // 2, round(y) - image.get_height() // 2
 
 
 @lru_cache
 def outlined(sprite: str) -> pygame.Surface:
-    """Return a picture of the outline of a sprite's pixels, as large as the sprite: 2 us to draw, instead of 84."""
+    """Return a picture of the outline of a sprite's pixels, with the size of the sprite.
+
+    Drawing it takes 2 us instead of 84.
+    """
     image = load_atlas("planes")[sprite]
     found = pygame.Surface(image.get_size(), pygame.SRCALPHA)
     for place in pygame.mask.from_surface(image).outline():
@@ -67,9 +71,9 @@ def outlined(sprite: str) -> pygame.Surface:
 
 @lru_cache
 def course(dt: float) -> tuple[list[Miss], float]:
-    """Return the enemy planes that come down, and the length of the loop [s].
+    """Return (enemy planes, length of the loop [s]). dt: length of a step [s].
 
-    Each is placed as close to the player's flight as it can be while CLEAR px of sky remain at every step of dt [s].
+    Each enemy plane passes as close to the player's plane as possible, with at least CLEAR px of sky in every step.
     """
     planes = load_atlas("planes")
     player = pygame.mask.from_surface(planes["player"])
@@ -87,15 +91,15 @@ def course(dt: float) -> tuple[list[Miss], float]:
 
 
 def _passing_x(start):
-    """Return the x of the player's plane when an enemy plane that enters at `start` [s] is beside it."""
+    """Return the x of the player's plane at the time when an enemy plane that enters at `start` [s] is beside it."""
     return flight_x(start + (PLANE_Y + 40.0) / SPEED)
 
 
 def _touches(planes, grown, name, mask, start, offset, dt):
     """Return whether an enemy plane comes closer than CLEAR px to the player's plane while it passes.
 
-    grown: pygame mask of the player's plane, enlarged by CLEAR px; name, mask: picture and pygame mask of the enemy
-    plane, which enters at `start` [s]; offset: its distance aside from the player's plane when it passes [px].
+    grown: pygame mask of the player's plane, enlarged by CLEAR px; name, mask: name and pygame mask of the enemy plane,
+    which enters at `start` [s]; offset: its sideways distance from the player's plane when it passes [px].
     """
     x, steps = _passing_x(start) + offset, int((FIELD + 80.0) / SPEED / dt)
     for step in range(steps):
@@ -107,7 +111,7 @@ def _touches(planes, grown, name, mask, start, offset, dt):
 
 
 class Flight:
-    """One half of the split screen: a world in which all planes collide as one tier (kind of collision shape).
+    """One half of the split screen: a world in which all planes have the same collision tier (kind of collision shape).
 
     step() is called for each time of the loop, in order.
     """
@@ -125,7 +129,10 @@ class Flight:
         self.steps = 0
 
     def step(self, time: float, length: float, dt: float) -> None:
-        """Move all planes to their places at `time` [s] of a loop of `length` [s], step the world, count new hits."""
+        """Move all planes to their positions at `time` [s] of the loop, step the world, and count new hits.
+
+        length: length of the loop [s]; dt: length of the step [s].
+        """
         places = [(round(flight_x(time)), PLANE_Y)]
         for miss in self.misses:
             since = (time - miss.start) % length
@@ -148,7 +155,7 @@ class Flight:
 class NearMisses(CanvasScreen):
     """Split screen of near misses: the same flight with boxes and with pixels as collision shapes.
 
-    `outcome` becomes ("plot",) for the plot in a game, or ("back",).
+    `outcome`, the request for the next screen, becomes ("plot",) for the plot in a game, or ("back",).
     """
 
     tune = "title"
@@ -161,7 +168,7 @@ class NearMisses(CanvasScreen):
         self.backdrop, self.time, self.drift = Backdrop(), 0.0, 0.0
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """Make one fixed step in both worlds."""
+        """Process the player's input, and advance both worlds by a fixed step of `dt` [s]."""
         if inputs.pressed("cancel"):
             self.cues.append("back")
             self.outcome = ("back",)
@@ -174,15 +181,15 @@ class NearMisses(CanvasScreen):
         """Advance both worlds by dt [s]."""
         self.time = (self.time + dt) % self.length
         self.drift += DRIFT * dt
-        # The worlds are stepped first in turns, because the first one pays for the caches that drawing has emptied.
+        # The worlds take turns in being stepped first, because drawing has emptied the caches for the first one.
         self.flights_in_turn.reverse()
         for flight in self.flights_in_turn:
             flight.step(self.time, self.length, dt)
 
     def price(self) -> str:
-        """Return words for the step time with pixels as a multiple of that with boxes; "" before HITS deaths.
+        """Return text on the step time with pixels, as a multiple of the step time with boxes; "" before HITS deaths.
 
-        The times are compared second by second. If neither half was faster in every second, they count as the same.
+        Times are compared second by second. If neither half was faster in every second, the text says "the same time".
         """
         boxes, pixels = self.flights
         if boxes.deaths < HITS or len(boxes.seconds) < HITS:
@@ -193,7 +200,7 @@ class NearMisses(CanvasScreen):
         return f"for {sorted(ratios)[len(ratios) // 2]:.2f} x the time"
 
     def draw(self, canvas: Canvas, alpha: float) -> None:
-        """Draw both halves and the counts below them."""
+        """Draw both halves of the split screen, and the counts below them."""
         self.backdrop.draw(canvas, self.drift)
         canvas.surface.blit(canvas.surface.subsurface((0, 0, HALF, FIELD)).copy(), (HALF, 0))
         canvas.surface.fill(INK, (0, FIELD, 2 * HALF, canvas.rect.height - FIELD))

@@ -1,4 +1,4 @@
-"""The pause menu over the darkened game."""
+"""The pause menu, drawn over the darkened game."""
 
 from collections.abc import Sequence
 
@@ -18,8 +18,8 @@ HIGHEST = 46  # [canvas px] of the rows; leaves room for a message of three line
 class PauseMenu(CanvasScreen):
     """The menu that opens over a paused game.
 
-    `outcome`: ("back",), ("restart",), ("settings", page), ("save_replay",), ("costs",), ("effects",), ("tour",) or
-    ("menu",).
+    `outcome`, the request for the next screen or action, becomes ("back",), ("restart",), ("settings", page),
+    ("save_replay",), ("costs",), ("effects",), ("tour",) or ("menu",).
 
     can_save: whether a replay of this run can be saved. message: the reason if the game paused by itself, otherwise "".
     pairs: (key, function) of the game's keys, shown under the menu.
@@ -66,7 +66,7 @@ class PauseMenu(CanvasScreen):
         self.message = message
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """Make one fixed step of `dt` [s] with the player's input."""
+        """Process the player's input of a step of `dt` [s], and advance the background."""
         self.time += dt
         if inputs.pressed("cancel") or inputs.pressed("pause"):
             self.cues.append("back")
@@ -74,7 +74,10 @@ class PauseMenu(CanvasScreen):
         self.list.step(inputs, dt)
 
     def draw(self, canvas: Canvas, alpha: float) -> None:
-        """Draw the menu over the darkened game; below it the message, or else the keys."""
+        """Draw the menu over the darkened game.
+
+        Below the menu, draw the message, or the keys if there is no message.
+        """
         self.ground.draw(canvas, self.time)
         lines = wrap(self.message, WIDTH - 24, TEXT)
         rect = self.list.rect.inflate(32, 24)

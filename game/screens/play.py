@@ -40,9 +40,10 @@ EASIER = ("tier", "narrowphase", "slider:")  # changes that make a score an assi
 
 
 class Play(SceneScreen):
-    """Screen on which a scene is played. `outcome`: ("pause", message), ("result",), or ("menu",) for a bot's game.
+    """Screen on which a scene is played.
 
-    settings: the player's settings, or None in a test. A run of the player (no bot, no recording) is recorded in
+    `outcome`, the request for the next screen, becomes ("pause", message), ("result",), or ("menu",) for a bot's game.
+    settings: the player's settings, or None in a test. A run of the player (not of a bot or a recording) is recorded in
     `recorder`, from its last restart on.
     """
 
@@ -98,14 +99,14 @@ class Play(SceneScreen):
         return self.clock
 
     def note_busy(self, seconds: float) -> None:
-        """Record the time [s] that this frame took for its steps and its picture."""
+        """Record the time [s] that the steps and the picture of this frame took."""
         super().note_busy(seconds)
         if self.lighter is not None:
             self.lighter.note(seconds)
 
     @property
     def tune(self) -> str | None:
-        """Name of the scene's music at this moment."""
+        """Name of the scene's music at this moment; None if it has none."""
         return self.scene.music
 
     @property
@@ -115,14 +116,14 @@ class Play(SceneScreen):
 
     @property
     def shows_pointer(self) -> bool:
-        """True while the mouse has a function on this screen."""
+        """Whether the mouse currently has a function on this screen."""
         working = self.open_panel is not None or self.clock.paused or self.hint is not None
         return working or self.scene.draggable or not self.scene.hides_pointer
 
     def apply_settings(self) -> None:
         """Apply the player's settings.
 
-        Settings that change the game become input of the next step, as recordings need.
+        Settings that affect the game become input of the next step, so that recordings contain them.
         """
         if self.settings is None:
             return
@@ -144,16 +145,16 @@ class Play(SceneScreen):
 
     @property
     def finished(self) -> bool:
-        """True after the last step of a run whose number of steps the command line limits."""
+        """Whether the last step was made, in a run whose number of steps is limited by the command line."""
         return self.last_frame is not None and self.session.report.steps >= self.last_frame
 
     def lose_focus(self) -> None:
-        """Open the pause menu, because the window lost focus."""
+        """Open the pause menu because the window lost focus."""
         if self.person:
             self.outcome = self.outcome or ("pause", "")
 
     def advance(self, now: float) -> None:
-        """Make the steps due at `now` [s], up to the last one of the run."""
+        """Make the steps due at `now` [s], up to the last step of the run."""
         self.now = self.switches.now = now
         if self.devices.lost_pad and self.person:
             self.devices.lost_pad = False
@@ -198,7 +199,7 @@ class Play(SceneScreen):
             self.timeline.rewind.drop_future()
 
     def step(self) -> None:
-        """Make one fixed step, with its sounds and measurements."""
+        """Make one fixed step, play its sounds, and record its measurements."""
         self.drop_future()
         self.session.step()
         if self.timeline is not None:
@@ -215,7 +216,7 @@ class Play(SceneScreen):
     def _note_help(self):
         """Mark the score as assisted if the player had help in this step.
 
-        Help is slow motion, an easier setting, invincibility, or dragging bodies.
+        Help is slow motion, a pause, an easier setting, invincibility, or dragging bodies.
         """
         slow = self.clock.speed < 1.0 or self.clock.game_speed < 1.0 or self.clock.paused
         changed = any(name.startswith(EASIER) for name, _ in self.session.inputs.now.changes)
@@ -246,8 +247,8 @@ class Play(SceneScreen):
     def restart(self) -> None:
         """Restart the scene from its first frame. Each attempt of the player is a run with its own recording.
 
-        The first input of that recording contains the settings chosen before, so that the recording does not depend on
-        earlier runs.
+        The first input of the new recording contains the settings chosen before, so that the recording does not depend
+        on earlier runs.
         """
         self.step_inspector.leave()
         self.table = table_of(self.scene.name, self.scene.level_file)
@@ -261,7 +262,10 @@ class Play(SceneScreen):
         self.devices.change("restart", True)
 
     def request_restart(self) -> None:
-        """Restart the game. If it has ended, open its result instead, so that a hasty key loses no score."""
+        """Restart the game.
+
+        If it has ended, open its result instead, so that an accidental key does not lose the score.
+        """
         if self.person and self.scene.result is not None:
             self.outcome = ("result",)
         else:
@@ -273,11 +277,11 @@ class Play(SceneScreen):
 
     @property
     def news(self) -> str:
-        """Line of text about the last change of a setting; "" once it is old."""
+        """Line of text about the last change of a setting; "" when it is no longer shown."""
         return self.switches.news
 
     def toggle_pause(self) -> None:
-        """Pause the game, or continue it."""
+        """Pause the game, or continue it if it is paused."""
         self.clock.paused = not self.clock.paused
 
     def single_step(self) -> None:
@@ -286,7 +290,7 @@ class Play(SceneScreen):
         self.clock.request_step()
 
     def toggle_step_inspector(self) -> None:
-        """Freeze the game and inspect its next step stage by stage; during an inspection, end it."""
+        """Freeze the game and inspect its next step stage by stage. During an inspection, end it instead."""
         if self.step_inspector.open:
             self.step_inspector.leave()
         else:
@@ -296,7 +300,10 @@ class Play(SceneScreen):
             self.switches.report(self.step_inspector.enter())
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Process an event that has a function on this screen, before the game gets it. Return whether it was used."""
+        """Process an event that has a function on this screen, before the game receives it.
+
+        Return whether the event was used.
+        """
         hint = None if self.open_panel is not None else self.hint
         if isinstance(hint, LabCard) and hint.turned_by(event):
             return True
@@ -329,14 +336,14 @@ class Play(SceneScreen):
         return event.type == pygame.KEYDOWN and press(self, event.key)
 
     def stop(self) -> None:
-        """Show the scene menu if a bot plays; else the result if the game has ended; else the pause menu."""
+        """Leave the game: show the scene menu if a bot plays, the result if the game has ended, else the pause menu."""
         if not self.person:
             self.outcome = ("menu",)
         else:
             self.outcome = ("result",) if self.scene.result is not None else ("pause", "")
 
     def toggle_panel(self) -> None:
-        """Open the side panel; if a panel is open, close it."""
+        """Open the side panel. If a panel is open, close it instead."""
         was_open = self.open_panel is not None
         self.close_costs()
         self.panel_open = not was_open
@@ -344,7 +351,7 @@ class Play(SceneScreen):
         self.devices.release_all()
 
     def toggle_costs(self) -> None:
-        """Open the plot of accuracy and cost beside the game, in place of the panel, or close it."""
+        """Open the plot of accuracy and cost beside the game instead of the panel, or close the plot."""
         if self.costs_open:
             self.close_costs()
         else:
@@ -352,12 +359,12 @@ class Play(SceneScreen):
         self.devices.release_all()
 
     def close_costs(self) -> None:
-        """Close the plot of accuracy and cost, and stop its measurements. Results are kept."""
+        """Close the plot of accuracy and cost, and stop its measurements. The results are kept."""
         self.costs_open = False
         self.measuring.close()
 
     def try_setting(self, setting: Setting) -> None:
-        """Apply a setting chosen in the plot of accuracy and cost."""
+        """Apply a setting that was chosen in the plot of accuracy and cost."""
         self.switches.report(self.measuring.apply(setting))
 
     def save_costs(self) -> None:
@@ -365,7 +372,7 @@ class Play(SceneScreen):
         self._save(self.measuring.save_csv)
 
     def save_figures(self) -> None:
-        """Save the numbers that the scene has found as a CSV file, and report its path."""
+        """Save the numbers that the scene has measured as a CSV file, and report its path."""
         self._save(self.measuring.save_figures)
 
     def _save(self, save):
@@ -375,7 +382,10 @@ class Play(SceneScreen):
             self.switches.report(f"it could not be saved: {error.strerror or error}")
 
     def toggle_split(self) -> None:
-        """Toggle the split screen of a race. Without a race, start one of pixels against boxes if there are sprites."""
+        """Switch the split screen of a race on or off.
+
+        Without a race, start one between pixels and boxes if there are sprites.
+        """
         rival = self.measuring.boxes_or_pixels()
         if self.measuring.race is None and rival is not None:
             self.start_race(rival)
@@ -384,13 +394,13 @@ class Play(SceneScreen):
         self.switches.report(self.measuring.toggle_split())
 
     def start_race(self, setting: Setting) -> None:
-        """Restart the scene in a race against a copy of the scene under this setting."""
+        """Restart the scene in a race against a copy of the scene under the given setting."""
         self.switches.report(self.measuring.start_race(setting))
         if self.measuring.race is not None:
             self.restart()
 
     def close(self) -> None:
-        """End inspections and measurements when the screen is left for good."""
+        """End inspections and measurements when the player leaves the screen and does not return to it."""
         super().close()
         self.step_inspector.leave()
         self.close_costs()
@@ -402,15 +412,18 @@ class Play(SceneScreen):
             self.switches.report(news)
 
     def _below(self) -> StepInspectorView | Timeline | None:
-        """Return the element at the bottom of the picture: step inspector, timeline, or None while the game runs."""
+        """Return the element at the bottom of the picture: the step inspector or the timeline.
+
+        None while the game runs.
+        """
         if self.step_inspector.open:
             return self.step_inspector
         return self.timeline if self.timeline is not None and (self.clock.paused or self.timeline.runs) else None
 
     def draw(self, picture: Picture) -> Frame:
-        """Draw the scene and the elements over it; return the frame."""
+        """Draw the scene and the elements over it. Return the frame."""
         started = perf_counter()
-        if self.step_inspector.open:  # a part of a step is no moment to measure from
+        if self.step_inspector.open:  # measurements cannot start within a step
             self.measuring.take_weights()
         else:
             self._measure()

@@ -1,4 +1,7 @@
-"""The screen of the user's replays. It lists, describes, plays and keeps them, and shows where their files are."""
+"""The screen of the user's replays.
+
+The screen lists, describes, plays and keeps replays, and shows the paths of their files.
+"""
 
 from collections.abc import Callable
 from functools import partial
@@ -24,9 +27,9 @@ MISSING = object()  # not read yet
 
 
 class ReplaysScreen(CanvasScreen):
-    """List of replays. `outcome` becomes ("watch", path) or ("back",).
+    """List of replays. `outcome`, the request for the next screen, becomes ("watch", path) or ("back",).
 
-    copy(text) copies a text to the clipboard, and returns whether that worked.
+    copy(text): function that copies a text to the clipboard and returns whether it succeeded.
     """
 
     tune = "title"
@@ -49,7 +52,7 @@ class ReplaysScreen(CanvasScreen):
 
     @property
     def chosen(self) -> tuple[Path, bool] | None:
-        """(path, whether the player has chosen to keep it) of the marked replay; None while Back is marked."""
+        """(path, whether the player has chosen to keep it) of the marked replay; None if Back is marked."""
         return self.entries[self.list.mark] if self.list.mark < len(self.entries) else None
 
     def _rows(self):
@@ -107,7 +110,7 @@ class ReplaysScreen(CanvasScreen):
         self.message = "The path is on the clipboard: send the file to a friend." if copied else f"The file: {path}"
 
     def resume(self) -> None:
-        """Read the list again when the screen is shown again, because the files may have changed."""
+        """Rebuild the list when the screen is shown again, because the files may have changed."""
         before = self.chosen
         self.entries = shelf()
         if before in self.entries:
@@ -116,7 +119,7 @@ class ReplaysScreen(CanvasScreen):
         self.inside = False
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """Make one fixed step of `dt` [s] with the player's input."""
+        """Process the player's input of a step of `dt` [s]. If a listed replay has not been read yet, read one."""
         self.time += dt
         unread = next((path for path, _ in self.entries if path not in self.read), None)
         if unread is not None:
@@ -165,7 +168,7 @@ class ReplaysScreen(CanvasScreen):
         self.card.draw(canvas, self.inside)
 
     def _about(self, chosen, width):
-        """Return the lines about the chosen replay, a list of (text, color, font, height [px]).
+        """Return the lines of the card about a replay, as a list of (text, color, font, height [px]).
 
         chosen: value of the property `chosen`; width: width of a line [px].
         """
@@ -196,7 +199,7 @@ class ReplaysScreen(CanvasScreen):
 
 
 def _path_lines(text, width):
-    """Return a text as lines of at most `width` [px]. It is wrapped at spaces and, in paths, at slashes."""
+    """Return a text as lines of at most `width` [px]. It is wrapped at spaces and, within paths, at slashes."""
     return [
         line.replace("/ ", "/").replace("\\ ", "\\")
         for line in wrap(text.replace("/", "/ ").replace("\\", "\\ "), width, SMALL)

@@ -20,10 +20,10 @@ COUNT_SECONDS = 0.8  # the numbers count up this long
 
 
 class ResultScreen(CanvasScreen):
-    """Screen with the result of a game. `place`: 1..10 in the high scores, or None if it has no place there.
+    """Screen with the result of a game. `place`: place 1..10 of the result in the high scores, or None.
 
-    enter(initials) is called once, when the initials are accepted. `outcome`: ("again",), ("save_replay",), ("scores",)
-    or ("menu",).
+    enter(initials) is called once, when the initials are accepted. `outcome`, the request for the next screen, becomes
+    ("again",), ("save_replay",), ("scores",) or ("menu",).
     """
 
     shows_result = True
@@ -51,12 +51,12 @@ class ResultScreen(CanvasScreen):
 
     @property
     def asked(self) -> Initials | None:
-        """The Initials while the player enters them, else None."""
+        """The Initials while the player enters them, otherwise None."""
         return self.initials if self.initials is not None and not self.initials.done else None
 
     @property
     def entering(self) -> bool:
-        """True while the player enters initials."""
+        """Whether the player is entering initials."""
         return self.asked is not None
 
     def _rows(self):
@@ -71,11 +71,11 @@ class ResultScreen(CanvasScreen):
         self.outcome = outcome
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Process typed letters of the initials; return whether the event was used."""
+        """Process typed letters of the initials. Return whether the event was used."""
         return self.asked is not None and self.asked.feed(event)
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """Make one fixed step of `dt` [s] with the player's input."""
+        """Process the player's input of a step of `dt` [s]: the initials while they are entered, otherwise the menu."""
         self.time += dt
         asked = self.asked
         if asked is not None:
@@ -91,13 +91,13 @@ class ResultScreen(CanvasScreen):
         self.list.step(inputs, dt)
 
     def report(self, message: str) -> None:
-        """Show a message under the list, in place of the previous one."""
+        """Show a message under the list, instead of the previous message."""
         self.notes[:] = [message]
 
     def accept(self) -> None:
-        """Accept the initials as they are.
+        """Accept the initials in their current form.
 
-        Called on Esc and when the window closes, so that the place in the high scores is not lost.
+        This is called on Esc and when the window closes, so that the place in the high scores is not lost.
         """
         asked = self.asked
         if asked is not None:

@@ -1,6 +1,6 @@
-"""High scores: a page for each ranked scene, and for each of the player's own levels that was played.
+"""High scores: one page for each ranked scene, and one for each of the player's own levels that was played.
 
-Left and right turn the pages.
+The left and right keys change the page.
 """
 
 from pathlib import Path
@@ -27,7 +27,10 @@ HEADS = ("", "NAME", "POINTS", "TIME", "DATE", "")
 
 
 class Page(NamedTuple):
-    """A page of high scores: heading, key of its table in the records, and order ("points" or "seconds")."""
+    """A page of high scores.
+
+    title: its heading; table: key of its table in the records; ranked_by: "points" or "seconds".
+    """
 
     title: str
     table: str
@@ -35,9 +38,10 @@ class Page(NamedTuple):
 
 
 def pages_of(registry: Registry, records: Records, played: tuple[str, Path | None] | None = None) -> list[Page]:
-    """Return the pages in the order of the menu. played: (scene name, level file) of the current game, or None.
+    """Return the pages of high scores, in the order of the menu.
 
-    The level of that game gets a page even if its file is not in the level folder.
+    played: (scene name, level file) of the current game, or None. The level of that game has a page even if its file is
+    not in the level folder.
     """
     found = []
     for scene_class in registry.all_classes():
@@ -58,9 +62,10 @@ def pages_of(registry: Registry, records: Records, played: tuple[str, Path | Non
 
 
 class ScoresScreen(CanvasScreen):
-    """Pages of high scores. `outcome`: ("back",).
+    """Pages of high scores. `outcome`, the request for the next screen, becomes ("back",).
 
-    pages: result of pages_of(). shown: key of the table to show first. newest: (table, place) of the entry to mark.
+    pages: result of pages_of(); shown: key of the table to show first, or None; newest: (table, place) of the entry to
+    mark, or None.
     """
 
     def __init__(
@@ -87,11 +92,11 @@ class ScoresScreen(CanvasScreen):
 
     @property
     def arrows(self) -> tuple[pygame.Rect, pygame.Rect]:
-        """Rectangles of the left and the right arrow. A click on an arrow turns the page."""
+        """(left, right) rectangles of the two arrows. A click on an arrow changes the page."""
         return pygame.Rect(PAGE.x + 8, PAGE.y + 36, 24, 16), pygame.Rect(PAGE.right - 32, PAGE.y + 36, 24, 16)
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """Make one fixed step of `dt` [s] with the player's input."""
+        """Process the player's input of a step of `dt` [s]: change the page or leave the screen."""
         self.time += dt
         way = self.sideways.move(inputs, dt) - (inputs.wheel > 0) + (inputs.wheel < 0)
         if inputs.pointer_pressed:

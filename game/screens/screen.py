@@ -1,4 +1,4 @@
-"""Interface between the program and the screen on top of the stack.
+"""Interface between the program and the top screen of the stack.
 
 A CanvasScreen (a menu or message) is drawn on the canvas and stepped by the program. A SceneScreen shows a scene, makes
 the scene's steps itself, and draws at window resolution.
@@ -21,10 +21,10 @@ Outcome = tuple[str, *tuple[Any, ...]]  # a name in the table of game/screens/st
 
 
 class Screen:
-    """The interface of a screen, with default behaviour.
+    """Interface of a screen, with default behaviour.
 
-    outcome: (name, *arguments) of the next screen or action, see Screens.follow; None while the screen stays. cues:
-    names of the menu sounds that are to be played next.
+    outcome: (name, *arguments) of the next screen or action, see Screens.follow; None while the screen remains. cues:
+    names of the menu sounds to play next.
     """
 
     shows_pointer: bool = True
@@ -47,33 +47,33 @@ class Screen:
         return None
 
     def note_busy(self, seconds: float) -> None:
-        """Record the time [s] that this frame took for its steps and its picture."""
+        """Record the time [s] that the steps and the picture of this frame took."""
         if self.running_clock is not None:
             self.running_clock.note(seconds)
 
     @property
     def finished(self) -> bool:
-        """True if the program should end, because the run given on the command line is complete."""
+        """Whether the program should end because the run given on the command line is complete."""
         return False
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Process an event before it becomes input of a game or menu. Return whether it was used."""
+        """Process an event before it becomes input of a game or menu. Return whether the event was used."""
         return False
 
     def resume(self) -> None:
-        """Update the screen when it is shown again."""
+        """Update the screen when it is shown again after another screen."""
 
     def lose_focus(self) -> None:
-        """React to the window's loss of focus."""
+        """Handle the window's loss of focus."""
 
     def close(self) -> None:
-        """Release what the screen uses when the player leaves it for the screen below."""
+        """Release the resources of the screen when the player returns to the screen below it."""
 
     def accept(self) -> None:
-        """Accept a pending entry, such as initials. Called when the window closes."""
+        """Accept a pending entry, such as initials. This is called when the window closes."""
 
     def report(self, message: str) -> None:
-        """Show one line of text about the result of an action of this screen."""
+        """Show one line of text about the result of an action that this screen requested."""
 
 
 class CanvasScreen(Screen, ABC):
@@ -81,16 +81,16 @@ class CanvasScreen(Screen, ABC):
 
     @abstractmethod
     def step(self, inputs: InputState, dt: float) -> None:
-        """Make one fixed step of dt [s]."""
+        """Process the player's input of a step of `dt` [s], and advance the screen's animations."""
 
     @abstractmethod
     def draw(self, canvas: Canvas, alpha: float) -> None:
-        """Draw the screen. alpha: interpolation between the last two steps, 0..1."""
+        """Draw the screen. alpha: position between the last two steps, 0..1."""
 
     def turn(self, now: float, steps: Iterable[InputState], picture: Picture) -> Frame | None:
-        """Make the due steps, each with its input from `steps`; then draw the screen.
+        """Make the due steps, each with its input from `steps`. Then draw the screen, and return None.
 
-        The remaining steps are dropped if a step leaves the screen.
+        If a step leaves the screen, the remaining steps are not made. now: not used.
         """
         for inputs in steps:
             self.step(inputs, STEP_SECONDS)
@@ -111,12 +111,12 @@ class SceneScreen(Screen, ABC):
 
     @abstractmethod
     def draw(self, picture: Picture) -> Frame:
-        """Draw the scene and the elements over it; return the frame."""
+        """Draw the scene and the elements over it. Return the frame."""
 
     def turn(self, now: float, steps: Iterable[InputState], picture: Picture) -> Frame | None:
-        """Make the steps due at `now` [s], draw the scene, and return the frame. Called once per picture.
+        """Make the steps due at `now` [s], draw the scene, and return the frame, which is not None.
 
-        The program writes the frame time on the returned frame.
+        This is called once per picture. The program writes the frame time onto the returned frame. steps: not used.
         """
         self.advance(now)
         return self.draw(picture)

@@ -1,4 +1,4 @@
-"""The settings: a list of pages at the left, the rows of the marked page at the right. Changes apply at once."""
+"""The settings: a list of pages at the left, the rows of the marked page at the right. Changes take effect at once."""
 
 from collections.abc import Callable
 
@@ -26,10 +26,10 @@ BINDING_FOOT = "Enter or click, then press the new one   Esc keeps the old"
 
 
 class SettingsScreen(CanvasScreen):
-    """Editor of a Settings object. `outcome` becomes ("back",).
+    """Editor of a Settings object. `outcome`, the request for the next screen, becomes ("back",).
 
-    changed() is called after each change, saved() when the screen is left. page: name of the page to open first, with
-    the keys on its rows; None: the list of pages.
+    changed() is called after each change, and saved() when the screen is left. page: name of the page to open first,
+    with the keyboard focus on its rows; None puts the focus on the list of pages.
     """
 
     def __init__(
@@ -58,7 +58,7 @@ class SettingsScreen(CanvasScreen):
 
     @property
     def page(self) -> str | None:
-        """Name of the settings page that is marked in the list, or None while Back is marked."""
+        """Name of the settings page that is marked in the list; None if Back is marked."""
         return PAGES[self.pages.mark] if self.pages.mark < len(PAGES) else None
 
     def _page_rows(self):
@@ -84,13 +84,13 @@ class SettingsScreen(CanvasScreen):
         self.message = ""
 
     def close(self) -> None:
-        """Call saved(), which saves the settings."""
+        """Call saved(), which writes the settings to their file."""
         self.saved()
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Bind the key or button of this event to an action, if the screen waits for one.
+        """Bind the key or button of this event to an action, if the screen is waiting for one.
 
-        Return whether it was used.
+        Return whether the event was used.
         """
         if self.waiting_for is None:
             return False
@@ -115,7 +115,10 @@ class SettingsScreen(CanvasScreen):
         return True
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """Make one fixed step of `dt` [s] with the player's input."""
+        """Process the player's input of a step of `dt` [s], and advance the background.
+
+        While the screen waits for a key or button to bind, the input is ignored.
+        """
         self.time += dt
         if self.waiting_for is not None:
             return

@@ -1,4 +1,4 @@
-"""The stack of screens, and the effect of each outcome. game/screens/screen.py is the interface of a screen."""
+"""The stack of screens, and the actions for each outcome. game/screens/screen.py defines the interface of a screen."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -72,7 +72,7 @@ class Screens:
         self.newest: tuple[str, int | None] | None = None  # (table, place) of the last entry, marked in the high scores
 
     def open_first(self) -> None:
-        """Open the first screen, as the command line says: a recording, a scene, or the title."""
+        """Open the first screen, according to the command line: a recording, a scene, or the title."""
         arcade, options = self.arcade, self.arcade.options
         if options.replay and not options.is_a_run:
             self.watch(options.replay)
@@ -83,13 +83,13 @@ class Screens:
 
     @property
     def top(self) -> AnyScreen:
-        """The screen on top."""
+        """The top screen of the stack."""
         return self.stack[-1]
 
     def follow(self, outcome: Outcome) -> None:
-        """Carry out an outcome of the top screen, (name, *arguments): call the function in `table` for that name.
+        """Execute an outcome (name, *arguments) of the top screen: call the function that `table` has for the name.
 
-        A UsageError, such as an unusable file, is shown as a message.
+        A UsageError, such as one about an unusable file, is shown as a message.
         """
         name, *rest = outcome
         self.top.outcome = None
@@ -99,9 +99,9 @@ class Screens:
             self.complain(error, name not in ("watch", "file"))
 
     def complain(self, error: UsageError, ends_scene: bool = True) -> None:
-        """Show a message about an error, such as an unusable file, over the screen to return to.
+        """Show a message about an error, such as an unusable file, over the screen to which the player returns.
 
-        ends_scene: whether the file belongs to the scene on top, which is then closed.
+        ends_scene: whether the error concerns the scene on top, which is then closed.
         """
         if ends_scene and self.top.shows_scene:
             self.stack.pop()
@@ -118,7 +118,7 @@ class Screens:
         return SceneBackground(self.played.scene) if self.played else None
 
     def title(self, message: str = "") -> None:
-        """Show the title as the only screen. message: a line to show on it, or ""."""
+        """Show the title as the only screen. message: a line of text to show on it, or ""."""
         self._leave_play()
         self.stack = [Title(message)]
 
@@ -128,7 +128,7 @@ class Screens:
         self.stack = [Title(), self._scene_menu()]
 
     def back(self) -> None:
-        """Return to the screen below, or to the title if there is none."""
+        """Return to the screen below the top one, or to the title if there is none."""
         self.stack.pop().close()
         if not self.stack:
             self.stack = [Title()]
@@ -146,7 +146,7 @@ class Screens:
             self.played.apply_settings()
 
     def scores(self) -> None:
-        """Open the high scores. Over a game, its own table is shown first."""
+        """Open the high scores. If a game is on the stack, its table is shown first."""
         arcade, play = self.arcade, self.played
         pages = pages_of(arcade.registry, arcade.records, play and (play.scene.name, play.scene.level_file))
         self.stack.append(ScoresScreen(pages, arcade.records, play and play.table, self.newest, self._ground()))
@@ -158,8 +158,8 @@ class Screens:
     def open_file(self, path: str | Path) -> None:
         """Open a file that was dropped on the window. Raises UsageError for an unusable file.
 
-        A PNG picture starts the scene that takes pictures as levels; any other file is played as a recording. After an
-        error the current game continues.
+        A PNG picture starts the scene that loads pictures as levels. Any other file is played as a recording. After an
+        error, the current game continues.
         """
         classes = self.arcade.registry.all_classes() if Path(path).suffix.lower() == ".png" else []
         taker = next((each for each in classes if each.takes_level and each.level_suffix == ".png"), None)
@@ -192,11 +192,14 @@ class Screens:
         self.stack.append(Tour(self._make_shown, arcade.registry.names, arcade.devices, accessibility))
 
     def costs(self) -> None:
-        """Open the split screen of near misses, which leads to the plot of accuracy and cost."""
+        """Open the split screen of near misses, from which the player reaches the plot of accuracy and cost."""
         self.stack.append(NearMisses())
 
     def plot(self) -> None:
-        """Open the plot of accuracy and cost: beside the paused game, or else beside the shooter, played by its bot."""
+        """Open the plot of accuracy and cost beside the paused game.
+
+        Without a game, start the shooter, played by its bot.
+        """
         self.stack.pop().close()
         if self.played is None:
             names = self.arcade.registry.names
@@ -204,7 +207,10 @@ class Screens:
         self._open_in_game(Play.toggle_costs, "costs_open")
 
     def effects(self) -> None:
-        """Open the panel of the paused game, which shows what each effect costs; without a game, the lab of effects."""
+        """Open the panel of the paused game, which shows the cost of each effect.
+
+        Without a game, start the lab of effects.
+        """
         if self.played is not None:
             self._open_in_game(Play.toggle_panel, "panel_open")
             self._game().panel.show(effect_rows.TITLE)
@@ -214,9 +220,9 @@ class Screens:
             self.menu()
 
     def _open_in_game(self, toggle, name):
-        """Return to the game, and open one of its panels by toggle(play), a method of Play.
+        """Return to the game, and open one of its panels with toggle(play), a method of Play.
 
-        name: name of the attribute of Play that is true while the panel is open.
+        name: name of the attribute of Play that is True while the panel is open.
         """
         play = self._game()
         while self.top is not play:
@@ -233,7 +239,7 @@ class Screens:
         return self.arcade.registry.scene_class(name)(0)
 
     def play(self, name: str, level: Path | None = None, bot: bool = False) -> None:
-        """Play a scene by its name. level: level file of the player, or None; bot: whether the scene's bot plays."""
+        """Play the scene `name`. level: level file of the player, or None; bot: whether the scene's bot plays."""
         arcade = self.arcade
         scene = arcade.registry.scene_class(name)(arcade.options.seed or 0, level=level)
         self._begin(Play(scene, arcade.devices, arcade.sounds, bot, settings=arcade.settings))
@@ -290,15 +296,15 @@ class Screens:
             self.played = None
 
     def _game(self) -> Play:
-        """Return the game on the stack, for outcomes of the pause menu and of the result.
+        """Return the game on the stack, for the outcomes of the pause menu and of the result screen.
 
-        Both are open only over a game.
+        These two screens are open only over a game.
         """
         assert self.played is not None
         return self.played
 
     def pause(self, message: str = "") -> None:
-        """Open the pause menu. message: a line to show in it, or "".
+        """Open the pause menu. message: a line of text to show in it, or "".
 
         If the game has ended, its result is opened instead, so that its place in the high scores is not lost.
         """
@@ -310,7 +316,7 @@ class Screens:
         self.stack.append(PauseMenu(play.scene, play.renews, message, pairs))
 
     def restart(self) -> None:
-        """Restart the game, and close the pause menu or the result over it."""
+        """Restart the game, and close the pause menu or the result screen over it."""
         play = self._game()
         while self.top is not play:
             self.stack.pop()
@@ -319,7 +325,7 @@ class Screens:
         play.resume()
 
     def result(self) -> None:
-        """Open the result of the game. If it is ranked, the screen asks for initials."""
+        """Open the result of the game. If the result is ranked, the screen asks for initials."""
         arcade, play = self.arcade, self._game()
         scene, result = play.scene, play.scene.result
         assert result is not None
@@ -353,7 +359,10 @@ class Screens:
         self.stack.append(screen)
 
     def enter_results(self) -> None:
-        """Enter an ended game in the high scores with the last used initials. Called when the window closes."""
+        """Enter an ended game into the high scores with the last used initials.
+
+        This is called when the window closes.
+        """
         play = self.played
         if play is not None and play.since_result and not any(screen.shows_result for screen in self.stack):
             self.result()

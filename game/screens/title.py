@@ -1,6 +1,6 @@
-"""The title: two planes pass each other, and HIT appears only where their pixels overlap, not only their boxes.
+"""The title: two planes pass each other. HIT appears only when their pixels overlap, not when only their boxes do.
 
-After IDLE seconds without input the demonstration starts.
+After IDLE seconds without input, the demonstration starts.
 """
 
 from math import pi, sin
@@ -33,9 +33,10 @@ ENTRIES = (
 
 
 class Title(CanvasScreen):
-    """The first screen of the program: logo and main menu.
+    """The first screen of the program, with the logo and the main menu.
 
-    `outcome` becomes that of the chosen entry in ENTRIES, or ("attract",) after IDLE seconds.
+    `outcome`, the request for the next screen, becomes that of the chosen entry in ENTRIES. After IDLE seconds, it
+    becomes ("attract",).
     """
 
     tune = "title"
@@ -62,7 +63,7 @@ class Title(CanvasScreen):
         self.idle = 0.0
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """Make one fixed step of `dt` [s] with the player's input."""
+        """Process the player's input of a step of `dt` [s], and advance the animation and the idle time."""
         self.time += dt
         busy = (
             inputs.now.actions or inputs.now.pointer_down or inputs.now.wheel or inputs.pointer != inputs.before.pointer
@@ -92,7 +93,10 @@ class Title(CanvasScreen):
         canvas.text(foot, canvas.rect.centerx, FOOT_Y, FOG, SMALL, 1, "center", True)
 
     def _draw_planes(self, canvas):
-        """Draw the two planes with their boxes. The boxes' colour shows whether boxes, or also pixels, overlap."""
+        """Draw the two planes with their boxes.
+
+        The colour of the boxes shows whether pixels, only boxes, or nothing overlaps.
+        """
         phase = self.time % LOOP / LOOP
         sway = sin(phase * 2 * pi)
         a = self.left.get_rect(center=(round(262 + 40 * sway), round(180 + 4 * sin(phase * 4 * pi))))

@@ -1,7 +1,7 @@
-"""One-minute tour of the overlays. Bots play, one layer after the other is shown, and a card describes it.
+"""One-minute tour of the overlays. Bots play, one layer after another is shown, and a card describes the layer.
 
-Each stop of the tour waits for an example of its layer, freezes that step with a ring around the example, and then lets
-the scene continue.
+Each stop of the tour waits for a step that shows an example of its layer. The scene is frozen in this step, with a ring
+around the example, and then continues.
 """
 
 from collections.abc import Callable, Sequence
@@ -138,10 +138,10 @@ BUTTONS = {
 
 
 class Tour(SceneScreen):
-    """Guided tour of the overlays: at each stop a bot plays a scene, and a card explains one overlay layer.
+    """Guided tour of the overlays. At each stop, a bot plays a scene, and a card explains one overlay layer.
 
-    make(name) builds a scene. `outcome` becomes ("back",) at the end. names: the scenes that exist; a stop whose scene
-    is missing uses the first of them.
+    make(name) builds a scene. `outcome`, the request for the next screen, becomes ("back",) at the end. names: the
+    scenes that exist. A stop whose scene is missing uses the first of them.
     """
 
     tune = "title"
@@ -165,7 +165,7 @@ class Tour(SceneScreen):
 
     @cached_property
     def misses(self) -> NearMisses:
-        """The split screen of near misses, whose flight continues from stop to stop."""
+        """The split screen of near misses. Its flight continues from stop to stop."""
         return NearMisses()
 
     @property
@@ -178,7 +178,7 @@ class Tour(SceneScreen):
 
     @property
     def begins_in(self) -> int:
-        """Number of steps that the bot still has to play, at high speed, before this stop begins."""
+        """Number of steps that the bot still has to play before this stop begins. They are played at high speed."""
         return self.stops[self.at][0][1] - self.demo.session.report.steps
 
     def _panel_rows(self):
@@ -195,13 +195,13 @@ class Tour(SceneScreen):
 
     @property
     def waits(self) -> bool:
-        """True while the bot plays at high speed until an example of this stop's layer appears."""
+        """Whether the bot plays at high speed until an example of this stop's layer appears."""
         if self.stops[self.at][1] == MISSES:
             return False
         return not self.shown and self.subject is None and (self.begins_in > 0 or self.waited < PATIENCE)
 
     def advance(self, now: float) -> None:
-        """Make the steps due at `now` [s]. After SECONDS of a stop, go to the next one."""
+        """Make the steps due at `now` [s]. When a stop has been shown for SECONDS, go to the next stop."""
         try:
             due = self.demo.clock.advance(now)
             if self.stops[self.at][1] == MISSES:
@@ -239,7 +239,7 @@ class Tour(SceneScreen):
                     self._play_again()
 
     def _play_again(self):
-        """Restart the scene if its game has ended, so that the bot always has a game to play."""
+        """Restart the scene after the end of its game, so that the bot always has a game to play."""
         self.demo.scene.restart()
 
     def _go(self, what):
@@ -253,11 +253,11 @@ class Tour(SceneScreen):
 
     @property
     def running_clock(self) -> FixedStep | None:
-        """Clock that schedules the scene's steps."""
+        """Clock that schedules the scene's steps; None if there is no scene."""
         return self.demo.clock if self.demo else None
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Process an event; return whether it was used."""
+        """Process an event. Return whether the event was used."""
         what = None
         if event.type == pygame.KEYDOWN:
             what = KEYS.get(event.key)
@@ -295,13 +295,13 @@ class Tour(SceneScreen):
         return frame
 
     def _ring_on(self, frame):
-        """Return the rectangle of the ring around the example [frame px]; None without an example."""
+        """Return the rectangle of the ring around the example [frame px]; None if there is no example."""
         if self.subject is None:
             return None
         return frame.from_canvas(self.subject.inflate(2 * MARGIN, 2 * MARGIN))
 
     def _reserve(self, frame):
-        """Place the card beside the ring, where it covers the least text, and reserve the places of both."""
+        """Place the card where it covers the least text and not the ring, and reserve the rectangles of both."""
         ring = self._ring_on(frame)
         beside_panel = self.stops[self.at][1] == "panel"
         self.card = docked(frame, frame.area.clip(frame.rect) if beside_panel else frame.rect, ring)
@@ -351,9 +351,10 @@ class Tour(SceneScreen):
 
 
 def docked(frame: Frame, area: pygame.Rect, ring: pygame.Rect | None) -> pygame.Rect:
-    """Return the card's place in an area: at a corner, or at the middle of the top or bottom border.
+    """Return the rectangle of the card in `area`: at a corner, or at the middle of the upper or lower border.
 
-    Places that do not cover the ring are preferred; of these, the place where the card covers the least text is chosen.
+    Positions that do not cover the ring are preferred. Among these, the card is placed where it covers the least text.
+    ring: rectangle of the ring, or None.
     """
     scale = frame.scale_for(CARD[0])
     size = (min(CARD[0] * scale, area.width), CARD[1] * scale)
@@ -367,7 +368,10 @@ def docked(frame: Frame, area: pygame.Rect, ring: pygame.Rect | None) -> pygame.
 
 
 def draw_ring(frame: Frame, ring: pygame.Rect) -> None:
-    """Draw a golden rectangle between two dark ones, visible on any background. ring: its rectangle [frame px]."""
+    """Draw a golden rectangle between two dark ones, which is visible on any background.
+
+    ring: the rectangle [frame px].
+    """
     thick = max(2, frame.scale)
     outer = ring.inflate(2 * thick, 2 * thick).clip(frame.rect)
     corner = 5 * frame.scale

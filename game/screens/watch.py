@@ -1,4 +1,4 @@
-"""The screen that plays a recording: freeze, slow motion, single steps, seek.
+"""The screen that plays a recording: freeze, slow motion, single steps and seeks.
 
 Overlays and panel work as in a game, but the recorded game cannot be changed.
 """
@@ -48,7 +48,10 @@ BUTTON_KEYS = {
 
 
 class Watch(SceneScreen):
-    """Player of a recording (a Tape). `outcome` becomes ("back",). name: name of the recording's file."""
+    """Screen that plays a recording (a Tape). name: name of the recording's file.
+
+    `outcome`, the request for the next screen, becomes ("back",).
+    """
 
     def __init__(
         self, tape: Tape, devices: DeviceSource, sounds: Sounds, accessibility: Accessibility, name: str = ""
@@ -67,7 +70,7 @@ class Watch(SceneScreen):
 
     @property
     def shows_pointer(self) -> bool:
-        """True while there is something to click."""
+        """Whether something on the screen can be clicked."""
         return self.shows_controls or self.panel_open
 
     @property
@@ -77,20 +80,20 @@ class Watch(SceneScreen):
 
     @property
     def tune(self) -> str | None:
-        """Name of the recorded game's music."""
+        """Name of the recorded game's music; None if it has none."""
         return self.tape.scene.music
 
     @property
     def failure(self) -> str:
         """Message if the game differs from the recording, otherwise "".
 
-        For a recording of another version of the physics it is "", because such a recording may differ.
+        For a recording of another physics version it is always "", because such a recording may differ.
         """
         return "" if self.tape.recording.outdated else self.tape.diverged
 
     @property
     def diverged(self) -> bool:
-        """True at and after the frame at which the game first differed from the recording."""
+        """Whether the current frame is at or after the frame at which the game first differed from the recording."""
         return self.tape.diverged_at is not None and self.tape.position >= self.tape.diverged_at
 
     def advance(self, now: float) -> None:
@@ -117,7 +120,7 @@ class Watch(SceneScreen):
                 self.sounds.play_cues(self.tape.scene.cues)
 
     def toggle(self) -> None:
-        """Freeze or play; at the end, play from the start."""
+        """Freeze the playback, or continue it. At the end of the recording, play it from the start."""
         if self.tape.ended:
             self.tape.begin_seek(0)
             self.clock.paused = False
@@ -125,25 +128,28 @@ class Watch(SceneScreen):
             self.clock.paused = not self.clock.paused
 
     def turn_speed(self, way: int) -> None:
-        """Change to the next higher speed (`way` 1) or the next lower one (-1)."""
+        """Change to the next higher playback speed (`way` 1) or the next lower one (-1)."""
         self.speed = max(0, min(len(SPEEDS) - 1, self.speed + way))
         self.clock.game_speed = SPEEDS[self.speed]
 
     def leap(self, frames: int) -> None:
-        """Seek to a frame `frames` later, or earlier if negative.
+        """Seek to the frame that is `frames` later, or earlier if the number is negative.
 
-        The frames count from the current frame or, during a seek, from its goal.
+        The frames are counted from the current frame or, during a seek, from its target.
         """
         start = self.tape.position if self.tape.goal is None else self.tape.goal
         self.tape.begin_seek(start + frames)
 
     @property
     def shows_controls(self) -> bool:
-        """True while the controls are visible. They are hidden during undisturbed playback, as they cover the game."""
+        """Whether the controls are visible.
+
+        The controls are hidden during playback without input, because they cover the game.
+        """
         return self.clock.paused or self.alone < HIDE_SECONDS or self.tape.goal is not None or self.dragging
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Process an event; return whether it was used."""
+        """Process an event. Return whether the event was used."""
         self.alone = 0.0
         if self.panel_open and self.panel.feed(event):
             return True
@@ -174,7 +180,7 @@ class Watch(SceneScreen):
         self.tape.begin_seek(round(max(0.0, min(1.0, share)) * self.tape.length))
 
     def single(self, way: int) -> None:
-        """Freeze, and move one frame forward (`way` 1) or back (-1)."""
+        """Freeze the playback, and move one frame forward (`way` 1) or back (-1)."""
         self.clock.paused = True
         self.leap(way)
 
@@ -227,7 +233,7 @@ class Watch(SceneScreen):
         return frame
 
     def _reserve(self, frame):
-        """Reserve the place of the controls, so that the legend of the overlays avoids it."""
+        """Reserve the rectangle of the controls, so that the legend of the overlays avoids it."""
         if self.shows_controls:
             frame.reserve(self._controls_rect(frame))
 
@@ -253,7 +259,10 @@ class Watch(SceneScreen):
             frame.text(KEYS_LINE, rect.centerx, rect.bottom - 9 * scale, FOG, SMALL, scale, "center")
 
     def _draw_bar(self, frame, scale):
-        """Draw the bar with the current frame, the key frames, and the frame of the first difference, if any."""
+        """Draw the bar with the current frame, the key frames, and the frame of the first difference, if there is one.
+
+        scale: frame px per text px.
+        """
         surface, tape, bar = frame.surface, self.tape, self.bar
         line = pygame.Rect(bar.x, bar.centery - scale, bar.width, 2 * scale)
         surface.fill(DUSK, line)
@@ -284,7 +293,7 @@ class Watch(SceneScreen):
 
 
 def _draw_button(surface, rect, paused, scale):
-    """Draw the button: a triangle while `paused`, two bars during playback."""
+    """Draw the play button: a triangle while `paused`, two bars during playback."""
     x, y, high = rect.x + 3 * scale, rect.y, rect.height
     if paused:
         pygame.draw.polygon(surface, GOLD, ((x, y), (x, y + high), (x + high, y + high // 2)))
@@ -294,7 +303,7 @@ def _draw_button(surface, rect, paused, scale):
 
 
 def watch_rows(watch: Watch) -> list[Row]:
-    """Return the panel's rows. They change the view, not the recorded game."""
+    """Return the panel's rows for a Watch screen. They change the view, not the recorded game."""
     scene, tape = watch.tape.scene, watch.tape
     spacing = tape.spacing // 60
     solver = plain_name(solver_name(scene) or "no solver")

@@ -1,6 +1,6 @@
 """Two lines in the cost panel, below the finding: the advised setting, and the state of the tuner.
 
-The tuner applies the advice automatically.
+The tuner is the part of the program that applies advice automatically.
 """
 
 from collections.abc import Callable
@@ -17,9 +17,9 @@ TAKE, TUNE = pygame.K_PAGEUP, pygame.K_PAGEDOWN
 
 
 class AdviceRows:
-    """Two lines of the cost panel: the advised setting, and whether the advice is applied automatically.
+    """Two lines of the cost panel: the advised setting, and whether advice is applied automatically.
 
-    measuring: the measurements of the played scene; apply(setting): apply a setting to the scene.
+    measuring: the measurements of the played scene; apply(setting): function that applies a setting to the scene.
     """
 
     def __init__(self, measuring: Measuring, apply: Callable[[Setting], None]) -> None:
@@ -27,13 +27,13 @@ class AdviceRows:
         self.rects = [pygame.Rect(0, 0, 0, 0), pygame.Rect(0, 0, 0, 0)]
 
     def stamp(self) -> tuple:
-        """Return a value that changes whenever the text of the lines changes, so that the panel is painted again."""
+        """Return a value that changes whenever the text of the lines changes. The panel is then repainted."""
         return self.tuner.on, len(self.tuner.decisions), self.measuring.advice
 
     def key(self, key: int) -> bool:
-        """Process a key: Page Up applies the advice, Page Down switches the tuner.
+        """Process a key: Page Up applies the advice, and Page Down switches the tuner on or off.
 
-        Return whether it was one of them.
+        Return whether the key was one of these.
         """
         if key == TAKE:
             self.take()
@@ -42,20 +42,26 @@ class AdviceRows:
         return key in (TAKE, TUNE)
 
     def click(self, position: tuple[int, int]) -> bool:
-        """Process a click at a window position. A click on a line acts like its key. Return whether a line was hit."""
+        """Process a click at a window position. A click on a line has the function of its key.
+
+        Return whether a line was clicked.
+        """
         for rect, key in zip(self.rects, (TAKE, TUNE), strict=True):
             if rect.collidepoint(position):
                 return self.key(key)
         return False
 
     def take(self) -> None:
-        """Apply the advised setting if there is one and its trial on the recorded run succeeded."""
+        """Apply the advised setting, if there is one and its test on the recorded run succeeded."""
         advice = self.measuring.advice
         if advice is not None and isinstance(advice[1], float):
             self.apply(advice[0])
 
     def draw(self, frame: Frame, left: int, y: int, width: int, scale: int) -> int:
-        """Draw both texts from (left, y) down, `width` wide [frame px]. Return the y below them."""
+        """Draw both lines with their top left corner at (left, y) and the given width [frame px].
+
+        Return the y below them. scale: frame px per text px.
+        """
         texts = ((self._advice(), GREEN), (self._tuning(), SKY if self.tuner.on else FOG))
         font, line = small_font(scale)
         for row, (text, color) in enumerate(texts):

@@ -1,4 +1,7 @@
-"""Backgrounds of menus: the moving mountains of the title, or the darkened paused game; and the box around a menu."""
+"""Backgrounds of menus, and the box around a menu.
+
+A background shows the moving mountains of the title screen, or the darkened paused game.
+"""
 
 import pygame
 
@@ -27,14 +30,14 @@ class DuskBackground:
 class SceneBackground:
     """Background that shows the paused scene, darkened.
 
-    The scene is drawn anew for each picture, so that a changed setting is visible at once.
+    The scene is drawn again for each picture, so that a changed setting is visible at once.
     """
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
 
     def draw(self, canvas: Canvas, time: float) -> None:
-        """Draw the scene darkened. `time` is not used. A menu may cover the scene's text and plots."""
+        """Draw the scene, darkened. time: not used. A menu may cover the scene's text and plots."""
         self.scene.draw(canvas, 1.0)
         canvas.surface.fill((DIMMED,) * 3, special_flags=pygame.BLEND_RGB_MULT)
         canvas.boxes.clear()

@@ -1,6 +1,6 @@
-"""Contact inspector: a click on a contact of the frozen scene opens a card about its two shapes.
+"""Contact inspector: a click on a contact of the frozen scene opens a card about the two shapes that touch.
 
-The card describes the result of each stage of the step for this pair.
+The card describes the result of each stage of the step for this pair of shapes.
 """
 
 import pygame
@@ -18,7 +18,7 @@ WIDTH, ROW, EDGE = 150, 7, 4  # [text px] of the card
 
 
 class ContactInspectorView:
-    """View of the contact inspector: feed() takes clicks, draw() shows the card of the chosen contact.
+    """View of the contact inspector. feed() processes clicks, and draw() shows the card of the chosen contact.
 
     The card closes when the scene is no longer frozen.
     """
@@ -31,9 +31,9 @@ class ContactInspectorView:
         self.reach = REACH  # [frame px]
 
     def feed(self, event: pygame.event.Event, frozen: bool) -> bool:
-        """Process a click while the scene is frozen. Return whether it was used.
+        """Process a click while the scene is frozen. Return whether the click was used.
 
-        Near a contact it opens that contact's card; elsewhere it closes the open card.
+        A click near a contact opens the card of this contact. Any other click closes the open card.
         """
         if not frozen or event.type != pygame.MOUSEBUTTONDOWN or event.button != 1:
             return False
@@ -54,7 +54,7 @@ class ContactInspectorView:
         self.chosen = world, touch
 
     def draw(self, frame: Frame, frozen: bool) -> None:
-        """Draw a ring around the chosen contact, and its card, while the scene is frozen."""
+        """Draw a ring around the chosen contact, and its card, if the scene is frozen."""
         self.lenses = [(world, frame.lens(camera)) for world, camera in self.scene.views()]
         self.reach = REACH * frame.scale
         if self.chosen is None:

@@ -66,8 +66,9 @@ TRAIL = 12  # number of last applied settings that a line joins
 class CostPanel:
     """Panel of accuracy and cost.
 
-    measuring: the measurements of the played scene; apply(setting): apply a setting to the scene, or report why that is
-    impossible; race(setting): race the scene against a copy under that setting; save(): save the measurements.
+    measuring: the measurements of the played scene; apply(setting): applies a setting to the scene, or reports why that
+    is impossible; race(setting): starts a race between the scene and a copy under that setting; save(): saves the
+    measurements.
     """
 
     def __init__(
@@ -99,12 +100,12 @@ class CostPanel:
         return self.kind if self.kind in kinds else kinds[0] if kinds else ""
 
     def ranking(self) -> list[Setting]:
-        """Return the settings with a known cost and a known error of the plotted kind, the cheapest first."""
+        """Return the settings that have a cost and an error of the plotted kind, cheapest first."""
         known = self.survey.known(self.shown_kind())
         return sorted(known, key=lambda setting: known[setting][0].median)
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Process an event; return whether it was used."""
+        """Process an event. Return whether the event was used."""
         if event.type == pygame.KEYDOWN and self.focused:
             return self.key(event.key, bool(getattr(event, "mod", 0) & pygame.KMOD_SHIFT))
         if event.type == pygame.MOUSEMOTION:
@@ -122,10 +123,10 @@ class CostPanel:
         return False
 
     def key(self, key: int, shift: bool = False) -> bool:
-        """Process a key. Return whether it was used.
+        """Process a key. Return whether the key was used. shift: whether the Shift key is held.
 
-        Up and down choose a setting, Enter applies it, and Shift+Enter races it. Left and right change the kind of
-        error. F9 saves the measurements.
+        Up and down select a setting, Enter applies it, and Shift+Enter starts a race against it. Left and right change
+        the kind of error. F9 saves the measurements.
         """
         ranking = self.ranking()
         if key in (pygame.K_UP, pygame.K_DOWN) and ranking:
@@ -142,7 +143,7 @@ class CostPanel:
         return True
 
     def turn_kind(self, way: int) -> None:
-        """Plot the next kind of error (`way` 1) or the previous one (-1). Nothing changes if there is only one."""
+        """Plot the next kind of error (`way` 1) or the previous one (-1). Nothing changes if there is only one kind."""
         kinds = self.survey.kinds
         if kinds:
             self.kind = following(kinds, self.shown_kind(), way)
@@ -159,8 +160,8 @@ class CostPanel:
     def draw(self, frame: Frame, rect: pygame.Rect) -> None:
         """Draw the panel into a frame rectangle.
 
-        Painting takes a tenth of a frame, so the painted panel is kept and drawn again. It is repainted at once after a
-        change by the player, and at most every LASTS pictures after new results.
+        Painting takes a tenth of a frame, so the painted panel is stored and drawn again. After a change by the player,
+        the panel is repainted at once. After new results, it is repainted once LASTS pictures have passed.
         """
         now = self.now()
         if not self.trail or self.trail[-1] != now:
@@ -217,7 +218,10 @@ class CostPanel:
         return self.head.bottom + 2 * scale
 
     def _draw_sentence(self, frame, left, y, width, sentence, scale):
-        """Draw the explanatory `sentence` above the plot, from (left, y) on. Return the y below it."""
+        """Draw the explanatory `sentence` above the plot, with its top left corner at (left, y).
+
+        Return the y below it.
+        """
         for line in wrap(sentence, width, TEXT, scale):
             frame.text(line, left, y, PAPER, TEXT, scale)
             y += 9 * scale
@@ -270,9 +274,10 @@ class CostPanel:
             pygame.draw.circle(frame.surface, PAPER, place, 4 * scale, 1)
 
     def _draw_name(self, frame, rect, places, known, now, scale):
-        """Draw the name of the setting under the pointer, or else of the current setting `now`, beside its dot.
+        """Draw the name of a setting beside its dot: that of the setting under the pointer, or of the current setting.
 
-        rect: the plot; places: {setting: (x, y) of its dot}; known: {setting: (cost, error)}; scale: scale of the text.
+        rect: rectangle of the plot; places: {setting: (x, y) of its dot}; known: {setting: (cost, error)}; now: the
+        current setting; scale: frame px per text px.
         """
         setting = self.hovered if self.hovered in places else now if now in places else None
         if setting is None:
@@ -291,9 +296,9 @@ class CostPanel:
         frame.text(text, round(left), round(top), GOLD if setting == now else PAPER, font, scale)
 
     def _draw_forms(self, frame, left, y, width, known, now, scale):
-        """Draw the legend from (left, y) on: name and form of each kind of dot in the plot. Return the y below it.
+        """Draw the legend of the plot at (left, y): name and form of each kind of dot. Return the y below it.
 
-        known: {setting: (cost, error)}; now: the current setting; scale: scale of the text.
+        known: {setting: (cost, error)}; now: the current setting; scale: frame px per text px.
         """
         font, line = small_font(scale)
         base = self.surveyor.here or now
@@ -316,9 +321,9 @@ class CostPanel:
         return self._draw_sentence(frame, left, y, width, finding or "the finding comes when enough is measured", scale)
 
     def _draw_list(self, frame, rect, known, now, scale):
-        """Draw the list of settings, the cheapest first, and the numbers of those that do not fit above and below.
+        """Draw the list of settings, cheapest first. A line below it gives the numbers of settings that do not fit.
 
-        known: {setting: (cost, error)}; now: the current setting; scale: scale of the text.
+        known: {setting: (cost, error)}; now: the current setting; scale: frame px per text px.
         """
         base, pareto_front = self.surveyor.here or now, set(self.survey.pareto_front(self.shown_kind()))
         font, line = small_font(scale)
@@ -362,10 +367,10 @@ def kind_of(setting: Setting, base: Setting) -> str:
 
 
 def look_of(setting: Setting, base: Setting) -> tuple[Color, str]:
-    """Return (colour, form) of a setting's dot in the plot: a white circle if the setting is equal to `base`.
+    """Return (colour, form) of a setting's dot in the plot. The dot is a white circle if `setting` equals `base`.
 
-    Otherwise the field in which it differs from `base` decides. base: the setting of the state from which the
-    measurements start.
+    Otherwise, the dot shows the field in which `setting` differs from `base`. base: the setting of the state from which
+    the measurements start.
     """
     return (PAPER, "circle") if setting == base else LOOKS[kind_of(setting, base)][1:]
 
@@ -373,9 +378,10 @@ def look_of(setting: Setting, base: Setting) -> tuple[Color, str]:
 def draw_form(
     surface: pygame.Surface, form: str, place: tuple[float, float], size: float, color: Color, full: bool
 ) -> None:
-    """Draw a dot of a setting at a place [frame px]. form: circle, square, diamond, triangle, wedge, or else a cross.
+    """Draw the dot of a setting at the position `place` [frame px]. size: its radius [frame px].
 
-    full: whether it is filled. A hollow dot means that the error is only an upper bound.
+    form: circle, square, diamond, triangle or wedge; any other name gives a cross. full: whether the dot is filled. A
+    hollow dot means that the error is only an upper bound.
     """
     x, y = place
     width = 0 if full else 1
@@ -399,7 +405,7 @@ def draw_form(
 
 
 def _stairs(pareto_front):
-    """Return the points of the stepped line along the Pareto front: right from each point, then down to the next.
+    """Return the points of the stepped line along the Pareto front: right from each point, then down to the next point.
 
     pareto_front: list of points (x, y), from left to right.
     """
@@ -414,5 +420,5 @@ def _short(cost: Cost) -> str:
 
 
 def _failed(error: Error) -> str:
-    """Return the numbers of failures as text, to be written after the error; "" if there are none."""
+    """Return the numbers of failures as text to be appended to the error; "" if there are none."""
     return "".join(f", {count} {name.replace('_', ' ')}" for name, count in error.failures.items())

@@ -1,4 +1,4 @@
-"""A scene played by its bot, for the title's demonstration and for the tour."""
+"""A scene played by its bot, for the demonstration of the title screen and for the tour."""
 
 from collections.abc import Callable
 
@@ -23,7 +23,7 @@ class Demo:
         self.overlays = Overlays(())
 
     def advance(self, now: float) -> int:
-        """Make the steps due at `now` [s]. Return their number."""
+        """Make the steps due at `now` [s]. Return the number of these steps."""
         due = self.clock.advance(now)
         for _ in range(due):
             self.step()
@@ -37,8 +37,8 @@ class Demo:
     def draw(
         self, picture: Picture, panel: Docked | None = None, reserve: Callable[[Frame], None] | None = None
     ) -> Frame:
-        """Draw the scene and return the frame. panel: panel to draw beside it, or None.
+        """Draw the scene and return the frame. panel: panel to draw beside the scene, or None.
 
-        reserve: see Picture.draw_scene.
+        reserve: see Picture.draw_scene().
         """
         return picture.draw_scene(self.scene, self.overlays, self.clock.alpha, panel, reserve)

@@ -1,4 +1,4 @@
-"""The panel's table of effects: whether the scene declares each one, its time per step, and its number of kernels."""
+"""The panel's table of effects: whether the scene declares each effect, its time per step, and its kernels."""
 
 from game.drawing.colors import GREEN
 from game.drawing.number_text import plain_name
@@ -14,7 +14,10 @@ UNKNOWN = "-"
 
 
 def effect_rows(measuring: Measuring) -> list[Row]:
-    """Return the panel's rows about the costs of effects: a heading, a line per effect, a note if measuring failed."""
+    """Return the panel's rows about the costs of effects: a heading, a row for each choice, and a row for each effect.
+
+    If the measurement failed, a note is added.
+    """
     ledger = measuring.ledger
     rows = [Row(HEAD, TITLE, cells=("us a step", "kernels")), *_choices(measuring)]
     for name in EFFECTS:
@@ -28,7 +31,10 @@ def effect_rows(measuring: Measuring) -> list[Row]:
 
 
 def _choices(measuring):
-    """Return a row for each choice of effects: as declared, all, and the fewest. Their hints give start and bytes."""
+    """Return a row for each choice of effects: as declared, all, and the fewest possible.
+
+    The hints of the rows contain the time of the first step and the bytes of the tables.
+    """
     rows = []
     for bar in bars_of(measuring.ledger.totals):
         (_, time), (_, kernels), (_, start), (_, size) = bar.cells
@@ -38,9 +44,10 @@ def _choices(measuring):
 
 
 def price_text(known: EffectCost, busy: bool) -> str:
-    """Return the time per step that an effect costs, as text [us]. known: EffectCost of the effect.
+    """Return the time [us] that an effect adds to a step, as text. known: EffectCost of the effect.
 
-    "0": not greater than the scatter of the runs; "-": unknown; "...": being measured (`busy`).
+    The text is "0" if the time is not greater than the scatter of the runs. It is "-" if the time is unknown, and "..."
+    while the time is being measured. busy: whether measurements are running.
     """
     price = known.price
     if price is None:
@@ -49,9 +56,10 @@ def price_text(known: EffectCost, busy: bool) -> str:
 
 
 def kernels_text(known: EffectCost, busy: bool) -> str:
-    """Return the number of kernels compiled for an effect as text; "-" if unknown, "..." while counted (`busy`).
+    """Return the number of kernels compiled for an effect, as text. known: EffectCost of the effect.
 
-    known: EffectCost of the effect.
+    The text is "-" if the number is unknown, and "..." while it is being counted. busy: whether measurements are
+    running.
     """
     if known.kernels is None:
         return WAITS if busy else UNKNOWN

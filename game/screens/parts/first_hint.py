@@ -1,4 +1,4 @@
-"""The strip shown in the player's first game, which names the keys of the overlays."""
+"""The strip that names the keys of the overlays, shown in the player's first game."""
 
 import pygame
 
@@ -16,7 +16,10 @@ GAP, HEIGHT = 10, 17  # [text px] between two parts; of the strip
 
 
 class HintCard:
-    """Strip that a key named on it, Enter or a click on it closes. After READ pictures, any key closes it."""
+    """Strip of text that names keys. One of these keys, Enter, or a click on the strip closes it.
+
+    After READ pictures, any key closes the strip.
+    """
 
     keeps_keys = False  # every key keeps its function
 
@@ -34,11 +37,11 @@ class HintCard:
         return button in BUTTONS or (read and button is not None)
 
     def remember(self, settings: Settings) -> None:
-        """Record in the settings that the strip was shown, so that it does not appear again."""
+        """Record in the settings that the strip was shown, so that it is not shown again."""
         settings.hint_seen = True
 
     def draw(self, frame: Frame) -> None:
-        """Draw the strip near the upper or else the lower border of the picture, where no text is."""
+        """Draw the strip near the upper border of the picture, or near the lower one if text is in the way."""
         self.drawn += 1
         area = frame.area.clip(frame.rect)
         scale = frame.text_scale
@@ -63,6 +66,6 @@ class HintCard:
         frame.reserve(self.rect)
 
     def _width(self, frame, scale):
-        """Return the width of the strip at a scale [frame px]."""
+        """Return the width [frame px] of the strip at a scale. scale: frame px per text px."""
         words = sum(frame.measure(key, TEXT, scale)[0] + frame.measure(what, TEXT, scale)[0] for key, what in PARTS)
         return words + frame.measure(FOOT, SMALL, scale)[0] + (len(PARTS) * (4 + GAP) + 2 * GAP) * scale

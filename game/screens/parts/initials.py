@@ -1,4 +1,4 @@
-"""Input of three initials: up and down change a letter, left and right move on; typing and clicking work, too."""
+"""Input of three initials: up and down change a letter, left and right select one. Typing and clicking also work."""
 
 import pygame
 
@@ -14,9 +14,9 @@ GAP = 8
 
 
 class Initials:
-    """Three letters that the player enters. `done`: whether they were accepted.
+    """Three letters (initials) that the player enters. `done`: whether the player has accepted them.
 
-    `at`: the selected letter, 0..2, or 3 for the OK button.
+    `at`: index of the selected letter, 0..2, or 3 for the OK button.
     """
 
     def __init__(self, text: str, x: int, y: int, cues: list[str]) -> None:
@@ -34,7 +34,7 @@ class Initials:
         return "".join(self.letters)
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Process a typed letter; return whether the event was used."""
+        """Process a typed letter. Return whether the event was used."""
         if event.type != pygame.KEYDOWN:
             return False
         if event.key == pygame.K_BACKSPACE:
@@ -51,7 +51,7 @@ class Initials:
         return True
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """Make one fixed step of `dt` [s] with the player's input."""
+        """Process the player's input of a step of `dt` [s]: select and change letters, and accept the initials."""
         turn, way = self.vertical.move(inputs, dt), self.sideways.move(inputs, dt)
         if turn and self.at < 3:
             self._turn(self.at, turn)
@@ -82,14 +82,14 @@ class Initials:
     def _turn(self, number, way):
         """Change letter number `number` to the letter `way` places later in LETTERS, cyclically.
 
-        Up is -1, so that it goes back in the alphabet, as usual in arcades.
+        The up key is -1 and thus moves backwards in the alphabet, as is usual in arcade games.
         """
         index = (LETTERS.index(self.letters[number]) + way) % len(LETTERS)
         self.letters[number] = LETTERS[index]
         self.cues.append("blip")
 
     def draw(self, canvas: Canvas) -> None:
-        """Draw the letters, arrows above and below the selected one, and the OK button."""
+        """Draw the letters, arrows above and below the selected letter, and the OK button."""
         for number, cell in enumerate(self.cells):
             marked = number == self.at
             draw_box(canvas, cell, "panel_selected" if marked else "panel")

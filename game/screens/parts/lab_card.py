@@ -1,4 +1,7 @@
-"""A lab's card: its question, the answer in short and a thing to try. The second page has all texts and the goals."""
+"""The card of a lab (a scene for an experiment): its question, a short answer, and a thing to try.
+
+The second page has all texts and the goals.
+"""
 
 import sys
 from collections.abc import Iterable
@@ -27,9 +30,9 @@ EVERY = 30  # pictures between two checks of the goals
 
 
 class LabCard:
-    """Card about a lab, shown at the first visit and on demand, until it is closed. page: 0 or 1.
+    """Card about a lab. It is shown at the first visit and on request, until it is closed. page: 0 or 1.
 
-    Raises ValueError for a scene whose module docstring has no "What to see:".
+    Raises ValueError for a scene whose module docstring has no section "What to see:".
     """
 
     keeps_keys = True
@@ -46,7 +49,10 @@ class LabCard:
         self.age = self.page = 0
 
     def turned_by(self, event: pygame.event.Event) -> bool:
-        """Turn from the first page to the second if the event is the key that opens the card. Return whether it was."""
+        """Change from the first page to the second if the event is the key that opens the card.
+
+        Return whether the page changed.
+        """
         if self.page or event.type != pygame.KEYDOWN or not asks_for_card(event):
             return False
         self.page, self.area = 1, pygame.Rect(0, 0, 0, 0)  # placed anew, with its new size
@@ -61,12 +67,12 @@ class LabCard:
         return button in BUTTONS
 
     def remember(self, settings: Settings) -> None:
-        """Record in the settings that the card was shown, so that it does not open by itself again."""
+        """Record in the settings that the card was shown, so that it does not open automatically again."""
         if self.scene.name not in settings.labs_seen:
             settings.labs_seen = [*settings.labs_seen, self.scene.name]
 
     def draw(self, frame: Frame) -> None:
-        """Draw the card at window resolution where it covers the least text; the game continues behind it."""
+        """Draw the card at window resolution where it covers the least text. The game continues behind it."""
         if self.age % EVERY == 0:  # some goals take time to check
             self.goals, self.finding = self.scene.check(), self.scene.finding()
         self.age += 1
@@ -95,9 +101,9 @@ class LabCard:
         frame.fix(self.rect)
 
     def _lines(self, width, scale, room):
-        """Return the card's lines from top to bottom.
+        """Return the card's lines from top to bottom, as a list of Line.
 
-        width: width of a line [frame px]; room: height for all lines [text px].
+        width: width of a line [frame px]; scale: frame px per text px; room: height for all lines [text px].
         """
         lines = [Line(text, GOLD, TEXT) for text in wrap(self.text.question, width, TEXT, scale)]
         sections: dict[str, str] = dict(zip(SECTIONS, self.text[1:], strict=True))
@@ -112,7 +118,7 @@ class LabCard:
         return [*lines, *end]
 
     def _goal_lines(self, width, scale, room):
-        """Return the lines about the lab's goals, those with a result first.
+        """Return the lines about the lab's goals. Goals that already have a result come first.
 
         Goals that do not fit into `room` [text px] are only counted. width: width of a line [frame px].
         """
@@ -134,7 +140,7 @@ class LabCard:
 
 
 class CardText(NamedTuple):
-    """A lab's question, and the text of each section in SECTIONS ("" for a missing one)."""
+    """A lab's question, and the text of each section in SECTIONS; "" for a missing section."""
 
     question: str
     short: str
@@ -145,10 +151,10 @@ class CardText(NamedTuple):
 
 
 class Line(NamedTuple):
-    """A line of the card. gap: space above it [text px].
+    """A line of the card. gap: space above the line [text px].
 
-    mark: colour of a square before the text; None: no square; FOLLOWS: space for a square, as in the further lines of a
-    wrapped text.
+    mark: colour of a square before the text; None for no square. FOLLOWS leaves space for a square, as in the second
+    and later lines of a wrapped text.
     """
 
     text: str
@@ -159,22 +165,25 @@ class Line(NamedTuple):
 
     @property
     def height(self) -> int:
-        """Height of the line without the gap above it [text px]."""
+        """Height of the line, without the gap above it [text px]."""
         return 10 if self.font == TEXT else 7
 
 
 def paragraph(text: str, width: int, scale: int, ink: Color) -> list[Line]:
-    """Return a text wrapped into lines of at most `width` frame pixels, with a gap above the first. ink: its colour."""
+    """Return a text wrapped into lines of at most `width` frame px, with a gap above the first line.
+
+    ink: colour of the text.
+    """
     return [Line(each, ink, gap=0 if number else 3) for number, each in enumerate(wrap(text, width, SMALL, scale))]
 
 
 def height_of(lines: Iterable[Line]) -> int:
-    """Return the total height of lines with their gaps [text px]."""
+    """Return the total height of lines, including their gaps [text px]."""
     return sum(line.gap + line.height for line in lines)
 
 
 def least_covering(frame: Frame, area: pygame.Rect, size: tuple[int, int]) -> pygame.Rect:
-    """Return the rectangle of a given size in an area that covers the least text. A grid of places is tried."""
+    """Return the rectangle of a given size in `area` that covers the least text. A grid of positions is tried."""
     spare = area.width - size[0], area.height - size[1]
     places = [
         pygame.Rect(area.x + spare[0] * column // GRID, area.y + spare[1] * row // GRID, *size)
@@ -191,7 +200,7 @@ def least_covering(frame: Frame, area: pygame.Rect, size: tuple[int, int]) -> py
 def first_card(scene: Scene, settings: Settings) -> "HintCard | LabCard | None":
     """Return the card to show when a scene opens, or None.
 
-    It is the lab's own card at the first visit to a lab, and the card of keys in the player's very first game.
+    At the first visit to a lab, it is the lab's own card. In the player's first game, it is the card of keys.
     """
     if what_to_see(type(scene)) is not None:
         return LabCard(scene) if scene.name not in settings.labs_seen else None
@@ -199,10 +208,10 @@ def first_card(scene: Scene, settings: Settings) -> "HintCard | LabCard | None":
 
 
 def what_to_see(scene_class: type[Scene]) -> CardText | None:
-    """Return a lab's question and sections, read from its module docstring.
+    """Return a lab's question and sections, read from the module docstring of the scene class.
 
-    A section is a paragraph that begins with its name and a colon; a missing section is "". Return None if the
-    docstring has no "What to see:".
+    A section is a paragraph that begins with its name and a colon. A missing section is "". Return None if the
+    docstring has no section "What to see:".
     """
     question, *paragraphs = (sys.modules[scene_class.__module__].__doc__ or "").split("\n\n")
     found = dict.fromkeys(SECTIONS, "")

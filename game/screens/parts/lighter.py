@@ -1,6 +1,6 @@
-"""Reduced load while kernels are not compiled yet, for scenes that would otherwise be too slow.
+"""Reduced load of a scene while kernels are not compiled yet, for scenes that would otherwise be too slow.
 
-Too slow means fewer than ten pictures a second.
+Too slow means fewer than ten pictures per second.
 """
 
 from typing import Any
@@ -17,9 +17,9 @@ FRAMES = 2  # slow frames in a row before the load is reduced
 class Lighter:
     """Temporary reduction of a scene's load by the changes in Scene.lighter, until all called kernels are compiled.
 
-    The changes are applied before the first step if no compiled kernel is on disk; otherwise when frames are slow after
-    loading. They are part of the next step's input, so that a recording contains them. Values that the player has
-    changed since are not restored.
+    The changes are applied before the first step if no compiled kernel is on disk. Otherwise, they are applied when
+    frames are slow after loading. They are part of the next step's input, so that a recording contains them. Values
+    that the player has changed in the meantime are not restored.
     """
 
     def __init__(self, scene: Scene, devices: DeviceSource) -> None:
@@ -32,7 +32,7 @@ class Lighter:
 
     @property
     def line(self) -> str:
-        """The line of text to show while the load is reduced; "" if nothing is changed."""
+        """The line of text to show while the load is reduced; "" if the load is not reduced."""
         if not self.changed:
             return ""
         less = [f"{self.scene.lighter[name]} {name}" for name in self.changed if name == "substeps"]
@@ -41,7 +41,10 @@ class Lighter:
         return f"{' and '.join(less)} until the physics is compiled"
 
     def note(self, busy: float) -> None:
-        """Record that a frame took `busy` [s]. Reduce the load if frames are slow; restore it once all is compiled."""
+        """Record that a frame took `busy` [s]. Reduce the scene's load if frames are slow.
+
+        Restore the load when all kernels are compiled.
+        """
         if self.over or not self.scene.lighter:
             return
         if self.changed:

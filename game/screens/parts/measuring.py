@@ -26,12 +26,12 @@ from physics import World
 
 NO_RACE = "no race: nothing can be switched here"
 RIVALS_NAMED = 4  # settings named in a message
-LINGER = 0.5  # [s] for which the panel must be open before the effects are measured, so that a glance starts no process
+LINGER = 0.5  # [s] for which the panel must be open before the effects are measured
 EVERY = 8.0  # [s] between two moments (measured states of the world), if the last one is done and the game runs
 
 
 class Proof(NamedTuple):
-    """A trial of a setting on the recorded run, as it was ordered from the measuring process."""
+    """A test of a setting on the recorded run, as ordered from the measuring process."""
 
     here: Setting  # the present setting at that time
     setting: Setting
@@ -40,9 +40,9 @@ class Proof(NamedTuple):
 
 
 class Measuring:
-    """The measurements of one played scene. beside() and turn() run them; close() and leave() end them.
+    """The measurements of one played scene. beside() and turn() continue them; close() and leave() end them.
 
-    recorder(): the recorder of the present run, None if it is not recorded.
+    recorder(): returns the recorder of the current run; None if the run is not recorded.
     """
 
     def __init__(self, scene: Scene, devices: DeviceSource, recorder: Callable[[], Recorder | None]) -> None:
@@ -68,17 +68,17 @@ class Measuring:
 
     @property
     def world(self) -> World:
-        """The world whose settings are measured: the one in the scene's first view, which the overlays show."""
+        """The world whose settings are measured: the world in the scene's first view, which the overlays show."""
         return self.scene.views()[0][0]
 
     def now(self) -> Setting:
-        """Return the current setting."""
+        """Return the current setting of the measured world."""
         return here_of(self.world, self.scene.tier)
 
     def beside(self, now: float, panel_open: bool) -> None:
-        """Continue the measurements that the scene requests and, while the panel is open, those of its effects.
+        """Continue the measurements that the scene requests. While the panel is open, also measure the scene's effects.
 
-        Call it once per picture, at `now` [s].
+        Call this once per picture, at `now` [s]. panel_open: whether the panel is open.
         """
         self._measure_request()
         if self.scene.weighs_effects:
@@ -87,7 +87,7 @@ class Measuring:
         self.take_weights()
 
     def weigh_effects(self) -> None:
-        """Measure the scene's choice of effects from the world's present state, unless that was done or has begun."""
+        """Measure the scene's choice of effects from the world's current state, unless this was done or has started."""
         if not self.whole:
             self.whole = True
             self.ledger.measure_effects(*self._weighed(), each=False)
@@ -96,7 +96,7 @@ class Measuring:
         return self.world.snapshot(), self.world.broadphase.name, pieces_of(type(self.scene))
 
     def take_weights(self) -> None:
-        """Store the results about effects that have arrived. Call it once per picture, also during an inspection."""
+        """Store the results about effects that have arrived. Call this once per picture, also during an inspection."""
         if self.ledger.process is not None:
             self.ledger.turn()
             if not self.ledger.busy:
@@ -104,7 +104,7 @@ class Measuring:
         self.scene.totals = self.ledger.totals
 
     def _measure_effects(self, now):
-        """Measure the cost of each effect, from the world's state shortly after the panel was opened.
+        """Measure the cost of each effect, from the world's state shortly after the panel is opened.
 
         now: current time [s]; None while the panel is closed.
         """
@@ -121,7 +121,7 @@ class Measuring:
             self.ledger.measure_effects(*self._weighed())
 
     def _measure_request(self) -> None:
-        """Start the measurements that the scene requests, if it has a new request, and give the scene all results."""
+        """Start the measurements that the scene requests, if the request is new, and pass all results to the scene."""
         request = self.scene.measured()
         if isinstance(request, SpriteRequest) and not (self.benched and all(map(is_, request, self.benched))):
             self.bench.stop()
@@ -137,9 +137,9 @@ class Measuring:
         self.scene.figures = self.bench.figures
 
     def turn(self, now: float) -> str:
-        """Collect results. When a state of the world has been measured, start to measure its current state.
+        """Collect results. After a state of the world has been measured, start to measure the world's current state.
 
-        Call it once per picture, at `now` [s]. Return a line about a decision of the tuner, or "" if there is none.
+        Call this once per picture, at `now` [s]. Return a line about a decision of the tuner, or "" if there is none.
         """
         self.surveyor.turn()
         best = advised(self.surveyor.survey, self.now())
@@ -152,7 +152,7 @@ class Measuring:
         return f"tuned: {reported}" if not decided.refused else f"not tuned: {decided.refused}"
 
     def _try(self, setting):
-        """Apply a setting. Return "", or the reason if it cannot be applied."""
+        """Apply a setting. Return "" if it was applied, otherwise the reason why it cannot be applied."""
         changes = changes_to(setting, self.scene)
         if isinstance(changes, str):
             return changes
@@ -160,10 +160,10 @@ class Measuring:
         return ""
 
     def prove(self, setting: Setting) -> float | str | None:
-        """Try a setting on the recorded run so far. Return its time as a share of the present time, or a text that says
-        why the advice is withdrawn; None while it is being tried.
+        """Test a setting on the run recorded so far. Return its time as a share of the time with the current setting.
 
-        A setting is tried again once the run is twice as long.
+        Return None while the test is running, or a text with the reason if the advice is withdrawn. A setting is tested
+        again once the run is twice as long.
         """
         recorder, surveyor = self.recorder(), self.surveyor
         if recorder is None or recorder.frames < SECOND:
@@ -194,9 +194,9 @@ class Measuring:
         self.surveyor.measure(self.world.snapshot(), self.world.broadphase.name, run)
 
     def close(self) -> None:
-        """Stop measuring settings, unless the tuner is on.
+        """Stop the measurement of settings, unless the tuner is on.
 
-        The results are kept, and extended when the panel opens again.
+        The results are kept, and more are added when the panel is opened again.
         """
         if self.tuner.on:
             return
@@ -204,14 +204,17 @@ class Measuring:
         self.taken_at = None
 
     def leave(self) -> None:
-        """End all measurements, because the player leaves the scene."""
+        """End all measurements because the player leaves the scene."""
         self.tuner.on = False
         self.close()
         self.bench.stop()
         self.ledger.stop()
 
     def apply(self, setting: Setting) -> str:
-        """Apply a setting as input of the next step, so that recordings contain it. Return a line to show."""
+        """Apply a setting as input of the next step, so that recordings contain it.
+
+        Return a line of text that reports the change to the player.
+        """
         now, changes = self.now(), changes_to(setting, self.scene)
         if isinstance(changes, str):
             return changes
@@ -220,7 +223,7 @@ class Measuring:
         return f"{setting.label(now)}, was {now.label(setting)}" if changes else "that is what runs"
 
     def start_race(self, setting: Setting) -> str:
-        """Start a race against a copy of the scene under this setting. Return a line to show.
+        """Start a race against a copy of the scene under the given setting. Return a line of text for the player.
 
         The caller must restart the scene in the next step.
         """
@@ -233,13 +236,13 @@ class Measuring:
         return f"the race: {now.label(setting)} against {setting.label(now)}"
 
     def end_race(self) -> None:
-        """End the race between the scene and its rival, and drop the split screen."""
+        """End the race between the scene and its rival, and close the split screen."""
         self.race = self.split = None
 
     def toggle_split(self) -> str:
-        """Toggle between two ways to show a race: split screen, and the rival's outlines over the scene.
+        """Switch the display of a race between a split screen and the rival's outlines over the scene.
 
-        Return "", or a line to show if there is no race.
+        Return "", or a line of text for the player if there is no race.
         """
         if self.race is None:
             names = [setting.label(self.now()) for setting in self.rivals()]
@@ -248,8 +251,9 @@ class Measuring:
         return ""
 
     def boxes_or_pixels(self) -> Setting | None:
-        """Return the setting to race against at once: boxes if the scene runs by pixels, otherwise pixels; None without
-        sprites, or if the scene cannot play with it.
+        """Return the setting to race against: boxes if the scene tests pixels, otherwise pixels.
+
+        Return None for a scene without sprites, or if the scene does not support that setting.
         """
         now = self.now()
         if now.tier is None:
@@ -258,9 +262,9 @@ class Measuring:
         return None if isinstance(changes_to(rival, self.scene), str) else rival
 
     def save_figures(self) -> str:
-        """Save the numbers of the scene as a CSV file in the user's folder, and beside it the recorded run.
+        """Save the numbers of the scene as a CSV file in the user's folder, and the recorded run in the same folder.
 
-        Return a line with the path. Raises OSError.
+        Return a line of text with the path. Raises OSError.
         """
         path, recorder = free_name(measurements_folder(), self.scene.name, ".csv"), self.recorder()
         replay = None
@@ -271,7 +275,7 @@ class Measuring:
         return f"saved as {short_path(path)}"
 
     def save_csv(self) -> str:
-        """Save the survey as a CSV file in the user's folder. Return a line with its path. Raises OSError."""
+        """Save the survey as a CSV file in the user's folder. Return a line of text with its path. Raises OSError."""
         survey, scene, recorder = self.surveyor.survey, self.scene, self.recorder()
         if not survey.dots:
             return "nothing is measured yet"
@@ -281,6 +285,9 @@ class Measuring:
         return f"saved as {short_path(path)}"
 
     def rivals(self) -> list[Setting]:
-        """Return the settings against which the scene can be raced: each differs from the current one by one change."""
+        """Return the settings that the scene can be raced against.
+
+        Each of these settings differs from the current setting by one change.
+        """
         found = settings_around(self.now(), self.world.effects)[1:]
         return [setting for setting in found if not isinstance(changes_to(setting, self.scene), str)]

@@ -1,7 +1,7 @@
 """The side panel: a list of rows, rebuilt for each picture and operated with keyboard or mouse.
 
-Up and down move the mark, left and right change the marked row's value, Enter presses the row. The panel is independent
-of scenes: a Row carries its text and the functions that it calls.
+One row is marked (selected). Up and down move the mark, left and right change the marked row's value, and Enter presses
+the row. The panel is independent of scenes: a Row contains its text and the functions that it calls.
 """
 
 from collections.abc import Callable
@@ -25,8 +25,8 @@ WHEEL_ROWS = 3
 class Row:
     """One line of the panel.
 
-    turn(direction) changes its value, by -1 or 1. press() is called by Enter or a click. put(share) sets a slider to a
-    share 0..1 of its range.
+    turn(direction) changes the row's value by -1 or 1. press() is called on Enter or a click. put(share) sets a slider
+    to a share 0..1 of its range.
     """
 
     kind: str
@@ -46,7 +46,7 @@ class Row:
 class Panel:
     """Panel of rows. rows() returns the current rows.
 
-    focused: whether keys operate the panel, and not the game.
+    focused: True if keys operate the panel, False if they operate the game.
     """
 
     def __init__(self, rows: Callable[[], list[Row]]) -> None:
@@ -59,7 +59,7 @@ class Panel:
         self.rect = pygame.Rect(0, 0, 0, 0)
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Process an event; return whether the panel used it."""
+        """Process an event. Return whether the panel used the event."""
         if event.type == pygame.KEYDOWN and self.focused:
             return self.key(event.key)
         if event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
@@ -76,7 +76,7 @@ class Panel:
         return False
 
     def key(self, key: int) -> bool:
-        """Process a key; return whether the panel used it."""
+        """Process a key. Return whether the panel used the key."""
         rows = self.rows()
         row = rows[self.mark] if self.mark < len(rows) else None
         if key in (pygame.K_UP, pygame.K_DOWN):
@@ -91,7 +91,10 @@ class Panel:
         return True
 
     def show(self, head: str) -> None:
-        """Scroll to the section with the heading `head`, and mark its first row; do nothing if there is none."""
+        """Scroll to the section with the heading `head`, and mark its first row.
+
+        Do nothing if there is no such section.
+        """
         rows = self.rows()
         for first, row in enumerate(rows):
             if row.kind == HEAD and row.label == head:
@@ -207,9 +210,9 @@ class Panel:
             surface.fill(PAPER, (bar.x + int(bar.width * row.share) - scale, bar.y - scale, 2 * scale, 4 * scale))
 
     def _draw_foot(self, frame, rect, rows, scale):
-        """Draw the marked row's hint, and the line that says how to close the panel.
+        """Draw the foot of the panel: the hint of the marked row, and the line that names the key to close the panel.
 
-        Return the y at which this foot begins.
+        Return the y of the foot's upper edge. rows: all rows; scale: frame px per text px.
         """
         hint = rows[self.mark].hint if self.mark < len(rows) else ""
         way_out = "Tab closes, click the game to play on" if self.focused else "Tab closes, click here to change things"
@@ -223,7 +226,7 @@ class Panel:
 
 
 def _draw_line(frame, rect, row, scale):
-    """Draw a line of a table: a square (filled if the row is on), the name, and the cells.
+    """Draw a row of a table: a square (filled if `row.on`), the name, and the cells.
 
     rect: rectangle of the row; scale: frame px per text px.
     """
@@ -236,7 +239,10 @@ def _draw_line(frame, rect, row, scale):
 
 
 def _draw_cells(frame, rect, cells, y, color, scale):
-    """Draw a table row's cells at the right of `rect`, the last cell outermost. Return the x at which they begin."""
+    """Draw the cells of a table row at the right of `rect`, in order. Return the x of the left end of the first cell.
+
+    y, color: position and colour of the text; scale: frame px per text px.
+    """
     right = rect.right - 2 * scale
     for text in reversed(cells):
         if text:
@@ -255,17 +261,17 @@ def _draw_check(surface, x, rect, row, color, scale):
 
 
 def slider_bar(rect: pygame.Rect, scale: int) -> pygame.Rect:
-    """Return the rectangle of a slider's bar. rect: rectangle of its row; scale: frame px per text px."""
+    """Return the rectangle of a slider's bar. rect: rectangle of the slider's row; scale: frame px per text px."""
     return pygame.Rect(rect.x + 2 * scale, rect.bottom - 5 * scale, rect.width - 4 * scale, 2 * scale)
 
 
 def _share(rect, position):
-    """Return the place of a click along the width of a rectangle, 0 (left) .. 1 (right)."""
+    """Return the position of a click along the width of a rectangle, 0 (left) .. 1 (right)."""
     return max(0.0, min(1.0, (position[0] - rect.x) / max(rect.width, 1)))
 
 
 def act(row: Row, direction: int = 0) -> None:
-    """Change a row's value by `direction` (-1 or 1), or press the row for direction 0.
+    """Change a row's value by `direction` (-1 or 1). For the direction 0, press the row.
 
     A row without press() is changed by 1 instead.
     """

@@ -1,4 +1,4 @@
-"""The panel's rows while a scene is played.
+"""The rows of the panel while a scene is played.
 
 A change of the simulation becomes input of the next step (devices.change), so that a recording contains it.
 """
@@ -16,7 +16,10 @@ LEAP = 60  # steps that a press of the row "Rewind" goes back
 
 
 def play_rows(play: Played) -> list[Row]:
-    """Return the rows for a Play screen. The scene's own rows come first, so that they are visible in any window."""
+    """Return the panel's rows for a Play screen.
+
+    The scene's own rows come first, so that they are visible in any window.
+    """
     scene = play.scene
     return [
         Row(HEAD, scene.title),
@@ -116,13 +119,16 @@ def _switches(play, scene):
 
 
 def _solver_hint(scene):
-    """Return the hint of the solver row: the effects that the solver ignores, or its purpose if it ignores none."""
+    """Return the hint of the solver row: the effects that the solver ignores.
+
+    If there are none, it is the solver's purpose.
+    """
     ignored = ignored_effects(scene)
     return f"ignores {', '.join(map(plain_name, ignored))}" if ignored else "how overlaps are resolved"
 
 
 def layer_rows(overlays: Overlays) -> list[Row]:
-    """Return one check box row for each overlay layer."""
+    """Return one row with a check box for each overlay layer."""
     return [
         Row(
             CHECK,

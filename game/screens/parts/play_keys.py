@@ -1,4 +1,4 @@
-"""Keys and pad buttons of a played scene that do not control the game itself."""
+"""Keys and pad buttons that act on the screen of a played scene and do not control the game itself."""
 
 import pygame
 
@@ -15,9 +15,9 @@ PANEL_BUTTONS = {
 
 
 def press(play: Played, key: int) -> bool:
-    """Process a key of a played scene that does not control the game. Return False if it has no such function."""
+    """Process a key that acts on the screen of a played scene. Return whether the key has such a function."""
     if set(play.devices.keys.get(key, ())) - KEPT_ACTIONS:
-        return False  # the player bound it to a move, which it stays
+        return False  # the player has bound the key to an action of the game
     layers = {getattr(pygame, f"K_{layer.key}"): layer.name for layer in play.overlays.layers}
     if key in layers:
         play.overlays.toggle(layers[key])
@@ -61,7 +61,10 @@ def press(play: Played, key: int) -> bool:
 
 
 def press_button(play: Played, button: str) -> bool:
-    """Process a pad button for the screen of a played scene. Return False if the button controls the game instead."""
+    """Process a pad button that acts on the screen of a played scene.
+
+    Return False if the button controls the game instead.
+    """
     panel = play.open_panel
     if button == "start":
         play.stop()

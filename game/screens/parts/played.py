@@ -1,4 +1,4 @@
-"""Interface of the screen that plays a scene, as the panel, the keys and the status line use it."""
+"""Interface of the screen that plays a scene, as used by the panel, the keys and the status line."""
 
 from typing import Protocol
 
@@ -49,7 +49,7 @@ class Played(Protocol):
         ...
 
     def toggle_pause(self) -> None:
-        """Pause the scene, or continue it."""
+        """Pause the scene, or continue it if it is paused."""
         ...
 
     def single_step(self) -> None:
@@ -57,23 +57,23 @@ class Played(Protocol):
         ...
 
     def save_figures(self) -> None:
-        """Save the numbers that the scene has found as a CSV file."""
+        """Save the numbers that the scene has measured as a CSV file."""
         ...
 
     def toggle_step_inspector(self) -> None:
-        """Start or end the inspection of the next step."""
+        """Start the inspection of the next step, or end a running inspection."""
         ...
 
     def toggle_split(self) -> None:
-        """Toggle the split screen of a race, or start a race of pixels against boxes."""
+        """Switch the split screen of a race on or off. Without a race, start one between pixels and boxes."""
         ...
 
     def start_race(self, setting: Setting) -> None:
-        """Restart the scene in a race against a copy of the scene under this setting."""
+        """Restart the scene in a race against a copy of the scene under the given setting."""
         ...
 
     def request_restart(self) -> None:
-        """Restart the game; if it has ended, show its result first, so that no score is lost."""
+        """Restart the game. If the game has ended, show its result first, so that no score is lost."""
         ...
 
     def toggle_costs(self) -> None:
@@ -81,7 +81,7 @@ class Played(Protocol):
         ...
 
     def toggle_panel(self) -> None:
-        """Open the side panel; if a panel is open, close it."""
+        """Open the side panel. If a panel is open, close it instead."""
         ...
 
     def switch_solver(self, way: int) -> None:
@@ -89,5 +89,5 @@ class Played(Protocol):
         ...
 
     def stop(self) -> None:
-        """Go to the pause menu; if the game has ended, go to its result."""
+        """Open the pause menu. If the game has ended, show its result instead."""
         ...

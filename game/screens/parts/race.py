@@ -1,4 +1,4 @@
-"""The race: the played scene and a rival, which is the same scene under another setting, with equal seed and input."""
+"""A race between the played scene and a rival: the same scene under another setting, with the same seed and input."""
 
 from collections import deque
 from collections.abc import Sequence
@@ -34,9 +34,9 @@ KEPT = 600  # steps for which the distance of the two scenes is kept
 class Race:
     """A race between the played `scene` and its `rival`, another instance of the same scene with different settings.
 
-    changes: (name, value) pairs for Scene.change(), which are applied to the rival alone. Raises ValueError for an
-    invalid change. The rival starts at frame 0, so the caller must restart `scene` in the next step. The caller then
-    calls step(session) after each step of the scene.
+    changes: (name, value) pairs for Scene.change(), applied only to the rival. Raises ValueError for an invalid change.
+    The rival starts at frame 0, so the caller must restart `scene` in the next step. The caller then calls
+    step(session) after each step of the scene.
     """
 
     def __init__(self, scene: Scene, changes: Sequence[tuple[str, object]]) -> None:
@@ -56,7 +56,7 @@ class Race:
     def step(self, session: Session) -> None:
         """Step the rival with the input of the scene's last step, and record the distance between both scenes' bodies.
 
-        session: session of the played scene. Changes of settings named in OWN are not passed on to the rival.
+        session: session of the played scene. Changes of the settings named in OWN are not passed on to the rival.
         """
         frame = session.inputs.now
         self.inputs.set(replace(frame, changes=tuple(each for each in frame.changes if each[0] not in OWN)))
@@ -70,10 +70,10 @@ class Race:
         self.apart.append(float(np.sqrt((gaps * gaps).mean())) if len(gaps) else 0.0)
 
     def _note_times(self, ours, theirs):
-        """Record the times of a step of the scene and of the rival [s].
+        """Record the times [s] of a step of the scene (`ours`) and of the rival (`theirs`).
 
-        While a kernel runs as plain Python, because it is not compiled yet, nothing is recorded, and earlier times are
-        dropped: the two sides wait for different kernels.
+        Nothing is recorded, and earlier times are dropped, while a kernel is not compiled yet and runs as plain Python.
+        The two scenes may wait for different kernels.
         """
         self.compiling = tiers.background and bool(tiers.wanted)
         if self.compiling:
@@ -84,12 +84,15 @@ class Race:
 
     @property
     def seconds(self) -> tuple[float, float] | None:
-        """Times of a step of the scene and of the rival [s]; None before STEPS_TIMED steps with compiled kernels."""
+        """Times [s] of a step of (the scene, the rival); None before STEPS_TIMED steps with compiled kernels."""
         ours, theirs = self.times
         return (ours.value, theirs.value) if len(ours.last) >= STEPS_TIMED else None
 
     def _time_texts(self):
-        """Return the times of both sides as two texts, or why there are none yet."""
+        """Return the step times of the scene and of the rival as two texts.
+
+        If the times are not known yet, the texts give the reason.
+        """
         if self.seconds is not None:
             return [f"{1e6 * seconds:,.0f} us a step" for seconds in self.seconds]
         waits = f"measuring, {len(self.times[0].last)} of {STEPS_TIMED} steps"
@@ -98,8 +101,8 @@ class Race:
     def _pair(self, frame):
         """Update `same`, the ids of the bodies that both scenes have. frame: input of this step.
 
-        Ids follow the order of creation: once the scenes differ, one id may denote two different bodies. Therefore two
-        bodies with one id count as the same only if they appeared in the same step at the same place.
+        Ids follow the order of creation. Once the scenes differ, the same id may denote different bodies. Therefore two
+        bodies with the same id are paired only if they were created in the same step at the same position.
         """
         if any(name == "restart" for name, _ in frame.changes):
             self.same = self.seen = np.zeros(0, np.int64)
@@ -111,14 +114,14 @@ class Race:
         self.seen = np.union1d(self.seen, np.union1d(ours["id"], theirs["id"]))
 
     def gaps(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the positions of the bodies that both scenes have: (n, 2) in the scene, (n, 2) in the rival [px]."""
+        """Return the positions of the paired bodies: (n, 2) in the scene and (n, 2) in the rival [px]."""
         ours, theirs = self.scene.world.bodies, self.rival.world.bodies
         mine, other = (np.flatnonzero(np.isin(rows["id"], self.same)) for rows in (ours, theirs))
         mine, other = mine[np.argsort(ours["id"][mine])], other[np.argsort(theirs["id"][other])]
         return np.column_stack([ours["x"], ours["y"]])[mine], np.column_stack([theirs["x"], theirs["y"]])[other]
 
     def distances(self) -> np.ndarray:
-        """Return (n,) distances [px] between the two positions of each body that both scenes have."""
+        """Return the (n,) distances [px] between the two positions of each paired body."""
         ours, theirs = self.gaps()
         return np.hypot(*(ours - theirs).T)
 
@@ -138,7 +141,7 @@ class Race:
         ]
 
     def draw(self, frame: Frame) -> None:
-        """Draw the rival's outlines, lines from displaced bodies to their counterparts, and the figures."""
+        """Draw the rival's outlines, lines between the positions of paired bodies, and the figures of the race."""
         world, camera = self.scene.views()[0]
         lens = frame.lens(camera)
         frame.surface.set_clip(lens.clip)
@@ -148,9 +151,9 @@ class Race:
         self._draw_figures(frame)
 
     def draw_gaps(self, frame: Frame, scene: Scene) -> None:
-        """Draw a line from each body to the position of its counterpart, if they are visibly apart.
+        """Draw a line between the two positions of each paired body, if they are visibly apart.
 
-        scene: the scene or the rival, whichever this frame shows.
+        scene: the scene that this frame shows: the played scene or the rival.
         """
         world, camera = scene.views()[0]
         if world is scene.world:
@@ -164,7 +167,10 @@ class Race:
         frame.surface.set_clip(None)
 
     def _draw_rival(self, frame, lens):
-        """Draw the outlines of the rival's shapes; masks and tiles are drawn as boxes."""
+        """Draw the outlines of the rival's shapes. Masks and tile grids are drawn as boxes.
+
+        lens: maps world to frame coordinates.
+        """
         color, world = frame.tone(SKY), self.rival.world
         seen = np.flatnonzero(lens.seen(debug.bounds(world)))[:MOST]
         for outline in debug.outlines(world, seen):
@@ -195,5 +201,5 @@ class Race:
 
 
 def distance_text(pixels: float) -> str:
-    """Return a distance as text: two significant figures below 100 px, whole pixels above."""
+    """Return a distance [px] as text: two significant figures below 100 px, whole pixels from 100 px on."""
     return f"{pixels:,.0f} px" if pixels >= 100.0 else f"{pixels:.2g} px"

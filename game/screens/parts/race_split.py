@@ -1,4 +1,4 @@
-"""The race on a split screen: the scene at the left, its rival at the right, and a plot of their distance below."""
+"""A race on a split screen: the scene at the left, its rival at the right, and a plot of their distance below."""
 
 from collections import deque
 from math import log10
@@ -20,7 +20,7 @@ NOT_HERE = {"invariants", "disagreement"}  # layers that need each step reported
 
 
 class SplitScreen:
-    """Split screen: both scenes of a race side by side, drawn over the game's part of a frame."""
+    """Split screen that shows both scenes of a race side by side, over the game's part of a frame."""
 
     def __init__(self, race: Race) -> None:
         self.race = race
@@ -30,7 +30,7 @@ class SplitScreen:
     def draw(self, frame: Frame, overlays: Overlays, alpha: float) -> None:
         """Draw both scenes in their current state, with the same overlays.
 
-        alpha: interpolation between the last two steps, 0..1.
+        alpha: position between the last two steps, 0..1.
         """
         area = frame.area.clip(frame.rect)
         size = area.width // 2, area.width // 2 * CANVAS_SIZE[1] // CANVAS_SIZE[0]
@@ -51,9 +51,9 @@ class SplitScreen:
         self._draw_below(frame, pygame.Rect(area.x, area.y + size[1], area.width, area.height - size[1]))
 
     def _make_pictures(self, width):
-        """Make the pictures of both scenes, unless they have the right size already.
+        """Make the pictures of both scenes, unless they already have the right size.
 
-        Their scale is the smallest whole number at which a picture is at least `width` frame px wide.
+        The scale of the pictures is the smallest whole number at which a picture is at least `width` frame px wide.
         """
         scale = -(-width // CANVAS_SIZE[0])
         wanted = CANVAS_SIZE[0] * scale, CANVAS_SIZE[1] * scale
@@ -84,7 +84,10 @@ class SplitScreen:
             self._draw_plot(frame, pygame.Rect(rect.x + 4 * scale, y + 2 * scale, rect.width - 8 * scale, high), scale)
 
     def _draw_plot(self, frame, rect, scale):
-        """Draw the distance between the scenes over the last ten seconds (logarithmic), the newest at the right."""
+        """Draw the distance between the scenes over the last ten seconds, logarithmic, with the newest at the right.
+
+        rect: rectangle of the plot; scale: frame px per text px.
+        """
         surface, apart = frame.surface, self.race.apart
         surface.fill(NIGHT, rect)
         for value in (0.01, 0.1, VISIBLE, 10.0, 100.0):
@@ -104,9 +107,9 @@ class SplitScreen:
 
 
 def _curve(apart: deque[float], rect: pygame.Rect) -> list[tuple[float, float]]:
-    """Return the points of the curve of distances in a plot, from old (left) to new (right border).
+    """Return the points of the curve of distances in a plot, from the oldest (left) to the newest (right border).
 
-    apart: distances [px], the newest last; rect: rectangle of the plot.
+    apart: distances [px], newest last; rect: rectangle of the plot.
     """
     width = rect.width / (apart.maxlen or len(apart))
     first = rect.right - width * len(apart)
@@ -114,9 +117,9 @@ def _curve(apart: deque[float], rect: pygame.Rect) -> list[tuple[float, float]]:
 
 
 def _height(value, rect):
-    """Return the y in the plot `rect` of a distance [px], on the logarithmic scale.
+    """Return the y in the plot `rect` that represents the distance `value` [px] on the logarithmic scale.
 
-    LEAST and less are at the bottom.
+    Distances of LEAST or less are at the bottom.
     """
     share = log10(min(max(value, LEAST), MOST) / LEAST) / log10(MOST / LEAST)
     return rect.bottom - 2 - share * (rect.height - 4)

@@ -1,7 +1,7 @@
-"""The list of rows that every menu uses: a mark, values to change, bars to drag, scrolling.
+"""The list of rows that every menu uses. Rows can be marked (selected), changed, dragged (sliders) and scrolled.
 
-Keyboard, controller and mouse work alike. A Row carries its text and the functions that it calls; the list is
-independent of screens. All sizes are canvas pixels, multiples of 8.
+Keyboard, controller and mouse have the same functions. A Row contains its text and the functions that it calls. The
+list is independent of screens. All sizes are canvas px, multiples of 8.
 """
 
 from collections.abc import Callable
@@ -22,10 +22,10 @@ BAR_WIDTH = 64  # of a slider
 
 @dataclass(frozen=True)
 class Row:
-    """One line of a list on a menu screen. `head`: whether it is a heading, which cannot be marked.
+    """One line of a list on a menu screen. `head`: whether the row is a heading, which cannot be marked.
 
-    turn(direction) changes its value, by -1 or 1. press() is called by Enter or a click. put(share) sets a slider to a
-    share 0..1.
+    turn(direction) changes the row's value, by -1 or 1. press() is called on Enter or a click. put(share) sets a slider
+    to a share 0..1.
     """
 
     label: str
@@ -40,14 +40,14 @@ class Row:
 
 
 class Repeat:
-    """Conversion of a held direction into single moves: one at once, then one after another at fixed intervals."""
+    """Conversion of a held direction into single moves: the first at once, the next ones at fixed intervals."""
 
     def __init__(self, names: tuple[str, str]) -> None:
         self.names = names  # (action for -1, action for +1)
         self.wait = 0.0
 
     def move(self, inputs: InputState, dt: float) -> int:
-        """Return the move of this step: -1, 0 or 1. Call it in each step. dt: length of the step [s]."""
+        """Return the move of this step: -1, 0 or 1. Call this in each step. dt: length of the step [s]."""
         back, forth = self.names
         for action, way in ((back, -1), (forth, 1)):
             if inputs.pressed(action):
@@ -64,14 +64,15 @@ class Repeat:
 
 
 def confirmed(inputs: InputState) -> bool:
-    """Return whether the player confirms in this step: Enter, Space or the pad's A."""
+    """Return whether the player confirms in this step, with Enter, Space or the pad's A button."""
     return inputs.pressed("confirm") or inputs.pressed("fire")
 
 
 class RowList:
-    """A scrollable list of rows on a menu screen. rows() returns the current rows; rect: place of the list [canvas px].
+    """A scrollable list of rows on a menu screen.
 
-    cues: the screen's list of sounds to play, to which the list appends.
+    rows() returns the current rows; rect: rectangle of the list [canvas px]. cues: the screen's list of sounds to play,
+    to which this object appends sounds.
     """
 
     def __init__(self, rows: Callable[[], list[Row]], rect: Box, cues: list[str], mark: int = 0) -> None:
@@ -90,20 +91,20 @@ class RowList:
 
     @property
     def marked(self) -> Row | None:
-        """The marked row, or None in an empty list."""
+        """The marked row; None in an empty list."""
         rows = self.rows()
         return rows[self.mark] if self.mark < len(rows) else None
 
     def place(self, number: int) -> pygame.Rect | None:
-        """Return the rect of row `number`, or None if the row is scrolled out of view."""
+        """Return the rectangle of row `number`, or None if the row is scrolled out of view."""
         if not self.first <= number < self.first + self.room:
             return None
         return pygame.Rect(self.rect.x, self.rect.y + (number - self.first) * LINE, self.rect.width, LINE - 2)
 
     def show_marked(self) -> None:
-        """Move the mark to the nearest row that is no heading, and scroll until that row is visible.
+        """Move the mark to the nearest row that is not a heading, and scroll until that row is visible.
 
-        A heading directly above it is kept visible, too.
+        A heading directly above the row is also kept visible.
         """
         rows = self.rows()
         live = [number for number, row in enumerate(rows) if not row.head]
@@ -114,13 +115,13 @@ class RowList:
         self.first = max(0, min(self.first, len(rows) - self.room))
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """Make one fixed step of `dt` [s] with the player's input."""
+        """Process the player's input of a step of `dt` [s]: move the mark, scroll, and change, drag or press rows."""
         self._step_mark(self.vertical.move(inputs, dt))
         rows = self.rows()
         self.first = max(0, min(self.first - inputs.wheel, len(rows) - self.room))
         under = self._row_at(inputs.pointer)
         if inputs.pointer != self.pointer and under is not None and self.dragged is None:
-            self.mark = under  # only a moving pointer takes the mark from the keys
+            self.mark = under  # only a moving pointer changes the mark
         self.pointer = inputs.pointer
         row = self.marked
         if row is None:
@@ -187,12 +188,12 @@ class RowList:
             self.cues.append("blip")
 
     def value_place(self, place: pygame.Rect) -> pygame.Rect:
-        """Return the part of a row that shows its value. place: rectangle of the row."""
+        """Return the rectangle of a row's value. place: rectangle of the row."""
         wide = min(VALUE_WIDTH, place.width // 2)
         return pygame.Rect(place.right - wide, place.y, wide, place.height)
 
     def bar_place(self, place: pygame.Rect) -> pygame.Rect:
-        """Return the rectangle of a slider's bar. place: rectangle of its row."""
+        """Return the rectangle of a slider's bar. place: rectangle of the slider's row."""
         value = self.value_place(place)
         return pygame.Rect(value.x, value.centery - 2, BAR_WIDTH, 4)
 
@@ -230,7 +231,7 @@ class RowList:
         canvas.text(row.value, place.right - GRID // 2, place.y + 3, SKY, TEXT, 1, "right")
 
     def _draw_scroll_bar(self, surface, count):
-        """Draw the scroll bar if not all rows fit. count: number of rows."""
+        """Draw the scroll bar, unless all rows fit. count: number of rows."""
         if count > self.room:
             track = pygame.Rect(self.rect.right + 2, self.rect.y, 2, self.room * LINE - 2)
             surface.fill(DUSK, track)

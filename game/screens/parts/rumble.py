@@ -1,4 +1,4 @@
-"""Rumble: vibration of the controllers at some of a scene's sounds."""
+"""Rumble: vibration of the controllers when a scene plays certain sounds."""
 
 from game.files.settings import Settings
 from game.input.pads import Pads
@@ -8,7 +8,10 @@ RUMBLES = {"hurt": (0.5, 0.8, 200), "big_explosion": (0.4, 0.4, 150), "bomb": (0
 
 
 def rumble(scene: Scene, pads: Pads | None, settings: Settings | None) -> None:
-    """Let the controllers vibrate if a sound cue of the last step has an entry in RUMBLES and the settings allow it."""
+    """Make the controllers vibrate if a sound cue of the last step is in RUMBLES and the settings allow it.
+
+    pads, settings: None disables the vibration.
+    """
     if pads is None or settings is None or not settings.rumble:
         return
     for name, _, _ in scene.cues:

@@ -1,4 +1,4 @@
-"""The rows of each page of the settings. They show and change the values of a Settings object."""
+"""The rows of each page of the settings screen. They show and change the values of a Settings object."""
 
 from collections.abc import Callable
 from functools import partial
@@ -24,7 +24,7 @@ PALETTE_HINTS = {
 def rows_of(
     page: str, settings: Settings, changed: Callable[[], None], wait_for: Callable[[str, str], None]
 ) -> list[Row]:
-    """Return the rows of a settings page. changed() is called after each change.
+    """Return the rows of the settings page `page`. changed() is called after each change.
 
     wait_for(device, action) asks the screen to bind the next key or button to an action.
     """

@@ -1,4 +1,7 @@
-"""The status line over a played scene. It says whether the scene is frozen, slow or ended, or else names the keys."""
+"""The status line over a played scene. It shows whether the scene is frozen, slow or ended.
+
+While none of these applies, the line names the keys.
+"""
 
 import pygame
 
@@ -29,7 +32,7 @@ def draw_status(frame: Frame, play: Played) -> None:
 
 
 def status_of(play: Played) -> tuple[str, Color]:
-    """Return (text, color) of the status line; the text is "" if there is nothing to show."""
+    """Return (text, color) of the status line. The text is "" if there is nothing to show."""
     scene, clock = play.scene, play.clock
     if play.news:
         return play.news, GOLD
@@ -52,7 +55,7 @@ def status_of(play: Played) -> tuple[str, Color]:
 
 
 def draw_in_a_corner(frame: Frame, text: str) -> None:
-    """Draw a small line of text in the first free corner; draw nothing if there is none."""
+    """Draw a small line of text in the first free corner. Draw nothing if no corner is free."""
     scale = frame.text_scale
     width, height = frame.measure(text, SMALL, scale)
     area = frame.area.clip(frame.rect)
@@ -69,10 +72,10 @@ def draw_in_a_corner(frame: Frame, text: str) -> None:
 
 
 def draw_line(frame: Frame, text: str, color: Color, head: int = 0) -> bool:
-    """Draw a line of text beside the scene's title, in the top `head` canvas pixels. Return whether it was drawn.
+    """Draw a line of text beside the scene's title, in the top `head` canvas px. Return whether it was drawn.
 
-    For head 0, or if it does not fit there, draw it below the game's picture, near its bottom, or at another free
-    place, in as few rows as fit.
+    If head is 0 or the line does not fit there, draw it below the game's picture or at a free position inside it. The
+    text is broken into as few rows as possible.
     """
     if head and _draw_in_head(frame, text, color, head):
         return True
@@ -95,7 +98,7 @@ def draw_line(frame: Frame, text: str, color: Color, head: int = 0) -> bool:
 
 
 def _places(frame, area, size):
-    """Return places (x, y) for a box of `size`, best first: below the game's picture `area`, then inside it."""
+    """Return positions (x, y) for a box of `size`, best first: below the game's picture `area`, then inside it."""
     scale = frame.text_scale
     across = (area.centerx - size[0] // 2, area.left + 4 * scale, area.right - size[0] - 4 * scale)
     down = range(area.bottom - 2 * size[1], area.top, -size[1])
@@ -105,10 +108,10 @@ def _places(frame, area, size):
 
 
 def _draw_in_head(frame, text, color, head):
-    """Draw a line of text in the top `head` canvas pixels, in one row or more, as large as fits.
+    """Draw a line of text in the top `head` canvas px, in one or more rows, in the largest text that fits.
 
-    Other text there, except the title and the number of a headline, is hidden. Return False, and draw nothing, if
-    it does not fit.
+    Other text there is hidden, except the title and the number of a headline. Return False, and draw nothing, if the
+    text does not fit.
     """
     band = frame.from_canvas((0, 0, CANVAS_SIZE[0], head)).clip(frame.rect)
     titles = [box for box, _ in frame.boxes if band.contains(box) and box.left < band.left + HEAD_TITLE * frame.zoom]
@@ -132,7 +135,7 @@ def _draw_in_head(frame, text, color, head):
 
 
 def _rows(frame, text, width, scale):
-    """Return a text as a list of rows of at most `width` [frame px]. It is broken at GAP only.
+    """Return a text as a list of rows of at most `width` [frame px]. The text is broken only at GAP.
 
     The list is empty if a part between two gaps is too wide.
     """

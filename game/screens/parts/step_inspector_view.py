@@ -1,4 +1,4 @@
-"""Step inspector: the frozen scene shows its next step stage by stage, and a card describes each stage."""
+"""View of the step inspector: the frozen scene shows its next step stage by stage, and a card describes each stage."""
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -58,10 +58,10 @@ SHOWN = {
 
 
 class StepInspectorView:
-    """View of the step inspector. enter() starts an inspection, leave() ends it.
+    """View of the step inspector. enter() starts an inspection, and leave() ends it.
 
-    In between, feed() takes events, and draw() shows the strip of stages and a card. rewind: source of the next step's
-    input if that step was made before; None: steps cannot be inspected.
+    During an inspection, feed() processes events, and draw() shows the strip of stages and a card. rewind: the past
+    steps, which supply the next step's input after a rewind; None means that steps cannot be inspected.
     """
 
     def __init__(self, session: Session, rewind: Rewind | None, overlays: Overlays) -> None:
@@ -74,15 +74,18 @@ class StepInspectorView:
 
     @property
     def open(self) -> bool:
-        """True while a step is inspected."""
+        """Whether a step is being inspected."""
         return self.step is not None
 
     def worlds(self) -> list[WatchedWorld]:
-        """Return the worlds of the scene's views, each once."""
+        """Return the worlds of the scene's views, each world once."""
         return list({id(world): world for world, _ in self.session.scene.views()}.values())
 
     def enter(self, world: int = 0) -> str:
-        """Start to inspect the next step of a world, an index in worlds(). Return "", or why that is impossible."""
+        """Start to inspect the next step of a world. Return "", or the reason why this is impossible.
+
+        world: index of the world in worlds().
+        """
         self.leave()
         if self.rewind is None:
             return "a recording is only watched"
@@ -97,16 +100,16 @@ class StepInspectorView:
         return ""
 
     def leave(self) -> None:
-        """End the inspection: restore the scene to its state before the inspected step."""
+        """End the inspection, and restore the scene to its state before the inspected step."""
         if self.step is not None:
             self.step.leave()
             self.step = None
             self.overlays.watch(self.session.scene)
 
     def feed(self, event: pygame.event.Event, button: str | None) -> bool:
-        """Process an event. Return whether it was used.
+        """Process an event. Return whether the event was used. button: the pad button that the event presses, or None.
 
-        A key without a function here or in the overlays ends the inspection.
+        A key that has no function here or in the overlays ends the inspection.
         """
         step = self.step
         if step is None:
@@ -131,7 +134,10 @@ class StepInspectorView:
         return True
 
     def _turn_world(self, way):
-        """Inspect the next world in worlds() that makes a step in this frame. way: 1 forwards, -1 backwards."""
+        """Inspect the next or previous world in worlds() that makes a step in this frame.
+
+        way: 1 for the next, -1 for the previous.
+        """
         here, count = self.world, len(self.worlds())
         for number in range(1, count + 1):
             if not self.enter(here + way * number):
@@ -151,13 +157,13 @@ class StepInspectorView:
     # --- the picture ------------------------------------------------------------------------------------------------
 
     def reserve(self, frame: Frame) -> None:
-        """Reserve the place of the strip of stages."""
+        """Reserve the rectangle of the strip of stages, so that other text avoids it."""
         frame.reserve(self._layout(frame)[0])
 
     def _layout(self, frame):
-        """Return the layout of the strip: its rectangle at the bottom of the picture, and a list of the stages in it.
+        """Return (rectangle of the strip of stages, list of its stages). The strip is at the bottom of the picture.
 
-        Each stage is (text, rectangle, number of the stage from 1).
+        Each stage is (text, rectangle, number of the stage, counted from 1).
         """
         assert self.step is not None
         scale, area = frame.text_scale, frame.area.clip(frame.rect)
@@ -199,7 +205,7 @@ class StepInspectorView:
         self._draw_card(frame, rect.top)
 
     def _ring_view(self, frame):
-        """Draw a border around the view of the inspected world, if the scene shows several."""
+        """Draw a border around the view of the inspected world, if the scene shows several worlds."""
         views = self.session.scene.views()
         if len(views) > 1 and self.step is not None:
             camera = next(camera for world, camera in views if world is self.step.world)
@@ -233,9 +239,9 @@ class StepInspectorView:
         frame.fix(rect)
 
     def _place(self, frame, area, size):
-        """Return the card's place in an area: the top corner where it covers less text.
+        """Return the rectangle of the card: in the upper corner of `area` where it covers less text.
 
-        The corner is kept for the step.
+        The corner does not change while the step is inspected. size: size of the card.
         """
         corners = area.left, area.right - size[0]
         if self.corner is None:

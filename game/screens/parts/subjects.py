@@ -1,6 +1,6 @@
-"""Examples for the overlay layers: places in the current step of a scene that show best what a layer draws.
+"""Examples for the overlay layers: rectangles in the current step of a scene that show best what a layer draws.
 
-Functions that take a world return boxes (min x, min y, max x, max y) [px], the best example first.
+Functions with the argument `world` return boxes (min x, min y, max x, max y) [px], best example first.
 """
 
 from collections.abc import Callable, Iterable
@@ -18,7 +18,7 @@ LARGEST = (220, 84)  # [canvas px] greatest size of an example; a taller one lea
 
 
 def subject_of(scene: Scene, layer: str) -> pygame.Rect | None:
-    """Return the best example for the layer named `layer`, a canvas rectangle; None if there is none in this step.
+    """Return the canvas rectangle of the best example for the layer named `layer`; None if this step has no example.
 
     The example is completely visible.
     """
@@ -29,9 +29,9 @@ def subject_of(scene: Scene, layer: str) -> pygame.Rect | None:
 
 
 def _on_canvas(rows: np.ndarray, camera: Camera) -> Iterable[pygame.Rect]:
-    """Yield the canvas rectangles of those boxes that fit into the camera's view with room for a ring around them.
+    """Yield the canvas rectangles of the boxes that fit into the camera's view with room for a ring around them.
 
-    rows: (n, 4) boxes in the world.
+    rows: (n, 4) boxes in world coordinates.
     """
     inside = camera.viewport.inflate(-2 * BORDER, -2 * BORDER)
     left, top = camera.to_canvas(rows[:, 0], rows[:, 1])
@@ -44,10 +44,10 @@ def _on_canvas(rows: np.ndarray, camera: Camera) -> Iterable[pygame.Rect]:
 
 
 def _around(boxes, ids, pairs):
-    """Return an (n, 4) array with a box around the two shapes of each pair.
+    """Return an (n, 4) array of boxes, one around the two shapes of each pair.
 
-    boxes: (m, 4) boxes of the shapes; ids: (m,) their ids, ascending; pairs: (n, 2) shape ids. Pairs of removed shapes
-    are left out.
+    boxes: (m, 4) boxes of the shapes; ids: (m,) ids of the shapes, ascending; pairs: (n, 2) shape ids. Pairs of removed
+    shapes are left out.
     """
     rows = np.minimum(np.searchsorted(ids, pairs), len(ids) - 1)
     there = (ids[rows] == pairs).all(axis=1)  # a shape removed since the step has no row
@@ -62,7 +62,7 @@ def _of_pairs(world, pairs):
 
 
 def touching(world: World) -> np.ndarray:
-    """Return (n, 4) boxes, each around two touching shapes."""
+    """Return (n, 4) boxes, each around the two shapes of a contact."""
     rows = world.reported_rows()
     return _of_pairs(world, np.stack([rows["parent_a"], rows["parent_b"]], axis=1))
 
@@ -73,13 +73,16 @@ def candidates(world: World) -> np.ndarray:
 
 
 def moving(world: World) -> np.ndarray:
-    """Return (n, 4) swept AABBs, the largest first."""
+    """Return (n, 4) swept AABBs of moving bodies, largest first."""
     rows = debug.motion(world)
     return rows[np.argsort(-(rows[:, 2] - rows[:, 0]) * (rows[:, 3] - rows[:, 1]), kind="stable")]
 
 
 def kept(world: World) -> np.ndarray:
-    """Return (n, 4) cells or boxes of the broad phase's structure that contain shapes, the fullest first."""
+    """Return (n, 4) cells or boxes of the broad phase's structure, in the order of decreasing number of shapes.
+
+    Empty cells and boxes are left out.
+    """
     rows, boxes = debug.structure(world).rects, debug.bounds(world)
     x, y = (boxes[:, 0] + boxes[:, 2]) / 2, (boxes[:, 1] + boxes[:, 3]) / 2
     inside = (rows[:, :1] <= x) & (x <= rows[:, 2:3]) & (rows[:, 1:2] <= y) & (y <= rows[:, 3:])
@@ -89,14 +92,14 @@ def kept(world: World) -> np.ndarray:
 
 
 def shared_pixels(world: World) -> np.ndarray:
-    """Return (n, 4) boxes around the pixels in which two masks overlap, the pair with the most such pixels first."""
+    """Return (n, 4) boxes around the pixels in which two masks overlap. The pair with the most such pixels is first."""
     hits = sorted(debug.mask_hits(world), key=lambda hit: -int(hit[2].sum()))
     rows = [(left, top, left + solid.shape[1], top + solid.shape[0]) for left, top, solid in hits]
     return np.array(rows, float).reshape(-1, 4)
 
 
 def piled_up(world: World) -> np.ndarray:
-    """Return (n, 4) boxes, each around an island of at least two bodies, the largest island first."""
+    """Return (n, 4) boxes, each around an island of at least two bodies, largest island first."""
     islands, boxes = debug.islands(world)[world.shapes["body_row"]], debug.bounds(world)
     names, counts = np.unique(islands[islands >= 0], return_counts=True)
     several = names[np.argsort(-counts, kind="stable")][: int((counts > 1).sum())]
@@ -105,7 +108,10 @@ def piled_up(world: World) -> np.ndarray:
 
 
 def contacts(world: World) -> np.ndarray:
-    """Return (n, 4) boxes around active contact points, sorted by decreasing normal impulse."""
+    """Return (n, 4) boxes around contact points, sorted by decreasing normal impulse.
+
+    Speculative contacts are left out.
+    """
     points = debug.contact_points(world)
     points = points[np.isin(points["state"], (debug.NEW, debug.PERSISTED, debug.ASLEEP))]
     points = points[np.argsort(-points["normal_impulse"], kind="stable")]
@@ -114,15 +120,15 @@ def contacts(world: World) -> np.ndarray:
 
 
 def shapes_that_move(world: World) -> np.ndarray:
-    """Return (n, 4) boxes of the shapes of dynamic and kinematic bodies, the largest first."""
+    """Return (n, 4) boxes of the shapes of dynamic and kinematic bodies, largest first."""
     boxes = debug.bounds(world)[debug.shape_rows(world)["kind"] != 0]
     return boxes[np.argsort(-(boxes[:, 2] - boxes[:, 0]) * (boxes[:, 3] - boxes[:, 1]), kind="stable")]
 
 
 def stopped_on_their_way(world: World) -> np.ndarray:
-    """Return (n, 4) boxes of the bodies that were stopped at a time of impact.
+    """Return (n, 4) boxes, each around a body that was stopped at a time of impact.
 
-    A box contains the place where the body was stopped, and the place that it would have reached.
+    A box contains the position at which the body was stopped, and the position that it would have reached.
     """
     ghosts = debug.impact_ghosts(world)
     rows = world.rows(ghosts["body"]) if len(ghosts) else np.zeros(0, int)

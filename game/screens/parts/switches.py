@@ -1,4 +1,4 @@
-"""Switches of a running scene, operated by keys or panel, and the line of text about the last change."""
+"""Switches of a running scene, operated with keys or the panel, and the line of text about the last change."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -15,7 +15,7 @@ REPORT_SECONDS = 2.5  # duration of the line about a switch
 class Switches:
     """Switches for the simulation of a scene. A change is input of the next step, so that a recording contains it.
 
-    way: 1 selects the next choice, -1 the previous one.
+    The argument `way` is 1 for the next choice, and -1 for the previous one.
     """
 
     def __init__(self, scene: Scene, devices: DeviceSource) -> None:
@@ -43,7 +43,7 @@ class Switches:
             self.report("each world here has a broad phase of its own")
 
     def substeps(self, way: int) -> None:
-        """Select the next (`way` 1) or the previous (-1) of the numbers of substeps in SUBSTEPS."""
+        """Change to the next number of substeps in SUBSTEPS (`way` 1) or the previous one (-1)."""
         now = self.scene.worlds[0].substeps
         self._switch("substeps", "substeps", following(SUBSTEPS, now, way), now)
 
@@ -55,7 +55,7 @@ class Switches:
             self.report("no sprites here that could be tested as another shape")
 
     def narrowphase(self) -> None:
-        """Switch the narrow phase on or off. Without it, two bounding boxes that overlap count as a hit."""
+        """Switch the narrow phase on or off. Without a narrow phase, two bounding boxes that overlap count as a hit."""
         on = not self.scene.narrowphase
         self.devices.change("narrowphase", on)
         self.report("narrow phase: on, was off" if on else "narrow phase: off, was on: boxes that meet are a hit")
@@ -70,10 +70,13 @@ class Switches:
 
     @property
     def news(self) -> str:
-        """Line of text about the last change; "" once REPORT_SECONDS are over."""
+        """Line of text about the last change; "" after REPORT_SECONDS have passed."""
         return self.reported[0] if self.now < self.reported[1] else ""
 
 
 def following(names: Sequence[Any], name: Any, way: int) -> Any:
-    """Return the element `way` places after `name` in `names`, cyclically; the first one if `name` is missing."""
+    """Return the element `way` places after `name` in `names`, cyclically.
+
+    If `name` is missing, return the first element.
+    """
     return names[(names.index(name) + way) % len(names)] if name in names else names[0]

@@ -1,4 +1,4 @@
-"""Control of rewinding: Backspace held runs back; while the game is frozen, a bar shows the last ten seconds."""
+"""Control of rewinding. Holding Backspace moves back. While the game is frozen, a bar shows the last ten seconds."""
 
 from collections.abc import Callable
 
@@ -24,7 +24,10 @@ PAD_RUNS = {"left shoulder": -1, "right shoulder": 1}
 
 
 class Timeline:
-    """Control of a Rewind: feed() takes events, turn() moves to the chosen step. went() is called after each move."""
+    """Control of a Rewind. feed() processes events, and turn() moves to the chosen step.
+
+    went() is called after each move.
+    """
 
     def __init__(self, rewind: Rewind, went: Callable[[], None] = lambda: None) -> None:
         self.rewind, self.went = rewind, went
@@ -36,18 +39,18 @@ class Timeline:
 
     @property
     def runs(self) -> bool:
-        """True while Backspace is held to run back. The game makes no steps then."""
+        """Whether Backspace is held to move back. The game then makes no steps."""
         return self.control == BACK_KEY
 
     def let_go(self) -> None:
-        """Forget all held keys, and the step chosen by mouse or key."""
+        """Forget all held keys, and the step chosen with the mouse or a key."""
         self.control, self.dragging, self.asked = None, False, None
 
     def feed(self, event: pygame.event.Event, devices: DeviceSource, frozen: bool, now: float) -> bool:
-        """Process an event. Return whether it was used.
+        """Process an event. Return whether the event was used.
 
-        devices: translate pad events into button names; frozen: whether the game is frozen; now: time of the last turn
-        [s].
+        devices: source that translates pad events into button names; frozen: whether the game is frozen; now: time of
+        the last turn() [s].
         """
         button = devices.button_of(event)
         if event.type == pygame.KEYUP:
@@ -103,17 +106,17 @@ class Timeline:
         self.asked = self.rewind.end - round((1.0 - max(0.0, min(1.0, share))) * STEPS)
 
     def go(self, steps: int) -> None:
-        """Move by `steps` steps, back if negative."""
+        """Move forward by `steps` steps, or back if the number is negative."""
         before = self.rewind.position
         self.rewind.seek(before + steps)
         if self.rewind.position != before:
             self.went()
 
     def turn(self, now: float, frozen: bool) -> bool:
-        """Move to the step chosen by keys or mouse, at `now` [s]. Return whether Backspace is held to run back.
+        """Move to the step chosen with keys or mouse, at `now` [s]. Return whether Backspace is held to move back.
 
-        Keys and mouse act only while the game is frozen, Backspace always. While it is held, the game must make no
-        steps.
+        Keys and mouse have effect only while the game is frozen, Backspace always. While Backspace is held, the game
+        must make no steps.
         """
         if not frozen and not self.runs:
             self.let_go()
@@ -136,7 +139,7 @@ class Timeline:
         return goal
 
     def reserve(self, frame: Frame) -> None:
-        """Reserve the place of the bar, so that other text avoids it."""
+        """Reserve the rectangle of the bar, so that other text avoids it."""
         frame.reserve(self._rect(frame))
 
     def _rect(self, frame):
@@ -145,7 +148,7 @@ class Timeline:
         return pygame.Rect(area.x, area.bottom - high, area.width, high)
 
     def draw(self, frame: Frame) -> None:
-        """Draw the bar of the last ten seconds, with its reachable part, the key frames and the current step."""
+        """Draw the bar of the last ten seconds, with the reachable part, the key frames and the current step."""
         scale, rect, rewind = frame.scale_for(LEAST_WIDTH), self._rect(frame), self.rewind
         covered = [box for box, _ in frame.boxes if rect.colliderect(box)]
         top = min([rect.y, *(box.y - scale for box in covered if rect.y - box.y < MOST_CUT * scale)])

@@ -1,4 +1,4 @@
-"""Transition between two screens: the old picture disappears in strips, or fades if flashing is reduced."""
+"""Transition between two screens: the old picture disappears in strips. If flashing is reduced, it fades instead."""
 
 import pygame
 
@@ -15,14 +15,14 @@ class Wipe:
         self.started = 0.0
 
     def begin(self, surface: pygame.Surface, now: float) -> None:
-        """Keep a copy of the surface, and start the transition at `now` [s]."""
+        """Store a copy of the surface, and start the transition at `now` [s]."""
         self.old = surface.copy()
         self.started = now
 
     def draw(self, surface: pygame.Surface, now: float, fades: bool = False) -> None:
         """Draw the remaining part of the old picture over the new one, at `now` [s].
 
-        fades: whether the old picture fades, and does not disappear in strips.
+        fades: True fades the old picture, False removes it in strips.
         """
         if self.old is None:
             return
@@ -36,9 +36,9 @@ class Wipe:
             self._draw_strips(surface, share)
 
     def _draw_strips(self, surface, share):
-        """Draw the strips of the old picture. share: part of the transition that is over, 0..1.
+        """Draw the strips of the old picture. share: elapsed part of the transition, 0..1.
 
-        Each strip becomes narrower from the left; the left strips start first.
+        Each strip becomes narrower from the left. Strips further to the left start earlier.
         """
         width, height = surface.get_size()
         for number in range(STRIPS):
