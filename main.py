@@ -1,14 +1,17 @@
-"""Hitbox: the command line, nothing else. `python main.py --help` lists the flags.
+"""Entry point of Hitbox. It contains only the start of the command line. `python main.py --help` lists the flags.
 
-This file and game/startup.py use only the syntax of old Pythons, so that an old Python can run them and print that it
-is too old. Everything else is imported after those checks.
+This file and game/startup.py use only the syntax of old Pythons, so that an old Python can run them and report that it
+is too old. Everything else is imported after these checks.
 """
 
 import sys
 
 
 def main(argv=None):
-    """Run the arcade and return the exit code: 0 fine, 1 a check failed, 2 wrong use."""
+    """Run the program, and return the exit code: 0 for success, 1 if a check failed, 2 for wrong use.
+
+    argv: command-line arguments; None means sys.argv[1:].
+    """
     from game import startup
 
     handler = startup.end_quietly_on_interrupt()

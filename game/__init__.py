@@ -1,3 +1,3 @@
-"""The arcade around the physics: window, input, drawing, sound, overlays and the command line."""
+"""The arcade program around the physics: window, input, drawing, sound, overlays and the command line."""
 
 VERSION = "0.1.0"

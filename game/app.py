@@ -1,4 +1,7 @@
-"""Main loop of the windowed program: events, fixed steps, drawing. The screens are in game/screens/stack.py."""
+"""Main loop of the windowed program: events, fixed steps and drawing.
+
+The stack of screens is in game/screens/stack.py.
+"""
 
 from collections.abc import Iterator
 from time import perf_counter
@@ -33,7 +36,7 @@ QUIET = 0.3  # factor of the music's volume in quiet screens
 
 
 def run_app(options: Options, registry: Registry) -> int:
-    """Open the window and run until it is closed. Return the exit code."""
+    """Open the window and run the main loop until the window is closed. Return the exit code."""
     remove_leftovers(data_folder())
     settings, message = load_settings()
     say(message)
@@ -49,7 +52,10 @@ def run_app(options: Options, registry: Registry) -> int:
 
 
 class App:
-    """Main loop. It runs the top screen of the stack `screens`. arcade: the state that all screens share."""
+    """Main loop of the windowed program. It runs the top screen of the stack `screens`.
+
+    arcade: the state that all screens share.
+    """
 
     def __init__(
         self,
@@ -73,12 +79,12 @@ class App:
 
     @property
     def screen(self) -> AnyScreen:
-        """The screen on top."""
+        """The top screen of the screen stack."""
         return self.screens.top
 
     @property
     def window(self) -> pygame.Surface:
-        """The window's surface."""
+        """The pygame surface of the window."""
         return self.arcade.picture.presenter.frame.surface
 
     def run(self) -> int:
@@ -151,7 +157,7 @@ class App:
             self.arcade.running = False
 
     def _sound(self, now: float) -> None:
-        """Play the sounds of the menu and the current tune. now: current time [s]."""
+        """Play the queued sounds of the top screen, and update the music. now: current time [s]."""
         screen, sounds = self.screen, self.arcade.sounds
         if screen.cues:
             sounds.play_cues([(name, None, 1.0) for name in screen.cues])
@@ -163,9 +169,10 @@ class App:
         self.before = now
 
     def _rest(self, started: float) -> None:
-        """Wait until the frame cap allows the next frame. Without vsync, the loop would otherwise occupy a whole core.
+        """Wait until the frame cap allows the next frame.
 
-        started: time at which this iteration of the loop began [s].
+        Without vsync and this wait, the loop would occupy a whole core. started: time at which this iteration of the
+        loop began [s].
         """
         spent = perf_counter() - started
         self.frame_time.note(spent)
@@ -191,9 +198,9 @@ class App:
                 self.arcade.devices.feed(event)
 
     def _follow(self, outcome: Outcome) -> None:
-        """Carry out `outcome`, the top screen's request for another screen.
+        """Switch to the screen that the top screen requests with `outcome`, with a wipe as the transition.
 
-        A wipe leads from the old picture to the new one.
+        For some runs that the command line starts, the request for the menu ends the program instead.
         """
         if outcome[0] == "menu" and self.screens.played is not None:
             if self.options.scene and (self.options.is_a_run or self.options.recording):
@@ -206,7 +213,7 @@ class App:
         self._arrive()
 
     def _arrive(self) -> None:
-        """Reset the input, the clock and the music for a new top screen."""
+        """Release all inputs, restart the clock, and pause or resume the music, as the new top screen requires."""
         devices, sounds = self.arcade.devices, self.arcade.sounds
         devices.release_all()
         devices.menus = not self.screen.takes_game_input
@@ -219,7 +226,7 @@ class App:
         self.clock.rest()
 
     def _save_what_is_open(self) -> None:
-        """Save the high score, the settings and the current run or its recording, before the program ends."""
+        """Before the program ends, save the high score, the settings and the current run or its recording."""
         if not self.options.frames:
             self.screens.enter_results()
         self.arcade.save_settings()

@@ -1,4 +1,4 @@
-"""Command-line options: definitions and checks. Exit codes: 0 success, 1 failure, 2 wrong use."""
+"""Command-line options: definitions and checks. Exit codes: 0 for success, 1 for failure, 2 for wrong use."""
 
 import argparse
 import json
@@ -23,10 +23,10 @@ from game.run.replay_check import load_replay_for
 
 
 class Parser(argparse.ArgumentParser):
-    """Argument parser that reports a mistake in one line, as UsageError with exit code 2."""
+    """Argument parser that reports a usage error as a UsageError of one line, with exit code 2."""
 
     def error(self, message: str) -> NoReturn:
-        """Raise UsageError with the message. argparse calls this method for every mistake that it finds."""
+        """Raise UsageError with the message. argparse calls this method for every error that it finds."""
         if message.startswith("unrecognized arguments: "):
             given = message.split(": ", 1)[1].split()[0]
             flags = sorted(flag for flag in self._option_string_actions if flag.startswith("--"))
@@ -50,7 +50,7 @@ def run(arguments: Sequence[str], registry: Registry) -> int:
     except Warning as warning:  # --strict makes every warning an error
         startup.say(f"--strict: {type(warning).__name__}: {warning}")
         return StrictFailure.exit_code
-    except BrokenPipeError:  # the reader of the output has gone (| head)
+    except BrokenPipeError:  # the reader of the output has closed it (| head)
         _give_up_output()
         return 0
     except OSError as error:  # the output is on a full disk
@@ -62,7 +62,7 @@ def run(arguments: Sequence[str], registry: Registry) -> int:
 
 
 def _give_up_output():
-    """Redirect standard output to the null device, because the interpreter would otherwise flush it again at exit."""
+    """Redirect standard output to the null device, so that the interpreter does not flush it to a closed pipe."""
     if sys.stdout is not None and sys.stdout is sys.__stdout__:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
@@ -106,9 +106,9 @@ def make_parser() -> Parser:
 
 
 def read_options(arguments: Sequence[str], registry: Registry) -> Options:
-    """Parse and check the arguments. Return the Options.
+    """Parse and check the command-line arguments, and return them as Options.
 
-    Raises UsageError with one line that names the valid values.
+    Raises UsageError with one line of text, which names the valid values.
     """
     given = vars(make_parser().parse_args(arguments))
     from physics import BROADPHASES, SOLVERS
@@ -150,9 +150,9 @@ def read_options(arguments: Sequence[str], registry: Registry) -> Options:
 
 
 def _check_output(flag, name):
-    """Raise UsageError if `name`, the value of the option --`flag`, cannot be an output file.
+    """Raise UsageError if the path `name` is a folder or invalid. `name` is the value of the option --`flag`.
 
-    It is called before the run starts, so that no run is lost.
+    The check is made before the run starts, so that no finished run is lost.
     """
     try:
         is_folder = name and is_there(Path(name)) and S_ISDIR(Path(name).stat().st_mode)
@@ -164,7 +164,10 @@ def _check_output(flag, name):
 
 
 def _check_advice(options):
-    """Check that no options conflict with --advise. Make its scene the scene of the run, played by the bot."""
+    """Raise UsageError if another option conflicts with --advise.
+
+    Set the scene of the run to the scene that --advise names.
+    """
     if options.error is not None and options.advise is None:
         raise UsageError("--error needs --advise")
     if options.error is not None and not 0.0 < options.error < math.inf:
@@ -178,7 +181,10 @@ def _check_advice(options):
 
 
 def _check_report(options):
-    """Check that no options conflict with --report, and that its own options (--quick ...) come with --report."""
+    """Raise UsageError if another option conflicts with --report.
+
+    Also raise it if --quick, --workers, --dask or --only is given without --report, or if --workers is invalid.
+    """
     if options.report is None:
         for flag in ("quick", "workers", "dask", "only"):
             if getattr(options, flag) is not None and getattr(options, flag) is not False:
@@ -212,10 +218,10 @@ def _known(name, what, valid):
 
 
 def read_layers(text: str | None) -> tuple[str, ...] | None:
-    """Return the names of the layers that the value of --overlay selects; None without --overlay.
+    """Return the names of the overlay layers that the option --overlay selects, or None without that option.
 
-    "bounds,pairs" gives ("bounds", "pairs"), "all" gives every layer, "none" gives (). None stands for the scene's own
-    layers.
+    text: value of the option, or None. "bounds,pairs" gives ("bounds", "pairs"), "all" gives every layer, and "none"
+    gives (). A result of None means the scene's own layers.
     """
     if text is None:
         return None
@@ -232,7 +238,10 @@ def read_layers(text: str | None) -> tuple[str, ...] | None:
 
 
 def _take_from_recording(options):
-    """Take scene, seed and switches from the recording. Other options of the command line take precedence."""
+    """Set the scene, seed and switches to those of the recording to replay.
+
+    Other command-line options take precedence.
+    """
     recording = options.recording
     if recording is None:
         return

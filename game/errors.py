@@ -7,10 +7,10 @@ LONGEST = 300  # characters of a message: file names and file contents may have 
 
 
 class UsageError(Exception):
-    """Error for wrong use: an unknown name, a damaged file, no display. It ends the program with exit code 2.
+    """Error for wrong use: an unknown name, a damaged file, no display. The program then ends with exit code 2.
 
-    The text is printed as one line of at most LONGEST characters. `valid` (the valid names) and `hint` (the nearest
-    valid name) are printed after it, and are never cut.
+    The text is printed as one line of at most LONGEST characters. The attributes `valid` (the valid names) and `hint`
+    (text with the nearest valid name) are printed after it and are never shortened.
     """
 
     exit_code = 2
@@ -26,12 +26,15 @@ class UsageError(Exception):
 
     @property
     def parts(self) -> tuple[tuple[str, str], ...]:
-        """Return the error as a tuple of (label, text), for a screen with the title `headline`."""
+        """The error as a tuple of (label, text), for an error screen with the title `headline`."""
         return (("reason", brief(self)),)
 
 
 class FileError(UsageError):
-    """Error for an unusable file. It names the file, the place in it and the reason, in at most LONGEST characters."""
+    """Error for an unusable file.
+
+    The error's text names the file, the place in the file and the reason, in at most LONGEST characters.
+    """
 
     headline = "This file cannot be used"
 
@@ -44,18 +47,18 @@ class FileError(UsageError):
 
     @property
     def parts(self) -> tuple[tuple[str, str], ...]:
-        """Return the file, the place in it and the reason, as a tuple of (label, text)."""
+        """The file, the place in the file and the reason, as a tuple of (label, text)."""
         return tuple(zip(("file", "place", "reason"), self._texts(), strict=True))
 
 
 class ReplayDiverged(Exception):
-    """Error for a simulation that differs from the recording. It names the frame. Exit code 1."""
+    """Error for a replay whose simulation differs from the recording. Its text names the frame. Exit code 1."""
 
     exit_code = 1
 
 
 class StrictFailure(Exception):
-    """Error for a violation of --strict: a warning, or a broken invariant. Exit code 1."""
+    """Error for a run with --strict that emits a warning or breaks an invariant. Exit code 1."""
 
     exit_code = 1
 
@@ -63,7 +66,7 @@ class StrictFailure(Exception):
 def brief(text: object, most: int = LONGEST) -> str:
     """Return a text as one line of at most `most` characters.
 
-    The middle of a longer text is cut out. Characters that cannot be printed become question marks.
+    In a longer text, the middle is cut out. Unprintable characters are replaced by question marks.
     """
     line = str(text)
     if len(line) > most:
@@ -73,10 +76,9 @@ def brief(text: object, most: int = LONGEST) -> str:
 
 
 def share(texts: Sequence[object], room: int) -> list[str]:
-    """Return the texts, shortened so that they have at most `room` characters together.
+    """Return the texts, shortened so that they have at most `room` characters in total.
 
-    Each text has an equal share of the room. The part of its share that a short text does not need goes to longer
-    texts.
+    Each text may have an equal part of `room`. Characters that short texts do not need are given to longer texts.
     """
     lines = [str(text) for text in texts]
     by_length = sorted(range(len(lines)), key=lambda number: len(lines[number]))
@@ -89,7 +91,7 @@ def share(texts: Sequence[object], room: int) -> list[str]:
 def unknown_name(what: str, name: object, valid: Iterable[str]) -> UsageError:
     """Return a UsageError for a name that is not in `valid`, with the nearest valid name as a hint.
 
-    what: the kind of name, such as "scene".
+    what: the kind of the name, such as "scene".
     """
     from difflib import get_close_matches
 

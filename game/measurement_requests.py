@@ -1,6 +1,7 @@
-"""Measurement requests of a scene: two sprites to compare at every collision tier, or worlds whose steps are timed.
+"""Measurement requests of a scene: sprites to compare at every collision tier, or worlds whose steps are timed.
 
-The results are stored in the scene's `figures`, by tier or by name. They are never part of the scene's state.
+A collision tier is a kind of collision shape. The results are stored in the scene's `figures`, by tier or by name. They
+are not part of the scene's state.
 """
 
 from collections.abc import Callable, Hashable, Sequence
@@ -13,9 +14,9 @@ STEPS = 60  # least number of steps in a run: one second of play. Five runs give
 
 
 class SpriteRequest(NamedTuple):
-    """Request to measure two sprites at every collision tier, and again after either has changed.
+    """Request to measure two sprites at every collision tier (kind of collision shape).
 
-    The results are {tier: TierFigures}.
+    The sprites are measured again when either of them changes. The results are {tier: TierFigures}.
     """
 
     first: PixelMask
@@ -23,31 +24,34 @@ class SpriteRequest(NamedTuple):
 
 
 class Recipe(NamedTuple):
-    """Function and arguments that make a snapshot. The measuring process calls it, so that the game does not wait."""
+    """Function and arguments that create a snapshot. The measuring process calls it, so that the game does not wait."""
 
     maker: str  # "module:function", which returns a Snapshot
     arguments: tuple[Any, ...]  # its arguments: JSON values
 
     def make(self) -> Snapshot:
-        """Call the function and return the snapshot."""
+        """Call the function, and return the Snapshot that it creates."""
         return resolve_name(self.maker)(*self.arguments)
 
 
 class Act(NamedTuple):
-    """Operation on a world that is timed in place of the world's steps."""
+    """Operation on a world that is timed instead of the world's steps."""
 
     maker: str  # "module:function": function(world, *arguments) returns a function that is called once per step
     arguments: tuple[Any, ...]  # its arguments: JSON values
 
     def made_for(self, world: World) -> Callable[[], object]:
-        """Return the operation on this world as a function without arguments, whose calls are timed."""
+        """Return a function without arguments that performs the operation on `world`.
+
+        The calls of this function are timed.
+        """
         return resolve_name(self.maker)(world, *self.arguments)
 
 
 class MeasuredRun(NamedTuple):
     """Run whose time is measured: worlds are restored from snapshots and stepped.
 
-    The result is a RunFigures, stored in the scene's `figures` under the name of the run.
+    The result is a RunFigures, which is stored in the scene's `figures` under the name of the run.
     """
 
     snapshots: Sequence[Snapshot | Recipe]
@@ -59,9 +63,10 @@ class MeasuredRun(NamedTuple):
 
 
 class RunRequest(NamedTuple):
-    """Request for measured runs. make(name) returns the MeasuredRun of a name.
+    """Request for measured runs.
 
-    make() is called once per name, and its results are cached.
+    names: the names of the runs; make(name): function that returns the MeasuredRun of a name. make() is called once per
+    name.
     """
 
     names: Sequence[Hashable]  # numbers, words or tuples of them: runs with the same name cost the same

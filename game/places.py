@@ -1,4 +1,4 @@
-"""Paths of the game's own files, which are in assets/ beside the packages, in a clone as in an installation."""
+"""Paths of the game's own files. They are in assets/ beside the packages, both in a clone and in an installation."""
 
 from pathlib import Path
 

@@ -2,7 +2,7 @@
 
 update() is one fixed step of 1/60 s: rules, world.step(), events. update() is deterministic, uses no display and reads
 no clock. draw() changes neither the state nor the random numbers. Purely visual data (particles, curves, camera shake)
-are outside state() and use their own random numbers.
+are not part of state() and use their own random numbers.
 """
 
 import gc
@@ -52,7 +52,7 @@ class Goal:
 
 @dataclass(frozen=True)
 class Result:
-    """Result of a game. lines: further lines of text for the player."""
+    """Result of a game. points: the score; seconds: time of the game; lines: further lines of text for the player."""
 
     won: bool
     points: int
@@ -60,7 +60,10 @@ class Result:
     lines: tuple = ()
 
     def ranks(self, ranked_by: str | None) -> bool:
-        """Return whether a run with this result may enter a high-score table. ranked_by: as in Scene."""
+        """Return whether a run with this result may enter a high-score table.
+
+        ranked_by: "seconds", "points" or None, as in Scene.
+        """
         if ranked_by == "seconds":
             return self.won
         return ranked_by == "points" and self.points > 0
@@ -68,7 +71,10 @@ class Result:
 
 @dataclass(frozen=True)
 class Slider:
-    """Value that the player can change with a slider. choices: if given, the names of the values low, low + 1, ..."""
+    """Value that the player can change with a slider.
+
+    choices: names of the values low, low + 1, ...; () for numbers.
+    """
 
     name: str
     low: float
@@ -79,24 +85,27 @@ class Slider:
     choices: tuple = ()
 
     def clamp(self, value: float) -> float:
-        """Return the slider's value that is nearest to `value`; it is an int if `low` and `step` are whole."""
+        """Return the valid value of the slider that is nearest to `value`.
+
+        The result is an int if `low` and `step` are whole numbers.
+        """
         steps = round((min(max(value, self.low), self.high) - self.low) / self.step)
         value = min(self.low + steps * self.step, self.high)
         return int(value) if float(self.step).is_integer() and float(self.low).is_integer() else value
 
     def show(self, value: float) -> str:
-        """Return the value as text: with its unit, or the name of the choice."""
+        """Return a value of the slider as text: the number with its unit, or the name of the choice."""
         if self.choices:
             return plain_name(self.choices[int(value) - int(self.low)])
         return f"{value:g}{' ' + self.unit if self.unit else ''}"
 
 
 class Scene:
-    """Base class of scenes. A scene is a direct subclass: it sets class attributes and defines the methods in DEFINED:
+    """Base class of scenes. A scene is a direct subclass. It sets class attributes and defines the methods in DEFINED:
 
-    build(): make the worlds (add_world); called at the start and on every restart.
+    build(): make the worlds with add_world(). It is called at the start and on every restart.
     update(inputs): run one fixed step.
-    draw(canvas, alpha): draw on the canvas; alpha 0..1 interpolates from the last step but one to the last step.
+    draw(canvas, alpha): draw on the canvas. alpha: position between the last two steps, 0..1, for interpolation.
     check(): return the scene's goals, a list of Goal.
     bot(): return the actions held in the next step, a frozenset of names, or a whole InputFrame.
     state(): return the scene's own state for the digest, a flat tuple of ints, floats, bools and strings.
@@ -199,7 +208,7 @@ class Scene:
         self.built = set(vars(self)) - before
 
     def _drop_last_run(self):
-        """Release the objects that the last build() made, so that the memory never has to hold two runs at once."""
+        """Release the objects that the last build() made, so that memory never contains the objects of two runs."""
         if self.built:
             for name in self.built:
                 vars(self).pop(name, None)
@@ -213,11 +222,12 @@ class Scene:
         solver: SolverName | None = None,
         **settings: Any,
     ) -> WatchedWorld:
-        """Make a world with the scene's effects, broad phase, solver and seed, and append it to self.worlds. Return it.
+        """Create a world with the scene's effects, broad phase, solver and seed.
 
-        settings: further arguments of World: gravity, drag, substeps, pixels_per_meter ... An argument gravity, drag or
-        wind is ignored if the world does not have the effect of that name. So a scene can be measured without one of
-        its effects.
+        Append the world to self.worlds and return it. effects, broadphase, solver: values to use instead of the
+        scene's, or None. settings: further arguments of World: gravity, drag, substeps, pixels_per_meter ... An
+        argument gravity, drag or wind is ignored if the world does not have the effect of that name. So a scene can be
+        measured without one of its effects.
         """
         effects = (effects or self.effects).with_(narrowphase=self.narrowphase)
         for name, acts in (
@@ -243,7 +253,7 @@ class Scene:
         return self.worlds[0]
 
     def step(self, inputs: InputState) -> None:
-        """Run one fixed step: changes from the panel first, then the mouse drag, then the scene's own update."""
+        """Run one fixed step: first the changes from the panel, then the mouse drag, then the scene's own update()."""
         self.cues.clear()
         for name, value in inputs.now.changes:
             self.change(name, value)
@@ -260,7 +270,7 @@ class Scene:
             self.monitor.note(self.frame, self.worlds)
 
     def watch_invariants(self, on: bool = True, strict: bool = False) -> None:
-        """Start checking the invariants of all worlds after every step, or stop it if `on` is False.
+        """Start to check the invariants of all worlds after every step, or stop the checks if `on` is False.
 
         strict: see InvariantMonitor.
         """
@@ -271,11 +281,14 @@ class Scene:
                 self.monitor.take(world)
 
     def _cameras(self):
-        """Return all cameras, each once: the scene's own, and those of its views."""
+        """Return the scene's own camera and the cameras of its views, each camera once."""
         return {id(camera): camera for camera in (self.camera, *(each for _, each in self.views()))}.values()
 
     def change(self, name: str, value: Any) -> None:
-        """Apply one change that came with the input. Raises ValueError for an unknown name or value."""
+        """Apply one change of a setting, given by name, that is part of a step's input.
+
+        Raises ValueError for an unknown name or value.
+        """
         if name.startswith("slider:") and name[7:] in self.values:
             self.change_slider(name[7:], value)
         elif name == "broadphase" and value in BROADPHASES:
@@ -297,7 +310,10 @@ class Scene:
             raise ValueError(f"change {name!r} to {value!r} is not possible here; changes: {valid}")
 
     def change_slider(self, name: str, value: float) -> None:
-        """Set a slider. A scene whose worlds depend on a slider overrides this method and calls super() first."""
+        """Set the slider `name` to `value`.
+
+        A scene whose worlds depend on a slider overrides this method and calls super() first.
+        """
         slider = next(s for s in self.sliders if s.name == name)
         self.values[name] = slider.clamp(value)
         if name == "substeps":
@@ -314,9 +330,9 @@ class Scene:
                 world.broadphase = BROADPHASES[name]()
 
     def solver_choices(self) -> tuple[SolverName, ...]:
-        """Return the names of the solvers between which the player may switch.
+        """Return the names of the solvers that the player may switch between.
 
-        They are () without the effect `response`, or if each world has its own solver.
+        The result is () without the effect `response`, or if each world has its own solver.
         """
         return () if self.solvers or not self.effects.response else self.valid_solvers()
 
@@ -329,7 +345,7 @@ class Scene:
 
     @classmethod
     def level_suffixes(cls) -> tuple[str, ...]:
-        """Return the suffixes of the level files that the scene can play; () if it takes none."""
+        """Return the suffixes of the level files that the scene can load; () if it loads none."""
         if not cls.takes_level:
             return ()
         return (cls.level_suffix,) if cls.level_suffix else (".tmj", ".json")
@@ -353,13 +369,16 @@ class Scene:
             world.substeps = count
 
     def set_narrowphase(self, on: bool) -> None:
-        """Switch the narrow phase on or off during a game. Without it, contacts are between bounding boxes."""
+        """Switch the narrow phase on or off during a game.
+
+        Without a narrow phase, contacts are between bounding boxes.
+        """
         self.narrowphase = on
         for world in self.worlds:
             world.set_narrowphase(on)
 
     def set_tier(self, name: TierName) -> None:
-        """Switch the collision tier of all sprite bodies during a game.
+        """Switch the collision tier (kind of collision shape) of all sprite bodies during a game.
 
         The scene must use self.tier for bodies that it adds later.
         """
@@ -372,52 +391,52 @@ class Scene:
 
     @property
     def own_hits(self) -> dict[str, int]:
-        """Hits of the player's body in this run, by the shape that reports them: "box", "hull", "core"; {} for none.
+        """Numbers of hits of the player's body in this run, by reporting shape: "box", "hull", "core"; {} for none.
 
-        The scene's picture, the plot of costs and the CSV file show these counts.
+        The scene's picture, the plot of costs and the CSV file show these numbers.
         """
         return {}
 
     @property
     def own_body(self) -> int | None:
-        """Id of the body in the first world that the player must protect; None if there is none."""
+        """Id of the player's body in the first world; None if there is none."""
         return None
 
     def set_accessibility(self, accessibility: Accessibility) -> None:
-        """Store the player's accessibility settings and apply them to the camera."""
+        """Store the player's accessibility settings, and apply them to the camera."""
         self.accessibility = accessibility
         self.camera.shake_share = accessibility.shake
 
     def play(self, sound: str, x: float | None = None, volume: float = 1.0) -> None:
-        """Queue a sound effect. x: canvas position, from which it is heard; None: the middle. volume: 0..1."""
+        """Queue a sound effect. x: canvas position of its source; None for the middle. volume: 0..1."""
         self.cues.append((sound, x, volume))
 
     @property
     def offer(self) -> str:
         """Text that offers a new run after the end of a run; "" during a run.
 
-        While this text is shown, the help line stays visible. R restarts every scene; the text describes the new run.
+        The help line is visible while this text is shown. R restarts every scene, and the text describes the new run.
         """
         return ""
 
     def views(self) -> list[tuple[WatchedWorld, Camera]]:
-        """Return a list of (world, camera), one for each picture of a world on the canvas.
+        """Return a list of (world, camera), one for each view of a world on the canvas.
 
-        Overlays use these cameras, and step() calls begin_step() of each. Most scenes have one world, seen by
+        Overlays use these cameras, and step() calls begin_step() of each. Most scenes have one world, which is seen by
         self.camera.
         """
         return [(self.world, self.camera)]
 
     @property
     def chosen(self) -> tuple:
-        """Values of all sliders and switches, a tuple.
+        """Values of all sliders and switches, as a tuple.
 
-        It is part of the name of a measured run that depends on them.
+        A measured run whose cost depends on them has this tuple in its name.
         """
         return *self.values.values(), self.broadphase, self.solver, self.substeps, self.narrowphase
 
     def measured(self) -> MeasurementRequest | None:
-        """Return the measurements that the measuring process makes during the game; None for no measurements.
+        """Return the measurements that the measuring process shall make during the game; None for no measurements.
 
         The results are stored in `figures`.
         """
@@ -426,13 +445,16 @@ class Scene:
     def finding(self) -> str:
         """Return the scene's finding: one sentence with the numbers measured in this run so far.
 
-        Until all numbers are measured, the sentence begins with "not yet: " and names the missing ones. It is "" for a
-        scene without a finding.
+        Until all numbers are measured, the sentence begins with "not yet: " and names the missing ones. The result is
+        "" for a scene without a finding.
         """
         return ""
 
     def headline(self) -> Headline | None:
-        """Return the sentence and the live number in the title line of a lab; None for a scene without one."""
+        """Return the Headline of a lab: the sentence and the live number in its title line.
+
+        Return None for other scenes.
+        """
         return None
 
     def draw_on_frame(self, frame: Frame) -> None:
@@ -445,8 +467,8 @@ class Scene:
 def set_loaded_aside() -> None:
     """Run a full garbage collection, and exempt the remaining objects from collection until the next call.
 
-    Call this function when a scene is ready to begin. A full collection with numba and a scene loaded takes 40 ms, two
-    and a half frames. Afterwards, collecting the objects made during a game takes less than one frame.
+    Call this function when a scene is ready to start. A full collection with numba and a scene loaded takes 40 ms, or
+    two and a half frames. After this call, a collection of the objects made during a game takes less than one frame.
     """
     gc.unfreeze()
     gc.collect()

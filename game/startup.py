@@ -1,7 +1,7 @@
 """Checks at the start of the program, before any slow import. Each reports its result in one line.
 
-The syntax is old on purpose (see main.py). A function `*_problem` returns a line that stops the program, or "". A
-function `*_note` returns a line of information, or "".
+The module deliberately uses old syntax (see main.py). A function `*_problem` returns a line that stops the program, or
+"". A function `*_note` returns a line of information, or "".
 """
 
 import os
@@ -15,7 +15,7 @@ START = ("python", "main.py") if IN_CHECKOUT else ("hitbox",)  # command that st
 
 
 def start_line(*arguments: str) -> str:
-    """Return the command that starts the program with these arguments, as one line that the system's shell splits."""
+    """Return the shell command that starts the program with these arguments, quoted for the system's shell."""
     import shlex
     import subprocess
 
@@ -24,7 +24,10 @@ def start_line(*arguments: str) -> str:
 
 
 def python_problem(version: tuple, executable: str) -> str:
-    """Return a line that reports a Python that is too old, with its version; "" if it is new enough."""
+    """Return a line which says that this Python is too old, with its version; "" if it is new enough.
+
+    version: as sys.version_info; executable: path of this Python.
+    """
     if tuple(version[:2]) >= OLDEST_PYTHON:
         return ""
     needed, found = dotted(OLDEST_PYTHON), dotted(version[:3])
@@ -32,7 +35,7 @@ def python_problem(version: tuple, executable: str) -> str:
 
 
 def dotted(version: tuple) -> str:
-    """Return a version as text, for example 3.11."""
+    """Return a version as text, for example "3.11" for (3, 11)."""
     return ".".join(str(part) for part in version)
 
 
@@ -47,7 +50,7 @@ def package_problem() -> str:
 
 
 def install(extra: str = "") -> str:
-    """Return the command that installs the program and its dependencies. extra: an extra to install, too, or ""."""
+    """Return the command that installs the program and its dependencies. extra: pip extra to install as well, or ""."""
     if IN_CHECKOUT:
         return "python -m pip install -e " + ('".[' + extra + ']"' if extra else ".")
     return "python -m pip install " + ('"hitbox[' + extra + ']"' if extra else "hitbox")
@@ -75,7 +78,7 @@ def pygame_note(is_installed: "Callable[[str], bool]" = installed) -> str:
 
 
 def numba_note(jit: bool) -> str:
-    """Return a note that the kernels run uncompiled; "" if they are compiled. jit: the value of physics.JIT."""
+    """Return a note that the kernels run uncompiled; "" if they are compiled. jit: value of physics.JIT."""
     if jit:
         return ""
     return "numba is not in use: everything works, the physics runs slower (python -m pip install numba)"
@@ -90,16 +93,16 @@ def pygame_name() -> str:
 
 
 def prepare_environment() -> None:
-    """Suppress pygame's greeting on standard output, where --json prints only its one object."""
+    """Suppress pygame's greeting on standard output, because --json must print only its one object there."""
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
 
 def end_quietly_on_interrupt() -> "object":
-    """Make Ctrl-C end the program at once, with exit code 130 and without a traceback, until take_interrupts().
+    """Make Ctrl-C end the program at once, with exit code 130 and without a traceback.
 
-    Return the previous handler, the argument of take_interrupts(). Call this function before the imports: imports need
-    no cleanup, and an exception during an import prints many lines or is swallowed. A handler other than Python's
-    default is left in place.
+    This lasts until take_interrupts() is called. Return the previous handler, which is the argument of
+    take_interrupts(). Call this function before the imports. Imports need no cleanup, and an exception during an import
+    prints many lines or is lost. A handler other than Python's default is not replaced.
     """
     import signal
     import threading
@@ -111,7 +114,7 @@ def end_quietly_on_interrupt() -> "object":
 
 
 def take_interrupts(handler: "object") -> None:
-    """Make Ctrl-C raise KeyboardInterrupt again. handler: the result of end_quietly_on_interrupt()."""
+    """Make Ctrl-C raise KeyboardInterrupt again. handler: result of end_quietly_on_interrupt()."""
     import signal
 
     if handler is signal.default_int_handler and signal.getsignal(signal.SIGINT) is not handler:
@@ -119,10 +122,10 @@ def take_interrupts(handler: "object") -> None:
 
 
 def say(line: str, whole: bool = False) -> None:
-    """Print one line on standard error, cut to errors.LONGEST characters.
+    """Print one line on standard error, shortened to errors.LONGEST characters.
 
-    A program without standard error prints nothing. whole: whether the line is not cut, for the program's own texts and
-    for bounded texts with a list of valid names.
+    Print nothing if there is no standard error. whole: True does not shorten the line. It is used for the program's own
+    texts and for texts with a list of valid names.
     """
     if line and sys.stderr is not None:  # None if closed, or started without a terminal
         if not whole:
