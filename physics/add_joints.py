@@ -1,4 +1,4 @@
-"""Adding joints: the checks of their arguments, and the rows that follow from a kind, bodies and anchors."""
+"""Creation of joints: checks of the arguments, and the JOINT rows computed from a kind, its bodies and anchors."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ def add(
 ) -> np.ndarray:
     """Append joints of one kind to a world, and return their ids (n,).
 
-    kind: a Kind with the settings of all joints; bodies_a, bodies_b: ids (n,) int64, WORLD for the world; columns:
-    anchors (n, 2) [px] and axes (n, 2), by argument name. Raises TypeError or ValueError for invalid arguments,
-    KeyError for an unknown body; the world is then unchanged.
+    kind: a Kind with the settings of all joints; bodies_a, bodies_b: ids (n,) int64 of the bodies, WORLD means the
+    world; columns: {argument name: array (n, 2) of anchors [px] or axes}. Raises TypeError or ValueError for invalid
+    arguments, KeyError for an unknown body; the world is then unchanged.
     """
     n = len(bodies_a)
     check_bodies(world, bodies_a, bodies_b)
@@ -69,7 +69,11 @@ def add(
 def add_gears(
     world: WorldState, kind: Any, sides_a: list[tuple[bool, int]], sides_b: list[tuple[bool, int]]
 ) -> np.ndarray:
-    """Append gears to a world, and return their ids (n,). Arguments and errors as in gear.gear_rows, and as in add."""
+    """Append gears to a world, and return their ids (n,).
+
+    kind: a Gear with the settings of all gears; sides_a, sides_b: the two sides of each gear, each side a tuple
+    (True, id of a joint) or (False, id of a body). Raises the errors of gear.gear_rows and of add.
+    """
     _check_effects(world, kind, kind.columns())
     rows = gear_rows(world, kind, sides_a, sides_b)
     rows["kind"] = KINDS.index(type(kind))
@@ -77,7 +81,7 @@ def add_gears(
 
 
 def _append(world, kind, rows):
-    """Append JOINT rows (n,) of one kind to a world, wake their bodies, and return the new ids."""
+    """Append JOINT rows (n,) of one kind to a world, wake the bodies of the joints, and return the joint ids (n,)."""
     n = len(rows)
     rows["id"] = np.arange(world._next_joint, world._next_joint + n)
     world._next_joint += n
@@ -93,7 +97,10 @@ def _append(world, kind, rows):
 
 
 def _poses(world, ids):
-    """Return the poses of bodies (ids): (n, 3) x, y [px], angle [rad]; (0, 0, 0) for WORLD."""
+    """Return the poses of bodies as an array (n, 3) of x, y [px] and angle [rad].
+
+    ids: ids (n,) of the bodies; the id WORLD has the pose (0, 0, 0).
+    """
     found = np.zeros((len(ids), 3))
     there = ids != WORLD
     rows = world.rows(ids[there])
@@ -103,7 +110,10 @@ def _poses(world, ids):
 
 
 def _anchors(kind, columns, poses):
-    """Return (anchors of A, anchors of B), each (n, 2), from `columns`; zeros for a kind without anchors."""
+    """Return (anchors of A, anchors of B), two arrays (n, 2); both are 0 for a kind without anchors.
+
+    columns: the arrays by argument name, see add; poses: two arrays (n, 3), from which only n is used.
+    """
     n = len(poses[0])
     if not kind.POINTS:
         return np.zeros((n, 2)), np.zeros((n, 2))
@@ -124,9 +134,10 @@ def _to_world(points, poses):
 
 
 def check_bodies(world: WorldState, bodies_a: np.ndarray, bodies_b: np.ndarray) -> None:
-    """Raise ValueError unless each joint has two different bodies, one of them dynamic, and no body of a character.
+    """Raise ValueError unless each joint has two different bodies, at least one of which is dynamic.
 
-    bodies_a, bodies_b: ids (n,), WORLD for the world. Raises KeyError for an unknown body.
+    Also raise it for the body of a character. bodies_a, bodies_b: ids (n,) of the bodies of n joints, WORLD means the
+    world. Raises KeyError for an unknown body.
     """
     same = bodies_a == bodies_b
     if same.any():
@@ -150,9 +161,9 @@ def check_bodies(world: WorldState, bodies_a: np.ndarray, bodies_b: np.ndarray) 
 
 
 def _check_effects(world, kind, given):
-    """Raise ValueError if the world lacks the solver or an effect that joints of a kind need.
+    """Raise ValueError if the world's solver cannot solve joints, or if an effect that the joint needs is off.
 
-    given: the JOINT columns of the kind.
+    kind: a Kind with the settings of the joint; given: kind.columns(), the JOINT columns of these settings.
     """
     name = type(kind).__name__
     world._needs("joints", name, True)
@@ -167,7 +178,10 @@ def _check_effects(world, kind, given):
 
 
 def add_one(world: WorldState, kind: Any) -> Joint:
-    """Add the joint that a Kind describes, and return its handle. Raises the errors of World.add_joint."""
+    """Add one joint, and return its handle. Raises the errors of World.add_joint.
+
+    kind: a Kind with the bodies, anchors and settings of the joint.
+    """
     world._unlocked()
     if not isinstance(kind, Kind) or type(kind) not in KINDS:
         hint = ": write Revolute(a, b, at)" if hints.is_own(kind, "Body") or isinstance(kind, int) else ""
@@ -207,9 +221,10 @@ def _names() -> str:
 
 
 def _default_point(world, kind, name, body):
-    """Return the anchor for which an argument None stands, or None if the argument must be given.
+    """Return the default anchor for an anchor argument that is None; None if the argument has no default.
 
-    It is kind.at for Target.point, and B's centre of mass for Motor.at. name: name of the argument; body: id of B.
+    The default of Target.point is kind.at. The default of Motor.at is B's centre of mass, or (0, 0) if kind.local.
+    name: name of the argument; body: id of body B.
     """
     if name == "point":
         return kind.at
@@ -220,9 +235,10 @@ def _default_point(world, kind, name, body):
 
 
 def _body_ids(world, name, values) -> np.ndarray:
-    """Return the ids (n,) int64 of Bodies, ids or None (the world). name: name of the argument in messages.
+    """Return the ids (n,) int64 of bodies. values: a Body, an id, or None for the world (WORLD), for each of n bodies.
 
-    Raises TypeError or ValueError for invalid arguments, KeyError for an unknown body.
+    name: name of the argument in messages. Raises TypeError or ValueError for an invalid value, KeyError for an unknown
+    body.
     """
     found = [WORLD if each is None else world._identity(name, each) for each in values]
     for each in found:
@@ -232,9 +248,9 @@ def _body_ids(world, name, values) -> np.ndarray:
 
 
 def add_many(world: WorldState, kind: Any, bodies_a: Any, bodies_b: Any, settings: dict[str, Any]) -> np.ndarray:
-    """Add joints of one kind between pairs of bodies, and return their ids.
+    """Add n joints of one kind between pairs of bodies, and return the ids (n,) of the joints.
 
-    Arguments and errors as in World.add_joints.
+    The arguments and errors are those of World.add_joints. settings: its keyword arguments.
     """
     world._unlocked()
     if not (isinstance(kind, type) and kind in KINDS):
@@ -258,7 +274,11 @@ def add_many(world: WorldState, kind: Any, bodies_a: Any, bodies_b: Any, setting
 
 
 def _add_many_of_bodies(world, kind, first, second, settings) -> np.ndarray:
-    """Add a joint of one kind for each pair of bodies, and return their ids (n,). Errors as in add_many."""
+    """Add a joint of one kind for each of n pairs of bodies, and return the ids (n,) of the joints.
+
+    first, second: bodies A and B of the pairs, as Bodies, ids or None (the world), or None for the world in all pairs.
+    settings: keyword arguments of World.add_joints. Raises the errors of add_many.
+    """
     n = len(first or second or ())
     sides = [name for name in ("a", "b", "body") if name in kind.__dataclass_fields__]
     first, second = (
@@ -275,7 +295,11 @@ def _add_many_of_bodies(world, kind, first, second, settings) -> np.ndarray:
 
 
 def _add_many_gears(world, kind, first, second, settings) -> np.ndarray:
-    """Add a gear of one kind for each pair of joints or bodies, and return their ids (n,). Errors as in add_many."""
+    """Add a gear for each of n pairs of sides, and return the ids (n,) of the gears. Raises the errors of add_many.
+
+    kind: the class Gear; first, second: sides A and B, as Joints, ids of joints, or Bodies. settings: keyword arguments
+    of World.add_joints.
+    """
     if len(first) != len(second):
         raise ValueError(f"bodies_b must have as many entries as bodies_a (got {len(second)} and {len(first)})")
     made = kind(None, None, **settings)
@@ -287,10 +311,10 @@ def _add_many_gears(world, kind, first, second, settings) -> np.ndarray:
 
 
 def _column(kind, name, settings, n) -> np.ndarray:
-    """Return the argument `name`, anchors or an axis, as an array (n, 2) for n joints.
+    """Return the anchors [px] or axes of n joints as an array (n, 2), from the argument `name` in `settings`.
 
-    A single pair is repeated for all joints. settings: the keyword arguments of World.add_joints. Raises TypeError or
-    ValueError for invalid arguments.
+    A single pair (x, y) is used for all joints. settings: the keyword arguments of World.add_joints. Raises TypeError
+    or ValueError for an invalid argument.
     """
     if name not in settings and name != "axis":
         raise TypeError(f"add_joints() needs {name}, an array (n, 2) of points, for {kind.__name__}")

@@ -1,6 +1,6 @@
-"""Types of arguments: pairs, poses, rectangles, references to bodies, and the strings that an argument allows.
+"""Type annotations of arguments: pairs, poses, rectangles, references to bodies, and literals of allowed strings.
 
-They are protocols and literals, so that pygame's vectors and rectangles are accepted without an import of pygame.
+Vectors and rectangles are protocols, so pygame's types match without an import of pygame.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -32,7 +32,7 @@ class Vector(Protocol):
     def __len__(self) -> int: ...
 
     def dot(self, other: Any, /) -> float:
-        """Return the scalar product."""
+        """Return the scalar product with another vector."""
         ...
 
     def rotate(self, angle: float, /) -> Any:  # a Vector3 needs an axis, and a Rect has no such method
@@ -41,7 +41,7 @@ class Vector(Protocol):
 
 
 class Rectangle(Protocol):
-    """A rectangle such as pygame.Rect and pygame.FRect, which unpacks into x, y, width and height."""
+    """A rectangle that unpacks into x, y, width and height, such as pygame.Rect or pygame.FRect."""
 
     def __iter__(self) -> Iterator[float]: ...
 
@@ -49,12 +49,12 @@ class Rectangle(Protocol):
 
     @property
     def size(self) -> tuple[float, float]:
-        """Width and height."""
+        """The size (width, height)."""
         ...
 
     @property
     def topleft(self) -> tuple[float, float]:
-        """The corner (x, y)."""
+        """The corner (x, y) with the least coordinates."""
         ...
 
 
@@ -75,7 +75,7 @@ Rect = (
 
 
 class BodyHandle(Protocol):
-    """A Body, for modules that body.py imports."""
+    """Protocol of Body, for annotations in modules that cannot import Body because body.py imports them."""
 
     @property
     def id(self) -> int:
@@ -84,19 +84,22 @@ class BodyHandle(Protocol):
 
     @property
     def shape_ids(self) -> tuple[int, ...]:
-        """The ids of its shapes."""
+        """The ids of the body's shapes."""
         ...
 
 
 class WorldHandle(Protocol):
-    """A World, for modules that world.py imports."""
+    """Protocol of World, for annotations in modules that cannot import World because world.py imports them."""
 
     def step(self, dt: float | None = None) -> None:
-        """Advance the simulation."""
+        """Advance the simulation by one step of length dt [s]; None: the world's own dt."""
         ...
 
     def touch(self, ids: Any) -> None:
-        """Report that table columns of bodies were written."""
+        """Wake bodies and update their AABBs, after the caller has written their columns in world.bodies.
+
+        ids: a Body, an id, or many of them.
+        """
         ...
 
 

@@ -1,4 +1,4 @@
-"""Compilation of kernels in worker processes, in the background of a running program or ahead of its need."""
+"""Compilation of kernels in worker processes, while the program runs or before it starts."""
 
 import json
 import threading
@@ -29,17 +29,17 @@ _running: "list[Background]" = []
 
 
 def compile_in_background(workers: int | None = None) -> "Background":
-    """Run kernels as plain Python until worker processes have compiled them. Return the Background.
+    """Have worker processes compile the kernels, which run as plain Python until then. Return the Background.
 
     workers: number of processes, at most 8; None: one less than the number of cores, but at least one.
 
-    A kernel changes to its compiled form between two steps. Both forms give the same bits, so only the speed changes.
+    A compiled kernel replaces the plain one between two steps. Both give bit-identical results; only the speed differs.
     The kernels that take the most time per byte of code are compiled first. The processes start when a kernel is first
-    called, as `python -m`, so a script needs no `if __name__ == "__main__"`. A frozen program has no workers and
-    compiles in a thread. Without numba the call has no effect.
+    called. They are started by `python -m`, so a script needs no `if __name__ == "__main__"`. A frozen program has no
+    workers and compiles in a thread. Without numba the call has no effect.
 
-    Call it before the first step. Another call returns the same object. Raises ValueError if workers is neither None
-    nor a whole number of at least 0.
+    Call this function before the first step. Later calls return the same object. Raises ValueError if workers is
+    neither None nor a whole number of at least 0.
     """
     if workers is not None and (not isinstance(workers, int) or isinstance(workers, bool) or workers < 0):
         raise ValueError(f"workers must be None or a whole number, at least 0 (got {workers!r})")
@@ -74,7 +74,7 @@ class Background:
 
     @property
     def share(self) -> float:
-        """The fraction of the kernels called so far that run compiled, from 0 to 1."""
+        """The compiled fraction, from 0 to 1, of the kernels that have been called so far."""
         return tiers.share_taken_over()
 
     @property
@@ -83,9 +83,10 @@ class Background:
         return not tiers.wanted and not self._expected and not self.workers.left
 
     def expect(self, jobs: Iterable[Mapping[str, Any]]) -> None:
-        """Announce worlds that will be made later. Their kernels are compiled when no other kernel waits.
+        """Announce worlds that will be made later. Their kernels are compiled when no called kernel waits.
 
-        jobs: dicts with the arguments of warmup, of values that JSON can represent; `effects` is a list of names.
+        jobs: a dict for each world, with the arguments of physics.warmup. All values must be representable in JSON;
+            `effects` is a list of names.
         """
         for job in jobs:
             self._expected.append((self._jobs, dict(job)))
@@ -93,7 +94,7 @@ class Background:
         self._wake.set()
 
     def stop(self) -> None:
-        """End the worker processes. Compiled kernels remain; every other kernel is compiled at its next call."""
+        """End the worker processes. Compiled kernels stay in use; each other kernel is compiled when next called."""
         self._stopped = True
         self._wake.set()
         self.workers.stop()
@@ -102,7 +103,10 @@ class Background:
             tiers.stop()
 
     def _work(self):
-        """Load called kernels from the store and have workers compile missing ones, until stop(). Runs in a thread."""
+        """Load called kernels from the store, and have workers compile missing kernels, until stop() is called.
+
+        This method runs in its own thread.
+        """
         if store().empty and self.workers.alive:  # nothing to load yet, so numba is not needed here
             self._wake.wait()
             if tiers.wanted:
@@ -133,7 +137,7 @@ class Background:
                     self._list(*self._expected.popleft())
 
     def _import(self):
-        """Import numba and start LLVM in this process. Return whether numba can be imported."""
+        """Import numba and initialise LLVM in this process. Return whether numba can be imported."""
         with short_turns():
             if compiler() is None:
                 return False
@@ -144,9 +148,10 @@ class Background:
         return True
 
     def _order_early(self, kernel, keys):
-        """Have a worker compile a kernel before numba is imported in this process. keys: types of its arguments.
+        """Have a worker compile a kernel while numba is not yet imported in this process.
 
-        Without numba, the name of the kernel's file in the store is not yet known here.
+        Without numba, this process cannot compute the name of the kernel's file in the store. keys: types of the
+        kernel's arguments.
         """
         each = kernel, keys
         self._seen.add(each)
@@ -171,7 +176,10 @@ class Background:
                 self._load([self._came.popleft()])
 
     def _find(self, kernel, keys):
-        """Load a called kernel from the store, or have a worker compile it. keys: types of its arguments."""
+        """Load a called kernel from the store; if it is missing there, have a worker or this thread compile it.
+
+        keys: types of the kernel's arguments.
+        """
         from physics.jit import compiling
 
         if (kernel, keys) in self._seen:
@@ -190,11 +198,12 @@ class Background:
                 self._take(*each, form)
 
     def _order(self, name, spec, keys, index):
-        """Have a worker compile a kernel: called kernels first, then announced kernels in the order of their jobs.
+        """Have a worker compile a kernel. Called kernels come first, then announced kernels in the order of their jobs.
 
         Among the called kernels, the kernel with the most run time per byte of code to compile comes first. This is
         Smith's rule (1956), which minimises the sum of the waiting times. name: name of the kernel's file in the store;
-        spec, keys: reference to the kernel and types of its arguments; index: number of the job.
+        spec, keys: reference to the kernel and types of its arguments; index: number of the announced job, 0 for a
+        called kernel.
         """
         if name in self._ordered:
             return
@@ -216,9 +225,10 @@ class Background:
         self.workers.add([Task(("compile", spec, keys), urgency, done)])
 
     def _urgency(self, waiting):
-        """Return the priority of the kernels `waiting` that wait for the same file.
+        """Return the compilation priority of kernels that all wait for the same file of the store.
 
-        It is 1 + (seconds for which they have run as plain Python) / (bytes of code that are not yet compiled).
+        It is 1 + (seconds that the kernels have run as plain Python) / (LINK + bytes of code not yet compiled).
+        waiting: pairs (kernel, types of its arguments).
         """
         code = LINK + code_of(waiting[0][0], self._compiled)
         return 1.0 + sum(kernel.seconds for kernel, _ in waiting) / code
@@ -246,9 +256,9 @@ class Background:
         tiers.arrived.append((kernel, keys, form))
 
     def _list(self, index, job):
-        """Have workers compile the kernels of a job, unless an earlier run of the program compiled all of them.
+        """Have workers compile the kernels of an announced job, unless an earlier run compiled all of them.
 
-        index: number of the job.
+        index: number of the job; job: arguments of physics.warmup, see expect.
         """
         mark = _mark(json.dumps(job, sort_keys=True))
         if store().has(mark) or not self.workers.alive:
@@ -264,9 +274,9 @@ class Background:
 
 
 def _mark(job):
-    """Return the name of a marker file in the store. job: a job of Background.expect as JSON text.
+    """Return the name of the marker file of a job in the store. job: a job of Background.expect, as JSON text.
 
-    The file exists if all kernels of the job have been compiled from these sources.
+    The file exists if all kernels of the job have been compiled from the present sources of the package.
     """
     from physics.jit.content import environment
 
@@ -285,9 +295,9 @@ def _sources():
 def compile_ahead(found: Iterable[tuple[Kernel, Keys]], progress: Progress | None = None) -> None:
     """Compile kernels in worker processes on all cores, and load them.
 
-    found: pairs (kernel, types of its arguments) as tiers.collecting() yields them. progress(done, total, name) is
-    called once for each kernel, with the number of kernels done before it. A kernel that no worker can compile is
-    compiled in this process.
+    found: pairs (kernel, types of its arguments), as yielded by tiers.collecting(). progress(done, total, name) is
+    called once for each kernel; `done` is the number of kernels that were compiled before it. A kernel that no worker
+    could compile is compiled in this process.
     """
     order = _spread(dict.fromkeys(found))
     if not order:
@@ -320,12 +330,12 @@ def compile_ahead(found: Iterable[tuple[Kernel, Keys]], progress: Progress | Non
 def compile_jobs(
     jobs: Iterable[Mapping[str, Any]], progress: Progress | None = None, processes: int | None = None
 ) -> None:
-    """Compile the kernels of physics.warmup(**job) for many jobs into the store, without loading them.
+    """Compile the kernels of physics.warmup(**job) for each job into the store, without loading them.
 
-    jobs: see Background.expect. progress(done, total, name) is called after each compiled kernel and each job, and
-    counts kernels; `total` grows as workers find the kernels of each job. A job is skipped if an earlier call compiled
-    all of its kernels. processes: number of workers; None: one for each core. Raises RuntimeError naming kernels that
-    could not be compiled.
+    jobs: see Background.expect. progress(done, total, name) is called after each compiled kernel and after each listed
+    job; done and total count kernels, and `total` grows as workers find the kernels of each job. A job is skipped if an
+    earlier call compiled all of its kernels. processes: number of workers; None: one for each core. Raises RuntimeError
+    with the names of kernels that could not be compiled.
     """
     if not JIT or compiler() is None:
         return
@@ -373,11 +383,11 @@ def compile_jobs(
 
 
 def _spread(found):
-    """Return the kernels in an order in which each adds as much code as possible that no earlier kernel contains.
+    """Return `found` as a list in which each next kernel adds the most code that no earlier kernel contains.
 
-    found: pairs (kernel, types of its arguments). Workers that take kernels in this order compile different parts of
-    the physics and seldom wait for each other. They wait for 1 % of their time, compared with 14 % if the kernel with
-    the most code came first (the platformer, two cores).
+    found: pairs (kernel, types of its arguments). In this order, the workers compile different parts of the physics at
+    the same time, and wait for each other 1 % of the time. In the order of code size they wait 14 % of the time (the
+    platformer, two cores).
     """
     left, order, covered = list(found), [], set()
     while left:

@@ -76,12 +76,12 @@ class Body(Handle):
 
     @property
     def bounds(self) -> tuple[float, float, float, float] | None:
-        """The AABB (min_x, min_y, max_x, max_y) [px] of all shapes at the present pose; None if they are empty."""
+        """The AABB (min_x, min_y, max_x, max_y) [px] of all shapes at the present pose; None if all are empty."""
         self._must_exist()
         return bounds_of(self.world, self.id)
 
     def to_world(self, point: Pair) -> Vec2:
-        """Return the world point [px] of a point of the body.
+        """Convert a point from body space to world space. Return (x, y) [px].
 
         point: (x, y) in body space [px].
 
@@ -92,7 +92,7 @@ class Body(Handle):
         return Vec2(x + u, y + v)
 
     def to_local(self, point: Pair) -> Vec2:
-        """Return the point in body space [px] of a world point.
+        """Convert a point from world space to body space. Return (x, y) [px].
 
         point: (x, y) in the world [px].
 
@@ -103,13 +103,13 @@ class Body(Handle):
         return Vec2(*rotate(u - x, v - y, math.cos(angle), -math.sin(angle)))
 
     def move_to(self, position: Pair, angle: float | None = None) -> None:
-        """Teleport the body. Nothing on the way is hit; the body and the island that it touched wake.
+        """Teleport the body to a pose, without collisions between the old and the new pose.
 
         position: new origin (x, y) [px].
         angle: new angle [rad]; None: unchanged.
 
-        Raises TypeError or ValueError for an argument of another type, or one that is not finite or too large,
-        ValueError for an angle other than 0 of a TileGrid.
+        The body wakes, and so do the islands that it touched. Raises TypeError for an argument of another type;
+        ValueError for a number that is not finite or too large, and for an angle other than 0 of a TileGrid.
         """
         teleport.move_to(
             self.world,
@@ -124,17 +124,17 @@ class Body(Handle):
         position: origin at the end of the step (x, y) [px].
         angle: angle at the end of the step [rad]; None: unchanged.
 
-        The velocity follows from the length of the next step. The body carries its riders and pushes other bodies on
-        its path. Afterwards it stands still until a new target is set. If a velocity is set or the body is teleported
-        before the next step, the target is cancelled. Raises TypeError for arguments of other types; ValueError for a
-        body that is not kinematic, for a position too far for the speed limit, and for a new angle without the effect
-        `rotation`.
+        The velocity is the distance divided by the length of the next step. The body carries the characters that stand
+        on it, and pushes other bodies out of its path. After the step its velocity is 0. Setting a velocity or
+        teleporting the body before the next step cancels the target. Raises TypeError for arguments of other types;
+        ValueError for a body that is not kinematic, for a position that would need more than the speed limit, and for
+        a new angle without the effect `rotation`.
         """
         step.set_target(self.world, self.id, position, angle)
 
     @property
     def joints(self) -> tuple[Joint, ...]:
-        """The joints of the body, in the order of ids."""
+        """The joints of the body, in ascending order of joint ids."""
         self._must_exist()
         joints = self.world.joints
         mine = (joints["body_a"] == self.id) | (joints["body_b"] == self.id)
@@ -188,7 +188,7 @@ class Body(Handle):
 
     @property
     def awake(self) -> bool:
-        """Whether the body is awake. A sleeping body is left out of the steps until something wakes it."""
+        """Whether the body is awake. Steps skip a sleeping body until it is woken, for example by a contact."""
         return self._value("awake")
 
     @property
@@ -208,7 +208,7 @@ class Body(Handle):
         return 0.5 * mass * (vx * vx + vy * vy) + 0.5 * inertia * spin * spin
 
     def velocity_at(self, point: Pair) -> Vec2:
-        """Return the velocity (x, y) [px/s] of the body at a point.
+        """Return the velocity (x, y) [px/s] of the material point of the body that is at a world point.
 
         point: (x, y) in the world [px].
 
@@ -219,10 +219,10 @@ class Body(Handle):
         return Vec2(vx - spin * (y - cy), vy + spin * (x - cx))
 
     def apply_force(self, force: Pair, point: Pair | None = None) -> None:
-        """Add a force for the next step.
+        """Add a force that acts on the body during the next step.
 
         force: (x, y) [mass px/s²].
-        point: where it acts, in the world (x, y) [px]; None: at the centre of mass.
+        point: point of application (x, y) in the world [px]; None: the centre of mass.
 
         Raises TypeError for arguments of other types; ValueError for numbers that are not finite, for a body that is
         not dynamic, and in a world with none of the effects `response`, `gravity`, `drag` and `wind`.
@@ -242,11 +242,11 @@ class Body(Handle):
             ) * force[0]
 
     def apply_impulse(self, impulse: Pair, point: Pair | None = None) -> None:
-        """Add an impulse: the velocity changes at once, by impulse / mass.
+        """Apply an impulse, which changes the velocity immediately by impulse / mass.
 
         impulse: (x, y) [mass px/s].
-        point: where it acts, in the world (x, y) [px]; with the effect `rotation` it also changes the angular velocity.
-            None: at the centre of mass.
+        point: point of application (x, y) in the world [px]; None: the centre of mass. With a point and the effect
+            `rotation`, the angular velocity changes too.
 
         Raises TypeError for arguments of other types, ValueError for numbers that are not finite and for a body that is
         not dynamic.
@@ -268,7 +268,7 @@ class Body(Handle):
             )
 
     def apply_torque(self, torque: float) -> None:
-        """Add a torque for the next step.
+        """Add a torque that acts on the body during the next step.
 
         torque: [mass px²/s²], positive clockwise on the screen.
 
@@ -283,7 +283,7 @@ class Body(Handle):
         columns["torque"][row] += torque
 
     def _dynamic(self, what) -> tuple[int, dict[str, Any]]:
-        """Return (row number, columns) of this body, which must be dynamic. Raises ValueError if it is not.
+        """Return (row number of this body, columns of world.bodies by name). Raises ValueError if it is not dynamic.
 
         what: name of the operation, for the message.
         """
@@ -296,9 +296,9 @@ class Body(Handle):
 
     @property
     def contacts(self) -> ContactRows:
-        """A copy of the CONTACT_POINT rows in which this body takes part, in the order of shape ids.
+        """The contact points of this body as a copy of their CONTACT_POINT rows, in the order of shape ids.
 
-        They are contacts of the last step, and contacts of sleeping bodies.
+        They include the contacts of the last step and, if the body sleeps, its stored contacts.
         """
         world, row = self.world, self._row
         points = world.contacts
@@ -312,14 +312,14 @@ class Body(Handle):
 
         shape: a Circle, Capsule, Polygon or PixelMask.
         pose: pose of the shape in the world, (x, y) or (x, y, angle) [px, rad].
-        crumb: separated pieces of fewer pixels are removed, a whole number >= 0.
+        crumb: separated pieces with fewer pixels than this are deleted, a whole number >= 0.
 
         Pieces are 8-connected. In a dynamic body, each carved mask keeps only its largest piece. In a body of another
-        kind, pieces that were separate before the cut stay, and a piece that splits keeps its largest part. On ties,
-        the piece with the first pixel stays. The other pieces become dynamic bodies, whose pixels keep their
-        velocities. The body is removed if no shape is left, or if it is dynamic and no mask is left. Bodies that touch
-        carved pixels wake. Raises TypeError for an argument of another type, ValueError without the effect `carving`,
-        for a body without a PixelMask and for a pose or crumb out of range, RuntimeError during a step.
+        kind, pieces that were separate before the cut stay, and a piece that splits keeps its largest part. Of equally
+        large pieces, the one with the first pixel stays. The other pieces become dynamic bodies; their pixels keep
+        their velocities. The body is removed if it has no shape left, or if it is dynamic and has no mass left. Bodies
+        that touch carved pixels wake. Raises TypeError for an argument of another type, ValueError without the effect
+        `carving`, for a body without a PixelMask and for a pose or crumb out of range, RuntimeError during a step.
         """
         self._must_exist()
         found = carving.carve(self.world, self.id, shape, pose, crumb)
@@ -332,7 +332,7 @@ class Body(Handle):
         sleep.disturb(self.world, [self.id])
 
     def set_kind(self, kind: KindName) -> None:
-        """Set the kind. A body that becomes static stops.
+        """Set the kind of the body. The velocities of a body that becomes static are set to 0.
 
         kind: "static", "kinematic" or "dynamic".
 
@@ -342,7 +342,11 @@ class Body(Handle):
         edit.set_kind(self.world, self.id, checks.choice("kind", kind, KINDS))
 
     def restore(self) -> None:
-        """Put a quarantined body back into the simulation, at rest at its last finite pose. Otherwise do nothing."""
+        """Add a quarantined body to the simulation again, at rest at its last finite pose.
+
+        A body is quarantined (disabled) when one of its numbers is not finite or out of range. Other bodies are
+        unchanged.
+        """
         edit.restore(self.world, self.id)
 
     def remove(self) -> None:
@@ -353,12 +357,12 @@ class Body(Handle):
 
     @property
     def kind(self) -> KindName:
-        """The kind: "static" (never moves), "kinematic" (moves by its velocity alone) or "dynamic". See set_kind."""
+        """The kind: "static" (never moves), "kinematic" (moves only by its velocity) or "dynamic". See set_kind."""
         return KINDS[self._value("kind")]
 
     @property
     def user(self) -> Any:
-        """A value that belongs to the game. Snapshots and digests do not contain it."""
+        """Any value that the caller attaches to the body. Snapshots and digests do not contain it."""
         self._must_exist()
         return self._world._users.get(self._id)
 
@@ -389,9 +393,9 @@ class Body(Handle):
 
     @property
     def sensor(self) -> bool:
-        """Whether the shapes without a sensor value of their own are sensors: they report overlaps and do not push.
+        """Whether the shapes without a sensor value of their own are sensors, which report overlaps and do not push.
 
-        The mass of sensors counts. Setting True raises ValueError without the effect `sensors`.
+        Sensors count towards the mass of the body. Setting True raises ValueError without the effect `sensors`.
         """
         return self._definitions["sensor"].item()
 
@@ -403,7 +407,7 @@ class Body(Handle):
 
     @property
     def gravity_scale(self) -> float:
-        """Factor on the world's gravity."""
+        """Factor by which the world's gravity is multiplied for this body."""
         return self._value("gravity_scale")
 
     @gravity_scale.setter
@@ -430,8 +434,8 @@ class Body(Handle):
     def bullet(self) -> bool:
         """Whether the body is also swept against other dynamic bodies, so that it cannot pass through them.
 
-        A solver that does not stack sweeps all pairs of dynamic bodies. Setting True raises ValueError without the
-        effect `continuous`.
+        A solver that does not stack ("projection", "blocking") ignores this value and sweeps all pairs of dynamic
+        bodies. Setting True raises ValueError without the effect `continuous`.
         """
         return self._value("bullet")
 
@@ -443,11 +447,12 @@ class Body(Handle):
 
     @property
     def continuous(self) -> ContinuousName:
-        """Which path of the body is tested for impacts, so that it cannot pass through others in one step.
+        """The mode of continuous collision, which stops the body at its first impact in a step.
 
-        "off": none. "ray": the line of its centre, cheapest. "swept": its shapes without their rotation. "toi": its
-        shapes with their rotation (time of impact). "auto": as "toi", only in steps in which it moves by more than half
-        its size. Setting "ray", "swept" or "toi" raises ValueError without the effect `continuous`.
+        "off": no test. "ray": test the path of the centre, the cheapest mode. "swept": test the path of the shapes
+        without rotation. "toi": test the path of the shapes with rotation (time of impact). "auto": as "toi", but only
+        in steps in which the body moves by more than half its size. Setting "ray", "swept" or "toi" raises ValueError
+        without the effect `continuous`.
         """
         return CONTINUOUS[self._value("continuous")]
 
@@ -457,7 +462,7 @@ class Body(Handle):
 
     @property
     def fixed_rotation(self) -> bool:
-        """Whether contacts and impulses leave the rotation unchanged. Setting True stops the rotation."""
+        """Whether contacts and impulses leave the angular velocity unchanged. Setting True also sets it to 0."""
         return self._value("fixed_rotation")
 
     @fixed_rotation.setter
@@ -478,13 +483,13 @@ class Body(Handle):
         return edit.shape_ids(self.world, self.id)
 
     def set_shapes(self, *shapes: Shape) -> None:
-        """Replace the shapes. The body keeps its own values, such as its material; Body.tier becomes None.
+        """Replace the shapes of the body. Values of the body, such as its material, stay; Body.tier becomes None.
 
         *shapes: the new shapes.
 
-        The new shapes get new ids, with one exception: if all old and all new shapes are masks, and there are equally
-        many, the ids stay. Contacts on unchanged surface keep their impulses. Raises TypeError for values that are not
-        shapes, ValueError for shapes that a body of this kind cannot have.
+        The new shapes get new ids. Exception: the ids stay if all old and new shapes are masks and their number is
+        unchanged. Contacts on surface that did not change keep their impulses. Raises TypeError for values that are
+        not shapes, ValueError for shapes that a body of this kind cannot have.
         """
         edit.set_shapes(self.world, self.id, shapes)
 
@@ -494,14 +499,14 @@ class Body(Handle):
         cells: (n, 2) int, (column, row) of each cell.
         solid: a bool, or one bool for each cell.
 
-        A one-way cell or a slope also becomes solid or empty. The shape keeps its id. Only bodies that touch a changed
-        cell wake; for all other bodies, no event begins or ends. Raises TypeError for values of other types, and
-        ValueError for a cell outside the grid or for a body that does not have exactly one TileGrid.
+        A one-way cell or a slope becomes an ordinary solid or empty cell. The shape keeps its id. Only bodies that
+        touch a changed cell wake; no other body gets begin or end events. Raises TypeError for values of other types,
+        and ValueError for a cell outside the grid or for a body that does not have exactly one TileGrid.
         """
         edit.exchange_cells(self.world, self.id, cells, solid)
 
     def add_shape(self, shape: Shape) -> int:
-        """Append a shape, and recompute the mass. Return the id of the shape. Body.tier becomes None.
+        """Append a shape to the body and recompute the mass. Return the id of the shape. Body.tier becomes None.
 
         shape: the new shape, in body space.
 
@@ -510,21 +515,21 @@ class Body(Handle):
         return edit.add_shape(self.world, self.id, shape)
 
     def remove_shape(self, shape_id: int) -> None:
-        """Remove a shape, and recompute the mass. Body.tier becomes None.
+        """Remove a shape from the body and recompute the mass. Body.tier becomes None.
 
-        shape_id: one of shape_ids.
+        shape_id: id of the shape, one of shape_ids.
 
         Raises KeyError if shape_id is not the id of a shape of this body, TypeError if it is not a whole number,
-        ValueError if a body of this kind cannot be left with the other shapes.
+        ValueError if a body of this kind cannot have only the remaining shapes.
         """
         edit.remove_shape(self.world, self.id, shape_id)
 
     @property
     def tier(self) -> TierName | None:
-        """How the body's PixelMask is simplified: one of TIERS, such as "hull"; None if its given shapes are used.
+        """The simplification of the body's PixelMask: one of TIERS, such as "hull"; None if it is not simplified.
 
-        Setting it replaces the shapes of the body by those of physics.fit for the mask. Raises ValueError for an
-        unknown tier, and for a body that was not made from one PixelMask.
+        Setting a tier replaces the shapes of the body by physics.fit(mask, tier). Raises ValueError for an unknown
+        tier, and for a body that was not made from exactly one PixelMask.
         """
         self._must_exist()
         return self.world._tiers.get(self.id)
@@ -540,15 +545,15 @@ class Body(Handle):
         return self.world._body_row(self.id)
 
     def _value(self, name: str) -> Any:
-        """Return a value of the body's BODY row as a Python number.
+        """Return the value of a column in the body's BODY row, as a Python number. name: name of the column.
 
-        The value is read from its column, in a tenth of the time that reading the row takes.
+        Reading the column takes a tenth of the time of reading the row.
         """
         world = self._world
         return world._bodies.columns[name][world._row_at(self._id)]
 
     def _values(self, *names: str) -> list[Any]:
-        """Return several values of the body's BODY row as Python numbers."""
+        """Return the values of the named columns in the body's BODY row, as Python numbers in the order of `names`."""
         world = self._world
         row, columns = world._row_at(self._id), world._bodies.columns
         return [columns[name][row] for name in names]
@@ -560,7 +565,7 @@ class Body(Handle):
 
     @property
     def _definitions(self) -> np.void:
-        """The body's BODY_DEF row."""
+        """The body's BODY_DEF row: given mass, material, filter and sensor flag."""
         return self.world._definitions.rows[self.world._row_number(self.id)]
 
     def _must_exist(self) -> None:
@@ -568,9 +573,9 @@ class Body(Handle):
         self._world._row_at(self._id)
 
     def _stir(self, row: int) -> int:
-        """Wake the body with this row number, and set its sleep time to 0.
+        """Wake this body and set its sleep time to 0. row: its row number in world.bodies.
 
-        Return its new row number, because waking may drop the rows of removed bodies.
+        Return its row number afterwards, which may differ, because waking may drop the rows of removed bodies.
         """
         columns = self._world._bodies.columns
         if not columns["awake"][row]:

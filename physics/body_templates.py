@@ -1,8 +1,8 @@
 """Templates: copies of the rows of an added body, reused for further bodies with the same shapes and values.
 
-add_rows of edit.py checks all arguments and computes the rows of a body: mass, geometry, proxies of the broad phase.
-For a further body with equal arguments only pose and velocity differ. A template keeps the other values, so that only
-pose and velocity are checked and written. Unusual arguments go through add_rows, which raises the errors.
+edit.add_rows checks all arguments of a new body and computes its rows: mass, geometry, proxies of the broad phase. For
+a further body with equal arguments, only pose and velocity differ. A template stores the other values, so only pose
+and velocity are checked and written. Unusual arguments are passed to edit.add_rows, which raises the errors.
 """
 
 from collections.abc import Sequence
@@ -27,7 +27,7 @@ POSE = tuple((name, kept + name) for kept in ("previous_", "still_", "rocking_")
 
 
 class Definition(TypedDict, total=False):
-    """The fields of BodyDef as keyword arguments of World.add_bodies."""
+    """The keyword arguments of World.add_bodies that describe a body, with the names of the fields of edit.BodyDef."""
 
     kind: KindName
     angular_velocity: float
@@ -45,9 +45,9 @@ class Definition(TypedDict, total=False):
 
 
 class Template(NamedTuple):
-    """The rows of a body, to be copied for further bodies, and the state of the world for which they are valid.
+    """The rows of a body, which are copied for each further body with equal arguments except pose and velocity.
 
-    Pose and velocity are not copied.
+    The first three fields are the settings of the world for which the rows are valid.
     """
 
     effects: Effects
@@ -73,7 +73,10 @@ def key_of(
     gravity_scale: Any,
     allow_sleep: Any,
 ) -> tuple | None:
-    """Return the key of the template for these arguments of add_body; None if an argument has an unusual type."""
+    """Return the key under which the template for these arguments of World.add_body is stored.
+
+    The result is None if an argument has an unusual type; then no template is used.
+    """
     plain = (
         type(kind) is type(continuous) is str
         and type(sensor) is type(bullet) is type(fixed_rotation) is type(allow_sleep) is bool
@@ -89,10 +92,10 @@ def key_of(
 
 
 def find(world: WorldState, key: tuple | None) -> Template | None:
-    """Return the template stored under `key`; None if there is none, or if it does not fit the world any more.
+    """Return the template stored under `key`, or None if there is no valid one.
 
-    A template fits while the world has the effects, the library and the setting of sleeping with which it was stored.
-    The key None has no template.
+    A template is valid while the world's effects, its library and its value of `sleeps` are the same as when the
+    template was stored. The result for the key None is None.
     """
     try:
         found = world._templates.get(key)
@@ -104,9 +107,9 @@ def find(world: WorldState, key: tuple | None) -> Template | None:
 
 
 def keep(world: WorldState, key: tuple | None, shapes: Sequence[Shape]) -> None:
-    """Make a template from the rows of the last body of the world, and store it under `key` (None: do nothing).
+    """Store a template under `key`, made from the rows of the body that was added last.
 
-    shapes: the shapes of this body.
+    Do nothing if the key is None, or if a shape cannot rotate (TileGrid). shapes: the shapes of this body.
     """
     if key is None or not all(shape._may_turn for shape in shapes):
         return
@@ -128,9 +131,10 @@ def keep(world: WorldState, key: tuple | None, shapes: Sequence[Shape]) -> None:
 def add_like(
     world: WorldState, template: Template, shapes: tuple, position: Vec2, velocity: Vec2, angle: float, spin: float
 ) -> int:
-    """Add a body with the rows of a template. Return its id, or -1 if it must be added by add_rows instead.
+    """Add a body with the rows of a template, and return the body's id.
 
-    shapes: the shapes of the body; position [px]; velocity [px/s]; angle [rad]; spin [rad/s].
+    If the template cannot be used, add nothing and return -1; the caller then calls edit.add_rows. shapes: the shapes
+    of the body; position (x, y) [px]; velocity (x, y) [px/s]; angle [rad]; spin: angular velocity [rad/s].
     """
     parts, free = template.shapes, world.pairs.free
     moves = spin != 0.0 or velocity != (0.0, 0.0)
@@ -164,7 +168,7 @@ def add_like(
 def _add_shapes(world, parts, identity, at):
     """Append the SHAPE rows of a body and add their proxies.
 
-    parts: Template.shapes; identity, at: id and row number of the body.
+    parts: Template.shapes; identity: id of the body; at: row number of the body.
     """
     pairs, first = world.pairs, world._next_shape
     world._next_shape += len(parts)

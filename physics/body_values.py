@@ -1,4 +1,4 @@
-"""The values of a body are read and changed here: material, filter, sensor flag, continuous mode, fixed rotation."""
+"""Getters and setters of a body's values: material, filter, sensor flag, continuous mode, fixed rotation."""
 
 import numpy as np
 
@@ -12,30 +12,30 @@ from physics.world_state import WorldState
 
 
 def _own_rows(world, at, own) -> np.ndarray:
-    """Return the row numbers of a body's shapes without a value of their own.
+    """Return the SHAPE row numbers of the shapes of a body that have no value of their own and use the body's value.
 
-    at: row of the body; own: which value, "own_material", "own_filter" or "own_sensor".
+    at: row number of the body; own: SHAPE column of the value, "own_material", "own_filter" or "own_sensor".
     """
     rows = world._shape_rows(at)
     return rows[~world.shapes[own][rows]]
 
 
 def material_of(world: WorldState, identity: int) -> Material:
-    """Return the material of a body. Shapes without a material of their own have it. identity: id of the body."""
+    """Return the material of a body, which its shapes without a material of their own use. identity: id of the body."""
     given = world._definitions.rows[world._row_number(identity)]
     return Material(*(given[name].item() for name in MATERIALS))
 
 
 def filter_of(world: WorldState, identity: int) -> Filter:
-    """Return the collision filter of a body. Shapes without a filter of their own have it. identity: id of the body."""
+    """Return the filter of a body, which its shapes without a filter of their own use. identity: id of the body."""
     given = world._definitions.rows[world._row_number(identity)]
     return Filter(given["membership"].item(), given["mask"].item())
 
 
 def set_material(world: WorldState, identity: int, value: Material) -> None:
-    """Set the material of a body. Shapes without a material of their own get it.
+    """Set the material of a body and of its shapes that have no material of their own. Recompute the mass.
 
-    Raises TypeError for anything but a Material.
+    identity: id of the body. Raises TypeError if value is not a Material.
     """
     world._unlocked()
     value = checked_material(value)
@@ -47,9 +47,9 @@ def set_material(world: WorldState, identity: int, value: Material) -> None:
 
 
 def set_filter(world: WorldState, identity: int, value: Filter) -> None:
-    """Set the filter of a body. Shapes without a filter of their own get it.
+    """Set the collision filter of a body and of its shapes that have no filter of their own. Wake the body.
 
-    Raises TypeError for anything but a Filter.
+    identity: id of the body. Raises TypeError if value is not a Filter.
     """
     world._unlocked()
     value = checked_filter(value)
@@ -63,9 +63,9 @@ def set_filter(world: WorldState, identity: int, value: Filter) -> None:
 
 
 def set_sensor(world: WorldState, identity: int, value: bool) -> None:
-    """Set whether the shapes of a body without a sensor value of their own are sensors.
+    """Set the sensor flag of a body and of its shapes that have no sensor flag of their own. Wake the body.
 
-    Raises the errors of checked_sensor.
+    identity: id of the body; value: True for sensors. Raises the errors of edit.checked_sensor.
     """
     world._unlocked()
     value = checked_sensor(world, value)
@@ -78,16 +78,16 @@ def set_sensor(world: WorldState, identity: int, value: bool) -> None:
 
 
 def set_continuous(world: WorldState, identity: int, value: ContinuousName) -> None:
-    """Set the mode of continuous collision of a body. Raises the errors of checked_continuous."""
+    """Set the mode of continuous collision of a body (id). Raises the errors of edit.checked_continuous."""
     world._unlocked()
     swept, row = checked_continuous(world, value), world._body_row(identity)
     row["continuous"] = swept
 
 
 def set_fixed_rotation(world: WorldState, identity: int, value: bool) -> None:
-    """Set whether impulses leave the rotation unchanged. True also stops the rotation.
+    """Set whether contacts and impulses leave the angular velocity of a body unchanged. True also sets it to 0.
 
-    Raises TypeError for anything but a bool. identity: id of the body.
+    identity: id of the body. Raises TypeError if value is not a bool.
     """
     world._unlocked()
     value, row = checks.flag("fixed_rotation", value), world._body_row(identity)

@@ -1,4 +1,4 @@
-"""Carving: pixels of a body's masks are removed, and pieces that are separated from the rest become bodies."""
+"""Carving: removal of pixels from a body's masks. Pieces that are separated by the cut become bodies."""
 
 import math
 from typing import Any, NamedTuple
@@ -21,9 +21,9 @@ from physics.world_state import WorldState
 class Carved(NamedTuple):
     """The result of Body.carve.
 
-    removed: number of pixels that lay in the shape and were removed.
-    fragments: Bodies of the separated pieces, by mask, and for each mask by their first pixels.
-    crumbs: number of pixels of separated pieces that were too small and were removed.
+    removed: number of pixels that were removed because they were inside the shape.
+    fragments: Bodies of the separated pieces, in the order of masks, and for each mask in the order of first pixels.
+    crumbs: number of pixels that were removed because their separated piece was too small.
     """
 
     removed: int
@@ -32,10 +32,10 @@ class Carved(NamedTuple):
 
 
 def carve(world: WorldState, identity: int, shape: object, pose: object, crumb: object) -> Carved:
-    """Remove from a body's masks all pixels with centres inside a shape at a world pose, or on its boundary.
+    """Remove from a body's masks all pixels whose centres are inside a shape or on its boundary. Return a Carved.
 
-    identity: id of the body. The other arguments, the errors and the result are as in Body.carve, except that
-    `fragments` holds ids instead of Bodies.
+    identity: id of the body. The other arguments, the errors and the result are those of Body.carve, except that
+    Carved.fragments holds ids instead of Bodies.
     """
     world._unlocked()
     world._needs("carving", "carve", True)
@@ -72,10 +72,10 @@ def carve(world: WorldState, identity: int, shape: object, pose: object, crumb: 
 
 
 def _tool_in(mask, frame, shape, pose):
-    """Return (tool, box): a function that finds the pixels of a mask tile inside a shape, and the shape's AABB.
+    """Return (tool, box): a function that finds the pixels inside a shape in one tile of a mask, and the shape's AABB.
 
-    tool: see pixel_tiles.Tool. box [px]: the AABB in the raster of the mask. frame, pose: poses of the mask's body and
-    of the shape in the world.
+    tool: see pixel_tiles.Tool; box: (min_x, min_y, max_x, max_y) [px] in the raster of the mask. frame: pose
+    (x, y, angle) of the mask's body in the world; pose: pose of the shape in the world.
     """
     corners = shape.points if shape._is_convex else rectangle(*(shape.bounds or (0.0, 0.0, 0.0, 0.0)))
     radius = shape.radius if shape._is_convex else 0.0
@@ -91,15 +91,19 @@ def _tool_in(mask, frame, shape, pose):
 
 
 def _in_raster(mask, frame, x, y):
-    """Return the position (x, y) [px] of a world point in the raster of a mask. frame: pose of the mask's body."""
+    """Convert a world point (x, y) [px] to coordinates (x, y) [px] in the raster of a mask.
+
+    frame: pose (x, y, angle) of the mask's body.
+    """
     u, v = rotate(x - frame[0], y - frame[1], math.cos(frame[2]), -math.sin(frame[2]))
     return u + mask.origin[0], v + mask.origin[1]
 
 
 def _mask_tool(mask, frame, shape, pose) -> Tool:
-    """Return a Tool (see pixel_tiles) that finds the pixels of `mask` with centres in solid pixels of `shape`, a mask.
+    """Return a Tool (see pixel_tiles) that finds the pixels of one mask whose centres are in solid pixels of another.
 
-    frame, pose: poses of the body of `mask` and of `shape` in the world.
+    mask: the carved mask; shape: the other mask; frame: pose (x, y, angle) of the body of `mask`; pose: pose of `shape`
+    in the world.
     """
     turn = frame[2] - pose[2]
     cosine, sine = math.cos(turn), math.sin(turn)
@@ -118,10 +122,10 @@ def _mask_tool(mask, frame, shape, pose) -> Tool:
 
 
 def _shrink(world: WorldState, identity: int, cuts: dict[int, Cut], given: "_Given") -> None:
-    """Replace the carved masks of a body (id) by their remaining pixels.
+    """Replace each carved mask of a body (id) by a mask of its remaining pixels, and remove empty masks.
 
-    cuts: the Cut of each carved mask; given: the motion and density of the body before the cut. Empty masks are
-    removed. The body is removed if it has no shape left, or if it is dynamic and has no mass left.
+    The body is removed if it has no shape left, or if it is dynamic and has no mass left. cuts: {index of a carved
+    mask in the body's shapes: its Cut}; given: the motion and density of the body before the cut.
     """
     shapes, ids = world._shapes_of[identity], edit.shape_ids(world, identity)
     empty = [at for at, each in cuts.items() if not len(each.tiles.nodes)]
@@ -145,7 +149,7 @@ def _shrink(world: WorldState, identity: int, cuts: dict[int, Cut], given: "_Giv
 
 
 class _Given(NamedTuple):
-    """The motion and density of a carved body, which its fragments inherit."""
+    """The centre of mass, velocities, mass ratio and density of a body before it is carved, for its fragments."""
 
     center: tuple[float, float]
     velocity: tuple[float, float]
@@ -164,7 +168,7 @@ def _motion_and_weight(world, identity) -> _Given:
 
 
 def _values_of(world, identity) -> edit.BodyDef:
-    """Return the BodyDef of fragments: all values that they inherit from the carved body, except the mass."""
+    """Return the BodyDef of the fragments of a carved body (id): all values that they inherit, except the mass."""
     row, given = world._body_row(identity), world._definitions.rows[world._row_number(identity)]
     return edit.BodyDef(
         angular_velocity=row["angular_velocity"].item(),
@@ -180,10 +184,10 @@ def _values_of(world, identity) -> edit.BodyDef:
 
 
 def _add_fragment(world, mask: PixelMask, loose: Loose, frame, given: _Given, wanted: edit.BodyDef) -> int:
-    """Add a body for a loose piece of a mask. Its pixels keep their places and velocities. Return the body's id.
+    """Add a body for a separated piece of a carved mask, and return the body's id.
 
-    mask: the carved mask; loose: the piece; frame: pose (x, y, angle) of the carved body; given: motion and density of
-    the carved body; wanted: definition of the new body.
+    The pixels of the piece keep their positions and velocities. mask: the carved mask; loose: the piece; frame: pose
+    (x, y, angle) of the carved body; given: motion and density of the carved body; wanted: definition of the new body.
     """
     # The origin of the fragment is a corner of the mask's pixel grid near the middle of the piece, so that its pixels
     # stay on whole pixels.

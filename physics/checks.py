@@ -1,4 +1,4 @@
-"""Checks of arguments. Each message names the argument, its value and the allowed values."""
+"""Checks of arguments. Each error message contains the argument's name, its value and the allowed values."""
 
 import math
 import numbers
@@ -19,10 +19,10 @@ EXACT = 2**53  # all whole numbers below it have an exact float
 def number(
     name: str, value: Any, low: float | None = None, above: float | None = None, high: float | None = None
 ) -> float:
-    """Return a value as a finite float that is >= low, > above and <= high. None means no such limit.
+    """Convert a value to a float, and return it. It must be finite, >= low, > above and <= high.
 
-    name: the argument's name for messages. Raises TypeError for a value that is not a real number or is a bool, and
-    ValueError for a number outside the limits.
+    A limit of None is not tested. name: the argument's name, for messages. Raises TypeError for a value that is not a
+    real number or is a bool, and ValueError for a number outside the limits.
     """
     if type(value) is float and value - value == 0.0 and low is above is high is None:
         return value
@@ -50,10 +50,11 @@ def number(
 
 
 def seconds(name: str, value: Any, low: float | None = None, above: float | None = None) -> float:
-    """Return a length of time [s] as a finite float that is >= low and > above.
+    """Convert a duration [s] to a float, and return it. It must be finite, >= low and > above (None: not tested).
 
-    A whole number that is not a float, such as the 16 of pygame's Clock.tick(), is refused from MILLISECONDS on. name:
-    the argument's name for messages. Raises TypeError for a value that is not a number, and ValueError otherwise.
+    An int of at least MILLISECONDS, such as 16 from pygame's Clock.tick(), raises ValueError, because it is probably in
+    milliseconds. name: the argument's name, for messages. Raises TypeError for a value that is not a number, ValueError
+    for a number outside the limits.
     """
     found = number(name, value, low, above)
     if isinstance(value, numbers.Integral) and found >= MILLISECONDS:
@@ -65,10 +66,10 @@ def seconds(name: str, value: Any, low: float | None = None, above: float | None
 
 
 def known_attribute(thing: Any, name: str, value: Any, strict: bool) -> None:
-    """Raise AttributeError if the missing attribute `name` resembles an existing one, and suggest that one.
+    """Raise AttributeError if the missing attribute `name` is similar to an existing attribute, and suggest that one.
 
-    thing: the object; value: the value to set; strict: raise the error also if no existing name is similar, and suggest
-    what hints.ASSIGNED has for the name, or for a name there that resembles it more than the existing ones.
+    thing: the object; value: the value that was to be set. strict: True raises the error for every missing name; the
+    suggestion is then the most similar name among the existing attributes and those in hints.ASSIGNED.
     """
     public = {each for each in {*dir(type(thing)), *getattr(thing, "__dict__", ())} if not each.startswith("_")}
     foreign = hints.assigned_to(thing) if strict else {}
@@ -80,9 +81,10 @@ def known_attribute(thing: Any, name: str, value: Any, strict: bool) -> None:
 
 
 def settable_attribute(thing: Any, name: str, value: Any) -> None:
-    """Raise AttributeError for a property without a setter, and suggest what hints.ASSIGNED has for it.
+    """Raise AttributeError if an attribute is a property without a setter. Otherwise do nothing.
 
-    thing: the object; value: the value to set.
+    The message suggests the replacement in hints.ASSIGNED. thing: the object; name: the attribute; value: the value
+    that was to be set.
     """
     found = getattr(type(thing), name, None)
     if isinstance(found, property) and found.fset is None:
@@ -91,9 +93,9 @@ def settable_attribute(thing: Any, name: str, value: Any) -> None:
 
 
 def set_known(thing: Any, name: str, value: Any) -> None:
-    """Set an attribute of an object with slots.
+    """Set the attribute `name` of an object with slots.
 
-    Raises AttributeError for an unknown or a read-only name, and suggests what to write.
+    Raises AttributeError for an unknown or read-only attribute; the message suggests a replacement.
     """
     try:
         object.__setattr__(thing, name, value)
@@ -109,9 +111,9 @@ Made = TypeVar("Made", bound=type)
 
 
 def setting_by(set_attribute: Callable[[Any, str, Any], None]) -> Callable[[Made], Made]:
-    """Return a class decorator that makes a function the `__setattr__` of a class.
+    """Return a class decorator that sets the function `set_attribute` as the `__setattr__` of the class.
 
-    A `__setattr__` in the class itself would tell type checkers that any attribute can be set.
+    With a `__setattr__` in the class body, type checkers would accept the assignment of any attribute.
     """
 
     def decorate(made: Made) -> Made:
@@ -122,14 +124,14 @@ def setting_by(set_attribute: Callable[[Any, str, Any], None]) -> Callable[[Made
 
 
 class NoSuchId(KeyError, ValueError):
-    """Error for an id that no body, shape or joint has. It is both a KeyError and a ValueError."""
+    """An error for an id that no body, shape or joint has. It is both a KeyError and a ValueError."""
 
     def __str__(self) -> str:
         return str(self.args[0])  # str() of a KeyError puts its message in quotes
 
 
 def vector(name: str, value: Any) -> Vec2:
-    """Return a pair of numbers as a Vec2 of finite floats.
+    """Convert a pair of numbers to a Vec2 of finite floats, and return it.
 
     Raises TypeError for a value that is not a pair of numbers, and ValueError for a number that is not finite. name:
     name of the argument, for messages.
@@ -153,10 +155,10 @@ def vector(name: str, value: Any) -> Vec2:
 
 
 def position(name: str, value: Any) -> Vec2:
-    """Return a pair of numbers as a Vec2 whose coordinates [px] are within POSITION_LIMIT.
+    """Convert a pair of coordinates [px] to a Vec2, and return it. Both must be below POSITION_LIMIT in magnitude.
 
-    Up to this limit a double resolves a pixel. Raises TypeError for a value that is not a pair of numbers, and
-    ValueError for a coordinate at or beyond the limit. name: name of the argument, for messages.
+    Below this limit, adjacent doubles differ by less than a pixel. Raises TypeError for a value that is not a pair of
+    numbers, and ValueError for a coordinate at or beyond the limit. name: name of the argument, for messages.
     """
     found = vector(name, value)
     if max(abs(found[0]), abs(found[1])) >= POSITION_LIMIT:
@@ -165,10 +167,10 @@ def position(name: str, value: Any) -> Vec2:
 
 
 def ids(name: str, value: Any, repeats: bool = False) -> np.ndarray:
-    """Return ids as a flat int64 array.
+    """Convert ids to a one-dimensional int64 array, and return it.
 
-    Raises TypeError for values that are not whole numbers, and ValueError for a repeated id unless `repeats` is True.
-    name: name of the argument, for messages.
+    repeats: whether an id may occur more than once. Raises TypeError for values that are not whole numbers, and
+    ValueError for a repeated id if `repeats` is False. name: name of the argument, for messages.
     """
     array = np.asarray(value)
     if array.size and array.dtype.kind not in "iu":
@@ -180,7 +182,7 @@ def ids(name: str, value: Any, repeats: bool = False) -> np.ndarray:
 
 
 def whole(name: str, value: Any, low: int, high: int) -> int:
-    """Return a value as an int from low to high, inclusive.
+    """Convert a whole number to an int, and return it. It must be from low to high, both included.
 
     Raises TypeError for a value that is not a whole number or is a bool, and ValueError for a number outside the
     limits. name: name of the argument, for messages.
@@ -195,7 +197,7 @@ def whole(name: str, value: Any, low: int, high: int) -> int:
 
 
 def flag(name: str, value: Any) -> bool:
-    """Return True or False as a bool.
+    """Convert True or False, as a bool or np.bool_, to a bool, and return it.
 
     Raises TypeError for any other value. name: name of the argument, for messages.
     """
@@ -206,9 +208,9 @@ def flag(name: str, value: Any) -> bool:
 
 
 def choice(name: str, value: Any, allowed: Sequence[Word]) -> Word:
-    """Return the value if it is one of the allowed strings.
+    """Return the value if it is one of the strings `allowed`.
 
-    Raises TypeError for a value that is not a string, and ValueError for another string. name: name of the argument,
+    Raises TypeError for a value that is not a string, and ValueError for any other string. name: name of the argument,
     for messages.
     """
     for word in allowed:
@@ -219,11 +221,11 @@ def choice(name: str, value: Any, allowed: Sequence[Word]) -> Word:
 
 
 def columns(name: str, value: Any, count: int | None = None, width: int = 2, like: str = "positions") -> np.ndarray:
-    """Return numbers as a C-ordered float64 copy of shape (n, width), or (n,) for width 1. All must be finite.
+    """Copy finite numbers to a C-ordered float64 array of shape (n, width), or (n,) for width 1, and return it.
 
-    count: the n that is required, because the argument named `like` has as many rows; None: any n. Raises TypeError for
-    a value that is not an array of numbers, and ValueError for another shape or a number that is not finite. name: name
-    of the argument, for messages.
+    count: the required n; None: any n. like: name of the argument that has `count` rows, for messages; name: name of
+    this argument. Raises TypeError for a value that is not an array of numbers, and ValueError for another shape or a
+    number that is not finite.
     """
     try:
         array = np.array(value)
@@ -249,10 +251,10 @@ def columns(name: str, value: Any, count: int | None = None, width: int = 2, lik
 
 
 def users(value: Any, count: int) -> Iterable[Any]:
-    """Return the `user` values of `count` bodies or joints that are added at once.
+    """Return the `user` values of `count` bodies or joints that are added in one call.
 
-    A list or a one-dimensional array has a value for each; any other value is that of all. Raises ValueError for a list
-    or array of another length.
+    A list or one-dimensional array must contain one value for each body or joint; any other value is repeated for all.
+    Raises ValueError for a list or array of another length.
     """
     if not isinstance(value, list) and not (isinstance(value, np.ndarray) and value.ndim == 1):
         return [value] * count
@@ -265,7 +267,7 @@ def users(value: Any, count: int) -> Iterable[Any]:
 
 
 def positions(name: str, value: Any) -> np.ndarray:
-    """Return positions as a C-ordered float64 copy (n, 2) [px], within POSITION_LIMIT.
+    """Copy positions [px] to a C-ordered float64 array (n, 2), and return it. They must be within POSITION_LIMIT.
 
     Raises TypeError for a value that is not an array of numbers, and ValueError for another shape, a number that is not
     finite, or a coordinate at or beyond the limit. name: name of the argument, for messages.
@@ -279,7 +281,7 @@ def positions(name: str, value: Any) -> np.ndarray:
 
 
 def pose(name: str, value: Any) -> tuple[float, float, float]:
-    """Return (x, y, angle) as floats. An omitted angle is 0.
+    """Convert a pose, (x, y) [px] or (x, y, angle) [px, rad], to three floats (x, y, angle). An omitted angle is 0.
 
     Raises TypeError for a value that is not a pose, and ValueError for a number that is not finite or a position beyond
     POSITION_LIMIT. name: name of the argument, for messages.

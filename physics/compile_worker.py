@@ -1,10 +1,12 @@
 """Worker process `python -m physics.compile_worker`: compiles kernels for another process.
 
-Each line on standard input is an order; each line on standard output is the answer to one order. There are two orders.
-("compile", spec, keys) compiles one kernel and stores it (physics/jit/store.py); the answer is the kernel's name in the
-store. ("list", arguments of physics.warmup) runs this warm-up as plain Python; the answer is a list of (name, spec,
-keys) for the kernels that the warm-up calls and that are not in the store. The answer to an order that fails is None.
-The process ends when its standard input ends.
+Each line on standard input is an order, and each line on standard output is the answer to one order. The orders are:
+- ("compile", spec, keys): compile one kernel and store it (physics/jit/store.py). The answer is the name of the
+  kernel's file in the store.
+- ("list", arguments of physics.warmup): run this warm-up as plain Python. The answer is a list of (name, spec, keys)
+  for the kernels that the warm-up calls and that are not in the store.
+
+The answer to an order that fails is None. The process ends when its standard input ends.
 """
 
 import contextlib
@@ -19,7 +21,7 @@ NICE = 10  # niceness from 0 to 19: the program has priority over this process
 
 
 def answer(order: tuple) -> Any:
-    """Carry out an order of the program that started this worker, and return the answer. For both, see the module.
+    """Execute one order, and return the answer, as described in the docstring of this module.
 
     order: ("compile", spec, keys), see tiers.spec_of and kernels.key_of; or ("list", arguments of physics.warmup).
     """
@@ -37,9 +39,9 @@ def answer(order: tuple) -> Any:
 
 
 def main() -> None:
-    """Read orders from standard input and write their answers, until the input ends.
+    """Read orders from standard input, and write their answers to standard output, until the input ends.
 
-    The process then ends at once, even during an order.
+    When the input ends, the process exits immediately, even while it executes an order.
     """
     from physics.jit.workers import decoded, encoded
 

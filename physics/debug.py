@@ -1,4 +1,4 @@
-"""The inner state of a World as arrays in world pixels, for debug drawing.
+"""Functions that return the internal state of a World as arrays in world pixels, for debug drawing.
 
 The functions do not change the simulation. Their arguments are not checked.
 """
@@ -42,10 +42,10 @@ LINES = (POLYGON, CAPSULE, SEGMENT, CHAIN)
 class Structure(NamedTuple):
     """The data structure of a broad phase, for drawing: boxes of grid cells or tree nodes, or intervals on two axes.
 
-    kind: "brute", "sweep", "hash" or "tree".
-    rects: boxes of cells or nodes (m, 4): min_x, min_y, max_x, max_y [px].
-    depth: (m,) level of a grid cell, or depth of a tree node.
-    intervals: (k, 4): axis (0: x, 1: y), low, high [px], shape id.
+    kind: the broad phase, "brute", "sweep", "hash" or "tree".
+    rects: (m, 4) boxes of cells or nodes: min_x, min_y, max_x, max_y [px]; empty for "brute" and "sweep".
+    depth: (m,) level of each grid cell in `rects`, or depth of each tree node.
+    intervals: (k, 4) intervals of shapes for "sweep": axis (0: x, 1: y), low, high [px], shape id; otherwise empty.
     """
 
     kind: str
@@ -113,9 +113,12 @@ def bounds(world: World) -> np.ndarray:
 
 
 def shape_rows(world: World) -> np.ndarray:
-    """Return one ROW per shape, in the order of shape ids: ids, kind of the body, filter, sensor, awake.
+    """Return a ROW for each shape, (n,) in the order of shape ids.
 
     world: a World.
+
+    A ROW contains the ids of shape and body, the kind of the body, the filter bits, and whether the shape is a sensor
+    and the body awake.
     """
     shapes = world.shapes
     rows = np.zeros(len(shapes), ROW)
@@ -138,7 +141,7 @@ def motion(world: World) -> np.ndarray:
 
 
 def structure(world: World) -> Structure:
-    """Return the data structure that the broad phase keeps between steps, as a Structure.
+    """Return the data structure of the world's broad phase after the last step, as a Structure.
 
     world: a World.
     """
@@ -168,11 +171,12 @@ def structure(world: World) -> Structure:
 
 
 def pairs(world: World) -> np.ndarray:
-    """Return one row (x0, y0, x1, y1, hit) for each candidate pair, (m, 5).
+    """Return a row (x0, y0, x1, y1, hit) for each candidate pair of the last step, as an array (m, 5).
 
     world: a World.
 
-    x0, y0, x1, y1 are the centres of the two AABBs [px]; hit is 1 if the pair has a contact, otherwise 0.
+    (x0, y0) and (x1, y1) are the centres of the two shapes' AABBs [px]; hit is 1 if the pair has a contact, otherwise
+    0.
     """
     boxes = bounds(world)
     rows = _candidate_rows(world)
@@ -185,9 +189,9 @@ def pairs(world: World) -> np.ndarray:
 
 
 def _candidate_rows(world):
-    """Return the SHAPE row numbers (m, 2) of the last step's candidate pairs.
+    """Return the candidate pairs of the last step as SHAPE row numbers (m, 2).
 
-    Pairs with a removed shape are omitted.
+    Pairs with a shape that was removed after the step are omitted.
     """
     ids = world.pairs.ids(world.shapes)
     known = np.ascontiguousarray(world.shapes["id"])
@@ -198,14 +202,14 @@ def _candidate_rows(world):
 
 
 def outlines(world: World, rows: Sequence[int] | np.ndarray | None = None) -> list:
-    """Return the outline of each shape as a tuple in world pixels, whose first item names its kind.
+    """Return a list with one tuple for each shape: the kind of its outline, and the outline in world pixels.
 
     world: a World.
     rows: row numbers in world.shapes; None: all shapes.
 
-    The tuples, with corners as arrays, are: ("circle", x, y, r), ("polygon", (k, 2)), ("rounded", (k, 2), r),
-    ("capsule", ax, ay, bx, by, r), ("segment", (2, 2)), ("chain", (k, 2)), ("mask", shape id) or ("tiles", shape id).
-    The last corner of a closed chain repeats its first corner.
+    The tuples are ("circle", x, y, r), ("polygon", points), ("rounded", points, r), ("capsule", ax, ay, bx, by, r),
+    ("segment", points), ("chain", points), ("mask", shape id) and ("tiles", shape id). points: array (k, 2) of corners;
+    r: radius. "rounded" is a polygon with a radius. The last corner of a closed chain repeats its first corner.
     """
     shapes = world.shapes if rows is None else world.shapes[rows]
     bodies, boxes = world.bodies[shapes["body_row"]], bounds(world)[slice(None) if rows is None else rows]
@@ -238,7 +242,7 @@ def outlines(world: World, rows: Sequence[int] | np.ndarray | None = None) -> li
 def _line(shape, kind, points):
     """Return the tuple of outlines() for a polygon, capsule, segment or chain.
 
-    points (k, 2) [px]: its corners in the world.
+    kind: kind of the shape, one of LINES; points (k, 2) [px]: corners of the shape in the world.
     """
     if kind == CHAIN:
         return "chain", np.concatenate([points, points[:1]]) if shape.loop else points
@@ -256,9 +260,11 @@ SAME_OF_JOINTS = (
 
 
 def joints(world: World) -> np.ndarray:
-    """Return a DRAWN_JOINT row per joint, in the order of ids: anchors, axis, limits and forces.
+    """Return a DRAWN_JOINT row for each joint, (n,) in the order of joint ids.
 
     world: a World.
+
+    A row contains the joint's bodies, anchors, axis, coordinate, limits and forces.
     """
     rows, bodies = world.joints, world.bodies
     found = np.zeros(len(rows), DRAWN_JOINT)
@@ -304,12 +310,12 @@ def joints(world: World) -> np.ndarray:
 
 
 def part_edges(world: World, rows: np.ndarray | None = None) -> np.ndarray:
-    """Return the edges of the convex polygons of which the outlines of masks consist, as EDGE rows.
+    """Return the edges of all convex polygons that form the outlines of masks, as EDGE rows.
 
     world: a World.
     rows: row numbers in world.shapes; None: all shapes.
 
-    Parts of outlines that are circles or capsules have no edges; for these see outlines().
+    Parts of outlines that are circles or capsules have no edges; outlines() returns them.
     """
     shapes = world.shapes
     if rows is None:
@@ -337,11 +343,11 @@ def part_edges(world: World, rows: np.ndarray | None = None) -> np.ndarray:
 
 
 class Drawn(NamedTuple):
-    """Masks rasterised at their present poses. Masks with equal pixels share one array.
+    """The pixels of n masks, rasterised at their present poses. Masks with equal pixels share one array.
 
-    solids: bool arrays [row, col].
-    which: (n,) index in solids of the pixels of each mask.
-    left, top: (n,) positions of the rasters in the world [px].
+    solids: list of bool arrays [row, col], True for a solid pixel.
+    which: (n,) index in `solids` of each mask's array.
+    left, top: (n,) world position [px] of the first pixel of each mask's array.
     """
 
     solids: list
@@ -351,11 +357,11 @@ class Drawn(NamedTuple):
 
 
 def masks(world: World) -> list:
-    """Return (shape id, left, top, solid[row, col]) of each mask, rasterised at its present pose.
+    """Return a list with (shape id, left, top, solid) of each mask, rasterised at its present pose.
 
     world: a World.
 
-    left and top are the position of the raster in the world [px], solid its bool pixels.
+    left, top: world position [px] of the first pixel; solid: bool array [row, col] of the pixels.
     """
     ids = world.shapes["id"][world.shapes["kind"] == MASK].tolist()
     found = drawn_masks(world)
@@ -366,18 +372,20 @@ def masks(world: World) -> list:
 
 
 def drawn_masks(world: World) -> Drawn:
-    """Return all masks, rasterised at their present poses, as a Drawn. The cost grows little with their number.
+    """Return the pixels of all masks, rasterised at their present poses, as a Drawn.
 
     world: a World.
+
+    The time depends mainly on the number of different rasters, not on the number of masks.
     """
     world.queries.refresh(world)
     return _drawn(world, np.flatnonzero(world.shapes["kind"] == MASK))
 
 
 def _drawn(world, rows):
-    """Return the masks of these SHAPE row numbers, rasterised at their present poses.
+    """Return the pixels of some masks, rasterised at their present poses, as a Drawn.
 
-    Rasters that no step has needed so far are drawn first.
+    rows: SHAPE row numbers of the masks. Missing rasters are computed first.
     """
     draw_pictures(world.library, rows, world.bodies, world.shapes)
     shapes, library = world.shapes[rows], world.library
@@ -393,11 +401,12 @@ def _drawn(world, rows):
 
 
 def mask_hits(world: World) -> list:
-    """Return (left, top, shared[row, col]) for each candidate pair of masks that overlap now.
+    """Return a list with (left, top, shared) for each candidate pair of masks that share pixels at present.
 
     world: a World.
 
-    shared: bools of the pixels that both masks contain; left, top: position of its first pixel in the world [px].
+    shared: bool array [row, col], True for the pixels that are solid in both masks; left, top: world position [px] of
+    its first pixel.
     """
     found = []
     rows = _candidate_rows(world)
@@ -458,7 +467,10 @@ def contact_points(world: World) -> np.ndarray:
 
 
 def _points(world, contacts, state):
-    """Return the POINT rows of CONTACT rows. state: state of all points; None: determine the state of each point."""
+    """Return a POINT row for each contact point of CONTACT rows.
+
+    state: value of column `state` for all points; None: compute it for each point.
+    """
     if not len(contacts):
         return np.zeros(0, POINT)
     reported = contacts_of(contacts)
@@ -485,7 +497,7 @@ def _points(world, contacts, state):
 
 
 def islands(world: World) -> np.ndarray:
-    """Return for each body (n,) the lowest body id in its island, which names the island; -1 for no island.
+    """Return an int64 array (n,) with the island of each body: the lowest body id in it, or -1 for no island.
 
     world: a World.
     """
@@ -507,11 +519,12 @@ GHOST = np.dtype(
 
 
 def impact_ghosts(world: World) -> np.ndarray:
-    """Return the GHOST rows of the bodies that continuous collision stopped in the last step.
+    """Return a GHOST row for each body that continuous collision stopped at an impact in the last step.
 
     world: a World.
 
-    A row holds the pose that the body would have reached, and the fraction of its motion at which it was stopped.
+    A row contains the pose that the body would have reached without the impact, and the fraction of its motion at which
+    it was stopped.
     """
     rows = world.ghosts
     if rows is None or not len(rows):

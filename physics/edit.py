@@ -1,4 +1,4 @@
-"""Bodies and shapes are added, changed and removed here. Arguments are checked before anything is changed."""
+"""Functions that add, change and remove bodies and shapes. They check all arguments before they change anything."""
 
 from collections.abc import Sequence
 from typing import Any, NamedTuple
@@ -34,7 +34,7 @@ LAST_SHAPE = 2**31 - 1  # greatest shape id, because candidates are reported in 
 
 
 def check_ids(world: WorldState, bodies: int, shapes: Sequence[Shape]) -> None:
-    """Raise ValueError if too few shape ids are left for this number of `bodies`, each with the shapes `shapes`."""
+    """Raise ValueError if the world has too few unused shape ids for a number of new bodies, each with `shapes`."""
     room = LAST_SHAPE - world._next_shape
     if room < LAST_SHAPE // 2 and bodies * len(rows_of_shapes(shapes, world.effects.response)) > room:
         raise ValueError(
@@ -44,10 +44,11 @@ def check_ids(world: WorldState, bodies: int, shapes: Sequence[Shape]) -> None:
 
 
 def add_shapes(world: WorldState, first_row: int, bodies: int, shapes: Sequence[Shape]) -> np.ndarray:
-    """Append the SHAPE rows of new shapes and add their proxies. Return the ids of the rows that are not parts.
+    """Append SHAPE rows for new shapes of bodies, and add the proxies. Return the ids (n,) of the new shapes.
 
-    first_row: row of the first body; bodies: number of consecutive body rows, each of which gets these shapes. Own
-    values of a shape override the values of the body.
+    Rows of parts of a mask's outline are appended too, but their ids are not returned. first_row: row number of the
+    first body; bodies: number of consecutive BODY rows, each of which gets all shapes. A shape's own values override
+    those of the body.
     """
     pieces = rows_of_shapes(shapes, world.effects.response)
     rows = _append_rows(world, first_row, bodies, pieces)
@@ -58,7 +59,10 @@ def add_shapes(world: WorldState, first_row: int, bodies: int, shapes: Sequence[
 
 
 def _append_rows(world, first_row, bodies, pieces) -> np.ndarray:
-    """Append and return the SHAPE rows of pieces for consecutive body rows. Their parent ids are not yet written."""
+    """Append SHAPE rows for `pieces` (Pieces) to each of some consecutive bodies, and return the new rows.
+
+    first_row: row number of the first body; bodies: number of bodies. The column `parent` is not written.
+    """
     n, k = bodies, len(pieces)
     ids = np.arange(world._next_shape, world._next_shape + n * k)
     if n * k == 0:
@@ -92,7 +96,7 @@ NONE = NewParts((), (), ())
 
 
 def append_parts(world: WorldState, template: np.ndarray, parts: NewParts) -> None:
-    """Append SHAPE rows for new parts of a mask's outline. template: the mask's SHAPE row, as an array (1,)."""
+    """Append SHAPE rows for new parts of a mask's outline. template: array (1,), the SHAPE row of the mask."""
     count = len(parts.shapes)
     if not count:
         return
@@ -117,7 +121,10 @@ def _enter(world, rows):
 
 
 def write_own_values(rows: np.ndarray, given: np.ndarray, shape: Shape) -> None:
-    """Write material, filter and sensor flag to SHAPE rows: the shape's own, else those of `given` (BODY_DEF rows)."""
+    """Write the material, filter and sensor flag of a shape to SHAPE rows.
+
+    A value that the shape does not have is taken from `given`, the BODY_DEF rows of the bodies.
+    """
     for name in (*MATERIALS, "membership", "mask", "sensor"):
         rows[name] = given[name]
     for name in ("material", "filter", "sensor"):
@@ -132,7 +139,7 @@ def write_own_values(rows: np.ndarray, given: np.ndarray, shape: Shape) -> None:
 
 
 class Piece(NamedTuple):
-    """The values from which a SHAPE row is made, of a shape or of a part of a mask's outline."""
+    """The values for one SHAPE row, which belongs to a shape or to a part of a mask's outline."""
 
     shape: Shape
     role: int  # WHOLE, PIXELS or PART
@@ -142,7 +149,7 @@ class Piece(NamedTuple):
 
 
 def rows_of_shapes(shapes: Sequence[Shape], pushed: bool) -> list[Piece]:
-    """Return a Piece for each shape, and with `pushed` (effect `response`) one for each part of a mask's outline."""
+    """Return a Piece for each shape and, if `pushed` (the effect `response`), for each part of a mask's outline."""
     found: list[Piece] = []
     for shape in shapes:
         tiles, owner = shape._response_parts() if pushed else (), len(found)
@@ -164,9 +171,9 @@ def replace_mask(
 ) -> None:
     """Replace a mask of a body by another mask. The shape id stays, and equal parts keep their SHAPE rows.
 
-    place: index of the shape in the body; shape_id: id of the shape; changed: tiles in which the masks may differ,
-    None: all. Bodies that touch changed parts wake. Contacts on unchanged parts keep their cached forces. O(changes),
-    and a few passes over the SHAPE rows. identity: id of the body.
+    identity: id of the body; place: index of the mask in the body's shapes; shape_id: id of the mask; mask: the new
+    mask; changed: numbers of the tiles in which the two masks may differ, None: all tiles. Bodies that touch changed
+    parts wake. Contacts on unchanged parts keep their cached forces. O(changes), and a few passes over the SHAPE rows.
     """
     at, shapes = world._row_number(identity), world.shapes
     body, used = world.bodies[at : at + 1], list(world._shapes_of[identity])
@@ -198,10 +205,11 @@ def replace_mask(
 def exchange_cells(world: WorldState, identity: int, cells: Any, solid: Any) -> None:
     """Make cells of the TileGrid of a body solid or empty. The shape id does not change.
 
-    cells (n, 2) int (column, row); solid: a bool, or (n,) bools. Bodies that touch a changed cell wake. Contacts with
-    shapes near changed cells are detected again, and keep their cached forces only where the new surface coincides with
-    the old one. All other contacts are unchanged. O(cells of the grid). Raises TypeError if cells or solid have a wrong
-    type; ValueError for cells outside the grid, or a body without exactly one TileGrid; RuntimeError during a step.
+    identity: id of the body; cells: (n, 2) int, (column, row) of each cell; solid: a bool for all cells, or (n,) bools.
+    Bodies that touch a changed cell wake. Contacts with shapes near changed cells are detected again, and keep their
+    cached forces only where the new surface coincides with the old one. All other contacts are unchanged. O(cells of
+    the grid). Raises TypeError if cells or solid have a wrong type; ValueError for cells outside the grid, or for a
+    body without exactly one TileGrid; RuntimeError during a step.
     """
     world._unlocked()
     at, used = world._row_number(identity), list(world._shapes_of[identity])
@@ -242,7 +250,10 @@ def exchange_cells(world: WorldState, identity: int, cells: Any, solid: Any) -> 
 
 
 def checked_cells(cells: Any, solid: Any, rows: int, columns: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return (cells (n, 2) int64, solid (n,) bool). Raises TypeError or ValueError for invalid arguments."""
+    """Check the arguments of exchange_cells. Return (cells (n, 2) int64, solid (n,) bool).
+
+    rows, columns: size of the grid in cells. Raises TypeError or ValueError for invalid arguments.
+    """
     found = checks.columns("cells", cells)
     if found.size and np.asarray(cells).dtype.kind not in "iu":
         raise TypeError(f"cells must be whole numbers (column, row) (got {checks.shown(cells)})")
@@ -262,9 +273,10 @@ def checked_cells(cells: Any, solid: Any, rows: int, columns: int) -> tuple[np.n
 
 
 def rows_at_cells(world: WorldState, at: int, size: float, cells: np.ndarray, margin: float) -> np.ndarray:
-    """Return the rows of other bodies' shapes whose AABB, enlarged by a margin [px], meets a marked cell of a grid.
+    """Return the SHAPE row numbers of the shapes near marked cells of a TileGrid, without the shapes of its own body.
 
-    at: row of the grid's body; size [px]: size of a tile; cells (rows, columns) bool: the marked cells.
+    A shape is near if its AABB, enlarged by `margin` [px], overlaps or touches a marked cell. at: row number of the
+    grid's body; size: size of a cell [px]; cells: bool array [row, column], True for marked cells.
     """
     body, marked = world.bodies[at], np.argwhere(cells)
     origin = np.array([body["x"], body["y"]])
@@ -284,10 +296,10 @@ def rows_at_cells(world: WorldState, at: int, size: float, cells: np.ndarray, ma
 
 
 def _wake_at_cells(world, at, rows):
-    """Wake sleeping bodies at changed cells of a grid, and let the next step visit static and kinematic bodies there.
+    """Wake the sleeping islands at changed cells of a grid, and have the next step visit static and kinematic bodies.
 
-    Static bodies are visited only if they touch the grid. at: row of the grid's body; rows: SHAPE row numbers of the
-    shapes at the changed cells.
+    Static bodies are visited only if they touch the grid. at: row number of the grid's body; rows: SHAPE row numbers of
+    the shapes at the changed cells.
     """
     if not world.sleeps:
         return
@@ -306,12 +318,16 @@ def _wake_at_cells(world, at, rows):
 
 
 def rows_of_parent(world: WorldState, shape_id: int) -> np.ndarray:
-    """Return the SHAPE row numbers of a shape (id) and of its parts."""
+    """Return the SHAPE row numbers (n,) of a shape, given by its id, and of the parts of its outline."""
     return np.flatnonzero(world.shapes["parent"] == shape_id)
 
 
 def _differences(world, shape_id, before, mask, changed):
-    """Return (rows of parts to remove, NewParts to add) for a new mask. Update the rows of parts that stay."""
+    """Compare the outline parts of a new mask with those of the old one. Return (rows to remove, NewParts to add).
+
+    The rows are SHAPE row numbers. The SHAPE rows of parts that stay are updated. shape_id: id of the mask; before: the
+    old mask; mask: the new one; changed: numbers of the tiles in which they may differ, None: all.
+    """
     shapes = world.shapes
     if not world.effects.response:
         return np.zeros(0, np.int64), NONE
@@ -331,7 +347,7 @@ def _differences(world, shape_id, before, mask, changed):
 
 
 def _differences_in_tiles(world, shape_id, before, mask, changed):
-    """Return (rows of parts to remove, NewParts to add) for a tiled mask of which only the tiles `changed` differ."""
+    """Do the work of _differences for two tiled masks that differ only in the tiles with the numbers `changed`."""
     tiles = keep_tiles(mask.bare, before.bare, before.tiles.differences(mask.tiles, changed))
     if not tiles:
         return np.zeros(0, np.int64), NONE
@@ -348,7 +364,10 @@ def _differences_in_tiles(world, shape_id, before, mask, changed):
 
 
 def _rewrite_own_values(world, at, shape_id, mask):
-    """Write the own values and `snap` of a mask to its SHAPE rows. at: row of the body."""
+    """Write material, filter, sensor flag and `snap` of a mask to the SHAPE rows of the mask and of its parts.
+
+    at: row number of the body; shape_id: id of the mask.
+    """
     rows = rows_of_parent(world, shape_id)
     shapes, pairs = world.shapes, world.pairs
     some = shapes[rows]
@@ -360,7 +379,10 @@ def _rewrite_own_values(world, at, shape_id, mask):
 
 
 def _rejoin(world, at, touched):
-    """Have the broad phase search the pairs of these SHAPE rows of a body again. at: row of the body."""
+    """Mark shapes of a body, so that the broad phase searches their candidate pairs again in the next step.
+
+    at: row number of the body; touched: SHAPE row numbers.
+    """
     world.pairs.touch(world.shapes["proxy"][touched])
     if world.bodies["quarantined"][at]:
         world.pairs.free_proxies(world.shapes["proxy"][touched])
@@ -379,7 +401,10 @@ def _rejoin(world, at, touched):
 
 
 def check_grid_stands(shapes: Sequence[Shape], turn: float, what: str = "angular_velocity") -> None:
-    """Raise ValueError if a TileGrid would turn: if `turn`, an angle or angular velocity called `what`, is not 0."""
+    """Raise ValueError if there is a TileGrid among the shapes and `turn` is not 0, because a TileGrid cannot rotate.
+
+    turn: angle [rad] or angular velocity [rad/s]; what: name of this quantity, for the message.
+    """
     for shape in shapes if turn != 0.0 else ():
         if not shape._may_turn:
             raise ValueError(
@@ -388,7 +413,10 @@ def check_grid_stands(shapes: Sequence[Shape], turn: float, what: str = "angular
 
 
 def set_mass_of(world: WorldState, identity: int, mass: float) -> None:
-    """Set the mass of a body [density px2]. It replaces the mass that follows from the densities of its shapes."""
+    """Set the mass of a body (id), in place of the mass computed from the densities of its shapes.
+
+    mass: [density px²]; 0: use the densities.
+    """
     at = world._row_number(identity)
     world._definitions.rows["mass"][at] = mass
     used, density = world._shapes_of[identity], float(world._definitions.rows["density"][at])
@@ -408,17 +436,17 @@ def _weigh(world, at, used):
 
 
 def refresh_mass(world: WorldState, identity: int) -> None:
-    """Recompute mass and inertia of a body after its shapes, kind or material changed, and wake it."""
+    """Recompute the mass and inertia of a body (id) after its shapes, kind or material changed. Wake the body."""
     at = world._row_number(identity)
     _weigh(world, at, world._shapes_of[identity])
     refresh_pose(world, identity, at)
 
 
 def refresh_pose(world: WorldState, identity: int, at: int) -> int:
-    """Refresh the centre of mass of a moved body, mark its proxies as changed, and wake it and bodies that touch it.
+    """Update the centre of mass and the proxies of a moved body. Wake the body and the bodies that touch it.
 
-    Return the row of the body afterwards, because waking may change it (see sleep.disturb_one). identity, at: id and
-    row of the body before.
+    identity: id of the body; at: its row number. Return its row number afterwards, which may differ, because waking may
+    drop the rows of removed bodies (see sleep.disturb_one).
     """
     at = sleep.disturb_one(world, identity, at)
     write_center(world._bodies, at)
@@ -442,10 +470,11 @@ def shape_ids(world: WorldState, identity: int) -> tuple[int, ...]:
 
 
 def set_shapes(world: WorldState, identity: int, shapes: Sequence[Shape]) -> None:
-    """Replace the shapes of a body. Its tier (collision shape that replaces a PixelMask) becomes None.
+    """Replace the shapes of a body (id). Its tier becomes None.
 
-    The body's values stay, and contacts on unchanged surface keep impulses. If all old and all new shapes are masks,
-    and equally many, the ids stay; otherwise the shapes get new ids. Raises TypeError or ValueError for invalid shapes.
+    The other values of the body stay, and contacts on surface that did not change keep their impulses. The shape ids
+    stay if all old and new shapes are masks and their number is unchanged; otherwise the shapes get new ids. Raises
+    TypeError or ValueError for invalid shapes.
     """
     ids, before = shape_ids(world, identity), world._shapes_of.get(identity, ())
     _check(world, identity, shapes, ids)
@@ -468,7 +497,10 @@ def set_shapes(world: WorldState, identity: int, shapes: Sequence[Shape]) -> Non
 
 
 def add_shape(world: WorldState, identity: int, shape: Shape) -> int:
-    """Append a shape to a body and return its id. Raises TypeError or ValueError if the body cannot have it."""
+    """Append a shape to a body (id), and return the id of the shape.
+
+    Raises TypeError or ValueError if the body cannot have the shape.
+    """
     world._row_number(identity)
     together = (*world._shapes_of[identity], shape)
     _check(world, identity, together, [])
@@ -477,7 +509,10 @@ def add_shape(world: WorldState, identity: int, shape: Shape) -> int:
 
 
 def remove_shape(world: WorldState, identity: int, shape_id: int) -> None:
-    """Remove a shape. Raises KeyError if the body has no such shape, ValueError if the body cannot lose it."""
+    """Remove a shape from a body. identity: id of the body.
+
+    Raises KeyError if the body has no shape with this id, ValueError if the body cannot have only its other shapes.
+    """
     shape_id, ids = checks.whole("shape_id", shape_id, 0, 2**62), shape_ids(world, identity)
     if shape_id not in ids:
         raise checks.NoSuchId(f"shape_id must be one of body {identity}'s, {list(ids)} (got {shape_id})")
@@ -489,16 +524,16 @@ def remove_shape(world: WorldState, identity: int, shape_id: int) -> None:
 
 
 def check_own_values(world: WorldState, shapes: Sequence[Shape]) -> None:
-    """Raise ValueError for shapes that need an effect of the world that is off: `sensors` or `one_way`."""
+    """Raise ValueError for a sensor or one-way shape if the world lacks the effect `sensors` or `one_way`."""
     world._needs("sensors", "a shape with_(sensor=True)", any(shape.sensor for shape in shapes))
     for shape in shapes:
         world._needs("one_way", f"{type(shape).__name__} with one_way", bool(np.any(getattr(shape, "one_way", False))))
 
 
 def check_weight(world: WorldState, shapes: Sequence[Shape], kind: int, mass: float) -> None:
-    """Raise ValueError if a dynamic body would have no mass: no given mass, and no solid pixel in any of its masks.
+    """Raise ValueError if a dynamic body has only masks without solid pixels and no given mass, so that its mass is 0.
 
-    mass: given mass, 0 for none. Bodies with another kind of shape pass, and worlds without the effect `response`.
+    kind: DYNAMIC, KINEMATIC or STATIC; mass: given mass, 0: none. Without the effect `response`, no error is raised.
     """
     empty = [each for each in shapes if each._kind == MASK and each.bounds is None]
     if world.effects.response and kind == DYNAMIC and empty and len(empty) == len(shapes) and mass == 0.0:
@@ -509,7 +544,10 @@ def check_weight(world: WorldState, shapes: Sequence[Shape], kind: int, mass: fl
 
 
 def _check(world, identity, shapes, gone):
-    """Raise an error if a body cannot have these shapes. gone: ids of the shapes that the body would lose."""
+    """Raise TypeError or ValueError if a body (id) cannot have these shapes.
+
+    gone: ids of the shapes that the body would lose.
+    """
     world._unlocked()
     if np.isin(world.characters.rows["shape"], gone).any():
         raise ValueError(f"shapes of body {identity} must stay: it is a Character's, who walks by its shape")
@@ -521,7 +559,10 @@ def _check(world, identity, shapes, gone):
 
 
 def _add(world, identity, shapes, new) -> np.ndarray:
-    """Set the shapes of a body. Add SHAPE rows for the shapes `new`, which have none yet, and return their ids."""
+    """Set the shapes of a body (id), and add SHAPE rows for the shapes `new`. Return the ids of `new`.
+
+    shapes: all shapes of the body; new: those at the end of `shapes` that have no SHAPE rows yet.
+    """
     at = world._row_number(identity)
     world._shapes_of[identity] = shapes
     ids = add_shapes(world, at, 1, new)
@@ -539,9 +580,10 @@ def _add(world, identity, shapes, new) -> np.ndarray:
 
 
 def rebuild_masks(world: WorldState) -> None:
-    """Rebuild the SHAPE rows of bodies with masks, because masks have parts only with the effect `response`.
+    """Rebuild the SHAPE rows of all bodies with masks, after the effect `response` was added or removed.
 
-    Bodies keep their tiers; their shapes get new ids.
+    Masks have rows for the parts of their outlines only with this effect. The shapes of these bodies get new ids; the
+    tiers of the bodies stay.
     """
     for identity, shapes in [*world._shapes_of.items()]:
         if any(shape._kind == MASK for shape in shapes):
@@ -554,7 +596,10 @@ def rebuild_masks(world: WorldState) -> None:
 
 
 def shapes_for_tier(shapes: Sequence[Shape], tier: TierName | None) -> tuple:
-    """Return the shapes that replace one PixelMask at a tier, such as "hull"; `shapes` if the tier is None."""
+    """Return the shapes of physics.fit that replace one PixelMask at a tier, such as "hull".
+
+    If the tier is None, return `shapes` as a tuple. Raises ValueError if `shapes` is not exactly one PixelMask.
+    """
     if tier is None:
         return tuple(shapes)
     if len(shapes) != 1 or not isinstance(shapes[0], PixelMask):
@@ -563,9 +608,10 @@ def shapes_for_tier(shapes: Sequence[Shape], tier: TierName | None) -> tuple:
 
 
 def set_tier(world: WorldState, identity: int, tier: TierName | None) -> None:
-    """Set Body.tier of a body made from one PixelMask.
+    """Set the tier of a body (id) that was made from one PixelMask: replace its shapes by those of physics.fit.
 
-    Raises ValueError for an unknown tier, and for a body that was not made from one PixelMask.
+    tier: one of TIERS; None: use the PixelMask itself. Raises ValueError for an unknown tier, and for a body that was
+    not made from one PixelMask.
     """
     world._row_number(identity)
     source = world._sources.get(identity, world._shapes_of[identity])
@@ -580,7 +626,7 @@ def set_tier(world: WorldState, identity: int, tier: TierName | None) -> None:
 
 
 class BodyDef(NamedTuple):
-    """The arguments of World.add_body except shapes, position, angle and velocity."""
+    """The definition of a body: the arguments of World.add_body except shapes, position, angle and velocity."""
 
     kind: KindName = "dynamic"
     angular_velocity: float = 0.0
@@ -605,10 +651,10 @@ def add_rows(
     angles: Sequence[float] | np.ndarray,
     wanted: BodyDef,
 ) -> np.ndarray:
-    """Check the arguments of new bodies, append their rows, and return the ids (n,) int64.
+    """Add n bodies with the same shapes: check the arguments, append the rows, and return the body ids (n,) int64.
 
-    positions (n, 2) [px]; velocities (n, 2) [px/s]; angles (n,) [rad]; wanted: the other arguments. Raises TypeError or
-    ValueError for invalid arguments; the world is then unchanged.
+    positions (n, 2) [px]; velocities (n, 2) [px/s]; angles (n,) [rad]; wanted: definition of the bodies. Raises
+    TypeError or ValueError for invalid arguments; the world is then unchanged.
     """
     world._unlocked()
     kind = KINDS.index(checks.choice("kind", wanted.kind, KINDS))
@@ -675,16 +721,19 @@ def add_rows(
 
 
 def checked_sensor(world: WorldState, value: Any) -> bool:
-    """Return `value`, a bool. Raises TypeError for anything else, ValueError for True without the effect `sensors`."""
+    """Return a sensor flag as a bool.
+
+    Raises TypeError if `value` is not a bool, ValueError for True in a world without the effect `sensors`.
+    """
     value = checks.flag("sensor", value)
     world._needs("sensors", "sensor=True", value)
     return value
 
 
 def checked_bullet(world: WorldState, value: Any) -> bool:
-    """Return `value`, a bool.
+    """Return a bullet flag as a bool.
 
-    Raises TypeError for anything else, ValueError for True without the effect `continuous`.
+    Raises TypeError if `value` is not a bool, ValueError for True in a world without the effect `continuous`.
     """
     value = checks.flag("bullet", value)
     world._needs("continuous", "bullet=True", value)
@@ -692,20 +741,27 @@ def checked_bullet(world: WorldState, value: Any) -> bool:
 
 
 def checked_continuous(world: WorldState, value: Any) -> int:
-    """Return the index of `value` in CONTINUOUS. Raises TypeError or ValueError if it is invalid or not allowed."""
+    """Return the index of a mode of continuous collision, such as "toi", in CONTINUOUS.
+
+    Raises TypeError or ValueError for an unknown mode, ValueError for "ray", "swept" and "toi" without the effect.
+    """
     swept = CONTINUOUS.index(checks.choice("continuous", value, CONTINUOUS))
     world._needs("continuous", f"continuous={value!r}", swept not in (OFF, AUTO))
     return swept
 
 
 def write_material(rows: np.ndarray, material: Material) -> None:
-    """Write the values of a material to SHAPE or BODY_DEF rows."""
+    """Write the values of a material to all of the given rows, which are SHAPE or BODY_DEF rows."""
     for name in MATERIALS:
         rows[name] = getattr(material, name)
 
 
 def set_kind(world: WorldState, identity: int, kind: KindName) -> None:
-    """Set the kind of a body. Raises ValueError for shapes or a character that a body of this kind cannot have."""
+    """Set the kind of a body (id). The velocities of a body that becomes static are set to 0.
+
+    Raises ValueError if a body of this kind cannot have the present shapes, and for the body of a character unless
+    `kind` is "kinematic".
+    """
     world._unlocked()
     row = world._body_row(identity)
     if kind != "kinematic" and (world.characters.rows["body"] == identity).any():
@@ -725,7 +781,10 @@ def set_kind(world: WorldState, identity: int, kind: KindName) -> None:
 
 
 def restore(world: WorldState, identity: int) -> None:
-    """Add a quarantined body to the simulation again. Do nothing for a body that is not quarantined."""
+    """Add a quarantined body (id) to the simulation again. Do nothing for a body that is not quarantined.
+
+    A body is quarantined (disabled) when one of its numbers is not finite or out of range.
+    """
     world._unlocked()
     row = world._body_row(identity)
     if row["quarantined"]:

@@ -1,4 +1,4 @@
-"""Effects: the features of the physics that a scene declares. A step runs only the stages that these effects need."""
+"""Effects: the physics features that a world declares. A step runs only the stages that these effects need."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
@@ -15,23 +15,23 @@ NEEDS |= {name: ("response", "stacking") for name in ("sleeping", "joints")}
 @hints.unchangeable("world.set_effects(world.effects.with_({name}={value}))")
 @dataclass(frozen=True, repr=False)
 class Effects:
-    """The features of the physics that a world declares. All are off by default except `narrowphase`.
+    """The physics features that a world declares. All are off by default except `narrowphase`.
 
-    World() has those of Effects.rigid_bodies(); with_ changes some of them.
+    World() uses Effects.rigid_bodies(); with_ returns a copy with some effects changed.
 
-    narrowphase: shapes are tested exactly; without it collision stops at AABBs.
-    response: overlaps are pushed apart. Without it contacts are only found and reported.
-    gravity: World.gravity accelerates bodies; drag: World.drag slows bodies down; wind: World.wind carries bodies.
-    rotation: angular velocity turns bodies, impulses spin them. Without it, bodies keep the angle that they were given.
+    narrowphase: shapes are tested exactly. Without it, shapes collide if their AABBs overlap.
+    response: overlapping bodies are pushed apart. Without it, contacts are only detected and reported.
+    gravity: World.gravity accelerates bodies; drag: World.drag slows bodies down; wind: World.wind accelerates bodies.
+    rotation: angular velocity rotates bodies, and impulses change it. Without it, bodies keep their initial angles.
     friction: Material.friction and rolling_resistance act; restitution: bodies bounce by Material.restitution.
-    stacking: stacks are stable, because contacts are warm started; a stacking solver is the default.
+    stacking: stacks are stable, because contacts are warm started; the default solver is then a stacking solver.
     continuous: fast bodies stop at their first impact, see Body.continuous.
-    sleeping: islands at rest cost nothing until they are disturbed.
+    sleeping: islands at rest are not simulated until they are disturbed.
     sensors: shapes with sensor=True report overlaps; persist: events.persist lists pairs that continue to touch.
-    one_way: one-way tiles and masks hold bodies from above; conveyor: Material.surface_speed moves bodies.
-    joints: joints hold bodies, see World.add_joint; carving: Body.carve removes pixels of masks.
+    one_way: one-way tiles and masks are solid only from above; conveyor: Material.surface_speed moves bodies.
+    joints: joints connect bodies, see World.add_joint; carving: Body.carve removes pixels of masks.
 
-    Raises TypeError for a value that is not a bool, and ValueError if an effect is on and an effect that it needs is
+    Raises TypeError for a value that is not a bool, and ValueError if an effect is on while an effect that it needs is
     off.
 
     >>> Effects(response=True, gravity=True)
@@ -71,21 +71,25 @@ class Effects:
             raise ValueError("effect joints needs stacking: only the stacking solvers solve joints")
 
     def __repr__(self):
-        """Return the constructor call without the effects that have their default."""
+        """Return the constructor call as text, without the effects that have their default value."""
         given = [field for field in fields(self) if getattr(self, field.name) != field.default]
         return f"Effects({', '.join(f'{each.name}={getattr(self, each.name)}' for each in given)})"
 
     @classmethod
     @hints.without_others
     def detection(cls, **others: Never) -> "Effects":
-        """Return the effects of pure detection: contacts are found and reported, and no body is pushed."""
+        """Return the Effects for pure collision detection: contacts are reported, and no body is pushed."""
         _check_no_effects("detection", others)
         return cls()
 
     @classmethod
     @hints.without_others
     def rigid_bodies(cls, **others: Never) -> "Effects":
-        """Return the effects of rigid bodies: they fall, bounce, have friction, stack, sleep and trigger sensors."""
+        """Return the Effects for rigid bodies, which fall, rotate, bounce, have friction, stack and sleep.
+
+        They are response, gravity, rotation, friction, restitution, stacking, continuous, sleeping and sensors, besides
+        narrowphase.
+        """
         _check_no_effects("rigid_bodies", others)
         return cls(
             response=True,
@@ -101,11 +105,11 @@ class Effects:
 
     @classmethod
     def named(cls, names: Iterable[str]) -> "Effects":
-        """Return the Effects in which exactly the named effects are on. It is the inverse of names().
+        """Return the Effects in which exactly the named effects are on. This is the inverse of names().
 
-        names: names of effects. `narrowphase`, too, must be named to be on.
+        names: names of effects. `narrowphase` is off unless it is named.
 
-        Raises TypeError for an unknown effect, and ValueError if an effect that a named one needs is not named.
+        Raises TypeError for an unknown effect, and ValueError if a named effect needs an effect that is not named.
         """
         if isinstance(names, str):
             raise TypeError(f"names must be a list of names (got {names!r}): write [{names!r}]")
@@ -116,8 +120,8 @@ class Effects:
 
         **changes: effects by name, True or False.
 
-        Raises TypeError for an unknown effect or a value that is not a bool, and ValueError if an effect is then on
-        without an effect that it needs.
+        Raises TypeError for an unknown effect or a value that is not a bool, and ValueError if in the copy an effect is
+        on while an effect that it needs is off.
         """
         known = [field.name for field in fields(self)]
         unknown = sorted(set(changes) - set(known))
@@ -128,30 +132,30 @@ class Effects:
         return replace(self, **changes)
 
     def without(self, name: str) -> "Effects":
-        """Return a copy in which an effect, and all effects that need it, are off.
+        """Return a copy in which one effect is off, together with all effects that need it.
 
-        name: the effect.
+        name: name of the effect.
 
         Raises TypeError for an unknown effect.
         """
         return self.with_(**{name: False}, **{each: False for each in self.names() if name in NEEDS.get(each, ())})
 
     def and_needed(self, name: str) -> "Effects":
-        """Return a copy in which all effects that an effect needs are on. The effect itself is unchanged.
+        """Return a copy in which all effects are on that the effect `name` needs. The effect itself is unchanged.
 
-        name: the effect; an unknown one needs no other.
+        name: name of the effect. For an unknown name, the copy equals the original.
         """
         return self.with_(**dict.fromkeys(NEEDS.get(name, ()), True))
 
     def names(self) -> list[str]:
-        """Return the names of the declared effects, in the order of the fields."""
+        """Return the names of the effects that are on, in the order of the fields."""
         return [field.name for field in fields(self) if getattr(self, field.name)]
 
 
 def declaring(effects: Effects, name: str) -> str:
-    """Return the expression, for messages, of Effects with one more effect and those that it needs.
+    """Return Python code, for messages, that makes the given Effects with one more effect and the effects it needs.
 
-    name: the effect that is to be declared.
+    name: name of the effect to add.
     """
     if effects == Effects.rigid_bodies():
         return f"Effects.rigid_bodies().with_({name}=True)"
@@ -159,7 +163,10 @@ def declaring(effects: Effects, name: str) -> str:
 
 
 def _check_no_effects(preset, given):
-    """Raise TypeError for effects that were given to a preset, which takes none."""
+    """Raise TypeError if keyword arguments were passed to a preset, which has none.
+
+    preset: name of the preset, "detection" or "rigid_bodies"; given: {name: value} of the keyword arguments.
+    """
     if given:
         text = ", ".join(f"{name}={hints.brief(value)}" for name, value in given.items())
         raise TypeError(
@@ -169,7 +176,7 @@ def _check_no_effects(preset, given):
 
 
 def checked_effects(value: Any) -> Effects:
-    """Return Effects unchanged. Raises TypeError for anything else."""
+    """Return `value` unchanged if it is an Effects. Raises TypeError for anything else."""
     if not isinstance(value, Effects):
         raise TypeError(f"effects must be an Effects (got {checks.shown(value)}){hints.in_place_of_effects(value)}")
     return value
