@@ -1,4 +1,4 @@
-"""Events of a step, as arrays: pairs that begin, continue or cease to touch, hits, and overlaps of sensors."""
+"""Events of a step, as arrays: pairs that begin, continue or stop touching, hits, and overlaps with sensors."""
 
 import math
 from typing import Any, NamedTuple, cast
@@ -23,9 +23,9 @@ NO_EVENTS, NO_HITS, UNBROKEN, NO_BROKEN = (cast(Any, np.zeros(0, each)) for each
 
 @subkernel
 def write_event(contact, second, at, events_out):
-    """Write the ids, one point and the normal of a CONTACT row to row `at` of EVENT rows.
+    """Write the ids, the normal and one point of a CONTACT row to events_out[at], an EVENT row.
 
-    second: True for the second point, False for the first point.
+    second: True for the second point of the contact, False for the first point.
     """
     e = events_out[at]
     e.body_a, e.body_b = contact.body_a, contact.body_b
@@ -36,7 +36,7 @@ def write_event(contact, second, at, events_out):
 
 
 class Comparison(NamedTuple):
-    """The output arrays of compare_pairs: how the touching pairs of a step differ from those of the last step."""
+    """The output arrays of compare_pairs: the touching pairs of a step, and the differences from the previous step."""
 
     now: np.ndarray  # EVENT rows of the pairs that touch
     begin: np.ndarray  # EVENT rows of the pairs that began to touch
@@ -49,18 +49,18 @@ class Comparison(NamedTuple):
 
 
 def new_comparison(room: int) -> Comparison:
-    """Return a Comparison with room for `room` pairs."""
+    """Return a Comparison whose arrays have `room` rows each, one for each pair."""
     events = (np.zeros(room, EVENT) for _ in range(5))
     return Comparison._make((*events, np.zeros(room, HIT), np.zeros(room, np.bool_), np.zeros(7, np.int64)))
 
 
 @subkernel
 def look_at_pair(contacts, first, last, slop):
-    """Return how a pair of shapes touches, from its CONTACT rows first … last - 1.
+    """Summarise the CONTACT rows first … last - 1, which belong to one pair of shapes.
 
-    The result is (whether the pair touches, whether it has impulses, row and `second` of the deepest point, row and
-    `second` of the fastest approaching point, its approach speed [px/s], sum of the normal impulses).
-    `second`: whether the point is the second one of its row. slop [px]: greatest separation that counts as touching.
+    Return (whether the pair touches, whether it has a normal impulse, row of the deepest point, whether that is the
+    second point of its row, row of the fastest approaching point, whether that is the second point of its row, greatest
+    approach speed [px/s], sum of the normal impulses). slop [px]: greatest separation that counts as touching.
     """
     active = False
     pushed = False
@@ -96,13 +96,13 @@ def look_at_pair(contacts, first, last, slop):
 def compare_pairs(before, contacts, fell_asleep, sensors, persisting, slop, hit_speed, comparison_inout):
     """Compare the pairs that touched in the last step with the contacts of this step, and write the changes.
 
-    Return False if the comparison stopped at a contact of a part, whose ids the caller must first replace by those of
-    the whole shape; otherwise True. before: EVENT rows of the pairs that touched in the last step; contacts: CONTACT
-    rows of this step; both in the order of shape ids. fell_asleep: CONTACT rows of pairs whose island fell asleep:
-    these pairs still touch, are not reported, and are written to `aside`. sensors: 1 to read only contacts of sensors,
-    0 to read only the other contacts. persisting: 1 to report pairs that continue to touch. slop [px]: greatest
-    separation at which a pair that touched in the last step still touches. hit_speed [px/s]: approach speed above which
-    a hit is reported. O(before + contacts). comparison_inout: see Comparison.
+    Return True. Return False if a contact belongs to a part of a shape: the comparison then stops, and the caller must
+    first replace the ids of parts by those of whole shapes. before: EVENT rows of the pairs that touched in the last
+    step; contacts: CONTACT rows of this step; both sorted by shape ids. fell_asleep: CONTACT rows of pairs whose island
+    fell asleep. Such pairs still touch; they are not reported, but written to comparison_inout.aside. sensors: 1: read
+    only contacts of sensors, 0: read only other contacts. persisting: 1: report pairs that continue to touch. slop
+    [px]: greatest separation at which a pair that touched before still touches. hit_speed [px/s]: approach speed above
+    which a hit is reported. comparison_inout: a Comparison. O(before + contacts).
     """
     counts = comparison_inout.counts
     now = comparison_inout.now
@@ -187,9 +187,9 @@ def compare_pairs(before, contacts, fell_asleep, sensors, persisting, slop, hit_
 
 
 class Changes:
-    """The changes of the touching pairs in one step; the fields are those of Comparison.
+    """The changes of the touching pairs in one step, without unused rows. For the fields see Comparison.
 
-    The arrays are valid until the next compare() call.
+    The arrays are valid until the next call of Pairs.compare.
     """
 
     __slots__ = ("aside", "begin", "end", "hits", "keep", "persist", "points")
@@ -204,14 +204,14 @@ class Changes:
 
 
 class Pairs:
-    """The touching pairs, and their changes in the last step."""
+    """The pairs of shapes that touch, as EVENT rows, and their changes in the last step."""
 
     def __init__(self) -> None:
         self._make_room(16)
         self.count = 0
 
     def _make_room(self, room):
-        """Allocate arrays for two comparisons, each with room for `room` pairs. The old contents are lost."""
+        """Allocate the arrays of the last and the next comparison, with `room` rows each. The old contents are lost."""
         compared = new_comparison(room)
         self.compared, self.last, self.changes = compared, compared._replace(now=np.zeros(room, EVENT)), Changes()
 
@@ -224,7 +224,7 @@ class Pairs:
 
     @property
     def rows(self) -> np.ndarray:
-        """EVENT rows of the pairs that touch, in the order of shape ids."""
+        """EVENT rows (n,) of the pairs that touch, in the order of shape ids."""
         return self.last.now[: self.count]
 
     def compare(
@@ -236,9 +236,10 @@ class Pairs:
         slop: float,
         hit_speed: float,
     ) -> Changes | None:
-        """Update the touching pairs from the contacts of a step, and return the changes. Arguments: see compare_pairs.
+        """Update the touching pairs from the contacts of a step, and return the changes.
 
-        If a contact belongs to a part of a shape, the result is None, and nothing is changed.
+        If a contact belongs to a part of a shape, return None and change nothing. The arguments are described in
+        compare_pairs.
         """
         if self.count + len(contacts) > len(self.compared.keep):
             self._grow(2 * (self.count + len(contacts)))
@@ -263,13 +264,16 @@ class Pairs:
         self.last.now[: len(before)] = before
 
     def give_back(self, rows: np.ndarray) -> None:
-        """Add touching pairs (EVENT rows) that come from the sleeping set."""
+        """Add touching pairs, as EVENT rows, that are moved here from the sleeping set."""
         if len(rows):
             both = joined([self.rows, rows])
             self.restore(both[np.lexsort((both["shape_b"], both["shape_a"]))])
 
     def take_resting(self, bodies: np.ndarray) -> np.ndarray:
-        """Remove and return the pairs of two bodies that are both not active, as EVENT rows for the sleeping set."""
+        """Remove the pairs whose two bodies are both not active, and return their EVENT rows for the sleeping set.
+
+        bodies: BODY rows.
+        """
         rows = self.rows
         if not len(rows):
             return rows.copy()
@@ -283,7 +287,7 @@ class Pairs:
         return taken
 
     def restore(self, touching: np.ndarray) -> None:
-        """Replace the touching pairs by these EVENT rows."""
+        """Replace all touching pairs by those in `touching`, EVENT rows in the order of shape ids."""
         if len(touching) > len(self.compared.keep):
             self._make_room(2 * len(touching))
         self.count = len(touching)
@@ -292,10 +296,10 @@ class Pairs:
 
 @kernel
 def collect_bodies(touching, shapes, pairs_out):
-    """Write the ids a < b of the two bodies of touching pairs. Return (number of pairs, whether they are sorted).
+    """Write the body ids a < b of touching pairs. Return (number of pairs written, whether they are sorted).
 
-    Pairs of shapes that were removed after the step are left out, and so are repetitions of the pair before. touching:
-    EVENT rows; pairs_out (touching, 2) int64. O(pairs) if no shape was ever removed, otherwise O(pairs log shapes).
+    Omitted are pairs with a shape that was removed after the step, and a pair of bodies equal to the previous one.
+    touching: EVENT rows (n,); pairs_out: (n, 2) int64. O(n) if no shape was ever removed, otherwise O(n log shapes).
     """
     found = 0
     in_order = True
@@ -315,7 +319,7 @@ def collect_bodies(touching, shapes, pairs_out):
 
 
 def touching_bodies(world: WorldTables) -> np.ndarray:
-    """Return the pairs of touching bodies, awake or asleep: (n, 2) int64 ids a < b, each pair once, sorted."""
+    """Return the pairs of touching bodies, awake and asleep, as a sorted array (n, 2) int64 of ids a < b, each once."""
     asleep = world.sleeping_set
     parts = [world.touching_pairs.rows, asleep.touching_pairs, *(each.touching for each in asleep.islands.values())]
     parts = [each for each in parts if len(each)] or parts[:1]
@@ -337,7 +341,7 @@ def touching_bodies(world: WorldTables) -> np.ndarray:
 
 @kernel
 def is_any_sensor(pairs, shapes):
-    """Return whether a shape in the pairs (n, 2), SHAPE row numbers, is a sensor. O(pairs)."""
+    """Return whether any pair contains a sensor. pairs: SHAPE row numbers (n, 2). O(pairs)."""
     for i in range(len(pairs)):
         if shapes[pairs[i, 0]].sensor or shapes[pairs[i, 1]].sensor:
             return True
@@ -360,7 +364,7 @@ def is_any_sensor(pairs, shapes):
     writes=("sensed", "swept_sensors", "pairs", "broadphase", "work", "workspace", "library", *PLACED),
 )
 def sense(state: StepState) -> None:
-    """Detect sensor overlaps at the final poses of the step, and add the overlaps that the sweep has found."""
+    """Detect overlaps with sensors at the final poses of the step, and add those found by the continuous sweep."""
     bodies, shapes, swept = state.bodies, state.shapes, state.swept_sensors
     # Without sensors the loops are empty. The same kernels are called in every step, so that none has to be compiled
     # when the first sensor is added.
@@ -386,15 +390,16 @@ def sense(state: StepState) -> None:
 class Events:
     """The events of the last step, one structured array for each kind. They are valid until the next step.
 
-    begin: EVENT rows of the pairs of shapes that began to touch; end: of those that ceased to touch.
-    persist: EVENT rows of the pairs that continue to touch, with the effect `persist`.
-    sensor_begin, sensor_end: EVENT rows of the overlaps with sensors that began and ended, with the effect `sensors`.
+    begin: EVENT rows of the pairs of shapes that began to touch; end: EVENT rows of the pairs that stopped touching.
+    persist: EVENT rows of the pairs that continue to touch; empty without the effect `persist`.
+    sensor_begin, sensor_end: EVENT rows of the overlaps with sensors that began and ended; empty without the effect
+        `sensors`.
     hits: HIT rows of the contacts that began, or have an impulse, with an approach speed above 1 m/s.
     quarantined: QUARANTINE rows of the bodies that were disabled because a number was not finite or out of range.
-    broken: BROKEN rows of the joints that broke or were lost with a body or joint.
+    broken: BROKEN rows of the joints that broke, or that were removed together with a body or a coupled joint.
 
-    A row names two bodies, body_a and body_b, by their ids: world.body(row["body_a"]). A has the shape with the smaller
-    id, so a sensor that was added before its visitors is A.
+    A row of a pair contains the ids of its two bodies in body_a and body_b: world.body(row["body_a"]). Body A has the
+    shape with the smaller id; for example, a sensor that was added first is A.
     """
 
     begin: EventRows
@@ -413,7 +418,7 @@ class Events:
         self.broken = NO_BROKEN
 
     def __repr__(self):
-        """Return the number of events of each kind, and the speed of the fastest hit."""
+        """Return a text with the number of events of each kind, and the speed of the fastest hit."""
         counts = [f"{name}={len(rows)}" for name, rows in vars(self).items()]
         fastest = f", fastest hit {self.hits['speed'].max():.4g} px/s" if len(self.hits) else ""
         return f"Events({', '.join(counts)}{fastest})"
@@ -428,7 +433,7 @@ class Events:
     writes=("touching_pairs", "sensing_pairs", "sleeping_set", "events", "reported", "work"),
 )  # fmt: skip
 def report_events(state: StepState) -> None:
-    """Compare the touching pairs of this step and the last one, and write the changes to the Events of the step."""
+    """Compare the touching pairs of this step with those of the last step, and write the changes to the Events."""
     contacts, events, tolerances, effects = state.contact_rows, state.events, state.tolerances, state.effects
     fell_asleep, keys = state.fell_asleep or (NOTHING, None)
     usual = False, effects.persist, tolerances.slop, tolerances.hit_speed

@@ -1,4 +1,4 @@
-"""Gears and pulleys as rows of `world.joints`: sides, ropes, and the gears that a removed joint takes along."""
+"""Gears and pulleys as JOINT rows: creation of the rows, their present state, and removal of dependent gears."""
 
 from typing import Any
 
@@ -18,11 +18,12 @@ from physics.world_state import Handle, WorldState
 def gear_rows(
     world: WorldState, kind: Any, sides_a: list[tuple[bool, int]], sides_b: list[tuple[bool, int]]
 ) -> np.ndarray:
-    """Return JOINT rows (n,) of gears without ids, for joint.add_gears to append. See report_gears for their phases.
+    """Return JOINT rows (n,) of new gears. The caller, add_joints.add_gears, sets the ids and appends the rows.
 
-    kind: a Gear with the settings of all gears; sides_a, sides_b (n): (True, id of a joint) or (False, id of a body).
-    Raises ValueError for a joint that neither turns nor slides, for two equal sides, for a gear without a dynamic body,
-    for the body of a character, and without the effect `rotation`. The world is unchanged.
+    kind: a Gear with the settings of all gears; sides_a, sides_b: the sides of n gears, each (True, id of a joint) or
+    (False, id of a body). The phases are set later by report_gears. Raises ValueError for a joint that neither rotates
+    nor slides, for two equal sides, for a gear without a dynamic body, for the body of a character, and without the
+    effect `rotation`. The world is unchanged.
     """
     rows = np.zeros(len(sides_a), JOINT)
     for name, value in kind.columns().items():
@@ -50,9 +51,11 @@ def _shown(side):
 
 
 def _side(world, name, of_joint, identity):
-    """Return (id of the joint or NO_JOINT, id of the body, whether the side turns, whether it has a dynamic body).
+    """Check one side of a gear, a joint or a body. Return (joint id or NO_JOINT, body id, rotates, has a dynamic body).
 
-    The body is the one that the joint moves: B, or A if only A is dynamic. name: argument in messages.
+    For a joint, the body is B if B is dynamic, otherwise A if A is dynamic. name: name of the argument, for messages;
+    of_joint: whether `identity` is the id of a joint; False: of a body. rotates: True for a body and for a joint whose
+    coordinate is an angle.
     """
     if not of_joint:
         row = world._body_row(identity)
@@ -76,10 +79,11 @@ def _side(world, name, of_joint, identity):
 
 
 def side_of(world: WorldState, name: str, value: Any, joint: Any) -> tuple[bool, int]:
-    """Return a side of a gear as (True, id of a joint) or (False, id of a body).
+    """Return one side of a gear as (True, id of a joint) or (False, id of a body).
 
-    value: the argument `name`: a Joint, the id of one, or a Body; joint: the class Joint. Raises TypeError for anything
-    else, ValueError for a Joint or Body of another world, KeyError (which is also a ValueError) for one that is gone.
+    value: a Joint, the id of a joint, or a Body; name: name of the argument, for messages; joint: the class Joint.
+    Raises TypeError for any other value, ValueError for a Joint or Body of another world, and NoSuchId (a KeyError and
+    ValueError) for a joint or body that was removed.
     """
     if isinstance(value, Handle):
         identity = world._identity(name, value)
@@ -98,9 +102,9 @@ def side_of(world: WorldState, name: str, value: Any, joint: Any) -> tuple[bool,
 
 
 def report_gears(world: WorldState, kind: Any, count: int) -> None:
-    """Write the state of the last `count` joints, which are new gears. A gear without a phase holds its present sum.
+    """Write the present state of new gears to their JOINT rows, which are the last `count` rows of world.joints.
 
-    kind: the Gear from which they were made.
+    kind: the Gear with their settings. If kind.phase is None, the phase becomes the present sum of coordinates.
     """
     total = len(world.joints)
     made = at_present(world, np.arange(total - count, total))
@@ -111,10 +115,10 @@ def report_gears(world: WorldState, kind: Any, count: int) -> None:
 
 
 def hang(kind: Any, columns: dict[str, Any], anchors: list[np.ndarray], rows: np.ndarray) -> None:
-    """Write the pulleys, and the length of the rope, to JOINT rows (n,).
+    """Write the positions of the two pulley wheels and the length of the rope to JOINT rows (n,) of Pulleys.
 
-    kind: the Pulley from which the rows were made; columns: see add_joints.add; anchors: world positions [px] of the
-    anchors of A and of B, two arrays (n, 2). Raises ValueError for an anchor at its pulley.
+    kind: the Pulley with the settings of the rows; columns: see add_joints.add; anchors: world positions [px] of the
+    anchors of A and of B, two arrays (n, 2). Raises ValueError if an anchor coincides with its wheel.
     """
     lengths = []
     for side, name, points in zip("ab", kind.GROUND, anchors, strict=True):
@@ -129,17 +133,17 @@ def hang(kind: Any, columns: dict[str, Any], anchors: list[np.ndarray], rows: np
 
 
 def sum_with(world: WorldState, identity: int, ratio: float) -> float:
-    """Return the sum of coordinates that a gear or pulley (id) would have with `ratio` at the present poses."""
+    """Return the sum of coordinates of a gear or pulley (id) at the present poses, computed with another `ratio`."""
     rows = rows_in(world._joints, np.array([identity]))
     return at_present(world, rows, ratio)["translation"].item()
 
 
 def at_present(world: WorldState, rows: np.ndarray, ratio: float | None = None) -> np.ndarray:
-    """Return copies of joints, JOINT rows (n,), with their state at the present poses.
+    """Return copies of JOINT rows (n,), with the state of the joints at the present poses of the bodies.
 
-    The rows in the world are unchanged: they have the state after the last step. rows: ascending row numbers in
-    world.joints; ratio: ratio of the copies, None: that of the joints. O(n log joints): only these joints and those
-    that they couple are read.
+    The rows in world.joints are not changed and have the state after the last step. rows: ascending row numbers in
+    world.joints; ratio: ratio of the copies, None: the ratio of each joint. Only these joints and the joints that they
+    couple are read: O(n log joints).
     """
     joints = np.asarray(world.joints)
     sides = rows_in(world._joints, np.concatenate([joints["joint_a"][rows], joints["joint_b"][rows]]))
@@ -155,7 +159,10 @@ def at_present(world: WorldState, rows: np.ndarray, ratio: float | None = None) 
 
 
 def with_gears(world: WorldState, rows: np.ndarray) -> np.ndarray:
-    """Return rows (n,) of joints together with the rows of the gears that couple these joints, in ascending order."""
+    """Return the row numbers `rows` of joints, together with the row numbers of all gears that couple these joints.
+
+    The result is an ascending int64 array without repetitions.
+    """
     joints = world.joints
     gears = np.flatnonzero(joints["hold"] == GEARED)
     if not len(gears):

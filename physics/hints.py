@@ -1,7 +1,7 @@
-"""Hints of error messages: the name or the expression that a caller who gave a wrong argument most likely wants.
+"""Hints in error messages: the name or the expression that the caller probably meant by a wrong argument.
 
-A hint ends a message, after the value: "filter must be a Filter (got 3): write Filter(membership=3)". The functions run
-only when an argument was refused, so that right arguments cost nothing.
+A hint is the end of a message, after the value: "filter must be a Filter (got 3): write Filter(membership=3)". The
+functions run only after an argument was rejected, so valid arguments take no extra time.
 """
 
 import difflib
@@ -155,7 +155,7 @@ ASSIGNED: dict[str, dict[str, str]] = {
 
 
 def text_of(value: Any) -> str:
-    """Return repr(value) on one line, or the name of its type if repr raises an error (an int of 5,000 digits)."""
+    """Return repr(value) on one line, or "Type(…)" if repr raises an error, as for an int of 5,000 digits."""
     try:
         text = repr(value)
     except Exception:
@@ -164,19 +164,22 @@ def text_of(value: Any) -> str:
 
 
 def shown(value: Any) -> str:
-    """Return a value as text for an error message. A long text is cut, and its length is added."""
+    """Return a value as text for an error message: at most LONGEST_SHOWN characters, then "…" and the full length."""
     text = text_of(value)
     return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]}… ({len(text)} characters)"
 
 
 def brief(value: Any) -> str:
-    """Return a value as text for an expression of a hint: "…" for a long one."""
+    """Return a value as text for the expression in a hint, or "…" if the text is longer than SHORT characters."""
     text = text_of(value)
     return text if len(text) <= SHORT else "…"
 
 
 def near(word: str, allowed: Iterable[str]) -> str:
-    """Return the allowed word that `word` misspells, or "" if none is similar. Case and separators do not count."""
+    """Return the word in `allowed` that is most similar to `word`, or "" if none is similar enough.
+
+    Case, "_", "-" and spaces are ignored.
+    """
     plain = {each.lower().replace("_", ""): each for each in allowed}
     found = difflib.get_close_matches(word.lower().translate(str.maketrans("", "", "_- ")), plain, 1, NEAR_NAME)
     return plain[found[0]] if found else ""
@@ -186,9 +189,10 @@ def near(word: str, allowed: Iterable[str]) -> str:
 
 
 def unexpected(name: str, names: Sequence[str], given: Mapping[str, Any]) -> TypeError:
-    """Return the error for keyword arguments that a function does not have.
+    """Return the TypeError for keyword arguments that a function does not have, with a hint for the first of them.
 
-    name: the function, for the message; names: its arguments; given: the unexpected ones by name.
+    name: name of the function, for the message; names: names of its arguments; given: {name: value} of the unexpected
+    arguments.
     """
     word, value = min(given.items())
     meant = next((text for argument, text in MEANT.get(word, ()) if argument in names), "")
@@ -202,9 +206,9 @@ def unexpected(name: str, names: Sequence[str], given: Mapping[str, Any]) -> Typ
 
 
 def argument_names(function: Callable[..., Any]) -> tuple[str, ...]:
-    """Return the names of a function's arguments without self and cls.
+    """Return the names of a function's arguments, without self, cls and keyword dictionaries (**others).
 
-    An argument for any number of values has a star: *shapes.
+    The name of an argument for any number of values starts with a star: "*shapes".
     """
     found = [each for each in signature(function).parameters.values() if each.name not in ("self", "cls")]
     stars = {Parameter.VAR_POSITIONAL: "*"}
@@ -212,9 +216,9 @@ def argument_names(function: Callable[..., Any]) -> tuple[str, ...]:
 
 
 def explained(function: Called) -> Called:
-    """Decorate a function, so that an unexpected keyword argument raises a TypeError with a hint.
+    """Decorate a function, so that an unexpected argument raises a TypeError with a hint.
 
-    A call takes a fifth of a microsecond longer.
+    Each call of the decorated function takes 0.2 µs longer.
     """
     names = argument_names(function)
     known, called = frozenset(names), function.__qualname__.removesuffix(".__init__")
@@ -233,15 +237,16 @@ def explained(function: Called) -> Called:
 
 
 def explained_class(made: Made) -> Made:
-    """Decorate a class, so that its constructor is `explained`."""
+    """Decorate a class: replace its `__init__` by explained(__init__), and return the class."""
     made.__init__ = explained(made.__init__)
     return made
 
 
 def without_others(function: Called) -> Called:
-    """Decorate a function that ends in `**others: Never`, so that help() and signature() do not show them.
+    """Hide the last argument of a function, `**others: Never`, from help() and signature(). Return the function.
 
-    The function itself raises `unexpected` for them. Unlike `explained` this costs a call nothing.
+    The function itself must raise `unexpected` for these keyword arguments. Unlike with `explained`, calls are not
+    slower.
     """
     whole = signature(function)
     kept = [each for each in whole.parameters.values() if each.kind != Parameter.VAR_KEYWORD]
@@ -253,18 +258,21 @@ def without_others(function: Called) -> Called:
 
 
 def is_a(value: Any, package: str, *names: str) -> bool:
-    """Return whether a value is an instance of a class of a package, without an import of it."""
+    """Return whether the class of a value, or one of its base classes, is a class of `package` with one of `names`.
+
+    The package is not imported.
+    """
     return any(each.__name__ in names and each.__module__.split(".")[0] == package for each in type(value).__mro__)
 
 
 def is_own(value: Any, *names: str) -> bool:
-    """Return whether a value is an instance of a class of physics with one of these names."""
+    """Return whether a value is an instance of a class with one of `names` that is defined in the package physics."""
     package = __name__.rpartition(".")[0]
     return any(each.__name__ in names and each.__module__.startswith(package) for each in type(value).__mro__)
 
 
 def is_class(value: Any, name: str) -> bool:
-    """Return whether a value is a class of this name, given in place of an instance."""
+    """Return whether a value is itself a class with this name. A caller may have passed it instead of an instance."""
     return isinstance(value, type) and value.__name__ == name
 
 
@@ -274,24 +282,24 @@ def is_number(value: Any) -> bool:
 
 
 def is_bits(value: Any) -> bool:
-    """Return whether a value is a set of 32 bits as a number."""
+    """Return whether a value is a whole number from 0 to 2**32 - 1, which represents a set of 32 bits."""
     return is_number(value) and isinstance(value, numbers.Integral) and 0 <= int(value) <= 0xFFFFFFFF
 
 
 def is_pair(value: Any) -> bool:
-    """Return whether a value is a pair of numbers."""
+    """Return whether a value is a tuple or list of two numbers."""
     return isinstance(value, (tuple, list)) and len(value) == 2 and all(map(is_number, value))
 
 
 def in_place_of_surface(value: Any) -> str:
-    """Return the hint for a wrong value given in place of a pygame Surface or Mask; "" if there is none."""
+    """Return the hint for a wrong value that was passed instead of a pygame Surface or Mask; "" if there is no hint."""
     if is_a(value, "pygame", "Surface", "Mask", "Sprite"):
         return in_place_of_shape(value)
     return f": write pygame.image.load({brief(value)})" if isinstance(value, str) else ""
 
 
 def in_place_of_solid(value: Any) -> str:
-    """Return the hint for a wrong value given in place of an array of solid pixels or tiles; "" if there is none."""
+    """Return the hint for a wrong value that was passed instead of a bool array of pixels or tiles; "" for no hint."""
     rows = [*value] if isinstance(value, (list, tuple)) else []
     if rows and isinstance(rows[0], (str, list, tuple)) and rows[0] and isinstance(rows[0][0], str):
         return ': write [[each == "#" for each in row] for row in rows]'
@@ -299,9 +307,9 @@ def in_place_of_solid(value: Any) -> str:
 
 
 def in_place_of_shape(value: Any, many: bool = False) -> str:
-    """Return the hint for a wrong value given in place of a shape; "" if there is none.
+    """Return the hint for a wrong value that was passed instead of a shape; "" if there is no hint.
 
-    many: whether the function takes several shapes.
+    many: whether the called function takes several shapes.
     """
     if is_a(value, "pygame", "Surface"):
         return ": write PixelMask.from_surface(surface)"
@@ -344,7 +352,7 @@ def _in_place_of_shape(value, many):
 
 
 def in_place_of_vector(name: str, value: Any) -> str:
-    """Return a hint for `value`, which was given for an argument `name` that must be a pair; "" if there is none."""
+    """Return the hint for a wrong value of the argument `name`, which must be a pair; "" if there is no hint."""
     if is_a(value, "pygame", "Rect", "FRect"):
         return ": write rect.center or rect.topleft"
     if is_own(value, "Body", "Character"):
@@ -359,9 +367,9 @@ def in_place_of_vector(name: str, value: Any) -> str:
 
 
 def in_place_of_points(name: str, value: Any, count: int | None = None) -> str:
-    """Return the hint for a wrong value given in place of the points or numbers `name`; "" if there is none.
+    """Return the hint for a wrong value of the argument `name`, an array of points or numbers; "" if there is no hint.
 
-    count: the number of points or numbers that is required; None: any.
+    count: the required number of points or numbers; None: any number.
     """
     if name == "points":
         if is_a(value, "pygame", "Rect", "FRect"):
@@ -378,7 +386,7 @@ def in_place_of_points(name: str, value: Any, count: int | None = None) -> str:
 
 
 def in_place_of_number(name: str, value: Any) -> str:
-    """Return the hint for a wrong value given in place of the number `name`; "" if there is none."""
+    """Return the hint for a wrong value of the argument `name`, which must be a number; "" if there is no hint."""
     if name == "radius" and is_pair(value):
         return ": write the radius first, Circle(radius, center)"
     if name == "gravity_scale" and is_pair(value):
@@ -389,12 +397,12 @@ def in_place_of_number(name: str, value: Any) -> str:
 
 
 def in_place_of_limits(value: Any) -> str:
-    """Return the hint for a wrong value given in place of the limits (low, high) of a joint; "" if there is none."""
+    """Return the hint for a wrong value of a joint's limits, which must be (low, high); "" if there is no hint."""
     return f": write (None, {brief(value)})" if is_number(value) else ""
 
 
 def in_place_of_material(value: Any) -> str:
-    """Return the hint for a wrong value given in place of a Material; "" if there is none."""
+    """Return the hint for a wrong value that was passed instead of a Material."""
     if is_number(value) and value >= 0:
         return f": write Material(friction={brief(value)})"
     if isinstance(value, dict) and value and value.keys() <= set(MATERIALS):
@@ -407,7 +415,7 @@ def in_place_of_material(value: Any) -> str:
 
 
 def in_place_of_filter(value: Any) -> str:
-    """Return the hint for a wrong value given in place of a Filter; "" if there is none."""
+    """Return the hint for a wrong value that was passed instead of a Filter."""
     if is_bits(value):
         return f": write Filter(membership={brief(value)})"
     if is_pair(value) and all(map(is_bits, value)):
@@ -423,12 +431,12 @@ LONGEST_NAME, MOST_NAMES = 30, 20  # characters of a name, and names, that a hin
 
 
 def _is_short_name(value):
-    """Return whether a value is a str that can stand as a keyword in a hint of readable length."""
+    """Return whether a value is a str that is a valid Python identifier of at most LONGEST_NAME characters."""
     return isinstance(value, str) and value.isidentifier() and len(value) <= LONGEST_NAME
 
 
 def in_place_of_effects(value: Any) -> str:
-    """Return the hint for a wrong value given in place of Effects; "" if there is none."""
+    """Return the hint for a wrong value that was passed instead of an Effects; "" if there is no hint."""
     if is_class(value, "Effects"):
         return ": write Effects()"
     if callable(value) and getattr(value, "__name__", "") in ("detection", "rigid_bodies"):
@@ -443,20 +451,23 @@ def in_place_of_effects(value: Any) -> str:
 
 
 def assigned_to(thing: Any) -> dict[str, str]:
-    """Return the entry of ASSIGNED for an object, {attribute: expression}; {} if there is none."""
+    """Return the entry of ASSIGNED for the class of an object or a base class: {attribute: expression}, {} if none."""
     return next((ASSIGNED[each.__name__] for each in type(thing).__mro__ if each.__name__ in ASSIGNED), {})
 
 
 def in_place_of_attribute(thing: Any, name: str, value: Any) -> str:
-    """Return the hint for an attribute of an object that cannot be set to a value; "" if there is none."""
+    """Return the hint for an attribute that cannot be set; "" if there is no hint.
+
+    thing: the object; name: the attribute; value: the value that was to be set.
+    """
     expression = assigned_to(thing).get(name)
     return f": write {expression.replace('{}', brief(value))}" if expression else ""
 
 
 def unchangeable(expression: str) -> Callable[[Made], Made]:
-    """Return a class decorator: setting an attribute raises FrozenInstanceError, and the message has the expression.
+    """Return a class decorator that makes every assignment to an attribute raise FrozenInstanceError.
 
-    expression: what to write, with {name} and {value} for the attribute.
+    expression: the code that the message suggests instead; {name} and {value} are replaced by those of the assignment.
     """
 
     def refuse(thing: Any, name: str, value: Any) -> None:
@@ -471,7 +482,10 @@ def unchangeable(expression: str) -> Callable[[Made], Made]:
 
 
 def in_place_of_word(name: str, value: Any, allowed: Sequence[str]) -> str:
-    """Return the hint for a wrong value given in place of one of the words `allowed`; "" if there is none."""
+    """Return the hint for a wrong value of the argument `name`, which must be one of the strings `allowed`.
+
+    The result is "" if there is no hint.
+    """
     if isinstance(value, str):
         found = near(value, allowed)
         return f': did you mean "{found}"?' if found else ""

@@ -1,4 +1,4 @@
-"""Joint, a handle on one row of `world.joints`; and the functions that change and remove joints."""
+"""Joint, a handle on one row of `world.joints`, and the functions that change and remove joints."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ NO_JOINTS, NONE_BROKEN = np.zeros(0, JOINT), np.zeros(0, BROKEN)
 
 
 def wake(world: WorldState, rows: np.ndarray) -> list[int]:
-    """Wake the bodies of JOINT rows, if they still exist, and return their ids."""
+    """Wake the bodies of the joints `rows` (JOINT rows), and return the ids of these bodies. Skip removed bodies."""
     ids = np.unique(np.concatenate([rows["body_a"], rows["body_b"]]))
     ids = [each for each in ids.tolist() if each in world._shapes_of]
     sleep.disturb(world, ids)
@@ -44,15 +44,15 @@ def wake(world: WorldState, rows: np.ndarray) -> list[int]:
 
 
 def set_apart(world: WorldState, ids: Iterable[int]) -> None:
-    """Have the next step find anew which pairs of bodies a joint keeps apart. ids: bodies of the changed joints."""
+    """Have the next step call keep_apart, because joints have changed. ids: ids of the bodies of these joints."""
     world._apart = (world._apart or set[int]()).union(ids)
 
 
 def keep_apart(world: WorldState) -> None:
-    """Set the pairs of bodies that the broad phase leaves out, because a joint forbids contacts between them.
+    """Update the pairs of bodies that the broad phase skips because a joint forbids contacts between the two bodies.
 
-    A step calls this function first if joints have changed. If the pairs changed, the pairs of the bodies of changed
-    joints are searched again. O(joints log joints).
+    A step calls this function first if joints have changed. If the skipped pairs changed, the candidate pairs of the
+    bodies of changed joints are searched again. O(joints log joints).
     """
     joints, ids = world.joints, np.array(sorted(world._apart or ()), np.int64)
     world._apart = None
@@ -66,11 +66,11 @@ def keep_apart(world: WorldState) -> None:
 
 
 def remove(world: WorldState, ids: Any) -> None:
-    """Remove joints, given as Joints or ids, one or many, and the gears that couple them.
+    """Remove joints and the gears that couple these joints. ids: Joints or ids, one or many.
 
-    The next step reports these gears as broken, with the reason "removed". Raises KeyError for an unknown joint,
-    TypeError for anything but Joints and ids, ValueError for a Joint of another world, RuntimeError during a step.
-    Nothing is removed then.
+    The next step reports the gears as broken, with the reason "removed". Raises KeyError for an unknown joint,
+    TypeError for anything but Joints and ids, ValueError for a Joint of another world, RuntimeError during a step. No
+    joint is then removed.
     """
     world._unlocked()
     rows = joint_rows(world, ids)
@@ -80,7 +80,7 @@ def remove(world: WorldState, ids: Any) -> None:
 
 
 def drop(world: WorldState, rows: np.ndarray) -> np.ndarray:
-    """Remove the joints with these row numbers and wake their bodies. Return copies of the rows."""
+    """Remove joints and wake their bodies. Return copies of the removed JOINT rows. rows: row numbers of the joints."""
     gone = world.joints[rows].copy()
     keep = np.ones(world._joints.count, bool)
     keep[rows] = False
@@ -103,9 +103,9 @@ def drop_of_bodies(world: WorldState, ids: np.ndarray) -> None:
 
 
 def broken_rows(rows: np.ndarray, reason: str | np.ndarray) -> np.ndarray:
-    """Return a BROKEN row, which reports a broken joint, for each JOINT row.
+    """Return a BROKEN row for each JOINT row in `rows`. A BROKEN row reports a joint that broke or was removed.
 
-    reason: "force", "torque" or "removed"; one value for all rows, or one per row.
+    reason: "force", "torque" or "removed"; one value for all rows, or one for each row.
     """
     found = np.zeros(len(rows), BROKEN)
     found["joint"], found["body_a"], found["body_b"] = rows["id"], rows["body_a"], rows["body_b"]
@@ -117,8 +117,8 @@ def broken_rows(rows: np.ndarray, reason: str | np.ndarray) -> np.ndarray:
 def break_joints(world: WorldState, events: Any) -> None:
     """Remove the joints that broke in the last step, and report them in events.broken.
 
-    Gears that couple a broken joint are removed and reported too. So are joints of bodies that were removed before the
-    step.
+    Gears that couple a broken joint are removed and reported too. Joints that were removed before the step, together
+    with a body or another joint, are also reported.
     """
     joints = world.joints
     broken = np.flatnonzero(joints["broken"])
@@ -134,7 +134,7 @@ def break_joints(world: WorldState, events: Any) -> None:
 
 
 def joint_rows(world: WorldState, ids: Any) -> np.ndarray:
-    """Return the row numbers of joints, given as Joints or ids, one or many. Each row is listed once.
+    """Return the row numbers of joints in world.joints, ascending, each once. ids: Joints or ids, one or many.
 
     Raises KeyError for an unknown joint, TypeError for anything but Joints and ids, ValueError for a Joint of another
     world.
@@ -151,9 +151,9 @@ def joint_rows(world: WorldState, ids: Any) -> np.ndarray:
 
 
 def row_of(world: WorldState, joint: Any) -> int:
-    """Return the row number of one joint, given as a Joint or id.
+    """Return the row number in world.joints of one joint. joint: a Joint or the id of a joint.
 
-    Raises KeyError for an unknown one, TypeError for anything else.
+    Raises KeyError for an unknown joint, TypeError for any other value, ValueError for a Joint of another world.
     """
     return int(joint_rows(world, [_identity(world, joint)])[0])
 
@@ -177,9 +177,10 @@ class Joint:
 
     world: the World of the joint; identity: the id of the joint, a whole number.
 
-    Properties other than world and id raise KeyError for a joint that was removed or broke; point, joint_a, joint_b,
-    ratio, phase, ratchet and length raise AttributeError for kinds without them. A setter raises TypeError or
-    ValueError for an invalid value, RuntimeError during a step. The world is then unchanged.
+    For a joint that was removed or broke, all properties except world and id raise KeyError. The properties point,
+    joint_a, joint_b, ratio, phase, ratchet and length exist only for some kinds; for other kinds they raise
+    AttributeError. A setter raises TypeError or ValueError for an invalid value, RuntimeError during a step. The world
+    is then unchanged.
     """
 
     __slots__ = ("_world", "_id")
@@ -222,7 +223,7 @@ class Joint:
         return self._world._joints.data[self._must_exist()]
 
     def _set(self, **columns) -> None:
-        """Write the given columns (keyword arguments) of the JOINT row, and wake the two bodies."""
+        """Write values to columns of the joint's JOINT row, and wake its bodies. columns: {name: value}."""
         self._world._unlocked()
         at = self._must_exist()
         rows = np.asarray(self._world.joints)[at : at + 1]  # its columns may have computed names
@@ -241,12 +242,12 @@ class Joint:
 
     @property
     def body_a(self) -> Any:
-        """The Body of side A, None for the world."""
+        """The first body of the joint, a Body; None if it is the world."""
         return self._body("body_a")
 
     @property
     def body_b(self) -> Any:
-        """The Body of side B, None for the world."""
+        """The second body of the joint, a Body; None if it is the world."""
         return self._body("body_b")
 
     def _body(self, name):
@@ -255,12 +256,12 @@ class Joint:
 
     @property
     def anchor_a(self) -> Vec2:
-        """The anchor of A in the world [px]."""
+        """The anchor on body A, in the world (x, y) [px]."""
         return self._anchor("a")
 
     @property
     def anchor_b(self) -> Vec2:
-        """The anchor of B in the world [px]."""
+        """The anchor on body B, in the world (x, y) [px]."""
         return self._anchor("b")
 
     def _anchor(self, side):
@@ -275,47 +276,48 @@ class Joint:
 
     @property
     def angle(self) -> float:
-        """The angle of B relative to A [rad] after the last step. It was 0 when the joint was made."""
+        """The angle of body B relative to body A [rad] after the last step, minus their relative angle at creation."""
         return self._row["angle"].item()
 
     @property
     def translation(self) -> float:
-        """The translation of B along the axis [px] after the last step; for a Distance the distance of the anchors.
+        """The translation of body B along the axis of the joint [px] after the last step.
 
-        For a Gear the sum of coordinates that it holds, for a Pulley the length of rope in use.
+        For a Distance it is the distance of the anchors, for a Gear the sum of coordinates that the gear keeps
+        constant, for a Pulley the length of rope in use.
         """
         return self._row["translation"].item()
 
     @property
     def speed(self) -> float:
-        """Rate of change of the joint's angle [rad/s], or of its translation or length [px/s], after the last step.
+        """The rate of change of the joint's angle [rad/s], or of its translation or length [px/s], after the last step.
 
-        For a joint whose kind controls neither, it is that of the angle. For a Wheel it is that of the suspension; the
-        wheel itself turns at body_b.angular_velocity.
+        For a kind that controls none of these coordinates, it is the rate of the angle. For a Wheel it is the speed of
+        the suspension; the wheel itself rotates at body_b.angular_velocity.
         """
         return self._row["speed"].item()
 
     @property
     def separation(self) -> float:
-        """The error of the joint [px]: distance of held anchors, distance from the axis, or excess over limits.
+        """The error of the joint [px]: distance between the anchors, distance from the axis, or excess over limits.
 
-        For a Gear the error of its sum, in the unit of the coordinate of joint_a; for a Target the distance from its
-        point.
+        For a Gear it is the error of the sum of coordinates, in the unit of joint_a's coordinate. For a Target it is
+        the distance between the anchor and the target point.
         """
         return self._row["separation"].item()
 
     @property
     def force(self) -> float:
-        """Magnitude of the force in the last step [mass px/s²].
+        """The magnitude of the joint's force on body B in the last step [mass px/s²].
 
-        The JOINT columns force_x and force_y hold the vector.
+        The vector is in the columns force_x and force_y of world.joints.
         """
         row = self._row
         return math.hypot(row["force_x"].item(), row["force_y"].item())
 
     @property
     def torque(self) -> float:
-        """The torque on B in the last step [mass px²/s²], in addition to the torque of the force at the anchor."""
+        """The torque on body B in the last step [mass px²/s²], without the torque of the force at the anchor."""
         return self._row["torque"].item()
 
     @property
@@ -331,7 +333,7 @@ class Joint:
 
     @property
     def motor(self) -> Drive | None:
-        """The motor: a Drive or None. Setting one raises ValueError for a kind without a coordinate."""
+        """The motor, a Drive; None: no motor. Setting a Drive raises ValueError for a kind without a coordinate."""
         row = self._row
         return Drive(row["motor_speed"].item(), row["motor_max"].item()) if row["motor_max"] > 0.0 else None
 
@@ -342,7 +344,10 @@ class Joint:
 
     @property
     def spring(self) -> Spring | None:
-        """The spring on the joint's angle, translation or length: a Spring or None. Setting one raises as for motor."""
+        """The spring on the joint's angle, translation or length, a Spring; None: no spring.
+
+        Setting a Spring raises ValueError for a kind without a coordinate.
+        """
         row = self._row
         names = ("spring_hertz", "spring_damping", "spring_target")
         return Spring(*(row[name].item() for name in names)) if row["spring_hertz"] > 0.0 else None
@@ -364,10 +369,10 @@ class Joint:
 
     @property
     def limits(self) -> tuple[float, float] | None:
-        """The limits (low, high) of the joint's angle, translation or length; None: no limits.
+        """The limits (low, high) of the joint's angle [rad], or of its translation or length [px]; None: no limits.
 
-        A value is -inf or inf where only the other side is limited. Setting them raises TypeError or
-        ValueError for invalid limits, and ValueError for a joint without a coordinate and for a Ratchet.
+        A missing lower limit is -inf, a missing upper limit inf. Setting the limits raises TypeError or ValueError for
+        invalid limits, and ValueError for a joint without a coordinate and for a Ratchet.
         """
         row = self._row
         lower, upper = row["lower"].item(), row["upper"].item()
@@ -389,7 +394,7 @@ class Joint:
 
     @property
     def breaks(self) -> tuple[float, float]:
-        """The (force [mass px/s²], torque [mass px²/s²]) above which the joint breaks; inf: it never does."""
+        """The (force [mass px/s²], torque [mass px²/s²]) above which the joint breaks; inf: it does not break."""
         row = self._row
         return row["break_force"].item(), row["break_torque"].item()
 
@@ -400,7 +405,7 @@ class Joint:
 
     @property
     def contacts(self) -> bool:
-        """Whether the two bodies may touch each other."""
+        """Whether the two bodies of the joint collide with each other."""
         return bool(self._row["contacts"])
 
     @contacts.setter
@@ -409,7 +414,7 @@ class Joint:
 
     @property
     def enabled(self) -> bool:
-        """Whether the joint acts. A disabled joint keeps its settings."""
+        """Whether the joint acts on its bodies. A disabled joint keeps its settings."""
         return bool(self._row["enabled"])
 
     @enabled.setter
@@ -418,7 +423,7 @@ class Joint:
 
     @property
     def point(self) -> Vec2:
-        """The point of the world to which a Target pulls its body [px]. Raises AttributeError for other kinds."""
+        """The world point (x, y) [px] towards which a Target pulls its body. Raises AttributeError for other kinds."""
         self._is_target("point")
         return self.anchor_a
 
@@ -443,12 +448,18 @@ class Joint:
 
     @property
     def joint_a(self) -> Joint | None:
-        """The joint of side A of a Gear, None if the side is a body. Raises AttributeError for other kinds."""
+        """The first joint that a Gear couples, or None if it couples a body instead.
+
+        Raises AttributeError for other kinds.
+        """
         return self._coupled("joint_a")
 
     @property
     def joint_b(self) -> Joint | None:
-        """The joint of side B of a Gear, None if the side is a body. Raises AttributeError for other kinds."""
+        """The second joint that a Gear couples, or None if it couples a body instead.
+
+        Raises AttributeError for other kinds.
+        """
         return self._coupled("joint_b")
 
     def _coupled(self, name):
@@ -459,7 +470,7 @@ class Joint:
     def ratio(self) -> float:
         """The ratio of a Gear or Pulley. Raises AttributeError for other kinds.
 
-        A change keeps the present poses: the phase of a gear, or the length of a rope, changes too.
+        Setting it also changes the phase of the Gear or the length of the rope, so that no body has to move.
         """
         return self._is_one_of("ratio", "Gear", "Pulley")["ratio"].item()
 
@@ -474,7 +485,10 @@ class Joint:
 
     @property
     def phase(self) -> float:
-        """The sum of coordinates that a Gear holds, or the angle of a tooth of a Ratchet [rad]."""
+        """The sum of coordinates that a Gear keeps constant, or the angle of one tooth of a Ratchet [rad].
+
+        Raises AttributeError for other kinds.
+        """
         return self._is_one_of("phase", "Gear", "Ratchet")["phase"].item()
 
     @phase.setter
@@ -486,9 +500,9 @@ class Joint:
 
     @property
     def ratchet(self) -> float:
-        """The angle from tooth to tooth of a Ratchet [rad], in the direction in which B may turn.
+        """The angle between adjacent teeth of a Ratchet [rad]. Its sign is the direction in which body B may rotate.
 
-        A change sets the last tooth by the present angle. Raises AttributeError for other kinds.
+        Setting it computes the last passed tooth again from the present angle. Raises AttributeError for other kinds.
         """
         return self._is_one_of("ratchet", "Ratchet")["ratchet"].item()
 
@@ -500,7 +514,10 @@ class Joint:
 
     @property
     def length(self) -> float:
-        """The length of the rope of a Pulley [px]. A change hauls the rope in or pays it out."""
+        """The length of the rope of a Pulley [px]. Setting it shortens or lengthens the rope, which moves the bodies.
+
+        Raises AttributeError for other kinds.
+        """
         return self._is_one_of("length", "Pulley")["upper"].item()
 
     @length.setter
@@ -511,7 +528,7 @@ class Joint:
 
     @property
     def user(self) -> Any:
-        """Any object that the caller attached to the joint, or None."""
+        """Any value that the caller attaches to the joint; None by default."""
         self._must_exist()
         return self._world._joint_users.get(self._id)
 
@@ -521,5 +538,5 @@ class Joint:
         self._world._joint_users[self._id] = value
 
     def remove(self) -> None:
-        """Remove the joint and wake its bodies."""
+        """Remove the joint from the world, together with the gears that couple it, and wake its bodies."""
         remove(self._world, self)

@@ -1,4 +1,4 @@
-"""Snapshots of a world, in memory and as `.npz` files without pickle, and digests (hashes) of its state."""
+"""Snapshots of a world, in memory and as `.npz` files without pickle, and digests (hashes) of the world's state."""
 
 import contextlib
 import hashlib
@@ -45,7 +45,10 @@ from physics.world_state import WorldState, checked_substeps
 
 
 def pack_geometry(geometry: Geometries) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-    """Return shapes in the form for files: (arrays by name, all other values as a dict for JSON)."""
+    """Convert shapes to values for a file. Return ({name: array}, dict of all other values, which JSON can represent).
+
+    geometry: the shapes.
+    """
     arrays = {}
     for number, shape in enumerate(geometry.outlines):
         arrays[f"hull_{number}"] = np.array(shape.points)
@@ -69,7 +72,7 @@ def pack_geometry(geometry: Geometries) -> tuple[dict[str, np.ndarray], dict[str
 
 
 def unpack_geometry(arrays: dict[str, np.ndarray], facts: dict[str, Any]) -> Geometries:
-    """Return the shapes from `arrays` and `facts`, the two results of pack_geometry.
+    """Convert `arrays` and `facts`, the two results of pack_geometry, back to shapes, and return the shapes.
 
     Raises KeyError, TypeError or ValueError for damaged data.
     """
@@ -138,9 +141,10 @@ LATER_COLUMNS = {"joints": {name for name, _ in (*COUPLED_STATE, *COUPLED_SCRATC
 
 
 def _as_laid_out(name, rows, dtype) -> np.ndarray:
-    """Return the rows of a stored table with this program's dtype. The order of the columns may differ.
+    """Convert the rows of a stored table to `dtype`, this program's row type, and return them.
 
-    Raises ValueError if the columns are not the same.
+    The stored columns may be in another order. Columns in LATER_COLUMNS may be missing; their values are then 0. name:
+    name of the table. Raises ValueError if the columns differ otherwise.
     """
     columns = rows.dtype.fields or {}
     absent = LATER_COLUMNS.get(name, set()) - columns.keys()
@@ -158,7 +162,7 @@ def _as_laid_out(name, rows, dtype) -> np.ndarray:
 
 
 class Snapshot:
-    """A copy of the state of a world, as World.snapshot returns it and World.restore takes it."""
+    """A copy of the state of a world. World.snapshot returns it, and World.restore restores it."""
 
     def __init__(self, arrays: dict[str, np.ndarray], facts: dict[str, Any], geometry: Any = None) -> None:
         for name, value in (("arrays", arrays), ("facts", facts)):
@@ -171,19 +175,19 @@ class Snapshot:
         self.geometry = geometry
 
     def __repr__(self):
-        """Return the numbers of bodies and joints, the time, the solver and the effects."""
+        """Return a text with the numbers of bodies and joints, the time, the solver and the effects."""
         counts = [f"{len(self.arrays[name])} {name}" for name in ("bodies", "joints") if name in self.arrays]
         facts = [f"{name}={self.facts[name]!r}" for name in ("time", "solver", "effects") if name in self.facts]
         return f"Snapshot({', '.join([*counts, *facts])})"
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write the snapshot to a versioned .npz file, which replaces an existing file atomically.
+        """Write the snapshot to a versioned .npz file. An existing file is replaced atomically.
 
         path: path of the file.
 
-        The data is first written to <path>.<process id>.part. Files of this form that were last written more than an
-        hour ago are removed. Raises OSError if writing fails; an existing file is then unchanged. Raises TypeError if
-        path is not a path.
+        The data is first written to <path>.<process id>.part. Older .part files of the same path are deleted if they
+        were last written more than an hour ago. Raises OSError if writing fails; an existing file is then unchanged.
+        Raises TypeError if path is not a path.
         """
         arrays, facts = pack_geometry(self.geometry)
         named: dict[str, Any] = {"facts": np.array(json.dumps(self.facts | facts)), **self.arrays, **arrays}
@@ -203,11 +207,11 @@ class Snapshot:
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> "Snapshot":
-        """Read a snapshot file, and return the Snapshot.
+        """Read a snapshot from a file that save() has written, and return the Snapshot.
 
         path: path of the file.
 
-        Raises OSError if the file cannot be opened; ValueError with path and reason if the file is damaged or has
+        Raises OSError if the file cannot be opened; ValueError, with path and reason, if the file is damaged or has
         another version; TypeError if path is not a path.
         """
         with open(_checked_path(path), "rb") as file:
@@ -232,7 +236,10 @@ class Snapshot:
 
 
 def _checked_path(path: Any) -> str:
-    """Return a path as text. Raises TypeError for anything but a path, also for a number, which would name a file."""
+    """Return a path as a str. Raises TypeError for anything but a str, bytes or path object.
+
+    An int, which open() would use as a file descriptor, raises TypeError too.
+    """
     try:
         return os.fsdecode(path)
     except TypeError:
@@ -240,7 +247,7 @@ def _checked_path(path: Any) -> str:
 
 
 def _remove_abandoned(path: str) -> None:
-    """Remove .part files of this path that were last written more than an hour ago, see Snapshot.save."""
+    """Delete the .part files of a path that were last written more than an hour ago. See Snapshot.save."""
     folder, name = os.path.split(os.path.abspath(path))
     part = re.compile(re.escape(name) + r"\.[0-9]+\.part")
     with contextlib.suppress(OSError):
@@ -289,17 +296,20 @@ def take(world: WorldState) -> Snapshot:
 
 
 def _other_effects(stored, present):
-    """Return the message for a snapshot whose effects (names) differ from those that are present in the world."""
+    """Return the error message for a snapshot whose effects differ from those of the world.
+
+    stored: names of the snapshot's effects; present: names of the world's effects.
+    """
     sides = ("only the snapshot has", stored - present), ("only this world has", present - stored)
     text = ", ".join(f"{side} {', '.join(sorted(names))}" for side, names in sides if names)
     return f"snapshot must be of a world with the same effects: {text}"
 
 
 def restore(world: WorldState, taken: Snapshot) -> None:
-    """Set a world to the state in a snapshot `taken`.
+    """Set a world to the state in the snapshot `taken`.
 
-    Raises TypeError for anything but a Snapshot; ValueError if the snapshot is damaged, or has other effects or another
-    pixels_per_meter than the world. The world is then unchanged.
+    Raises TypeError for anything but a Snapshot; ValueError if the snapshot is damaged, or if its effects or
+    pixels_per_meter differ from those of the world. The world is then unchanged.
     """
     if not isinstance(taken, Snapshot):
         hint = ": write Snapshot.load(path)" if isinstance(taken, (str, PathLike)) else ""
@@ -357,9 +367,10 @@ def restore(world: WorldState, taken: Snapshot) -> None:
 
 
 def _islands_apart(islands) -> dict:
-    """Return the sleeping islands as arrays by name: keys, rows of all islands joined, numbers of rows per island.
+    """Convert the sleeping islands to arrays, and return them as {name: array}. islands: SleepingSet.islands.
 
-    islands: SleepingSet.islands.
+    The arrays are the keys of the islands; the bodies, contacts and touching pairs of all islands, concatenated in the
+    order of keys; and for each of these three tables the number of rows of each island.
     """
     keys = sorted(islands)
     apart: dict[str, np.ndarray] = {"island_keys": np.array(keys, np.int64)}
@@ -375,7 +386,7 @@ def _islands_apart(islands) -> dict:
 
 
 def _sleepers(arrays) -> SleepingSet:
-    """Return the SleepingSet from the arrays of a snapshot, see _islands_apart."""
+    """Convert the arrays of a snapshot that _islands_apart has made back to a SleepingSet, and return it."""
     sleeping_set, fields = SleepingSet(), ("bodies", "contacts", "touching")
     parts = {
         name: np.split(arrays["island_" + name], np.cumsum(arrays[f"island_{name}_counts"])[:-1]) for name in fields
@@ -390,8 +401,8 @@ def _sleepers(arrays) -> SleepingSet:
 def _unpack(arrays, facts, geometry):
     """Check the data of a snapshot. Return (library, shapes by body id, original masks by body id, random generator).
 
-    Bodies whose mask was replaced by simpler shapes (Body.tier) have an original mask. Raises one of the errors in
-    DAMAGE for invalid data.
+    The original masks are those of bodies with a tier, whose mask was replaced by simpler shapes. arrays, facts,
+    geometry: the attributes of the Snapshot. Raises one of the errors in DAMAGE for invalid data.
     """
     library = Library.of(geometry)
     shapes_of: dict[int, tuple[Shape, ...]] = {identity: () for identity in arrays["bodies"]["id"].tolist()}
@@ -430,14 +441,17 @@ def _unpack(arrays, facts, geometry):
 
 
 def _with_own_values(shape, row) -> Shape:
-    """Return a shape with the material, filter and sensor flag that its SHAPE row has as own values, if any."""
+    """Return a copy of a shape with its own material, filter and sensor flag from a SHAPE row.
+
+    A value that the row does not mark as the shape's own is None in the copy.
+    """
     material = Material(*(row[name].item() for name in MATERIALS)) if row["own_material"] else None
     filter = Filter(row["membership"].item(), row["mask"].item()) if row["own_filter"] else None
     return shape.with_(material, filter, row["sensor"].item() if row["own_sensor"] else None)
 
 
 def _targets(arrays) -> dict:
-    """Return the targets of kinematic bodies in a snapshot: {body id: (x, y, angle)}."""
+    """Return the targets of kinematic bodies in a snapshot, {body id: (x [px], y [px], angle [rad])}."""
     ids, poses = checks.ids("aimed", arrays["aimed"]), checks.columns("targets", arrays["targets"], width=3)
     return dict(zip(ids.tolist(), map(tuple, poses.tolist()), strict=True))
 
@@ -464,10 +478,10 @@ WALK = (
 
 
 def digest(world: WorldState) -> str:
-    """Return the blake2b-128 hash of the state on which the next step depends, as hexadecimal digits.
+    """Return a hash of the state on which the next step depends: blake2b-128, as 32 hexadecimal digits.
 
-    It covers the solver, dt and substeps. In the order of ids follow poses, velocities, flags, masses, filters,
-    characters, contacts and impulses; then joints, targets and forces of the next step. −0.0 counts as 0.0. Materials
+    The hash covers the solver, dt and substeps; poses, velocities, flags, masses, filters, characters, contacts and
+    impulses, each in the order of ids; and joints, targets and forces of the next step. −0.0 counts as 0.0. Materials
     and random numbers are not included.
     """
     found = hashlib.blake2b(digest_size=16)

@@ -1,4 +1,4 @@
-"""The step: its stages in order, the targets of kinematic bodies, and a step that can be paused between stages."""
+"""The step: its stages in order, the targets of kinematic bodies, and a step that pauses between stages."""
 
 import warnings
 from collections.abc import Generator
@@ -53,11 +53,11 @@ from physics.world_state import WorldState
 
 
 def set_target(world: WorldState, identity: int, position: Pair, angle: float | None) -> None:
-    """Set the pose that a kinematic body reaches at the end of the next step.
+    """Set the pose that a kinematic body (id) reaches at the end of the next step.
 
-    position [px]; angle [rad], None: unchanged. Raises TypeError for arguments of a wrong type; ValueError for a body
-    that is not kinematic, a position too far away for one step, a rotation without the effect `rotation`, or a rotation
-    of a TileGrid; KeyError for an unknown body; RuntimeError during a step.
+    position: (x, y) [px]; angle: [rad], None: unchanged. Raises TypeError for arguments of a wrong type; ValueError for
+    a body that is not kinematic, a position too far away for one step, a rotation without the effect `rotation`, or a
+    rotation of a TileGrid; KeyError for an unknown body; RuntimeError during a step.
     """
     world._unlocked()
     row = world._body_row(identity)
@@ -79,9 +79,10 @@ def set_target(world: WorldState, identity: int, position: Pair, angle: float | 
 
 
 def _velocities(bodies: np.ndarray, targets: np.ndarray, dt: float) -> np.ndarray:
-    """Return the velocities with which bodies reach target poses in dt [s]: vx, vy [px/s], angular [rad/s], (n, 3).
+    """Return the velocities (n, 3) with which n bodies reach their target poses in dt [s].
 
-    bodies: BODY rows (n,); targets (n, 3): x, y [px], angle [rad]. vx, vy are those of the centre of mass.
+    The columns are the velocity x, y of the centre of mass [px/s] and the angular velocity [rad/s]. bodies: BODY rows
+    (n,); targets: (n, 3) x, y [px], angle [rad].
     """
     cosine, sine = np.cos(targets[:, 2]), np.sin(targets[:, 2])
     x, y = bodies["local_center_x"], bodies["local_center_y"]
@@ -96,12 +97,12 @@ def _velocities(bodies: np.ndarray, targets: np.ndarray, dt: float) -> np.ndarra
 
 
 def _rows(world) -> tuple[np.ndarray, np.ndarray]:
-    """Return (row numbers of the bodies with a target, their target poses (n, 3))."""
+    """Return (BODY row numbers (n,) of the bodies with a target, target poses (n, 3) x, y [px], angle [rad])."""
     return rows_of(world.bodies, np.array([*world._targets], np.int64)), np.array([*world._targets.values()])
 
 
 def aim(world: WorldState, dt: float) -> None:
-    """Give bodies with targets the velocities with which they reach their targets in dt [s].
+    """Set the velocities of all bodies with targets, so that they reach their targets in a step of dt [s].
 
     Do nothing for a step of length 0.
     """
@@ -114,9 +115,9 @@ def aim(world: WorldState, dt: float) -> None:
 
 
 def arrive(world: WorldState, dt: float) -> None:
-    """Move the bodies with targets exactly to their target poses, set their velocities to 0, and clear the targets.
+    """Set the poses of all bodies with targets exactly to the targets, and their velocities to 0. Clear the targets.
 
-    A body that was quarantined in the step is not moved. Do nothing for a step of length 0.
+    A body that was quarantined (disabled) in the step is not moved. Do nothing for a step of length 0.
     """
     if not world._targets or dt == 0.0:
         return
@@ -154,16 +155,16 @@ IGNORED = {"blocking": IGNORED_BY_BLOCKING, "projection": IGNORED_BY_PROJECTION}
     writes=(*quarantine.writes, *motion_rectangles.writes),
 )
 def swept_aabbs_of_finite_bodies(state: StepState) -> None:
-    """Quarantine bodies with invalid numbers, and write the swept AABBs of the other bodies."""
+    """Quarantine (disable) bodies with invalid numbers, and write the swept AABBs of all other bodies."""
     quarantine(state)
     motion_rectangles(state)
 
 
 @stage("rest", reads=(*rest.reads, "joints"), writes=(*rest.writes, "joints.awake"))
 def evaluate_contacts_before_sleep(state: StepState) -> None:
-    """Put islands at rest to sleep.
+    """Put islands at rest to sleep, and evaluate their contacts at the final poses.
 
-    First evaluate their contacts at the final poses, so that they are valid on waking.
+    The stored contacts are therefore valid when the islands wake.
     """
     rest(state)
     if state.fell_asleep is not None:
@@ -175,28 +176,31 @@ def evaluate_contacts_before_sleep(state: StepState) -> None:
 
 
 def own_solver(effects: Effects) -> SolverName:
-    """Return the name of the default solver for these effects."""
+    """Return the name of the default solver: "soft_step" with the effect `stacking`, otherwise "projection"."""
     return "soft_step" if effects.stacking else "projection"
 
 
 def ignored_effects(effects: Effects, solver: str) -> tuple[str, ...]:
-    """Return the names of the declared effects that a solver ignores, in the order of Effects.names().
+    """Return the names of the effects that are on and that a solver ignores, in the order of Effects.names().
 
-    The result is empty without the effect `response`, because no solver runs.
+    solver: name of the solver. Without the effect `response` no solver runs, and the result is empty.
     """
     ignored = IGNORED.get(solver, ()) if effects.response else ()
     return tuple(name for name in effects.names() if name in ignored)
 
 
 class Plan(NamedTuple):
-    """The stages of a step in the order of execution, and their names."""
+    """The stages of a step, in the order of execution, and the names of the stages in the same order."""
 
     stages: tuple[Stage, ...]
     names: tuple[str, ...]
 
 
 def plan(effects: Effects, solver: str, characters: bool = True) -> Plan:
-    """Return the Plan of a step with these effects. characters: whether the world has a Character."""
+    """Return the Plan of a step with these effects and the named solver.
+
+    characters: whether the world has a Character.
+    """
     e = effects
     forces = e.gravity or e.drag or e.wind or e.response
     if solver in STACKING:
@@ -245,9 +249,9 @@ def plans(effects: Effects, solver: str) -> tuple[Plan, Plan]:
 
 
 class Workspace:
-    """The scratch arrays of the stages of one world. They are reused and grow as needed.
+    """The scratch arrays of the stages of one world. They are reused in each step, and grow as needed.
 
-    Their contents do not outlive a stage, except for CONTACT rows.
+    The contents of an array are valid only during a stage. CONTACT rows are an exception.
     """
 
     def __init__(self, effects: Effects, solver: str) -> None:
@@ -266,7 +270,7 @@ class Workspace:
         self._rows, self.broken = np.zeros(16, np.int64), np.zeros((16, 2), np.int64)  # see quarantine
 
     def rows_for(self, count: int) -> np.ndarray:
-        """Return a scratch array (int64) of at least `count` row numbers."""
+        """Return a scratch array for row numbers, int64, with at least `count` elements. Its contents are undefined."""
         if len(self._rows) < count:
             self._rows = np.zeros(2 * count, np.int64)
         return self._rows
@@ -275,8 +279,8 @@ class Workspace:
 def next_span(span: float, dt: float, usual: float) -> float:
     """Return the averaging window [s] of the cached contact forces after a step of dt [s].
 
-    span [s]: window before the step; usual [s]: world.dt. If dt >= span, the window becomes dt, but at most STALL times
-    the greater of span and usual. A shorter step moves it from span towards dt by the fraction dt / span.
+    span: window before the step [s]; usual: world.dt [s]. If dt >= span, the window is dt, but at most STALL times the
+    greater of span and usual. For a shorter step, it is span - (span - dt) * dt / span.
     """
     if dt >= span:
         return min(dt, STALL * max(span, usual))
@@ -284,10 +288,11 @@ def next_span(span: float, dt: float, usual: float) -> float:
 
 
 def step_length(world: WorldState, dt: float | None) -> float:
-    """Return the length [s] of a step: world.dt for None, 0 for dt < SHORTEST_STEP.
+    """Check the argument dt of World.step, and return the length of the step [s].
 
-    Warns of a step that looks like milliseconds. Raises TypeError if dt is not a number, ValueError if dt is negative,
-    not finite, or a whole number from MILLISECONDS on.
+    The length is world.dt if dt is None, 0 if dt < SHORTEST_STEP, otherwise dt. A warning is issued if dt is so long
+    that it is probably in milliseconds. Raises TypeError if dt is not a number, ValueError if dt is negative, not
+    finite, or an int of at least MILLISECONDS.
     """
     dt = world.dt if dt is None else checks.seconds("dt", dt, low=0.0)
     if dt >= max(MILLISECONDS, LONG_STEP * world.dt):
@@ -297,9 +302,9 @@ def step_length(world: WorldState, dt: float | None) -> float:
 
 
 def begin(world: WorldState, dt: float) -> StepState:
-    """Set the velocities of bodies with targets, and return the StepState for a step of dt [s].
+    """Prepare a step of dt [s]: set the velocities of bodies with targets, and return the StepState.
 
-    The state has the settings and tables of the world, and the contacts of the last step.
+    The StepState contains the settings and tables of the world, and the contacts of the last step.
     """
     world.refresh_character_rows()
     if world._apart is not None:
@@ -332,7 +337,7 @@ def begin(world: WorldState, dt: float) -> StepState:
 
 
 def finish(world: WorldState, state: StepState) -> None:
-    """Store the results of a step in the world, place bodies at their targets, and advance the time."""
+    """Complete a step: store the results in the world, move bodies to their targets, and advance the time."""
     world.contact_rows = state.contact_rows
     # One update instead of eight checks by __setattr__: 3 of 50 us of a step with ten boxes.
     vars(world).update(
@@ -365,9 +370,9 @@ def finish(world: WorldState, state: StepState) -> None:
 def staged_step(world: WorldState, dt: float | None = None) -> Generator[Stage | None, None, None]:
     """Run the step of World.step(dt) stage by stage. Yield None before the first stage, then each stage after its run.
 
-    Between stages the world shows intermediate results: bodies, candidates, contacts and events, and times and counters
-    in `profile`. Meanwhile the world cannot be changed, and its state is not valid for further steps. If the caller
-    stops before the end, or reads the world by debug or a query between stages, it must restore a snapshot afterwards.
+    Between stages the world contains intermediate results: bodies, candidates, contacts and events, and in `profile`
+    times and counters. It cannot be changed then, and it is not in a valid state for further steps. The caller must
+    restore a snapshot afterwards if it stops before the end, or if it uses physics.debug or a query between stages.
     Raises ValueError for a negative or non-finite dt, RuntimeError during a step.
     """
     world._unlocked()
@@ -390,7 +395,7 @@ def staged_step(world: WorldState, dt: float | None = None) -> Generator[Stage |
 
 
 def _show(world: WorldState, state: StepState) -> None:
-    """Store the results of the stages so far in the world. Before the stage `events`, also report touching contacts."""
+    """Store the results of the stages that have run so far in the world, with the touching contacts as its contacts."""
     world.contact_rows, world.sensed = state.contact_rows, state.sensed
     world.ghosts, world.events = state.ghosts, state.events
     _, keep = state.reported
@@ -398,10 +403,10 @@ def _show(world: WorldState, state: StepState) -> None:
 
 
 def _touching(state: StepState) -> np.ndarray:
-    """Return for each CONTACT row, as a bool, whether it touches and has no sensor, as the stage `events` decides.
+    """Return a bool for each CONTACT row of the step: whether it touches, by the rule of the stage `events`.
 
-    A contact touches if it overlaps, has an impulse, or was found by the sweep. A pair that touched in the last step
-    also touches if it is within the slop.
+    A contact touches if it overlaps, has an impulse, or was found by the sweep. If its pair touched in the last step, a
+    separation of at most the slop is enough. Contacts of sensors count as not touching.
     """
     rows, before = state.contact_rows, state.touching_pairs.rows
     second = rows["count"] > 1

@@ -1,4 +1,4 @@
-"""Teleporting between steps: a new pose for one body, or for many bodies in one call."""
+"""Teleportation between steps: set the pose of one body, or of many bodies in one call."""
 
 import math
 from typing import Any, NamedTuple
@@ -21,9 +21,9 @@ NOT_SET = np.zeros((1, 2))
 
 
 def move_to(world: WorldState, identity: int, position: Pair | None, angle: float | None) -> None:
-    """Move a body (id) to a position [px] and an angle [rad]; None leaves that value unchanged.
+    """Set the position (x, y) [px] and the angle [rad] of a body (id). None leaves the value unchanged.
 
-    Raises ValueError for an angle of a TileGrid other than 0, RuntimeError during a step.
+    Raises ValueError for an angle other than 0 of a body with a TileGrid, RuntimeError during a step.
     """
     world._unstepped()
     at, columns = world._row_at(identity), world._bodies.columns
@@ -41,7 +41,10 @@ def move_to(world: WorldState, identity: int, position: Pair | None, angle: floa
 
 
 class Motions(NamedTuple):
-    """The new poses and velocities of n bodies. Angles or velocities that stay unchanged are dummy arrays."""
+    """The new poses and velocities of n bodies.
+
+    If the angles or the velocities are not changed, their array is a dummy and must not be read.
+    """
 
     positions: np.ndarray  # (n, 2) float64 [px]
     angles: np.ndarray  # (n,) float64 [rad]
@@ -52,12 +55,12 @@ class Motions(NamedTuple):
 
 @kernel
 def find_movable(ids, motions, limit, bodies, rows_out, dynamic_out, marks_inout):
-    """Write the rows of bodies, and the rows of the dynamic bodies among them. Return the number of dynamic bodies.
+    """Check the arguments of `move`. Write the row numbers of the bodies, and those of the dynamic bodies among them.
 
-    The result is -1 for any fault: an id that is absent or listed twice, a number that is not finite, a position of at
-    least `limit` [px], or a velocity of a static body. ids, rows_out, dynamic_out (n,) int64; marks_inout (bodies,)
-    bool: scratch, all False before and after the call. O(n) if no body was ever removed, otherwise O(n log bodies).
-    motions: see Motions.
+    Return the number of dynamic bodies. Return -1 for invalid arguments: an id that is unknown or listed twice, a
+    number that is not finite, a position of at least `limit` [px], or a velocity other than 0 of a static body. ids,
+    rows_out, dynamic_out: (n,) int64; motions: a Motions; bodies: BODY rows; marks_inout: scratch (bodies,) bool, all
+    False before and after the call. O(n) if no body was ever removed, otherwise O(n log bodies).
     """
     found = 0
     known = 0
@@ -89,11 +92,12 @@ def find_movable(ids, motions, limit, bodies, rows_out, dynamic_out, marks_inout
 
 @kernel
 def place_bodies(rows, motions, runs, shapes, bodies_inout, proxies_inout):
-    """Write the poses and velocities of bodies, and mark their proxies as changed for the next step.
+    """Write the poses and velocities of bodies, and mark the proxies of static bodies as changed for the next step.
 
-    Return the number of bodies whose shape rows are not consecutive (SCATTERED). If it is not 0, the caller must mark
-    the proxies of these bodies. rows: row numbers in BODY; runs: RUN table. O(shapes of these bodies) if no shape was
-    ever removed, otherwise O(log shapes) more for each body. proxies_inout: PROXY table; motions: see Motions.
+    Return the number of bodies whose SHAPE rows are not consecutive (SCATTERED). Their proxies are not marked; if there
+    are any, the caller must mark them. rows: BODY row numbers (n,); motions: a Motions; runs: RUN rows; shapes: SHAPE
+    rows; proxies_inout: PROXY rows. O(shapes of these bodies) if no shape was ever removed, otherwise O(log shapes)
+    more for each body.
     """
     scattered = 0
     for k in range(len(rows)):
@@ -120,10 +124,10 @@ def place_bodies(rows, motions, runs, shapes, bodies_inout, proxies_inout):
 
 
 def move(world: WorldState, ids: Any, positions: Points, angles: Numbers | None, velocities: Points | None) -> None:
-    """Move bodies to positions (n, 2) [px], angles (n,) [rad] and velocities (n, 2) [px/s]; None: unchanged.
+    """Set the positions (n, 2) [px], angles (n,) [rad] and velocities (n, 2) [px/s] of n bodies. None: unchanged.
 
     The result is the same as setting position, angle and velocity of one Body after another, in the order of `ids`.
-    Raises the errors of World.move; nothing is changed then.
+    ids: Bodies or ids. Raises the errors of World.move; no body is then changed.
     """
     world._unlocked()
     ids = world._identities("ids", ids, repeats=True)
@@ -147,9 +151,9 @@ def move(world: WorldState, ids: Any, positions: Points, angles: Numbers | None,
 
 
 def _numbers(name, value, count, width=2) -> np.ndarray:
-    """Return an argument as a float64 array (count, width), or (count,) for width 1.
+    """Convert the argument `name` to a float64 array of shape (count, width), or (count,) for width 1, and return it.
 
-    Raises TypeError or ValueError for invalid arguments.
+    Raises TypeError or ValueError if the argument is invalid.
     """
     if type(value) is np.ndarray and value.dtype == np.float64 and value.flags.c_contiguous:
         if value.shape == ((count, width) if width > 1 else (count,)):
@@ -158,7 +162,10 @@ def _numbers(name, value, count, width=2) -> np.ndarray:
 
 
 def _explain(world, ids, motions):
-    """Find the first invalid argument of move, and raise its error. motions: see Motions."""
+    """Raise the error for the first invalid argument of `move`, which find_movable has rejected.
+
+    ids: ids of the bodies; motions: a Motions.
+    """
     checks.ids("ids", ids)
     rows = world.rows(ids)
     positions = checks.columns("positions", motions.positions)
@@ -196,10 +203,9 @@ def _move(world, ids, rows, dynamic, motions):
 
 
 def _contacts_at(world, keys):
-    """Return the CONTACT rows of awake bodies and of some sleeping islands.
+    """Return the CONTACT rows of the last step, together with those of some sleeping islands.
 
-    The islands are those with the keys `keys`, and those that touch bodies of these islands. Contacts of awake bodies
-    are those of the last step.
+    keys: keys of sleeping islands. Islands that touch bodies of these islands are included too.
     """
     sleeping_set = world.sleeping_set
     keys = set(keys)
@@ -210,7 +216,10 @@ def _contacts_at(world, keys):
 
 
 def touch(world: WorldState, ids: Any) -> None:
-    """Wake bodies after their columns were written, and update their centres of mass and boxes. See World.touch."""
+    """Wake bodies whose columns were written by the caller, and update their centres of mass and AABBs.
+
+    ids: Bodies or ids, one or many. See World.touch.
+    """
     numbers = world._identities("ids", ids)
     rows = world.rows(numbers)
     sleep.disturb(world, numbers)

@@ -1,4 +1,4 @@
-"""Compilation ahead of time: small worlds call the kernels that a world with given effects will call."""
+"""Compilation ahead of time: small worlds are run that call all kernels that a world with given effects will call."""
 
 from collections.abc import Callable, Iterable
 from itertools import pairwise
@@ -48,18 +48,18 @@ def warmup(
     progress: Callable[[int, int, str], Any] | None = None,
     pieces: Iterable[str] | None = None,
 ) -> None:
-    """Compile the kernels of a world with these effects on all cores, or load them from the cache.
+    """Compile all kernels that a world with these effects calls, on all cores, or load them from the cache.
 
-    effects: the Effects of the world; None: Effects.rigid_bodies(), as of World().
+    effects: the Effects of the world; None: Effects.rigid_bodies(), the default of World().
     broadphase: "brute", "sweep", "hash", "tree" or "all".
-    solver: one of SOLVERS; None: the default of the effects.
+    solver: one of SOLVERS; None: the default solver for the effects.
     progress: function (done, total, name), called before each small world, for each kernel, and at the end; `total`
         grows when the number of kernels is known.
     pieces: names of the shapes and queries that the world will use, see physics.warmup.PIECES; None: all. The kernels
         of other pieces are compiled at their first call.
 
-    The kernels are found by running small worlds. Without numba these run, but nothing is compiled. Raises KeyError for
-    an unknown broad phase or piece, ValueError for an unknown solver.
+    The kernels are found by running small worlds that call them. Without numba, the worlds run, but nothing is
+    compiled. Raises KeyError for an unknown broad phase or piece, ValueError for an unknown solver.
     """
     runs = _runs(effects, broadphase, solver, pieces)
 
@@ -88,7 +88,10 @@ def run_warmup(
 
 
 def _runs(effects, broadphase, solver, pieces):
-    """Return the small worlds to run as [(name, function)]. Raises KeyError for an unknown broad phase or piece."""
+    """Return the small worlds of warmup() as a list of (name, function that makes and steps the world).
+
+    The arguments are those of warmup(). Raises KeyError for an unknown broad phase or piece.
+    """
     effects = Effects.rigid_bodies() if effects is None else effects
     names = list(STRATEGIES) if broadphase == "all" else [broadphase]
     runs: list[tuple[str, Callable[[], None]]] = [
@@ -151,12 +154,12 @@ def _runs(effects, broadphase, solver, pieces):
 
 
 def _kind_of(shape):
-    """Return the kind of body for a shape: kinematic if the shape cannot be dynamic, otherwise dynamic."""
+    """Return the kind of body for a shape: "kinematic" if the shape is not for dynamic bodies, otherwise "dynamic"."""
     return "kinematic" if shape._is_ground or shape is OPEN else "dynamic"
 
 
 def _seams(effects, solver):
-    """Step a world in which a box slides across the seam of two flush ground boxes."""
+    """Step a world in which a box slides across the seam between two adjacent ground boxes."""
     world, box = World(effects, solver=solver), Polygon.box(8, 8)
     for x in (-4, 4):
         world.add_body(box, kind="static", position=(x, 0))
@@ -184,9 +187,9 @@ def _small_world(effects, solver, strategy, pair):
 
 
 def _together(effects, solver, pairs):
-    """Step a world in which pairs of several kinds collide, so that the contacts must be sorted.
+    """Step a world in which several kinds of shape pairs collide, so that the contacts must be sorted.
 
-    pairs: pairs of shapes.
+    pairs: list of (shape, shape).
     """
     world = World(effects, solver=solver)
     for number, pair in enumerate(pairs):
@@ -196,7 +199,7 @@ def _together(effects, solver, pairs):
 
 
 def _ground(effects, solver, tiles):
-    """Make three steps of a world in which a box slides on `tiles`."""
+    """Make three steps of a world in which a box slides on `tiles`, a TileGrid or a one-way mask."""
     world = World(effects, solver=solver)
     world.add_body(tiles, kind="static")
     world.add_body(BOX, position=(8.0, -4.0), velocity=(120.0, 0.0))
@@ -205,9 +208,9 @@ def _ground(effects, solver, tiles):
 
 
 def _rest(effects, solver):
-    """Step a world with touching circles: contacts are kept and added, and circles are put to sleep and woken.
+    """Step a world with touching circles, in which contacts persist and begin, and islands fall asleep and wake.
 
-    The last step has fixed substeps, all others adaptive substeps.
+    The last step has a fixed number of substeps; all others have adaptive substeps.
     """
     world = World(effects, solver=solver, gravity=(0.0, 0.0) if effects.gravity else None)
     for place in ((0.0, 0.0), (8.3, 0.0), (0.0, 8.3), (-7.95, 0.0)):  # gaps found as contacts; an overlap
@@ -225,9 +228,9 @@ def _rest(effects, solver):
 
 
 def _joints(effects, solver):
-    """Step a world with a tree of joints, a slider with limits, a pulley and a gear under each solver of joints.
+    """Step a world with a tree of joints, a slider with limits, a pulley and a gear, with each joint solver.
 
-    One joint breaks.
+    One joint breaks in the end.
     """
     world = World(effects, solver=solver)
     if not world.stacks:
@@ -259,7 +262,7 @@ def _joints(effects, solver):
 
 
 def _carve(effects, solver):
-    """Carve a large and a small mask, on each of which a body lies, with a circle, a polygon and a mask."""
+    """Carve a large and a small mask with a circle, a polygon and a mask. A body lies on each carved mask."""
     world = World(effects, solver=solver)
     solid = np.ones((20, LARGE_MASK + MASK_TILE), bool)
     solid[0, 0] = False
@@ -273,7 +276,7 @@ def _carve(effects, solver):
 
 
 def _sensor(effects, solver):
-    """Step a world with a sensor while a body overlaps it, and after the body has left."""
+    """Step a world in which a body overlaps a sensor, and then is teleported away from it."""
     world = World(effects, solver=solver)
     world.add_body(BOX, kind="static", sensor=True)
     body = world.add_body(BOX, position=(1, 0))
@@ -283,14 +286,14 @@ def _sensor(effects, solver):
 
 
 def _crowd(effects):
-    """Step a world with so many bodies that its dynamic tree is rebuilt."""
+    """Step a world with so many bodies that the dynamic tree of its broad phase is rebuilt."""
     world = World(effects, DynamicTree())
     world.add_bodies(Circle(1), np.array([(40.0 * number, 0.0) for number in range(2 * REBUILD_FROM)]))
     world.step()
 
 
 def _impacts(effects, solver):
-    """Step a world in each mode of continuous collision: fast bodies hit a static body and each other."""
+    """Step a world for each mode of continuous collision, in which fast bodies hit a static body and each other."""
     for way in ("ray", "swept", "toi"):
         world = World(effects, solver=solver)
         world.add_body(BOX, kind="static")
@@ -302,9 +305,9 @@ def _impacts(effects, solver):
 
 
 def _amid(effects, solver):
-    """Step a world with a box in the middle of a cross-shaped mask, and a box above the mask.
+    """Step a world with one box in the middle of a cross-shaped mask, and another box above the mask.
 
-    No single part of the mask's outline can push out the first box.
+    The box in the middle cannot be pushed out by any single convex part of the mask's outline.
     """
     arm = abs(np.arange(12) - 5.5) < 2.0
     world = World(effects, solver=solver, gravity=(0.0, 0.0) if effects.gravity else None)
@@ -316,17 +319,14 @@ def _amid(effects, solver):
 
 
 def _fit():
-    """Fit the outline of a mask with a hole and a notch. Its outline is not in the package's file of outlines."""
+    """Compute the outline of a mask with a hole and a notch, which is not in the package's file of stored outlines."""
     solid = np.ones((23, 29), bool)
     solid[8:13, 9:17] = solid[:5, 20:] = False
     outline_of(PixelMask(solid))
 
 
 def _zone(effects, solver):
-    """Step a world in which masks overlap a sensor, one of them at high speed.
-
-    With the effect `response`, masks collide by their outlines.
-    """
+    """Step a world with the effect `response` in which a slow and a fast mask overlap a sensor by their outlines."""
     world = World(effects, solver=solver)
     world.add_body(BOX, kind="static", sensor=True)
     world.add_body(MASK, position=(1, 0))
@@ -335,7 +335,10 @@ def _zone(effects, solver):
 
 
 def _queries(effects, strategy):
-    """Run queries with circles and boxes. A world without narrow phase calls their kernels only in queries."""
+    """Run ray casts and overlap queries with circles and boxes.
+
+    A world without narrow phase calls the kernels of these shapes only in queries.
+    """
     world = World(effects, strategy)
     world.add_body(Circle(4), kind="static")
     world.step()
@@ -355,7 +358,10 @@ def _pixels(effects):
 
 
 def _casts_at_pixels(effects):
-    """Run casts against the outlines of a solid mask and of a ring, whose outline has several convex parts."""
+    """Run ray casts, shape casts and closest-point queries against two masks: a solid square and a ring.
+
+    The outline of the ring has several convex parts.
+    """
     world = World(effects)
     ring = np.ones((12, 12), bool)
     ring[4:8, 4:8] = False
@@ -383,7 +389,7 @@ def _character(effects, solver):
 
 
 def _contacts(effects):
-    """Read the contacts of overlapping masks. Their shared areas are measured only when contacts are read."""
+    """Read world.contacts of overlapping masks, because the shared areas of masks are measured only on reading."""
     for mask in (MASK, EXACT):
         world = World(effects)
         for x in (0.0, 2.0):

@@ -64,7 +64,10 @@ PLAIN = Material()  # the default material of bodies
 
 
 def _set_known(world: Any, name: str, value: Any) -> None:
-    """Set an attribute. Raises AttributeError for one that is unknown or read-only; a subclass may add attributes."""
+    """Set the attribute `name` of a world. A subclass of World may add attributes.
+
+    Raises AttributeError for an unknown or read-only attribute.
+    """
     if "profile" in world.__dict__ and name not in world.__dict__ and not hasattr(type(world), name):
         checks.known_attribute(world, name, value, type(world) is World)
     try:
@@ -76,9 +79,9 @@ def _set_known(world: Any, name: str, value: Any) -> None:
 
 @checks.setting_by(_set_known)
 class World(WorldState):
-    """A simulation: its bodies, the declared effects, and the stages of a step that these effects need.
+    """A simulation: bodies, joints, the declared effects, and the stages of a step that these effects need.
 
-    Add bodies with add_body, call step with the same length each time, and read positions, contacts and events.
+    Add bodies with add_body, call step repeatedly with equal lengths, and read positions, contacts and events.
 
     effects: the declared Effects; None: Effects.rigid_bodies().
     broadphase: "brute", "sweep", "hash" or "tree", or an instance of a strategy; None: SpatialHashGrid().
@@ -86,22 +89,23 @@ class World(WorldState):
     gravity: (x, y) [px/s²]; None: 9.8 m/s² downwards, (0, 313.6) at 32 pixels per metre. Other than 0 it needs the
         effect `gravity`.
     drag: rate at which velocities decay [1/s], >= 0. Other than 0 it needs the effect `drag` or `wind`.
-    wind: velocity of the air (x, y) [px/s], which acts through the drag. Other than 0 it needs the effect `wind`.
+    wind: velocity of the air (x, y) [px/s]; it accelerates bodies by drag · wind. Other than 0 it needs the effect
+        `wind`.
     pixels_per_meter: scale of all tolerances and of the default gravity, > 0.
-    dt: length of a step [s], > 0: step() is called 1 / dt times per second.
-    substeps: substeps of the stacking solvers, 1 to 1000, or "auto": 4 to 32 for each island, as many as keep the sag
-        of its contacts within accuracy; up to 128 for a leaning one. The counter cap_hits counts islands that need
-        more.
+    dt: length of a step [s], > 0; call step() 1 / dt times per second.
+    substeps: number of substeps of the stacking solvers, 1 to 1000, or "auto". With "auto" each island gets 4 to 32
+        substeps, as many as its contacts need to sag by at most `accuracy`; a leaning island gets up to 128. The
+        counter cap_hits counts islands that would need more.
     accuracy: greatest sag of a contact under its load [px], > 0, for substeps="auto"; None: 1 mm.
-    restitution_speed: slower impacts do not bounce [px/s], >= 0; None: 1 m/s.
+    restitution_speed: speed [px/s], >= 0, below which an impact does not bounce; None: 1 m/s.
     seed: seed of `random`, a whole number >= 0.
 
     The state of a world, besides its arrays and settings:
 
-    random: NumPy Generator for the game, seeded with seed; part of snapshots and digests.
+    random: NumPy Generator for the game, seeded with `seed`; part of snapshots, but not of digests.
     events: the Events of the last step.
     profile: the Profile of the last step: times of its stages, and work counters.
-    steps: number of steps so far; time: their total length [s]; tolerances: the Tolerances of this world.
+    steps: number of steps so far; time: total length of all steps [s]; tolerances: the Tolerances of this world.
 
     Raises TypeError or ValueError naming the argument.
 
@@ -184,10 +188,10 @@ class World(WorldState):
     # --- the step ------------------------------------------------------------------------------------------------
 
     def step(self, dt: float | None = None) -> None:
-        """Advance the simulation by one step. Afterwards events, contacts and bodies are those of this step.
+        """Advance the simulation by one step. Afterwards bodies, contacts and events show the state after this step.
 
-        dt: length of the step [s], >= 0 (pygame's Clock.tick() / 1000); None: world.dt. A step below 1e-30 s counts
-            as 0: it moves nothing, and keeps forces and targets for the next step.
+        dt: length of the step [s], >= 0 (pygame's Clock.tick() / 1000); None: world.dt. A length below 1e-30 s counts
+            as 0: no body moves, and forces and targets remain for the next step.
 
         Raises TypeError if dt is not a number; ValueError if it is negative, not finite, or an int >= 4, which looks
         like milliseconds; RuntimeError during a step.
@@ -242,7 +246,7 @@ class World(WorldState):
         user: Any = None,
         **others: Never,
     ) -> Body:
-        """Add one body with these shapes, and return it.
+        """Add one body with the given shapes, and return the Body.
 
         *shapes: shapes in body space, or none. If a dynamic body has shapes, at least one must be of a kind with an
             area (not a Segment). Chain and TileGrid are only for static and kinematic bodies.
@@ -251,19 +255,19 @@ class World(WorldState):
         kind: "dynamic": moved by forces and contacts; "kinematic": moved only by its velocity; "static": never moved.
         velocity: velocity (x, y) of the centre of mass [px/s]; must be (0, 0) for a static body.
         angular_velocity: [rad/s]. Other than 0 it needs the effect `rotation`, and a body that is not static.
-        mass: mass, > 0, in place of density · area of the shapes [density px²]; None: that mass.
+        mass: mass [density px²], > 0; None: sum of density · area of the shapes.
         material: the Material (density, friction, restitution, …) of the shapes without a material of their own.
-        filter: the Filter (which shapes they meet) of the shapes without a filter of their own.
+        filter: the Filter (which other shapes collide with a shape) of the shapes without a filter of their own.
         sensor: whether the shapes without a sensor value of their own are sensors, which report overlaps and do not
             push. True needs the effect `sensors`.
         bullet: whether the body is also swept against other dynamic bodies. True needs the effect `continuous`.
         continuous: "off" | "ray" | "swept" | "toi" | "auto": how a fast body is stopped at its first impact, see
-            Body.continuous. "ray", "swept" and "toi" need the effect.
-        fixed_rotation: whether contacts and impulses leave the rotation unchanged.
-        gravity_scale: factor on world.gravity; 0: it does not fall.
+            Body.continuous. "ray", "swept" and "toi" need the effect `continuous`.
+        fixed_rotation: whether contacts and impulses leave the angular velocity unchanged.
+        gravity_scale: factor by which world.gravity is multiplied; with 0 the body does not fall.
         allow_sleep: False keeps the island of a dynamic body awake.
-        tier: one of TIERS, which replaces a PixelMask by simpler shapes, see fit; None: the shapes as given.
-        user: any value of the game, such as its sprite, kept as body.user.
+        tier: one of TIERS: a single PixelMask is replaced by simpler shapes, see fit; None: use the given shapes.
+        user: any value of the caller, such as a sprite, stored as body.user.
 
         Raises TypeError or ValueError naming the argument, RuntimeError during a step. The world is then unchanged.
 
@@ -298,14 +302,14 @@ class World(WorldState):
         angles: Numbers | None = None,
         **definition: Unpack[Definition],
     ) -> NDArray[np.int64]:
-        """Add a body with the same shape at each position, and return the ids (n,) int64 of the bodies.
+        """Add n bodies with the same shape, one at each position, and return the ids (n,) int64 of the bodies.
 
-        shape: one shape, which all bodies share.
+        shape: the shape of all bodies.
         positions: origins of the bodies, (n, 2) [px].
-        velocities: (n, 2) [px/s]; None: 0.
-        angles: (n,) [rad]; None: 0.
-        **definition: the other arguments of add_body, one value for all bodies. A list (or 1-D array) as user has one
-            value for each body; any other user, such as a tuple or a dict, is that of all bodies.
+        velocities: velocities of the bodies, (n, 2) [px/s]; None: 0.
+        angles: angles of the bodies, (n,) [rad]; None: 0.
+        **definition: the other arguments of add_body, one value for all bodies. If `user` is a list or 1-D array, it
+            contains one value for each body; any other `user`, such as a tuple or a dict, is used for all bodies.
 
         Raises TypeError or ValueError naming the argument, RuntimeError during a step. The world is then unchanged.
 
@@ -330,7 +334,7 @@ class World(WorldState):
         return edit.add_rows(self, (shape,), positions, velocities, angles, edit.BodyDef(**definition))
 
     def remove_body(self, body: BodyRef) -> None:
-        """Remove a body.
+        """Remove a body, with its shapes and joints.
 
         body: a Body or an id.
 
@@ -344,38 +348,39 @@ class World(WorldState):
 
         ids: Bodies or ids, in any order. A body may be listed more than once.
 
-        Raises KeyError, TypeError, ValueError and RuntimeError as remove_body does. Nothing is removed then.
+        Raises KeyError, TypeError, ValueError and RuntimeError as remove_body does. No body is then removed.
         """
         self._remove(np.unique(self._identities("ids", ids, repeats=True)))
 
     def move(
         self, ids: BodyRefs, positions: Points, angles: Numbers | None = None, velocities: Points | None = None
     ) -> None:
-        """Teleport many bodies in one call, as Body.position does. They and the islands that they touched wake.
+        """Teleport many bodies in one call, like Body.move_to. The bodies and the islands that they touched wake.
 
-        ids: n Bodies or ids, each once. Their targets are cancelled.
+        ids: n Bodies or ids, each once. The targets of these bodies are cancelled.
         positions: new origins, (n, 2) [px].
-        angles: (n,) [rad]; None: unchanged.
-        velocities: (n, 2) [px/s]; None: unchanged.
+        angles: new angles, (n,) [rad]; None: unchanged.
+        velocities: new velocities, (n, 2) [px/s]; None: unchanged.
 
         Raises KeyError for an unknown body; TypeError or ValueError for invalid arguments, a velocity other than 0 of a
-        static body, or a rotation of a TileGrid; RuntimeError during a step. Nothing is moved then.
+        static body, or a rotation of a TileGrid; RuntimeError during a step. No body is then moved.
         """
         teleport.move(self, ids, positions, angles, velocities)
 
     def touch(self, ids: BodyRefs) -> None:
-        """Report that table columns of bodies were written. Dynamic bodies wake, and the next step updates boxes.
+        """Wake bodies and have the next step update their AABBs, after their columns in world.bodies were written.
 
-        ids: a Body, an id, or many. Awake bodies, and worlds without the effect `sleeping`, need no touch.
+        ids: a Body, an id, or many, each once. The call is not needed for bodies that are awake, nor in a world without
+            the effect `sleeping`.
 
-        Raises KeyError for an unknown body; TypeError or ValueError for anything but different Bodies or ids;
-        RuntimeError during a step. Nothing is touched then.
+        Raises KeyError for an unknown body; TypeError or ValueError for repeated ids and for anything but Bodies and
+        ids; RuntimeError during a step. No body is then changed.
         """
         self._unlocked()
         teleport.touch(self, ids)
 
     def clear(self) -> None:
-        """Remove all bodies. Their ids, and those of their shapes, are not used again.
+        """Remove all bodies. The ids of the bodies and of their shapes are not used again.
 
         Raises RuntimeError during a step.
         """
@@ -384,10 +389,10 @@ class World(WorldState):
     # --- joints ----------------------------------------------------------------------------------------------------
 
     def add_joint(self, joint_of: Kind) -> Joint:
-        """Add one joint, and return its handle. The bodies of the joint wake.
+        """Add one joint, and return the Joint. The bodies of the joint wake.
 
         joint_of: a Revolute, Prismatic, Wheel, Distance, Weld, Angle, Motor, Target, NoContact, Gear, Pulley or
-            Ratchet.
+            Ratchet, which contains the bodies, anchors and settings.
 
         Raises TypeError for anything else; ValueError without the effect `joints`, for equal bodies, without a dynamic
         body, or for the body of a character; KeyError for an unknown body or joint; RuntimeError during a step. The
@@ -407,20 +412,20 @@ class World(WorldState):
         bodies_b: Sequence[BodyRef | None] | np.ndarray | None,
         **settings: Any,
     ) -> NDArray[np.int64]:
-        """Add a joint of one kind between each of n pairs of bodies, and return their ids (n,) int64.
+        """Add one joint between each of n pairs of bodies, and return the ids (n,) int64 of the joints.
 
-        kind: the class of the joints, such as Revolute.
-        bodies_a, bodies_b: n Bodies or ids; an entry None, or None in place of all entries, means the world. For a
-            Gear: the joints that it couples, as Joints, ids of joints, or Bodies.
+        kind: the class of all joints, such as Revolute.
+        bodies_a, bodies_b: n Bodies or ids; an entry None means the world, and None instead of the sequence means the
+            world for all joints. For gears: n Joints, ids of joints, or Bodies that each gear couples.
         **settings: the other arguments of the kind, one value for all joints. Anchors (at, or at_a and at_b) and
-            pulleys (ground_a, ground_b) are arrays (n, 2) [px]; an axis may be an array (n, 2), user a list of n.
+            pulley wheels (ground_a, ground_b) are arrays (n, 2) [px]; axis may be an array (n, 2), user a list of n.
 
         Raises TypeError, ValueError, KeyError and RuntimeError as add_joint does.
         """
         return add_joints.add_many(self, kind, bodies_a, bodies_b, settings)
 
     def joint(self, identity: Joint | int | np.integer[Any]) -> Joint:
-        """Return the Joint with this id.
+        """Return the Joint with an id.
 
         identity: the id of a joint, or the Joint itself.
 
@@ -429,13 +434,13 @@ class World(WorldState):
         return Joint(self, self.joints["id"].item(joint.row_of(self, identity)))
 
     def remove_joints(self, ids: Joint | int | Iterable[Joint | int] | np.ndarray) -> None:
-        """Remove joints and the gears that couple them. The bodies of the joints wake.
+        """Remove joints and the gears that couple these joints. The bodies of the joints wake.
 
         ids: Joints or ids, one or many. A joint may be listed more than once.
 
         The next step reports the gears in events.broken, with the reason "removed". Raises KeyError for an unknown
         joint, TypeError for anything but Joints and ids, ValueError for a Joint of another world, RuntimeError during a
-        step. Nothing is removed then.
+        step. No joint is then removed.
         """
         joint.remove(self, ids)
 
@@ -456,10 +461,11 @@ class World(WorldState):
 
         users: True returns a list of pairs of the `user` values instead, in the same order.
 
-        The pairs are those that events.begin has reported and events.end has not; sleeping pairs are included. Without
-        the effect `response`, masks touch if they share pixels, other shapes if separation <= 0. With it, a pair
-        begins to touch by separation <= 0, an impulse or a hit of the sweep; it ends beyond the slop without an
-        impulse. Overlaps of sensors are not included. Raises TypeError if users is not a bool.
+        A pair is included from its event in events.begin to its event in events.end, also while it sleeps. Without the
+        effect `response`, masks touch if they share pixels, and other shapes if their separation is <= 0. With
+        `response`, a pair begins to touch when its separation is <= 0, when it has an impulse, or when the sweep finds
+        an impact. It ends when the separation exceeds the slop and there is no impulse. Overlaps with sensors are not
+        included. Raises TypeError if users is not a bool.
 
         >>> world.step()
         >>> world.touching()
@@ -478,11 +484,11 @@ class World(WorldState):
     # --- digest, snapshot ------------------------------------------------------------------------------------
 
     def digest(self) -> str:
-        """Return the blake2b-128 hash, 32 hexadecimal digits, of the state on which the next step depends."""
+        """Return a hash of the state on which the next step depends: blake2b-128, as 32 hexadecimal digits."""
         return digest(self)
 
     def snapshot(self) -> Snapshot:
-        """Return a copy of the state of the world as a Snapshot, for restore() or a file.
+        """Return a copy of the state of the world as a Snapshot, for restore() or Snapshot.save().
 
         Raises RuntimeError during a step.
         """
@@ -494,9 +500,9 @@ class World(WorldState):
         taken: a Snapshot of a world with the same effects and pixels_per_meter.
 
         The settings are solver, joint_solver, dt, substeps, accuracy, restitution_speed, gravity, drag and wind. The
-        kind of broad phase is unchanged. `user` values are not part of a snapshot: present values are kept for the ids
-        in the snapshot. Raises TypeError for anything but a Snapshot; ValueError if the snapshot is damaged, or has
-        other effects or another pixels_per_meter; RuntimeError during a step.
+        kind of broad phase is unchanged. A snapshot contains no `user` values: ids in the snapshot keep their present
+        values, and all others are deleted. Raises TypeError for anything but a Snapshot; ValueError if the snapshot is
+        damaged, or if its effects or pixels_per_meter differ; RuntimeError during a step.
         """
         self._unlocked()
         snapshot.restore(self, taken)
@@ -505,7 +511,7 @@ class World(WorldState):
 
     @property
     def solver(self) -> SolverName:
-        """The name of the solver, one of SOLVERS. It can be set between steps, which wakes all bodies."""
+        """The name of the solver, one of SOLVERS. It can be set between steps; setting it wakes all bodies."""
         return self._solver
 
     @solver.setter
@@ -517,16 +523,16 @@ class World(WorldState):
 
     @property
     def stacks(self) -> bool:
-        """Whether the solver stacks: it warm starts its contacts from the last step (soft_step, sequential_impulse)."""
+        """Whether the solver warm starts contacts from the last step, as "soft_step" and "sequential_impulse" do."""
         return self._solver in STACKING
 
     @property
     def ignored_effects(self) -> tuple[str, ...]:
         """Names of the declared effects that the present solver ignores, in the order of Effects.names().
 
-        A run with and without such an effect is the same, with two exceptions. With the solver blocking, a body rotates
-        by its own angular velocity, although contacts do not rotate it. Characters stand on dynamic bodies if the
-        effect `stacking` is declared, with any solver.
+        Results are the same with and without such an effect, with two exceptions. `rotation` with the solver
+        "blocking": a body rotates by its own angular velocity, although contacts do not rotate it. `stacking` with any
+        solver: Characters can stand on dynamic bodies.
         """
         return ignored_effects(self._effects, self._solver)
 
@@ -538,9 +544,9 @@ class World(WorldState):
         return name
 
     def set_narrowphase(self, on: bool) -> None:
-        """Use the narrow phase, or only AABBs, from the next step on.
+        """Set whether collisions are tested by the narrow phase or only by AABBs, from the next step on.
 
-        on: True for the narrow phase.
+        on: True: test by the narrow phase; False: test only by AABBs.
 
         Raises TypeError for anything but a bool, RuntimeError during a step.
         """
@@ -552,11 +558,11 @@ class World(WorldState):
 
         effects: the new Effects.
 
-        Values for effects that are no longer declared are kept, but have no effect (angular velocity, bullet, sensor,
-        material). If `stacking` is added or removed, or if the solver cannot solve present joints, the solver becomes
-        the default solver. If `response` is added or removed, the shapes of bodies with masks get new ids. Raises
-        TypeError for anything but an Effects, ValueError for effects without `response` in a world with Characters,
-        RuntimeError during a step.
+        Values that belong to a removed effect, such as angular velocity, bullet, sensor or material, are stored but do
+        not act. The solver becomes the default solver if `stacking` is added or removed, or if the present solver
+        cannot solve existing joints. If `response` is added or removed, the shapes of bodies with masks get new ids.
+        Raises TypeError for anything but an Effects, ValueError for effects without `response` in a world with
+        Characters, RuntimeError during a step.
         """
         self._unlocked()
         effects = checked_effects(effects)
@@ -584,7 +590,7 @@ class World(WorldState):
         self.profile = Profile(self._plan_now.names)
 
     def _let_sleep(self, sleeping):
-        """Have later steps process only the awake bodies (`sleeping` True) or all bodies (False)."""
+        """Set whether later steps process only the awake bodies (`sleeping` True) or all bodies (False)."""
         self.awake = Awake(sleeping)
         self.bodies["active"] = not sleeping
         self.awake.mark_dirty(self.bodies["id"][self.bodies["kind"] != DYNAMIC].tolist())
@@ -594,12 +600,12 @@ class World(WorldState):
 
     @property
     def joint_solver(self) -> JointSolverName:
-        """The solver of joints. It can be set between steps; a change wakes all bodies.
+        """The name of the solver for joints. It can be set between steps; a change wakes all bodies.
 
         "iterative": converges from substep to substep. "direct": solves each tree of joints exactly, with its loops,
         limits and motors, at about three times the cost. "auto": as "direct", except for meshes with too many loops to
-        solve exactly, which are solved iteratively. In a tree with more than 96 rows of loops, limits and motors, or
-        more than 16 motors, these are solved iteratively, which counts in `cap_hits`.
+        solve exactly, which are solved iteratively. If a tree has more than 96 rows of loops, limits and motors, or
+        more than 16 motors, these rows are solved iteratively, and the counter `cap_hits` increases.
         """
         return self._joint_solver
 
@@ -614,7 +620,7 @@ class World(WorldState):
     # --- queries: see queries/casts.py for details -------------------------------------------------------------------
 
     def body(self, identity: BodyRef) -> Body:
-        """Return the handle of a body.
+        """Return the Body with an id.
 
         identity: the id of a body, or the Body itself.
 
@@ -629,13 +635,14 @@ class World(WorldState):
         return self._bodies.count - len(self._removed)
 
     def __bool__(self) -> bool:
-        """Return True, also for a world without bodies."""
+        """Return True, even for a world without bodies."""
         return True
 
     def __iter__(self) -> Iterator[Body]:
-        """Yield the bodies that exist now, in the order of ids.
+        """Yield a Body for each body in the world, in the order of ids.
 
-        Bodies that are added during the iteration are not included, nor bodies that are removed before their turn.
+        Bodies that are added during the iteration are not yielded. Bodies that are removed during it, before they are
+        yielded, are skipped.
         """
         for identity in self.bodies["id"].tolist():
             if identity in self:
@@ -655,16 +662,17 @@ class World(WorldState):
     def ray_cast(
         self, origin: Pair, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False
     ) -> RayHit[Body] | None:
-        """Return the first RayHit of a ray, or None without a hit.
+        """Return the RayHit of the first shape that a ray hits, or None if it hits no shape.
 
         origin: start of the ray (x, y) [px].
-        translation: vector from there to its end (x, y) [px]; (0, 0) is a point query.
-        filter: the Filter of the ray, which hits the shapes that a shape with this Filter collides with.
+        translation: vector from the start of the ray to its end (x, y) [px]; (0, 0) is a point query.
+        filter: the Filter of the ray; the ray hits only shapes with which a shape with this Filter collides.
         sensors: whether sensors can also be hit.
 
-        RayHit has body, shape, point, normal and fraction. Inside a shape the fraction is 0, and the normal is opposite
-        to the ray. Equally near hits are in the order of shape ids. Raises TypeError for values of other types,
-        ValueError for numbers that are not finite, or for an origin too far away.
+        A RayHit has body, shape, point, normal and fraction. If the ray starts inside a shape, the fraction is 0 and
+        the normal is opposite to the ray. If several shapes are hit at the same fraction, the one with the smallest id
+        is returned. Raises TypeError for values of other types, ValueError for numbers that are not finite, or for an
+        origin too far away.
 
         >>> hit = world.ray_cast((200, 0), (0, 400), filter=Filter(mask=1))
         >>> hit.body, hit.point, hit.fraction
@@ -679,10 +687,10 @@ class World(WorldState):
     def ray_cast_all(
         self, origin: Pair, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False
     ) -> list[RayHit[Body]]:
-        """Return the RayHits of all shapes on a ray, nearest first.
+        """Return a list with the RayHit of each shape that a ray hits, in the order of fraction, then of shape id.
 
-        origin: start of the ray (x, y) [px]; translation: vector from there to its end (x, y) [px].
-        filter: which shapes can be hit; sensors: whether sensors can also be hit.
+        origin: start of the ray (x, y) [px]; translation: vector from the start to the end of the ray (x, y) [px].
+        filter: the Filter of the ray, see ray_cast; sensors: whether sensors can also be hit.
 
         Raises TypeError and ValueError as ray_cast does.
         """
@@ -694,11 +702,11 @@ class World(WorldState):
     ) -> RayHits:
         """Return the first hit of each of n rays as an array (n,) of RAY_HIT rows, in the order of the rays.
 
-        origins: starts of the rays (n, 2) [px]; translations: vectors from there to their ends (n, 2) [px].
-        filter: which shapes can be hit; sensors: whether sensors can also be hit.
+        origins: starts of the rays (n, 2) [px]; translations: vectors from the starts to the ends (n, 2) [px].
+        filter: the Filter of all rays, see ray_cast; sensors: whether sensors can also be hit.
 
-        A ray without a hit has body -1, fraction 1 and its end as point. Raises TypeError and ValueError as ray_cast
-        does.
+        The row of a ray without a hit has body -1, fraction 1 and the end of the ray as point. Raises TypeError and
+        ValueError as ray_cast does.
         """
         return batches.ray_casts(self, origins, translations, filter, sensors)
 
@@ -706,14 +714,15 @@ class World(WorldState):
     def shape_cast(
         self, shape: Shape, pose: Pose, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False
     ) -> RayHit[Body] | None:
-        """Return the first RayHit of a shape that moves along a straight line, or None without a hit.
+        """Return the RayHit of the first shape that a moving shape hits, or None if it hits no shape.
 
-        shape: the moving shape; pose: its start, (x, y) or (x, y, angle) [px, rad].
-        translation: vector from there to its end (x, y) [px].
-        filter: which shapes can be hit; sensors: whether sensors can also be hit.
+        shape: the shape that moves along a straight line without rotation.
+        pose: start of the motion, (x, y) or (x, y, angle) [px, rad].
+        translation: vector from the start to the end of the motion (x, y) [px].
+        filter: the Filter of the moving shape, see ray_cast; sensors: whether sensors can also be hit.
 
-        Shapes that touch at the start are hit at fraction 0 if the cast shape approaches. Raises TypeError and
-        ValueError as ray_cast does.
+        A shape that touches the moving shape at the start is hit at fraction 0 if the moving shape approaches it.
+        Raises TypeError and ValueError as ray_cast does.
         """
         return casts.shape_cast(self, shape, pose, translation, filter, sensors)
 
@@ -721,20 +730,21 @@ class World(WorldState):
     def closest(
         self, point: Pair, filter: Filter = Filter.ALL, sensors: bool = False
     ) -> tuple[Body, Vec2, float] | None:
-        """Return (body, nearest point on its shapes, distance [px]) for the shape nearest to a point, or None.
+        """Find the shape nearest to a point. Return (its Body, nearest point on the shape, distance [px]).
 
-        point: (x, y) [px]; filter: which shapes are considered; sensors: whether sensors are, too.
+        point: (x, y) [px]; filter: the Filter of the query, see ray_cast; sensors: whether sensors are also considered.
 
-        Inside a shape the distance is 0. Raises TypeError and ValueError as ray_cast does.
+        The result is None if no shape is considered. For a point inside a shape the distance is 0. Raises TypeError and
+        ValueError as ray_cast does.
         """
         return casts.closest(self, point, filter, sensors)
 
     @hints.explained
     def overlap(self, shape: Shape, pose: Pose, filter: Filter = Filter.ALL, sensors: bool = False) -> list[Body]:
-        """Return the bodies that a shape at a pose overlaps, in the order of ids.
+        """Return the bodies that a shape at a pose overlaps, in the order of body ids.
 
-        shape: the tested shape; pose: (x, y) or (x, y, angle) [px, rad].
-        filter: which shapes are considered; sensors: whether sensors are, too.
+        shape: the tested shape; pose: (x, y) or (x, y, angle) [px, rad] of this shape in the world.
+        filter: the Filter of the tested shape, see ray_cast; sensors: whether sensors are also considered.
 
         Raises TypeError and ValueError as ray_cast does.
         """
@@ -742,33 +752,33 @@ class World(WorldState):
 
     @hints.explained
     def query_aabb(self, lower: Pair, upper: Pair, filter: Filter = Filter.ALL, sensors: bool = False) -> list[Body]:
-        """Return the bodies with a shape whose AABB meets a box, boundary included, in the order of ids.
+        """Return the bodies with a shape whose AABB overlaps or touches a box, in the order of body ids.
 
         lower, upper: corners of the box (x, y) [px] with the least and the greatest coordinates.
-        filter: which shapes are considered; sensors: whether sensors are, too.
+        filter: the Filter of the query, see ray_cast; sensors: whether sensors are also considered.
 
-        overlap tests the shapes themselves; query_rect takes a pygame.Rect. Raises TypeError and ValueError as
-        ray_cast does, ValueError also for lower > upper.
+        To test exact shapes instead of AABBs use overlap; for a pygame.Rect use query_rect. Raises TypeError and
+        ValueError as ray_cast does, ValueError also for lower > upper.
         """
         return casts.query_aabb(self, lower, upper, filter, sensors)
 
     @hints.explained
     def query_rect(self, rect: Rect, filter: Filter = Filter.ALL, sensors: bool = False) -> list[Body]:
-        """Return the bodies with a shape whose AABB meets a rectangle, boundary included, in the order of ids.
+        """Return the bodies with a shape whose AABB overlaps or touches a rectangle, in the order of body ids.
 
         rect: (x, y, width, height) or ((x, y), (width, height)) [px], such as a pygame.Rect.
-        filter: which shapes are considered; sensors: whether sensors are, too.
+        filter: the Filter of the query, see ray_cast; sensors: whether sensors are also considered.
 
-        overlap tests the shapes themselves. Raises TypeError and ValueError as ray_cast, ValueError also for a negative
-        width or height.
+        To test exact shapes instead of AABBs use overlap. Raises TypeError and ValueError as ray_cast does, ValueError
+        also for a negative width or height.
         """
         return casts.query_rect(self, rect, filter, sensors)
 
     @hints.explained
     def query_point(self, point: Pair, filter: Filter = Filter.ALL, sensors: bool = False) -> list[Body]:
-        """Return the bodies with a shape that contains a point, in the order of ids.
+        """Return the bodies with a shape that contains a point, in the order of body ids.
 
-        point: (x, y) [px]; filter: which shapes are considered; sensors: whether sensors are, too.
+        point: (x, y) [px]; filter: the Filter of the query, see ray_cast; sensors: whether sensors are also considered.
 
         Raises TypeError and ValueError as ray_cast does.
         """
@@ -776,9 +786,12 @@ class World(WorldState):
 
     @hints.explained
     def query_points(self, points: Points, filter: Filter = Filter.ALL, sensors: bool = False) -> PointHits:
-        """Return which bodies contain which of n points, as an array of POINT_HIT rows, sorted by point, then by body.
+        """Find the bodies that contain each of n points. Return a POINT_HIT row for each pair of a point and a body.
 
-        points: (n, 2) [px]; filter: which shapes are considered; sensors: whether sensors are, too.
+        points: (n, 2) [px].
+        filter: the Filter of the query, see ray_cast; sensors: whether sensors are also considered.
+
+        The rows are sorted by point, then by body.
 
         Raises TypeError and ValueError as ray_cast does.
         """

@@ -1,4 +1,4 @@
-"""WorldState: the tables and settings that a world keeps from step to step, and the times of its stages."""
+"""WorldState, the tables and settings of a world, and Profile, the times and work counters of a step."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
@@ -35,23 +35,23 @@ from physics.tables.table import Table, numbers_after, row_number, rows_in, rows
 
 
 class Profile:
-    """Times of the stages, and counters of the work done, in the last step. It is world.profile."""
+    """The times of the stages and the work counters of the last step. World.profile is a Profile."""
 
     def __init__(self, names: Sequence[str]) -> None:
         self.work = np.zeros(len(COUNTERS), np.int64)
         self.begin(names)
 
     def begin(self, names: Sequence[str]) -> list[float]:
-        """Reset the profile for a step with the named stages. Return the list to which the caller appends their times.
+        """Reset the profile for a step. Return an empty list, to which the caller appends the time [s] of each stage.
 
-        The times are in seconds, in the order of `names`.
+        names: names of the stages, in the order of the times.
         """
         self.work.fill(0)
         self._names, self._spent = names, []
         return self._spent
 
     def __repr__(self):
-        """Return the time of the last step, its longest stage, and the counters that are not 0."""
+        """Return a text with the time of the last step, its longest stage, and the counters that are not 0."""
         stages, counters = self.stages, {name: count for name, count in self.counters.items() if count}
         longest = max(stages, key=stages.__getitem__, default="")
         parts = [f"{len(stages)} stages in {1e3 * sum(stages.values()):.3g} ms"]
@@ -60,7 +60,10 @@ class Profile:
 
     @property
     def stages(self) -> dict[str, float]:
-        """Seconds of each stage of the last step, {name: seconds} in order; 0.0 for a stage that has not run."""
+        """Times of the stages of the last step, {name: seconds} in the order of execution.
+
+        The time of a stage that has not run is 0.0.
+        """
         found = dict.fromkeys(self._names, 0.0)
         for name, seconds in zip(self._names, self._spent, strict=False):
             found[name] += seconds
@@ -68,7 +71,7 @@ class Profile:
 
     @property
     def counters(self) -> dict[str, int]:
-        """Work counters of the last step, {name: int}; every name of COUNTERS is present."""
+        """Work counters of the last step, {name: int}, with all names in COUNTERS."""
         return dict(zip(COUNTERS, self.work.tolist(), strict=True))
 
 
@@ -77,7 +80,7 @@ class Profile:
 
 
 def checked_substeps(value: Any) -> Substeps:
-    """Return `value` unchanged: a number of substeps from 1 to 1000, or "auto".
+    """Return `value` if it is a whole number of substeps from 1 to 1000, or "auto".
 
     Raises TypeError or ValueError for other values.
     """
@@ -88,12 +91,12 @@ def checked_substeps(value: Any) -> Substeps:
 
 
 def checked_accuracy(value: Any) -> float | None:
-    """Return `value` unchanged: a positive length [px], or None. Raises TypeError or ValueError for other values."""
+    """Return `value` if it is a positive length [px], or None. Raises TypeError or ValueError for other values."""
     return None if value is None else checks.number("accuracy", value, above=0.0)
 
 
 class Handle:
-    """A reference to a body: its world and its id."""
+    """A reference to a body, which consists of the body's world and its id. Base class of Body."""
 
     __slots__ = ("_world", "_id")
 
@@ -120,7 +123,7 @@ class Handle:
         return hash((id(self.world), self.id))
 
     def __repr__(self):
-        """Return the id and, if the body exists, its kind, position and velocity. It never raises."""
+        """Return a text with the id and, if the body exists, its kind, position and velocity. No error is raised."""
         identity, bodies = self._id, self._world._bodies
         row = -1 if identity in self._world._removed else row_number(bodies, identity)
         if row < 0:
@@ -133,7 +136,7 @@ class Handle:
 
 
 class WorldState:
-    """The fields of a World. Only World inherits from this class and fills them."""
+    """The fields of a World, and accessors that other modules need. Base class of World, which sets all fields."""
 
     tolerances: Tolerances
     library: Library
@@ -194,7 +197,7 @@ class WorldState:
     _contacts: np.ndarray | None
 
     def __repr__(self) -> str:
-        """Return the numbers of bodies, joints and contacts, the time, the solver and the effects. It never raises."""
+        """Return a text with the numbers of bodies, joints and contacts, the time, the solver and the effects."""
         if "profile" not in vars(self):
             return "World(unfinished)"
         bodies, rows, removed = self._bodies.rows, self.reported_rows(), list(self._removed)
@@ -210,23 +213,27 @@ class WorldState:
 
     @property
     def bodies(self) -> BodyRows:
-        """BODY rows in the order of ids: a view, valid until a body is added or removed."""
+        """BODY rows (n,) of all bodies, in the order of ids. The array is valid until a body is added or removed."""
         if self._removed:
             self._drop_removed()
         return self._bodies.rows  # pyright: ignore[reportReturnType]
 
     @property
     def shapes(self) -> np.ndarray:
-        """SHAPE rows in the order of ids: a view, valid until a body or shape is added or removed."""
+        """SHAPE rows (n,) of all shapes, in the order of ids.
+
+        The array is valid until a body or shape is added or removed.
+        """
         if self._removed:
             self._drop_removed()
         return self._shapes.rows
 
     @property
     def joints(self) -> JointRows:
-        """JOINT rows in the order of ids: a view, valid until a joint is added, removed or broken.
+        """JOINT rows (n,) of all joints, in the order of ids.
 
-        Columns with settings may be written between steps. Afterwards call `touch` to wake the bodies.
+        The array is valid until a joint is added, removed or broken. Columns with settings may be written between
+        steps; afterwards call `touch` to wake the bodies of these joints.
         """
         if self._removed:
             self._drop_removed()
@@ -234,21 +241,24 @@ class WorldState:
 
     @property
     def contacts(self) -> ContactRows:
-        """CONTACT_POINT rows of pairs that touched, or that the sweep found, in the last step; sorted by shape ids."""
+        """CONTACT_POINT rows (n,), one for each contact point of the last step, sorted by shape ids.
+
+        They are the points of pairs that touched, or for which the sweep found an impact.
+        """
         if self._contacts is None:
             self._contacts = contacts_of(with_areas(self, self.reported_rows()))
         return self._contacts  # pyright: ignore[reportReturnType]
 
     def reported_rows(self) -> np.ndarray:
-        """Return the CONTACT rows to which the CONTACT_POINT rows in `contacts` belong."""
+        """Return the CONTACT rows (n,) whose points are listed in `contacts`."""
         rows, keep = self._reported
         return rows if keep is None or keep.all() else rows[keep]
 
     @property
     def contact_rows(self) -> np.ndarray:
-        """CONTACT rows of the last step, in the order of shape ids.
+        """CONTACT rows (n,) of the last step, in the order of shape ids.
 
-        Stacking solvers continue from them in the next step.
+        Stacking solvers warm start the contacts of the next step from these rows.
         """
         if self._removed:
             self._drop_removed()
@@ -260,23 +270,23 @@ class WorldState:
 
     @property
     def sleeping_contacts(self) -> ContactRows:
-        """CONTACT_POINT rows of the contacts of sleeping islands, evaluated when the islands fell asleep."""
+        """CONTACT_POINT rows (n,) of all contacts of sleeping islands, evaluated when the islands fell asleep."""
         return contacts_of(with_areas(self, self.sleeping_set.contacts()))  # pyright: ignore[reportReturnType]
 
     def report_contacts(self, rows: np.ndarray, keep: np.ndarray | None = None) -> None:
-        """Store the CONTACT rows whose points `contacts` will list.
+        """Store the CONTACT rows whose points `contacts` lists from now on.
 
-        keep: a bool for each row, whether it is listed; None: all are.
+        keep: a bool for each row, True if its points are listed; None: the points of all rows are listed.
         """
         self._reported, self._contacts = (rows, keep), None
 
     @property
     def candidates(self) -> NDArray[np.int32]:
-        """Pairs of shapes (ids) that passed broad phase and filters in the last step: (n, 2) int32, a < b, sorted."""
+        """Candidate pairs of the last step, after broad phase and filters: (n, 2) int32 shape ids a < b, sorted."""
         return self.pairs.ids(self.shapes).astype(np.int32)
 
     def rows(self, ids: Any) -> np.ndarray:
-        """Return the row numbers in `world.bodies` of bodies, as an array of the same shape.
+        """Return the row numbers of bodies in `world.bodies`, as an int64 array of the same shape as `ids`.
 
         ids: Bodies or ids, one or many.
 
@@ -297,13 +307,13 @@ class WorldState:
         return rows.reshape(ids.shape)
 
     def refresh_character_rows(self) -> None:
-        """Update the body row of every character, because rows change when bodies are removed."""
+        """Update the column `body_row` of all characters, because row numbers change when bodies are removed."""
         if self.characters.count:
             characters = self.characters.rows
             characters["body_row"] = rows_of(self.bodies, characters["body"])
 
     def rebuild_proxies(self) -> None:
-        """Replace the broad phase and add the proxies of all shapes again, after the tables were replaced."""
+        """Replace the broad phase by an empty one, and add proxies for all shapes, after the tables were replaced."""
         self.pairs, self._apart = PairList(self.sleeps), set()
         self.awake.start_over()
         self._broadphase = self._broadphase.fresh()
@@ -317,12 +327,12 @@ class WorldState:
 
     @property
     def sleeps(self) -> bool:
-        """Whether bodies at rest are left out of the steps. This needs the effect `sleeping` and a stacking solver."""
+        """Whether islands at rest can sleep. This needs the effect `sleeping` and a stacking solver."""
         return self.stacks and self._effects.sleeping
 
     @property
     def effects(self) -> Effects:
-        """The declared effects; `set_effects` replaces them."""
+        """The declared effects of the world. Replace them by `set_effects`."""
         return self._effects
 
     @property
@@ -333,7 +343,7 @@ class WorldState:
     def stages(self) -> list[str]:
         """Names of the stages of a step with the present effects, in the order of execution.
 
-        The stages of characters are included while the world has a character.
+        The stages of characters are included only if the world has a character.
         """
         return list(self._plan_now.names)
 
@@ -341,7 +351,7 @@ class WorldState:
 
     @property
     def gravity(self) -> Vec2:
-        """Gravity [px/s2]. It can be set between steps; a change wakes all bodies."""
+        """The acceleration (x, y) of gravity [px/s²]. It can be set between steps; a change wakes all bodies."""
         return self._gravity
 
     @gravity.setter
@@ -352,9 +362,9 @@ class WorldState:
         self._gravity = self._felt(self._gravity, gravity, self._effects.gravity)
 
     def _felt(self, before, now, felt):
-        """Return `now`, the new value of gravity, drag or wind. If it differs from `before`, wake all sleeping bodies.
+        """Return `now`, the new value of gravity, drag or wind, and wake all bodies if it differs from `before`.
 
-        felt: whether the value acts on bodies at all; otherwise none wake.
+        felt: whether the value acts on bodies with the present effects; if False, no body wakes.
         """
         if felt and now != before:
             sleep.wake_all(self)
@@ -362,7 +372,7 @@ class WorldState:
 
     @property
     def dt(self) -> float:
-        """Length of a step [s]. It can be set between steps."""
+        """The default length of a step [s]. It can be set between steps."""
         return self._dt
 
     @dt.setter
@@ -372,7 +382,7 @@ class WorldState:
 
     @property
     def drag(self) -> float:
-        """Rate [1/s] at which drag slows bodies down. It can be set between steps; a change wakes all bodies."""
+        """The rate [1/s] at which drag reduces velocities. It can be set between steps; a change wakes all bodies."""
         return self._drag
 
     @drag.setter
@@ -384,7 +394,10 @@ class WorldState:
 
     @property
     def wind(self) -> Vec2:
-        """Velocity of the air [px/s], which acts through the drag. A change, between steps, wakes all bodies."""
+        """The velocity (x, y) of the air [px/s], which accelerates bodies by drag · wind.
+
+        It can be set between steps; a change wakes all bodies.
+        """
         return self._wind
 
     @wind.setter
@@ -396,7 +409,10 @@ class WorldState:
 
     @property
     def substeps(self) -> Substeps:
-        """Number of substeps of the stacking solvers, 1 to 1000, or "auto": see World. It can be set between steps."""
+        """The number of substeps of the stacking solvers, 1 to 1000, or "auto" (see World).
+
+        It can be set between steps.
+        """
         return self._substeps
 
     @substeps.setter
@@ -406,9 +422,10 @@ class WorldState:
 
     @property
     def accuracy(self) -> float:
-        """Greatest sag [px] of a contact under its load that substeps="auto" allows.
+        """The greatest sag [px] of a contact under its load for which substeps="auto" chooses the number of substeps.
 
-        With 32 substeps it may be exceeded. It can be set between steps; None sets 1 mm.
+        The sag may be greater if the greatest number of substeps, 32 (128 for a leaning island), is not enough. The
+        value can be set between steps; None sets 1 mm.
         """
         return ACCURACY * self.tolerances.pixels_per_meter if self._accuracy is None else self._accuracy
 
@@ -419,7 +436,7 @@ class WorldState:
 
     @property
     def restitution_speed(self) -> float:
-        """Speed [px/s] above which an impact bounces. It can be set between steps; None sets 1 m/s."""
+        """The approach speed [px/s] above which an impact bounces. It can be set between steps; None sets 1 m/s."""
         return self.tolerances.restitution_speed
 
     @restitution_speed.setter
@@ -436,9 +453,9 @@ class WorldState:
 
     @property
     def broadphase(self) -> Strategy:
-        """The broad phase, which finds the candidate pairs.
+        """The broad phase, which finds the candidate pairs. Results do not depend on its choice.
 
-        It can be set between steps, also to a name in BROADPHASES, and does not change results.
+        It can be set between steps, to an instance of a strategy or to a name in BROADPHASES.
         """
         return self._broadphase
 
@@ -451,7 +468,7 @@ class WorldState:
     # --- for World, Body and edit -----------------------------------------------------------------------------------
 
     def _unlocked(self) -> None:
-        """Raise RuntimeError during a step; otherwise drop the rows of removed bodies."""
+        """Raise RuntimeError during a step. Otherwise delete the rows of removed bodies from the tables."""
         self._unstepped()
         if self._removed:
             self._drop_removed()
@@ -462,7 +479,7 @@ class WorldState:
             raise RuntimeError("the world cannot be changed during its step: read the events after it")
 
     def _row_number(self, identity: int) -> int:
-        """Return the row number of a body, after dropping the rows of removed bodies.
+        """Delete the rows of removed bodies from the tables, and return the row number of a body (id).
 
         The number is valid until a body is removed. Raises KeyError for an unknown body.
         """
@@ -471,10 +488,10 @@ class WorldState:
         return self._row_at(identity)
 
     def _row_at(self, identity: int) -> int:
-        """Return the row number of a body, without dropping the rows of removed bodies first.
+        """Return the row number of a body (id), without first deleting the rows of removed bodies from the tables.
 
-        The number is valid until `bodies` or `shapes` is read, which drops these rows and so moves other rows. Use it
-        only to access single values by Table.columns. Raises KeyError for an unknown body.
+        The number is valid until `bodies` or `shapes` is read, because these properties delete such rows and thereby
+        move other rows. Use it only to access single values by Table.columns. Raises KeyError for an unknown body.
         """
         row = -1 if identity in self._removed else row_number(self._bodies, identity)
         if row < 0:
@@ -482,9 +499,9 @@ class WorldState:
         return row
 
     def _shape_rows(self, row: int) -> np.ndarray:
-        """Return the SHAPE row numbers of a body (row number), ascending.
+        """Return the ascending SHAPE row numbers (n,) of the body with the row number `row`.
 
-        The rows of removed bodies are not dropped first.
+        The rows of removed bodies are not deleted first.
         """
         run = self._runs.data
         count = run["count"].item(row)
@@ -496,9 +513,9 @@ class WorldState:
         return np.arange(first, first + count)
 
     def _shape_rows_of(self, rows: np.ndarray) -> np.ndarray:
-        """Return the SHAPE row numbers of bodies (row numbers), in any order.
+        """Return the SHAPE row numbers (n,), in any order, of all bodies with the row numbers `rows`.
 
-        The rows of removed bodies are not dropped first.
+        The rows of removed bodies are not deleted first.
         """
         runs, shapes = self._runs.data[rows], self._shapes.rows
         firsts, counts = runs["first"], runs["count"]
@@ -518,7 +535,10 @@ class WorldState:
         return np.repeat(starts - ends + counts, counts) + np.arange(ends[-1])
 
     def _write_runs(self) -> None:
-        """Write the RUN rows of all bodies, which say where a body's shape rows are, after the tables were replaced."""
+        """Write the RUN rows of all bodies after the tables were replaced.
+
+        A RUN row contains the id of the body's first SHAPE row and the number of its SHAPE rows.
+        """
         bodies, owners, ids = self._bodies.count, self.shapes["body_row"], self.shapes["id"]
         self._runs.count = 0
         runs, numbers = self._runs.append(bodies), np.arange(len(owners))
@@ -529,15 +549,15 @@ class WorldState:
         runs["first"][counts > 0] = ids[starts[counts > 0]]
 
     def _write_run(self, row: int) -> None:
-        """Write the RUN row of a body (row number), which says where its shape rows are, after its shapes changed."""
+        """Write the RUN row of the body with the row number `row` after its shapes changed. See _write_runs."""
         mine, run = np.flatnonzero(self.shapes["body_row"] == row), self._runs.data
         run["count"][row] = len(mine) if not len(mine) or mine[-1] - mine[0] + 1 == len(mine) else SCATTERED
         run["first"][row] = self.shapes["id"][mine[0]] if len(mine) else 0
 
     def _identity(self, name: str, value: Any) -> int:
-        """Return the id of `value`, a Body or an id. Whether the body exists is not tested.
+        """Return the id of a body as an int, without a test whether the body exists. value: a Body or an id.
 
-        name: name of the argument in messages. Raises TypeError for anything else, ValueError for a Body of another
+        name: name of the argument in messages. Raises TypeError for any other value, ValueError for a Body of another
         world, KeyError for a number outside the range of ids (0 to 2**62 - 1).
         """
         if isinstance(value, Handle):
@@ -551,10 +571,10 @@ class WorldState:
         return int(value)
 
     def _identities(self, name: str, value: Any, repeats: bool = False) -> np.ndarray:
-        """Return the ids (n,) int64 of one or many Bodies or ids. Whether the bodies exist is not tested.
+        """Return the ids (n,) int64 of bodies, without a test whether the bodies exist.
 
-        name: name of the argument in messages; repeats: whether an id may repeat. Raises TypeError, ValueError or
-        KeyError for invalid arguments.
+        value: Bodies or ids, one or many; name: name of the argument in messages; repeats: whether an id may occur more
+        than once. Raises TypeError, ValueError or KeyError for invalid arguments.
         """
         if isinstance(value, (Handle, int, np.integer)):
             value = [value]
@@ -573,7 +593,7 @@ class WorldState:
         return checks.ids(name, np.array(each, np.int64), repeats)
 
     def _tidy_library(self) -> None:
-        """Drop the geometry that no shape uses, if it may be half of the library or more."""
+        """Remove geometry that no shape uses from the library, if it may be at least half of the library."""
         if self.library.may_be_half_unused(self._shapes.count):
             self.library = self.library.without_unused(self.shapes)
 
@@ -590,7 +610,7 @@ class WorldState:
         self.awake.forget_shapes()
 
     def _remove(self, ids: Sequence[int] | np.ndarray) -> None:
-        """Remove bodies by id. Raises KeyError for an unknown id; the bodies are then unchanged."""
+        """Remove the bodies with these ids. Raises KeyError for an unknown id; no body is then removed."""
         self._unlocked()
         ids = np.asarray(ids, np.int64)
         if not len(ids):
@@ -604,9 +624,9 @@ class WorldState:
         self._drop_rows(ids, rows)
 
     def _remove_one(self, identity: int) -> None:
-        """Remove a body by id. Raises KeyError for an unknown id.
+        """Remove the body with this id. Raises KeyError for an unknown id.
 
-        In a world without characters and joints, its rows are dropped only when the tables are next read.
+        In a world without characters and joints, the body's rows are deleted only when the tables are next read.
         """
         self._unstepped()
         if self.characters.count or self._joints.count:
@@ -619,27 +639,30 @@ class WorldState:
         self._removed[identity] = None
 
     def _refresh_joint_rows(self) -> None:
-        """Write to each joint the present row numbers of its two bodies."""
+        """Write the present row numbers of their two bodies to all JOINT rows."""
         if self._joints.count:
             joints = self._joints.rows
             for side in ("a", "b"):
                 joints[f"body_row_{side}"] = rows_in(self._bodies, joints[f"body_{side}"])
 
     def _forget_values(self, identity: int) -> None:
-        """Delete the values of a body that are stored by its id, outside of the tables."""
+        """Delete the values of a body (id) that are stored outside of the tables, such as its shapes and user value."""
         del self._shapes_of[identity]
         for values in (self._users, self._tiers, self._sources, self._targets):
             if values:
                 values.pop(identity, None)
 
     def _drop_removed(self) -> None:
-        """Drop the rows of the bodies that were removed one by one."""
+        """Delete the rows of all bodies that _remove_one has removed from the tables."""
         ids = np.array([*self._removed], np.int64)
         self._removed.clear()
         self._drop_rows(ids, rows_in(self._bodies, ids))
 
     def _drop_rows(self, ids: np.ndarray, rows: np.ndarray) -> None:
-        """Drop the rows of bodies, given by ids and row numbers, and the rows of their shapes and contacts."""
+        """Delete the rows of bodies, and of their shapes, contacts and characters, from the tables.
+
+        ids, rows: ids and row numbers of the bodies.
+        """
         keep = np.ones(self._bodies.count, bool)
         keep[rows] = False
         kept_shapes = keep[self.shapes["body_row"]]
@@ -661,9 +684,9 @@ class WorldState:
             raise ValueError(f"{what} needs the effect {effect}: declare it in {declaring(self._effects, effect)}")
 
     def _needs_fields(self, gravity: Vec2 | None = None, drag: float = 0.0, wind: Vec2 | None = None) -> None:
-        """Raise ValueError for a gravity, drag or wind other than 0 whose effect is not declared.
+        """Raise ValueError if a gravity, drag or wind other than 0 is given whose effect is not declared.
 
-        For drag the effect `wind` is also enough.
+        For drag the effect `wind` is sufficient too.
         """
         self._needs("gravity", f"gravity={gravity}", bool(gravity and any(gravity)))
         self._needs("drag", f"drag={drag}", drag != 0.0 and not self._effects.wind)
