@@ -1,4 +1,4 @@
-"""The broad phases: they find the pairs of shapes whose boxes overlap. Here they are chosen by name."""
+"""The broad phases, which find the pairs of shapes whose AABBs overlap, and their selection by name."""
 
 from typing import Any
 
@@ -19,7 +19,7 @@ BROADPHASES: dict[str, type[BruteForce | SweepAndPrune | SpatialHashGrid | Dynam
 
 
 def checked_broadphase(value: Any) -> Strategy:
-    """Return a new broad phase for `value`, a name in BROADPHASES or an instance of a strategy.
+    """Return a new, empty broad phase. value: a name in BROADPHASES, or a strategy object whose settings are copied.
 
     Raises TypeError for a class and for other values, ValueError for an unknown name.
     """

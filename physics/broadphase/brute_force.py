@@ -1,7 +1,7 @@
-"""Brute force: every changed proxy against every other proxy. The baseline of all measurements.
+"""Brute-force broad phase: test every changed proxy against every other proxy. O(changed · n).
 
-Exact, without state between steps, O(changed · n). Best for a few dozen bodies, and the reference with which tests
-compare the other strategies.
+It stores nothing between steps. It is the fastest broad phase for a few dozen bodies, and the reference with which
+tests and measurements compare the others.
 """
 
 import numpy as np
@@ -16,10 +16,10 @@ from physics.tables.step_state import PAIRS_TESTED
 
 @kernel
 def find_all(proxies, changed, pairs_out, work_inout):
-    """List the overlapping pairs that contain a changed proxy. Return their number. O(changed · n).
+    """Write the overlapping pairs that contain a changed proxy to pairs_out, and return their number. O(changed · n).
 
-    proxies: PROXY table, in which free slots have row -1; changed: slots of the changed proxies; pairs_out (capacity,
-    2) int32: pairs of slots; work_inout: counters, see COUNTERS.
+    proxies: PROXY table, in which free slots have row -1; changed: slots of the changed proxies; pairs_out: (capacity,
+    2) int32, the slots of each pair; work_inout: counters, see COUNTERS.
     """
     found = 0
     for i in range(len(changed)):
@@ -37,7 +37,7 @@ def find_all(proxies, changed, pairs_out, work_inout):
 
 @kernel
 def near_in_all(proxies, box, slots_out, work_inout):
-    """Write the slots of the proxies whose boxes overlap `box` to slots_out. Return their number. O(n).
+    """Write the slots of the proxies whose boxes overlap `box` to slots_out, and return the number of slots. O(n).
 
     proxies: PROXY table, in which free slots have row -1; box [px]: lower x, y, upper x, y; work_inout: counters, see
     COUNTERS.
@@ -56,9 +56,9 @@ def near_in_all(proxies, box, slots_out, work_inout):
 
 @subkernel
 def search_all(box, structure, slots_out, work_inout):
-    """Find the proxies whose boxes overlap `box`, as near_in_all does.
+    """Call near_in_all with the data of BruteForce.structure, and return the number of proxies found.
 
-    Return their number. structure: (PROXY table,).
+    structure: (PROXY table,); other arguments: see near_in_all.
     """
     return near_in_all(structure[0], box, slots_out, work_inout)
 
@@ -66,8 +66,8 @@ def search_all(box, structure, slots_out, work_inout):
 class BruteForce:
     """Broad phase that tests all pairs: O(n²) in the first step, O(moved · n) in later steps.
 
-    incremental: whether to keep the pairs of proxies that have not changed since the last step. False tests all n (n -
-        1) / 2 pairs in every step, as "brute force" means in papers, and finds the same pairs.
+    incremental: whether the pairs of two proxies that have not changed since the last step are kept without a test.
+        False tests all n (n - 1) / 2 pairs in every step, as in the textbook method. The resulting pairs are the same.
 
     Raises TypeError for a value that is not a bool.
     """
@@ -78,9 +78,9 @@ class BruteForce:
         self.incremental = checks.flag("incremental", incremental)
 
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
-        """Return the overlapping pairs of n closed boxes: (m, 2) int32, sorted, each as indices a < b.
+        """Return the pairs of overlapping or touching boxes: (m, 2) int32 indices a < b, sorted.
 
-        lower, upper: corners of the boxes, (n, 2) [px].
+        lower, upper: corners of n boxes, (n, 2) [px].
 
         Raises TypeError for values that are not numbers, ValueError for a wrong shape, NaN, and lower > upper.
         """
@@ -91,22 +91,23 @@ class BruteForce:
         return BruteForce(self.incremental)
 
     def update(self, arena: Arena) -> None:
-        """Do nothing: this broad phase stores nothing between steps.
+        """Do nothing, because this broad phase stores nothing between steps.
 
         arena: see proxies.Arena.
         """
 
     def query(self, arena: Arena) -> Query:
-        """Return a function (pairs, work) -> count, which writes the pairs with a changed proxy to `pairs`.
+        """Return a function (pairs, work) -> count, which writes the overlapping pairs that contain a changed proxy.
 
-        arena: the proxies, and which have changed.
+        arena: the Arena with the proxies and the slots of the changed ones.
 
-        pairs (capacity, 2) int32 are slots, work the counters, see COUNTERS.
+        The function writes the slots of each pair to `pairs`, (capacity, 2) int32. It returns the number of pairs, even
+        if they do not fit, and increases `work`, the counters named in COUNTERS.
         """
         return lambda pairs, work: find_all(arena.proxies, arena.changed, pairs, work)
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Find the proxies whose boxes overlap a box. Write their slots, and return their number.
+        """Write the slots of the proxies whose boxes overlap a box to `slots`, and return the number of slots.
 
         proxies: PROXY table; box: (lower x, lower y, upper x, upper y) [px].
         slots: array with room for all proxies, which is written; work: counters, see COUNTERS, which are increased.
@@ -114,7 +115,7 @@ class BruteForce:
         return near_in_all(proxies, box, slots, work)
 
     def structure(self, proxies: np.ndarray) -> tuple:
-        """Return the data that the kernel search_all reads.
+        """Return the tuple (proxies,), which is the argument `structure` of the kernel search_all.
 
         proxies: PROXY table.
         """

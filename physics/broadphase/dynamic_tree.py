@@ -1,11 +1,11 @@
-"""Two dynamic bounding volume hierarchies with AVL balance, one for static proxies and one for moving proxies.
+"""Broad phase of two dynamic bounding volume hierarchies with AVL balance: one for static proxies, one for moving ones.
 
-A leaf holds the box of a proxy enlarged by a margin (fat box). A proxy that moves within its fat box costs one
-comparison. Insertion descends by the surface area heuristic to a leaf or the parent of a leaf. Single rotations then
-restore the AVL balance on the way up. Children have no order, so a single rotation always suffices, and the height is
-at most 1.45·log2(n) + 2. If most proxies of a tree change in one step, the tree is rebuilt by median splits. Source:
-Catto, Dynamic Bounding Volume Hierarchies, GDC 2019; Adelson-Velsky and Landis 1962. O(moved · log n). Suits many
-static and few moving bodies.
+A leaf contains the box of a proxy enlarged by a margin (fat box). While a proxy moves within its fat box, an update
+takes one comparison. Insertion descends by the surface area heuristic to a leaf or to the parent of a leaf. Single
+rotations then restore the AVL balance from there up to the root. Children have no order, so a single rotation always
+suffices, and the height is at most 1.45·log2(n) + 2. If most proxies of a tree change in one step, the tree is rebuilt
+by median splits. O(moved · log n). Suitable for many static and few moving bodies. Source: Catto, Dynamic Bounding
+Volume Hierarchies, GDC 2019; Adelson-Velsky and Landis 1962.
 """
 
 import numpy as np
@@ -45,9 +45,9 @@ FREE, USED, ROOT_MOVING, ROOT_STILL = range(4)  # indices into the state array
 
 @subkernel
 def joined_outline(nodes, a, b):
-    """Return half the perimeter [px] of the box around two nodes: the cost in the surface area heuristic in 2D.
+    """Return half the perimeter [px] of the smallest box around the boxes of two nodes.
 
-    a, b: indices of the nodes.
+    In 2D this is the cost in the surface area heuristic. nodes: NODE rows; a, b: indices of the two nodes.
     """
     p, q = nodes[a], nodes[b]
     return (max(p.upper_x, q.upper_x) - min(p.lower_x, q.lower_x)) + (
@@ -57,9 +57,9 @@ def joined_outline(nodes, a, b):
 
 @subkernel
 def refit(index, nodes_inout):
-    """Write the box and the height of node number `index` from the boxes and heights of its children.
+    """Compute the box and the height of node number `index` from the boxes and heights of its two children.
 
-    nodes_inout: NODE rows.
+    nodes_inout: NODE rows, of which row `index` is written.
     """
     n = nodes_inout[index]
     p, q = nodes_inout[n.child_a], nodes_inout[n.child_b]
@@ -70,10 +70,10 @@ def refit(index, nodes_inout):
 
 @subkernel
 def replace_child(parent, old, new, root, nodes_inout, state_inout):
-    """Put the node `new` in the place of the node `old`: as a child of `parent`, or as the root if `parent` is -1.
+    """Replace the node `old` by the node `new` as a child of `parent`, or as the root of the tree if `parent` is -1.
 
-    parent, old, new: indices of nodes; root: index of the root in state_inout, ROOT_MOVING or ROOT_STILL; nodes_inout:
-    NODE rows; state_inout: see place_changed.
+    parent, old, new: indices of nodes; root: index of the tree's root in state_inout, ROOT_MOVING or ROOT_STILL;
+    nodes_inout: NODE rows; state_inout: see place_changed.
     """
     nodes_inout[new].parent = parent
     if parent < 0:
@@ -86,9 +86,9 @@ def replace_child(parent, old, new, root, nodes_inout, state_inout):
 
 @subkernel
 def rotate(index, root, nodes_inout, state_inout):
-    """Raise the higher child C of node number `index` (A) if it is two levels higher than the other child.
+    """Rotate node number `index` (A) if its higher child (C) is two levels higher than its other child (B).
 
-    Return the number of the node that is now on top. root, nodes_inout, state_inout: see replace_child.
+    Return the number of the node that is then the upper one, C or A. root, nodes_inout, state_inout: see replace_child.
 
       A                  C
      / \\                / \\
@@ -122,9 +122,10 @@ def rotate(index, root, nodes_inout, state_inout):
 
 @subkernel
 def swap_pays(upper, lower_parent, lower, nodes):
-    """Return half the perimeter [px] by which lower_parent's box shrinks if the nodes `upper` and `lower` are swapped.
+    """Return by how much half the perimeter [px] of lower_parent's box shrinks if `upper` and `lower` are swapped.
 
-    lower_parent: sibling of `upper` and parent of `lower`. The result is 0 if the swap would violate the AVL balance.
+    The result is 0 if the swap would violate the AVL balance. upper, lower_parent, lower: indices of nodes;
+    lower_parent is the sibling of `upper` and the parent of `lower`. nodes: NODE rows.
     """
     q = nodes[lower_parent]
     other = q.child_b if q.child_a == lower else q.child_a
@@ -139,10 +140,10 @@ def swap_pays(upper, lower_parent, lower, nodes):
 
 @subkernel
 def improve(index, nodes_inout):
-    """Swap a child of a node with a grandchild below its other child, if that shrinks boxes and keeps the AVL balance.
+    """Swap one child of node number `index` with a child of the other child, if a box shrinks and AVL balance is kept.
 
-    index: the node. Source: Catto, GDC 2019, after Kopta et al. 2012, with the balance test added. nodes_inout: NODE
-    rows.
+    Of all such swaps, the one with the greatest decrease is made. nodes_inout: NODE rows. Source: Catto, GDC 2019,
+    after Kopta et al. 2012; the balance test is added here.
     """
     n = nodes_inout[index]
     best = 0.0
@@ -181,10 +182,10 @@ def improve(index, nodes_inout):
 
 @subkernel
 def repair_upward(index, root, nodes_inout, state_inout, work_inout):
-    """Refit, balance and improve all nodes from number `index` up to the root. O(height).
+    """Call refit, rotate and improve for each node from number `index` up to the root. O(height).
 
-    root: index of the root in state_inout, ROOT_MOVING or ROOT_STILL; work_inout: counters, see COUNTERS. nodes_inout:
-    NODE rows.
+    root: index of the root in state_inout, ROOT_MOVING or ROOT_STILL; nodes_inout: NODE rows; state_inout: see
+    place_changed; work_inout: counters, see COUNTERS.
     """
     while index >= 0:
         work_inout[NODES_VISITED] += 1
@@ -196,9 +197,9 @@ def repair_upward(index, root, nodes_inout, state_inout, work_inout):
 
 @subkernel
 def take_node(nodes_inout, state_inout):
-    """Take a node from the list of free nodes, or the next unused node. Return its index.
+    """Allocate a node from the list of free nodes or, if the list is empty, the next unused node. Return its index.
 
-    The caller ensures that there is one. nodes_inout: NODE rows; state_inout: see place_changed.
+    The caller ensures that a node is available. nodes_inout: NODE rows; state_inout: see place_changed.
     """
     index = state_inout[FREE]
     if index >= 0:
@@ -211,9 +212,9 @@ def take_node(nodes_inout, state_inout):
 
 @subkernel
 def insert_leaf(leaf, nodes_inout, state_inout, work_inout):
-    """Insert a leaf as the sibling of a node, chosen so that the perimeters of all nodes grow little. O(height).
+    """Insert a leaf into its tree. Its sibling is chosen by the surface area heuristic. O(height).
 
-    nodes_inout: NODE rows; state_inout: see place_changed; work_inout: counters, see COUNTERS.
+    leaf: index of the leaf; nodes_inout: NODE rows; state_inout: see place_changed; work_inout: counters, see COUNTERS.
     """
     root = ROOT_STILL if nodes_inout[leaf].still else ROOT_MOVING
     at = state_inout[root]
@@ -249,9 +250,9 @@ def insert_leaf(leaf, nodes_inout, state_inout, work_inout):
 
 @subkernel
 def remove_leaf(leaf, nodes_inout, state_inout, work_inout):
-    """Remove a leaf from its tree: the leaf's sibling takes the place of their parent. O(height).
+    """Remove a leaf from its tree, and replace the leaf's parent by the leaf's sibling. O(height).
 
-    nodes_inout: NODE rows; state_inout: see place_changed; work_inout: counters, see COUNTERS.
+    leaf: index of the leaf; nodes_inout: NODE rows; state_inout: see place_changed; work_inout: counters, see COUNTERS.
     """
     root = ROOT_STILL if nodes_inout[leaf].still else ROOT_MOVING
     parent = nodes_inout[leaf].parent
@@ -274,10 +275,10 @@ def remove_leaf(leaf, nodes_inout, state_inout, work_inout):
 
 @subkernel
 def select_median(along, first, last, middle, leaves_inout):
-    """Reorder leaves first..last so that position `middle` holds the leaf that would be there after sorting by `along`.
+    """Partition leaves_inout[first] to leaves_inout[last] at position `middle` by the values of `along` (quickselect).
 
-    Leaves before this position then have smaller or equal values, leaves after it greater or equal ones. along:
-    coordinate of each leaf; leaves_inout: indices of leaves. Source: quickselect, Hoare 1961.
+    Afterwards the leaves before this position have values not greater than the leaf at it, and the leaves after it
+    values not less. along: value of each leaf; leaves_inout: indices of leaves. Source: Hoare 1961.
     """
     low, high = first, last
     while low < high:
@@ -302,7 +303,10 @@ def select_median(along, first, last, middle, leaves_inout):
 
 @subkernel
 def spread(along, leaves, first, last):
-    """Return the difference between the greatest and the least value of `along` among leaves[first] to leaves[last]."""
+    """Return the greatest minus the least value of `along` for the leaves leaves[first] to leaves[last].
+
+    along: value of each leaf; leaves: indices of leaves.
+    """
     low = along[leaves[first]]
     high = low
     for k in range(first + 1, last + 1):
@@ -318,9 +322,9 @@ def spread(along, leaves, first, last):
 def rebuild(leaf_of, still, leaves_out, spans_out, twice_x_out, twice_y_out, nodes_inout, state_inout):
     """Rebuild the tree of the static leaves (still 1) or of the moving leaves (still 0) by median splits. O(n log n).
 
-    The inner nodes of the old tree are freed first. leaf_of (slots,): node of each proxy, or -1. Scratch: leaves_out
-    (slots,); spans_out (slots, 4); twice_x_out, twice_y_out (nodes,): twice the centre of each leaf's box [px].
-    nodes_inout: NODE rows; state_inout: see place_changed.
+    The inner nodes of the old tree are freed first. leaf_of: (slots,) index of each proxy's leaf, or -1; nodes_inout:
+    NODE rows; state_inout: see place_changed. Scratch arrays: leaves_out (slots,); spans_out (slots, 4); twice_x_out,
+    twice_y_out (nodes,), twice the centre of each leaf's box [px].
     """
     root = ROOT_STILL if still == 1 else ROOT_MOVING
     count = 0
@@ -400,11 +404,11 @@ def rebuild(leaf_of, still, leaves_out, spans_out, twice_x_out, twice_y_out, nod
 
 @kernel
 def find_pairs_in_trees(proxies, changed, nodes, state, stack_inout, pairs_out, work_inout):
-    """List the overlapping pairs that contain a changed proxy. Return their number. O(changed · log n + pairs).
+    """Write the overlapping pairs that contain a changed proxy, and return their number. O(changed · log n + pairs).
 
-    Both trees are searched with the box of each changed proxy. changed: slots of the changed proxies; state: see
-    place_changed; stack_inout: scratch; pairs_out (capacity, 2) int32: pairs of slots; work_inout: counters, see
-    COUNTERS.
+    Both trees are searched with the box of each changed proxy; with a static proxy only the tree of moving proxies.
+    proxies: PROXY table; changed: slots of the changed proxies; nodes: NODE rows; state: see place_changed;
+    stack_inout: scratch; pairs_out: (capacity, 2) int32, the slots of each pair; work_inout: counters, see COUNTERS.
     """
     found = 0
     for i in range(len(changed)):
@@ -438,10 +442,10 @@ def find_pairs_in_trees(proxies, changed, nodes, state, stack_inout, pairs_out, 
 
 @kernel
 def query_trees(nodes, roots, box, stack_inout, slots_out, work_inout):
-    """Find the leaves of both trees whose fat boxes overlap `box`. Return their number. O(log n + found).
+    """Write the slots of the proxies whose fat boxes overlap `box`, and return the number of slots. O(log n + found).
 
-    roots: the root nodes of the trees, -1 for an empty tree; box [px]: lower x, y, upper x, y; stack_inout: scratch;
-    slots_out: slots of the leaves' proxies; work_inout: counters, see COUNTERS.
+    nodes: NODE rows of both trees; roots: index of the root of each tree, -1 for an empty tree; box: (lower x, lower y,
+    upper x, upper y) [px]; stack_inout: scratch; slots_out: the result; work_inout: counters, see COUNTERS.
     """
     found = 0
     depth = 0
@@ -467,9 +471,9 @@ def query_trees(nodes, roots, box, stack_inout, slots_out, work_inout):
 
 @subkernel
 def search_trees(box, structure_inout, slots_out, work_inout):
-    """Find the leaves of both trees whose fat boxes overlap `box`, as query_trees does. Return their number.
+    """Call query_trees with the data of DynamicTree.structure, and return the number of proxies found.
 
-    structure_inout: (nodes, roots, stack) of query_trees.
+    structure_inout: (nodes, roots, stack); other arguments: see query_trees.
     """
     nodes, roots, stack_inout = structure_inout
     return query_trees(nodes, roots, box, stack_inout, slots_out, work_inout)
@@ -484,10 +488,10 @@ def place_changed(proxies, changed, margins, loose, leaf_of_inout, nodes_inout, 
     """Insert, remove, or move the leaves of the changed proxies. Return the number of leaves changed. O(moved · log n).
 
     A leaf is not moved while its proxy is within the leaf's fat box. changed: slots of the changed proxies. margins:
-    margin of a fat box in px, and as a share of the box's size; the smaller of the two is used. loose: one flag each
-    for the moving and the static tree, 1 if the caller rebuilds this tree next, so that leaves need not be linked or
-    unlinked here. leaf_of_inout (slots,): node of each proxy, or -1. state_inout: first free node, number of used
-    nodes, both roots. nodes_inout: NODE rows; work_inout: counters, see COUNTERS.
+    (margin of a fat box [px], the same as a share of the box's size); the smaller margin is used. loose: (flag of the
+    moving tree, flag of the static tree); 1 if the caller rebuilds this tree next, so its leaves are not linked here.
+    leaf_of_inout: (slots,) index of each proxy's leaf, or -1. state_inout: (first free node, number of used nodes, root
+    of the moving tree, root of the static tree). nodes_inout: NODE rows; work_inout: counters, see COUNTERS.
     """
     moved = 0
     for i in range(len(changed)):
@@ -542,10 +546,10 @@ def place_changed(proxies, changed, margins, loose, leaf_of_inout, nodes_inout, 
 
 
 class DynamicTree:
-    """Broad phase with two dynamic bounding volume trees.
+    """Broad phase with two dynamic bounding volume trees, one for static and one for moving proxies.
 
-    width: number of children of an inner node, 2 or None (the same).
-    margin: the greatest margin of a moving leaf [px], >= 0; None: the setting for a world of 32 px per metre.
+    width: number of children of an inner node; 2, or None, which means 2.
+    margin: the greatest margin of a moving leaf's box [px], >= 0; None: the default for a world of 32 px per metre.
 
     Raises TypeError or ValueError for another width, and for a margin that is not a number >= 0.
     """
@@ -563,9 +567,9 @@ class DynamicTree:
         self.leaves, self.spans, self.twice = np.zeros(0, np.int64), np.zeros((0, 4), np.int64), np.zeros((2, 0))
 
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
-        """Return the overlapping pairs of n closed boxes: (m, 2) int32, sorted, each as indices a < b.
+        """Return the pairs of overlapping or touching boxes: (m, 2) int32 indices a < b, sorted.
 
-        lower, upper: corners of the boxes, (n, 2) [px].
+        lower, upper: corners of n boxes, (n, 2) [px].
 
         Raises TypeError for values that are not numbers, ValueError for a wrong shape, NaN, and lower > upper.
         """
@@ -576,9 +580,9 @@ class DynamicTree:
         return DynamicTree(self.width, self.margin)
 
     def update(self, arena: Arena) -> None:
-        """Insert or remove leaves, and move the leaves of changed proxies that left their fat boxes.
+        """Insert leaves for new proxies, remove leaves of freed proxies, and move leaves whose proxy left its fat box.
 
-        arena: see proxies.Arena.
+        arena: the Arena with the proxies and the slots of the changed ones.
         """
         if len(self.leaf_of) < len(arena.proxies):
             slots = max(len(arena.proxies), 2 * len(self.leaf_of))
@@ -606,9 +610,9 @@ class DynamicTree:
                 rebuild(self.leaf_of, still, self.leaves, self.spans, *self.twice, self.nodes, self.state)
 
     def _rebuilds(self, arena):
-        """Return which trees are to be rebuilt: two flags, for the moving and the static tree.
+        """Return which trees are to be rebuilt: (flag of the moving tree, flag of the static tree), each 0 or 1.
 
-        A tree is rebuilt if most of its proxies have changed. Then a rebuild costs less than moving each leaf, and
+        A tree is rebuilt if most of its proxies have changed, because this takes less time than moving each leaf, and
         gives a better tree. arena: see proxies.Arena.
         """
         still = arena.proxies["still"]
@@ -617,11 +621,12 @@ class DynamicTree:
         return tuple(int(changed[k] > max(REBUILD_FROM, total[k] // 2)) for k in (0, 1))
 
     def query(self, arena: Arena) -> Query:
-        """Return a function (pairs, work) -> count, which writes the pairs with a changed proxy to `pairs`.
+        """Return a function (pairs, work) -> count, which writes the overlapping pairs that contain a changed proxy.
 
-        arena: the proxies, and which have changed.
+        arena: the Arena with the proxies and the slots of the changed ones.
 
-        pairs (capacity, 2) int32 are slots, work the counters, see COUNTERS.
+        The function writes the slots of each pair to `pairs`, (capacity, 2) int32. It returns the number of pairs, even
+        if they do not fit, and increases `work`, the counters named in COUNTERS.
         """
         proxies, changed = arena.proxies, arena.changed
         return lambda pairs, work: find_pairs_in_trees(
@@ -629,18 +634,18 @@ class DynamicTree:
         )
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Find the proxies whose boxes overlap a box. Write their slots, and return their number.
+        """Write the slots of the proxies whose fat boxes overlap a box to `slots`, and return the number of slots.
 
         proxies: PROXY table (unused); box: (lower x, lower y, upper x, upper y) [px].
         slots: array with room for all proxies, which is written; work: counters, see COUNTERS, which are increased.
 
-        The fat boxes of the tree are compared, so proxies up to a margin away may also be found.
+        Proxies whose own boxes are outside the box by less than the margin may also be found.
         """
         nodes, roots, stack = self.structure(proxies)
         return query_trees(nodes, roots, box, stack, slots, work)
 
     def structure(self, proxies: np.ndarray) -> tuple:
-        """Return the data that the kernel search_trees reads.
+        """Return (nodes, roots, stack), which is the argument `structure_inout` of the kernel search_trees.
 
         proxies: PROXY table, unused.
         """
@@ -652,7 +657,10 @@ class DynamicTree:
         return max(int(self.nodes[root]["height"]) if root >= 0 else -1 for root in self.state[ROOT_MOVING:])
 
     def boxes(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return all nodes for drawing: (boxes (m, 4) [px], depths (m,) below the root of their tree), by depth."""
+        """Return all nodes of both trees, for drawing: (boxes (m, 4) [px], depths (m,)), sorted by depth.
+
+        The columns of the boxes are lower x, lower y, upper x, upper y. The depth of a root is 0.
+        """
         roots = self.state[ROOT_MOVING:]
         levels = [roots[roots >= 0]]  # the nodes of each depth
         while len(levels[-1]):

@@ -1,4 +1,4 @@
-"""The method find_pairs of all broad phases: one search for the overlapping pairs of given boxes."""
+"""Common implementation of the method find_pairs of all broad phases, which searches the pairs of given boxes."""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -8,10 +8,10 @@ from physics.tables.shape import PROXY
 
 
 def find_pairs(strategy: Strategy, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
-    """Return the pairs of n closed boxes that touch, found by a new broad phase: (m, 2) int32, a < b, sorted.
+    """Return the pairs of overlapping or touching boxes: (m, 2) int32 indices a < b, sorted.
 
-    strategy: a broad phase without proxies; lower, upper: corners of the boxes (n, 2) [px]. Errors: see
-    Strategy.find_pairs.
+    strategy: a broad phase without proxies, which finds the pairs; lower, upper: corners of n boxes (n, 2) [px]. Raises
+    the errors of Strategy.find_pairs.
     """
     lower, upper = _corners("lower", lower), _corners("upper", upper)
     if len(lower) != len(upper):

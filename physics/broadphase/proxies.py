@@ -1,4 +1,4 @@
-"""Proxies, the boxes that every broad phase compares; the swept AABBs in them; and the list of overlapping pairs."""
+"""Proxies of shapes for the broad phase, their swept AABBs, and the list of pairs whose swept AABBs overlap."""
 
 from collections.abc import Callable
 from typing import NamedTuple, Protocol
@@ -35,9 +35,9 @@ Query = Callable[[np.ndarray, np.ndarray], int]  # (pairs, work) -> number of pa
 
 @subkernel
 def overlaps(proxies, a, b, work_inout):
-    """Return whether two proxies may pair: their closed boxes touch and may_meet allows the pair.
+    """Return whether two proxies are a candidate pair: their boxes overlap or touch, and may_meet allows it. O(1).
 
-    proxies: PROXY table; a, b: slots; work_inout: counters, see COUNTERS. O(1).
+    proxies: PROXY table; a, b: slots of the two proxies; work_inout: counters, see COUNTERS.
     """
     p, q = proxies[a], proxies[b]
     work_inout[PAIRS_TESTED] += 1
@@ -48,11 +48,11 @@ def overlaps(proxies, a, b, work_inout):
 
 @subkernel
 def may_meet(proxies, a, b, work_inout):
-    """Return whether two proxies whose boxes touch may pair. O(1).
+    """Return whether two proxies whose boxes overlap may be a candidate pair. O(1).
 
     Excluded are pairs of two static proxies, of two sleeping proxies, and of two proxies of one body. Also excluded are
-    pairs whose `plane` and `avoids` exclude each other, and pairs that a filter excludes. The last are counted in
-    work_inout (FILTERED). proxies: PROXY table; a, b: slots.
+    pairs whose columns `plane` and `avoids` exclude each other, and pairs that a collision filter excludes. Pairs
+    excluded by a filter are counted in work_inout[FILTERED]. proxies: PROXY table; a, b: slots of the two proxies.
     """
     p, q = proxies[a], proxies[b]
     if (p.still and q.still) or p.body == q.body or not (p.awake or q.awake) or (p.plane & q.avoids) != 0:
@@ -65,19 +65,20 @@ def may_meet(proxies, a, b, work_inout):
 
 @subkernel
 def meets_box(row, box):
-    """Return whether the closed box of `row` touches the closed box `box` (lower x, y, upper x, y) [px].
+    """Return whether the box of `row` overlaps or touches the box `box`.
 
-    row: a PROXY row, or another record with lower_x, lower_y, upper_x, upper_y.
+    row: a PROXY row, or another record with lower_x, lower_y, upper_x, upper_y; box: (lower x, lower y, upper x,
+    upper y) [px].
     """
     return row.lower_x <= box[2] and row.upper_x >= box[0] and row.lower_y <= box[3] and row.upper_y >= box[1]
 
 
 @subkernel
 def write_pair(a, b, found, pairs_out):
-    """Write the pair of slots a, b to row `found` of pairs_out, if it has this row. Return found + 1. O(1).
+    """Write the slots (a, b) to pairs_out[found] if `found` is less than the capacity. Return found + 1. O(1).
 
-    pairs_out (capacity, 2) int32. If the returned number exceeds the capacity, the caller enlarges the array and
-    repeats the search.
+    pairs_out: (capacity, 2) int32. If the number of pairs exceeds the capacity in the end, the caller enlarges the
+    array and repeats the search.
     """
     if found < pairs_out.shape[0]:
         pairs_out[found, 0] = a
@@ -86,7 +87,7 @@ def write_pair(a, b, found, pairs_out):
 
 
 class Arena:
-    """The data of one broad-phase update: proxies, slots of the changed ones, the array for pairs, and counters."""
+    """The data of one broad-phase update: proxies, slots of the changed proxies, array for pairs, and work counters."""
 
     def __init__(self) -> None:
         self.proxies = np.zeros(0, PROXY)
@@ -95,9 +96,10 @@ class Arena:
         self.work = np.zeros(len(COUNTERS), np.int64)
 
     def collect(self, query: Query) -> int:
-        """Run query(pairs, work) -> count and return the count. Repeat it with a larger array if the pairs did not fit.
+        """Call `query` to write all pairs to self.pairs, and return the number of pairs.
 
-        query: result of Strategy.query. It writes pairs to the array and returns their number, even if they do not fit.
+        query: function (pairs, work) -> number of pairs, from Strategy.query. If the number exceeds the length of the
+        array, the array is enlarged and the query repeated.
         """
         work = self.work.copy()
         count = query(self.pairs, self.work)
@@ -111,16 +113,17 @@ class Arena:
 class Strategy(Protocol):
     """The interface of a broad phase: BruteForce, SweepAndPrune, SpatialHashGrid or DynamicTree.
 
-    name: "brute", "sweep", "hash" or "tree"; incremental: whether pairs of unchanged proxies are kept between steps.
+    name: "brute", "sweep", "hash" or "tree".
+    incremental: whether pairs of two unchanged proxies are kept from the last step without a test.
     """
 
     name: str
     incremental: bool  # whether the pairs of unchanged proxies are kept from the last step
 
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
-        """Return the pairs of n closed boxes that touch: (m, 2) int32, sorted, each as indices a < b.
+        """Return the pairs of overlapping or touching boxes: (m, 2) int32 indices a < b, sorted.
 
-        lower, upper: corners of the boxes, (n, 2) [px].
+        lower, upper: corners of n boxes, (n, 2) [px].
 
         Raises TypeError for values that are not numbers, ValueError for a wrong shape, NaN, and lower > upper.
         """
@@ -131,28 +134,34 @@ class Strategy(Protocol):
         ...
 
     def update(self, arena: Arena) -> None:
-        """Update the data structure with the proxies in the slots arena.changed.
+        """Update the data structure of the broad phase with the changed proxies, whose slots are in arena.changed.
 
-        arena: the proxies, and which have changed.
+        arena: the Arena with the proxies and the slots of the changed ones.
         """
         ...
 
     def query(self, arena: Arena) -> Query:
-        """Return a function (pairs, work) -> count, which writes the pairs with a changed proxy to `pairs`.
+        """Return a function (pairs, work) -> count, which writes the overlapping pairs that contain a changed proxy.
 
-        arena: the proxies, and which have changed; pairs (capacity, 2) int32 are slots, work the COUNTERS.
+        arena: the Arena with the proxies and the slots of the changed ones.
+
+        The function writes the slots of each pair to `pairs`, (capacity, 2) int32. It returns the number of pairs, even
+        if they do not fit, and increases `work`, the counters named in COUNTERS.
         """
         ...
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Find the proxies whose boxes overlap a box, or are near it. Write their slots, and return their number.
+        """Write the slots of the proxies whose boxes overlap a box to `slots`, and return the number of slots.
 
-        proxies: PROXY table; box: lower x, y, upper x, y [px]; slots: result, as long as proxies; work: counters.
+        proxies: PROXY table; box: (lower x, lower y, upper x, upper y) [px].
+        slots: array with room for all proxies, which is written; work: counters, see COUNTERS, which are increased.
+
+        Proxies whose boxes are only near the box may also be found.
         """
         ...
 
     def structure(self, proxies: np.ndarray) -> tuple:
-        """Return the data that a kernel reads to find the proxies whose boxes overlap a box.
+        """Return the arrays and numbers with which a kernel finds the proxies whose boxes overlap a box.
 
         proxies: PROXY table.
         """
@@ -161,9 +170,9 @@ class Strategy(Protocol):
 
 @kernel
 def write_row_numbers(shapes, proxies_inout):
-    """Write the SHAPE row number of each shape to its proxy, after rows have moved. O(shapes).
+    """Write the number of each SHAPE row to the column `row` of the shape's proxy, after rows have moved. O(shapes).
 
-    Shapes without a proxy, or whose proxy has no swept AABB yet, are skipped. proxies_inout: PROXY table.
+    Shapes without a proxy, and proxies without a swept AABB, are skipped. proxies_inout: PROXY table.
     """
     for k in range(len(shapes)):
         slot = shapes[k].proxy
@@ -172,10 +181,9 @@ def write_row_numbers(shapes, proxies_inout):
 
 
 def write_states(proxies: np.ndarray, states_out: np.ndarray) -> None:
-    """Write 2 · changed + awake (both flags 0 or 1) of each proxy to states_out. O(proxies).
+    """Write 2 · changed + awake of each proxy to states_out, where both flags are 0 or 1. O(proxies).
 
-    states_out (proxies,) int8: a copy of the two flags alone, because keep_pairs reads them for every pair. proxies:
-    PROXY table.
+    proxies: PROXY table; states_out: (proxies,) int8. keep_pairs reads this compact copy of the flags for every pair.
     """
     np.left_shift(proxies["changed"].view(np.int8), 1, out=states_out)
     states_out |= proxies["awake"].view(np.int8)
@@ -183,11 +191,12 @@ def write_states(proxies: np.ndarray, states_out: np.ndarray) -> None:
 
 @kernel
 def keep_pairs(states, old, old_rows, old_count, kept_out, rows_out):
-    """Copy the pairs without a changed or freed proxy and with at least one awake proxy, in their order. O(pairs).
+    """Copy the old pairs that have no changed proxy and at least one awake proxy. Return the number of pairs. O(pairs).
 
-    Return their number. states (proxies,) int8: result of write_states; old, kept_out (capacity, 2) int32: slots;
-    old_rows, rows_out (capacity, 2) int64: row numbers in SHAPE of these slots; old_count: number of old pairs. The
-    loop has no branch, because a branch would be mispredicted.
+    Freed proxies count as changed. The order of the pairs is unchanged. states: result of write_states; old, kept_out:
+    (capacity, 2) int32, slots of each old and each copied pair; old_rows, rows_out: (capacity, 2) int64, the SHAPE row
+    numbers of the same proxies; old_count: number of old pairs. The loop has no branch, because a branch would be
+    mispredicted.
     """
     kept = 0
     for i in range(old_count):
@@ -203,10 +212,11 @@ def keep_pairs(states, old, old_rows, old_count, kept_out, rows_out):
 
 @kernel
 def drop_apart(proxies, count, apart, pairs_inout, work_inout):
-    """Drop the pairs of slots whose bodies must never pair. Return the number of remaining pairs. O(pairs log apart).
+    """Remove the pairs whose bodies must not collide. Return the number of remaining pairs. O(pairs · log apart).
 
-    apart: keys of the pairs of bodies, see PairList.keep_apart; pairs_inout (capacity, 2) int32: slots, of which the
-    first `count` pairs are in use; work_inout: counters, see COUNTERS; proxies: PROXY table.
+    proxies: PROXY table; apart: sorted keys of the pairs of bodies that must not collide, see PairList.keep_apart;
+    pairs_inout: (capacity, 2) int32, the slots of each pair; count: number of pairs in use; work_inout: counters, see
+    COUNTERS.
     """
     kept = 0
     for i in range(count):
@@ -230,10 +240,10 @@ def drop_apart(proxies, count, apart, pairs_inout, work_inout):
 
 @kernel
 def pair_keys(proxies, pairs, count, pairs_inout, keys_out):
-    """Put the slot with the lower SHAPE row first in each pair, and write the key by which pairs are sorted. O(pairs).
+    """Order the two slots of each pair by their SHAPE row numbers, and write a sort key for each pair. O(pairs).
 
-    pairs, pairs_inout: the same (capacity, 2) int32 array of slots, of which the first `count` are in use; keys_out
-    int64: low row << 32 | high row; proxies: PROXY table.
+    proxies: PROXY table; pairs and pairs_inout are the same array, (capacity, 2) int32, the slots of each pair; count:
+    number of pairs in use; keys_out: int64, lower row number << 32 | higher row number.
     """
     for i in range(count):
         a = pairs[i, 0]
@@ -248,11 +258,12 @@ def pair_keys(proxies, pairs, count, pairs_inout, keys_out):
 
 @kernel
 def merge_pairs(shapes, kept, kept_rows, kept_count, keys, new_count, pairs_out, candidates_out):
-    """Merge the kept pairs with the new pairs, in the order of their SHAPE rows. O(pairs).
+    """Merge the pairs kept from the last step with the new pairs, in the order of their SHAPE row numbers. O(pairs).
 
-    kept (n, 2): slots of the kept pairs; kept_rows (n, 2): their row numbers in SHAPE; kept_count: their number. keys
-    int64: sorted keys (low row << 32 | high row) of the new pairs; new_count: their number. The result is written to
-    pairs_out (capacity, 2) int32: slots; and candidates_out (capacity, 2) int64: row numbers in SHAPE.
+    kept: (n, 2) slots of the kept pairs; kept_rows: (n, 2) SHAPE row numbers of the kept pairs; kept_count: number of
+    kept pairs; keys: sorted int64 keys (lower row << 32 | higher row) of the new pairs; new_count: number of new pairs;
+    pairs_out: (capacity, 2) int32, slots of the merged pairs; candidates_out: (capacity, 2) int64, SHAPE row numbers of
+    the merged pairs.
     """
     i = 0
     at = 0
@@ -275,7 +286,7 @@ def merge_pairs(shapes, kept, kept_rows, kept_count, keys, new_count, pairs_out,
 
 @kernel
 def mark_settled(changed, proxies_inout):
-    """Clear the changed flag of the proxies in the slots `changed`. O(changed). proxies_inout: PROXY table."""
+    """Set the flag `changed` of the proxies in the slots `changed` to False. O(changed). proxies_inout: PROXY table."""
     for i in range(len(changed)):
         proxies_inout[changed[i]].changed = False
 
@@ -292,7 +303,7 @@ def mark_settled(changed, proxies_inout):
 
 
 class Reach(NamedTuple):
-    """The parameters from which swept AABBs are computed."""
+    """The parameters of a step from which swept AABBs are computed."""
 
     gravity_x: float  # [px/s2]
     gravity_y: float
@@ -305,10 +316,11 @@ class Reach(NamedTuple):
 
 @kernel
 def update_rectangles(rows, geometry, bodies, reach, shapes_inout, proxies_inout, changed_out):
-    """Write the AABBs of the shapes in `rows`, and new swept AABBs for those that no longer fit. O(rows).
+    """Write the AABBs of the shapes in `rows`, and new swept AABBs where the old ones no longer fit. O(rows).
 
-    Return the number of new swept AABBs. rows: row numbers in SHAPE; changed_out: slots of the proxies whose swept
-    AABBs were written. shapes_inout: SHAPE table; proxies_inout: PROXY table.
+    Return the number of new swept AABBs, and write the slots of their proxies to changed_out. rows: SHAPE row numbers;
+    geometry: tables of the shape library; bodies: BODY table; reach: a Reach; shapes_inout: SHAPE table; proxies_inout:
+    PROXY table.
     """
     refresh_boxes(rows, geometry, bodies, shapes_inout)
     rasters = geometry.rasters
@@ -392,9 +404,10 @@ def update_rectangles(rows, geometry, bodies, reach, shapes_inout, proxies_inout
 
 @kernel
 def list_outside(rows, bodies, shapes, proxies, rows_out):
-    """List the shapes whose AABB, or the drawn pixels of a mask, extend beyond their swept AABB. Return their number.
+    """Find the shapes whose AABB, or whose drawn mask pixels, extend beyond their swept AABB. O(rows).
 
-    rows: row numbers in SHAPE to test; rows_out: row numbers found. O(rows). proxies: PROXY table.
+    Write their SHAPE row numbers to rows_out, and return the number of these shapes. rows: SHAPE row numbers to test;
+    proxies: PROXY table.
     """
     found = 0
     for k in range(len(rows)):
@@ -415,10 +428,10 @@ def list_outside(rows, bodies, shapes, proxies, rows_out):
 
 
 def cover_final_poses(state: StepState, rows: np.ndarray) -> None:
-    """Write new swept AABBs for the shapes in `rows` that have left theirs, and find the pairs of these shapes.
+    """Write new swept AABBs for the shapes in `rows` that have left their old ones, and search the shapes' pairs.
 
-    rows: row numbers in SHAPE. The candidates then contain all overlaps at the final poses, and are valid for the next
-    step.
+    Afterwards the candidate pairs contain all overlaps at the final poses of the step, and are valid for the next step.
+    rows: SHAPE row numbers.
     """
     outside = state.workspace.rows_for(len(rows))
     found = list_outside(rows, state.bodies, state.shapes, state.pairs.proxies, outside)
@@ -438,10 +451,10 @@ def motion_rectangles(state: StepState) -> None:
 
 
 def write_rectangles(tables: WorldTables, rows: np.ndarray) -> int:
-    """Update the AABBs of the shapes in `rows`, and their swept AABBs where these no longer fit.
+    """Update the AABBs of the shapes in `rows`, and their swept AABBs where the old ones no longer fit.
 
-    Return the number of changed slots, which are listed in tables.pairs.changed. rows: row numbers in SHAPE; tables: a
-    StepState, or a world whose shapes have just been added to the broad phase.
+    Return the number of proxies with new swept AABBs, whose slots are in tables.pairs.changed. rows: SHAPE row numbers;
+    tables: a StepState, or a World whose shapes have just been added to the broad phase.
     """
     bodies, shapes, pairs, tolerances, dt = tables.bodies, tables.shapes, tables.pairs, tables.tolerances, tables.dt
     piles = tables.stacks
@@ -478,11 +491,11 @@ NOBODY_COUNTS = np.zeros(len(COUNTERS), np.int64)
 
 
 class PairList:
-    """The proxies of the shapes of a world, and the sorted list of their overlapping pairs, the candidates.
+    """The proxies of all shapes of a world, and the sorted list of their overlapping pairs, the candidates.
 
-    `rows` (n, 2): row numbers in SHAPE of the candidates of this step. sleeping: whether new proxies are asleep until
-    they are set awake; pairs without an awake proxy are then not kept. Shapes of quarantined bodies have slot -1, which
-    all methods skip.
+    The attribute rows, (n, 2), contains the SHAPE row numbers of the candidates. sleeping: whether new proxies are
+    asleep until set_awake is called; pairs of two sleeping proxies are then dropped. Shapes of quarantined (disabled)
+    bodies have slot -1, which all methods skip.
     """
 
     def __init__(self, sleeping: bool = False) -> None:
@@ -505,7 +518,7 @@ class PairList:
         self._make_room()
 
     def _make_room(self):
-        """Create the scratch arrays, which an update overwrites before it reads them."""
+        """Allocate the scratch arrays. Each update overwrites their contents before it reads them."""
         self.kept, self.kept_rows = np.zeros((64, 2), np.int32), np.zeros((64, 2), np.int64)
         self.states, self.keys = np.zeros(64, np.int8), np.zeros(64, np.int64)
         self.viewed, self.views = None, {}  # columns of the proxies, for writes to single rows
@@ -523,9 +536,10 @@ class PairList:
         return self.arena.proxies
 
     def ids(self, shapes: np.ndarray) -> np.ndarray:
-        """Return the (n, 2) ids of the whole shapes of all candidates, each pair once, sorted.
+        """Return the candidate pairs as shape ids, (n, 2), each pair once, sorted.
 
-        shapes: the SHAPE table to which the candidates refer; not read if `name` was called since the last update.
+        Instead of the id of a part, the id of the whole shape is returned. shapes: the SHAPE table to which the
+        candidates refer; it is not read if `name` was called since the last update.
         """
         if self.known_ids is None:
             owners = np.sort(self.name(shapes), axis=1)  # new parts of a mask have rows after those of later shapes
@@ -534,18 +548,18 @@ class PairList:
         return self.known_ids
 
     def name(self, shapes: np.ndarray) -> np.ndarray:
-        """Return the (n, 2) ids of the whole shapes (SHAPE.parent) of the candidates, and store them.
+        """Return the ids of the whole shapes (SHAPE.parent) of all candidates, (n, 2), and store them for later calls.
 
-        Call it while the row numbers of the candidates are valid for the table `shapes`.
+        Call this method while the row numbers of the candidates are valid for the table `shapes`.
         """
         if self.owners is None:
             self.owners = shapes["parent"][self.rows]
         return self.owners
 
     def add_proxies(self, shapes: np.ndarray, rows: np.ndarray, still: np.ndarray) -> None:
-        """Give each shape in `rows` of the table `shapes` a slot of the broad phase.
+        """Add a proxy for each shape in `rows`, and write its slot to SHAPE.proxy.
 
-        still: whether they are static.
+        shapes: SHAPE table; rows: row numbers (n,); still: (n,) bool, whether each shape is static.
         """
         while len(self.free) < len(rows):
             used = len(self.proxies)
@@ -564,9 +578,10 @@ class PairList:
         self.proxies["row"][slots] = -1  # until its swept AABB is written
 
     def add_proxy(self, slot: int, body: int, values: dict[str, int], still: bool) -> None:
-        """Write the proxy of a single new shape to a free slot. still: whether the shape is static.
+        """Add the proxy of one new shape in a free slot, which the caller has taken from self.free.
 
-        body: id of the body; values: membership, mask, plane and avoids of the shape.
+        body: id of the shape's body; values: membership, mask, plane and avoids of the proxy by name; still: whether
+        the shape is static.
         """
         if self.viewed is not self.arena.proxies:
             self.viewed = self.arena.proxies
@@ -579,7 +594,7 @@ class PairList:
         views["row"][slot] = -1  # until its swept AABB is written
 
     def free_proxies(self, slots: np.ndarray) -> None:
-        """Remove the shapes with these slots from the broad phase."""
+        """Remove the proxies in these slots from the broad phase. slots: (n,) slots; -1 is skipped."""
         slots = slots[slots >= 0]
         self.sensors -= int(np.count_nonzero(self.proxies["plane"][slots] == SENSED))
         self.proxies["plane"][slots] = NOWHERE
@@ -588,23 +603,20 @@ class PairList:
         self.freed += slots.tolist()
 
     def touch(self, slots: np.ndarray) -> None:
-        """Have the next update write the swept AABBs of these slots again, and search their pairs again."""
+        """Have the next step write the swept AABBs of these proxies and search their pairs again. slots: (n,) slots."""
         slots = slots[slots >= 0]
         self.proxies["changed"][slots] = True
 
     def let_sleep(self, sleeping: bool) -> None:
-        """Set all present proxies asleep or awake, and whether new proxies begin asleep.
-
-        sleeping: True for asleep.
-        """
+        """Set all present proxies and the initial state of new proxies to asleep (`sleeping` True) or awake (False)."""
         self.sleeping = sleeping
         self.proxies["awake"] = not sleeping
         self.start_over()
 
     def set_awake(self, slots: np.ndarray, awake: bool) -> None:
-        """Set whether the proxies in these slots are awake.
+        """Set the proxies in these slots awake or asleep. awake: True for awake.
 
-        Pairs of woken proxies are searched again. Pairs of two sleeping proxies are dropped.
+        The next update searches the pairs of woken proxies again, and drops the pairs of two sleeping proxies.
         """
         slots = slots[slots >= 0]
         self.proxies["awake"][slots] = awake
@@ -616,13 +628,13 @@ class PairList:
             self.resting = True
 
     def room_for(self, count: int) -> np.ndarray:
-        """Return an array in which update_rectangles can list the changed slots of `count` shapes."""
+        """Return self.changed, enlarged to at least `count` elements, for the slots that update_rectangles writes."""
         if len(self.changed) < count:
             self.changed = np.zeros(2 * count, np.int64)
         return self.changed
 
     def rename(self, shapes: np.ndarray) -> None:
-        """Write the SHAPE row numbers of all shapes to their proxies again, after rows have moved.
+        """Write the SHAPE row numbers of all shapes to their proxies again, after rows of `shapes` have moved.
 
         The next update also corrects the row numbers of the candidates.
         """
@@ -630,9 +642,9 @@ class PairList:
         self.moved = True
 
     def widen(self, shapes: np.ndarray, margin: float) -> int:
-        """Extend the swept AABBs of shapes to include their AABBs with a margin [px]. shapes: SHAPE rows.
+        """Extend the swept AABBs of shapes, so that they contain the AABBs enlarged by a margin [px].
 
-        Return the number of changed slots; the slots are listed in `changed`.
+        Return the number of changed proxies, whose slots are written to self.changed. shapes: SHAPE rows (n,).
         """
         shapes = shapes[shapes["proxy"] >= 0]  # shapes of disabled bodies have no proxy
         slots = shapes["proxy"]
@@ -649,10 +661,10 @@ class PairList:
         return len(slots)
 
     def keep_apart(self, keys: np.ndarray) -> bool:
-        """Set the pairs of bodies that must never collide. Return whether they differ from the pairs set before.
+        """Set the pairs of bodies that must not collide. Return whether they differ from the pairs set before.
 
-        If they do, the caller must touch the proxies of these bodies. keys: sorted int64, low body id << 32 | high body
-        id.
+        If they differ, the caller must call `touch` for the proxies of these bodies. keys: sorted int64 keys, lower
+        body id << 32 | higher body id.
         """
         changed = not np.array_equal(keys, self.apart)
         self.apart = keys
@@ -665,15 +677,16 @@ class PairList:
         self.touch(slots)
 
     def set_sensor(self, shapes: np.ndarray, rows: np.ndarray) -> None:
-        """Update the proxies after the shapes in `rows` of the table `shapes` became sensors or solid."""
+        """Update the proxies after the sensor flags of shapes changed. shapes: SHAPE table; rows: row numbers (n,)."""
         rows = rows[shapes["proxy"][rows] >= 0]
         self._set_planes(shapes["proxy"][rows], shapes["role"][rows], shapes["sensor"][rows])
         self.touch(shapes["proxy"][rows])
 
     def _set_planes(self, slots, roles, sensors):
-        """Write the planes of proxies: sensors and pixel shapes pair with whole masks, solid shapes with mask parts.
+        """Write the columns `plane` and `avoids` of proxies, which exclude pairs by the roles of the two shapes.
 
-        slots: the proxies; roles: SHAPE.role of each shape; sensors: whether each shape is a sensor.
+        Sensors pair with whole masks; solid shapes pair with the parts of masks. slots: slots (n,) of the proxies;
+        roles: SHAPE.role of each shape; sensors: whether each shape is a sensor.
         """
         plane = np.where(sensors, SENSED, np.array([SOLID, PIXEL, OUTLINE])[roles])
         plane[sensors & (roles == PART)] = NOWHERE
@@ -688,13 +701,14 @@ class PairList:
         self.touch(slots)
 
     def start_over(self) -> None:
-        """Have the next update search all pairs again, so that a new broad phase receives all proxies."""
+        """Have the next update pass all proxies to the broad phase and search all pairs again."""
         self.everything = True
 
     def update(self, strategy: Strategy, shapes: np.ndarray, changed_count: int, work: np.ndarray) -> None:
-        """Update the candidates for freed slots and for the first `changed_count` slots in `self.changed`.
+        """Update the candidates after proxies were freed, touched, woken, or got new swept AABBs.
 
-        strategy: the broad phase that finds the pairs; shapes: SHAPE table; work: counters, see COUNTERS.
+        strategy: the broad phase that finds the pairs; shapes: SHAPE table; changed_count: number of valid slots in
+        self.changed; work: counters, see COUNTERS.
         """
         news = changed_count or self.freed or self.search_again or self.everything or self.moved or self.resting
         if news or not strategy.incremental:
@@ -758,7 +772,7 @@ class PairList:
         self.known_ids = self.owners = None
 
     def _rename(self, shapes):
-        """Write the SHAPE row numbers of the candidates again, after a removal has moved rows."""
+        """Write the SHAPE row numbers of the candidates again, after the removal of shapes has moved rows."""
         self.candidates[: self.count] = self.proxies["row"][self.slots[: self.count]]
         self.rows = self.candidates[: self.count]
         self.known_ids = self.owners = None
@@ -766,5 +780,5 @@ class PairList:
 
 @stage("broad_phase", reads=("broadphase", "pairs", "shapes", "changed_count"), writes=("pairs", "broadphase", "work"))
 def broad_phase(state: StepState) -> None:
-    """Find the pairs whose swept AABBs touch and whose filters agree."""
+    """Find the candidate pairs: the pairs of shapes whose swept AABBs overlap and whose filters allow a collision."""
     state.pairs.update(state.broadphase, state.shapes, state.changed_count, state.work)

@@ -1,4 +1,4 @@
-"""A uniform grid in a hash table, with coarser grids above it for larger boxes (hierarchical spatial hash)."""
+"""Broad phase with a hierarchical spatial hash: a uniform grid in a hash table, and coarser grids for larger boxes."""
 
 import math
 from typing import NamedTuple
@@ -37,7 +37,7 @@ ENTRY = np.dtype(
 
 
 class Cells(NamedTuple):
-    """Linked lists of proxies: one list for each hash bucket, and one for each level of the grids."""
+    """Linked lists of proxies: one list for each hash bucket, and one for each level of the grid hierarchy."""
 
     levels: np.ndarray  # (slots,) level of each proxy, or -1
     heads: np.ndarray  # (buckets,) first entry of each bucket, or -1; the number of buckets is a power of two
@@ -48,7 +48,7 @@ class Cells(NamedTuple):
 
 
 def empty_cells(slots: int, buckets: int) -> Cells:
-    """Return Cells without proxies, with room for `slots` proxies and with `buckets` hash buckets, a power of two."""
+    """Return empty Cells with room for `slots` proxies, and with `buckets` hash buckets. buckets: a power of two."""
     entries = np.zeros(4 * slots, ENTRY)
     entries["bucket"] = -1
     levels, heads, lists = np.full(slots, -1), np.full(buckets, -1), np.full((slots, 2), -1)
@@ -57,7 +57,10 @@ def empty_cells(slots: int, buckets: int) -> Cells:
 
 @subkernel
 def cell_of(coordinate, inverse_size):
-    """Return the column or row of the cell that contains a coordinate [px]. inverse_size [1/px]: 1 / size of a cell."""
+    """Return the number of the column (or row) of cells that contains the x (or y) coordinate `coordinate` [px].
+
+    inverse_size: 1 / (size of a cell) [1/px].
+    """
     return math.floor(coordinate * inverse_size)
 
 
@@ -65,17 +68,17 @@ def cell_of(coordinate, inverse_size):
 def bucket_at(level, cell_x, cell_y, mask):
     """Return the hash bucket of the cell in column cell_x and row cell_y of a level. Source: Teschner 2003.
 
-    mask: number of buckets minus one. The products stay below 2^62 for cells within CELL_RANGE.
+    mask: number of buckets minus one. For cells within CELL_RANGE, the products are below 2^62.
     """
     return ((cell_x * 73856093) ^ (cell_y * 19349663) ^ (level * 83492791)) & mask
 
 
 @subkernel
 def level_of(lower_x, lower_y, upper_x, upper_y, base):
-    """Return the finest level whose cells are at least as large as a box; LEVELS if there is none.
+    """Return the finest level whose cells are at least as large as a box; LEVELS if there is no such level.
 
-    lower_x, lower_y, upper_x, upper_y [px]: the box. If it is outside CELL_RANGE, the result is also LEVELS. base [px]:
-    cell size on level 0.
+    The result is also LEVELS if the box is outside CELL_RANGE. lower_x, lower_y, upper_x, upper_y: the box [px]; base:
+    cell size on level 0 [px].
     """
     extent = max(upper_x - lower_x, upper_y - lower_y)
     size = base
@@ -91,16 +94,16 @@ def level_of(lower_x, lower_y, upper_x, upper_y, base):
 
 @subkernel
 def write_box(proxy, entry_out):
-    """Copy the box of a PROXY row to an ENTRY row, so that searches need not read the proxy."""
+    """Copy the box of a PROXY row to an ENTRY row, so that searches read only the entry."""
     entry_out.lower_x, entry_out.lower_y = proxy.lower_x, proxy.lower_y
     entry_out.upper_x, entry_out.upper_y = proxy.upper_x, proxy.upper_y
 
 
 @subkernel
 def take_out(slot, cells_inout, work_inout):
-    """Unlink a proxy (slot) from the lists of its cells, at most four, and from the list of its level. O(1).
+    """Unlink the proxy in `slot` from the lists of its cells (at most four) and of its level. O(1).
 
-    cells_inout: Cells; work_inout: counters, see COUNTERS.
+    Do nothing if the proxy is not linked. cells_inout: Cells; work_inout: counters, see COUNTERS.
     """
     entries = cells_inout.entries
     lists = cells_inout.lists
@@ -132,10 +135,10 @@ def take_out(slot, cells_inout, work_inout):
 
 @subkernel
 def put_in(proxies, slot, level, base, cells_inout, work_inout):
-    """Link a proxy (slot) into the lists of the cells that its box touches, at most four, and of its level. O(1).
+    """Link the proxy in `slot` into the lists of the cells that its box touches (at most four) and of its level. O(1).
 
-    level: level whose cells are at least as large as the box; base [px]: cell size on level 0; work_inout: counters,
-    see COUNTERS. cells_inout: see Cells; proxies: PROXY table.
+    proxies: PROXY table; level: a level whose cells are at least as large as the box, or LEVELS; base: cell size on
+    level 0 [px]; cells_inout: Cells; work_inout: counters, see COUNTERS.
     """
     p = proxies[slot]
     heads = cells_inout.heads
@@ -172,11 +175,12 @@ def put_in(proxies, slot, level, base, cells_inout, work_inout):
 
 @kernel
 def place_changed(proxies, changed, base, cells_inout, work_inout):
-    """Link the changed proxies into the cells that their boxes touch, and unlink freed ones. O(changed).
+    """Link the changed proxies into the cells that their boxes touch, and unlink the freed proxies. O(changed).
 
-    changed: slots of the changed proxies; base [px]: cell size on level 0; work_inout: counters, see COUNTERS. If a
-    proxy is still in the same cells, only the copies of its box in these cells are updated. A box whose ends lie on
-    cell borders may span three cells along an axis; such a box goes to the next coarser level. cells_inout: see Cells.
+    If a proxy is still in the same cells, only the copies of its box in these cells are updated. A box whose ends are
+    on cell borders may touch three cells along an axis; such a box is linked on the next coarser level. proxies: PROXY
+    table; changed: slots of the changed and freed proxies; base: cell size on level 0 [px]; cells_inout: Cells;
+    work_inout: counters, see COUNTERS.
     """
     entries = cells_inout.entries
     for i in range(len(changed)):
@@ -225,11 +229,11 @@ CHAINS, NEAR = 8, 64  # number of cells whose lists are traversed side by side; 
 def follow(entries, p, level, count, chains_inout, near_out):
     """Traverse the lists of several cells, and collect the entries whose boxes overlap the box of the PROXY row p.
 
-    Return (number of unfinished lists, number of collected entries, number of tests). The traversal ends before more
-    than NEAR entries could be collected. level: level of the cells; count: number of lists. chains_inout (CHAINS, 3)
-    int64: for each list, the next entry, and the column and row of its cell; near_out (NEAR,) int64: the collected
-    entries. The lists are traversed side by side, so that their memory latencies overlap. The tests have no branch,
-    because a branch would be mispredicted.
+    Return (number of unfinished lists, number of collected entries, number of tests). The traversal stops before more
+    than NEAR entries could be collected. entries: ENTRY rows; level: level of the cells; count: number of lists;
+    chains_inout: (CHAINS, 3) int64, for each list the index of its next entry, and column and row of its cell;
+    near_out: (NEAR,) int64, indices of the collected entries. The lists are traversed in parallel, so that their memory
+    latencies overlap. The tests have no branch, because a branch would be mispredicted.
     """
     near = 0
     tested = 0
@@ -261,13 +265,14 @@ def follow(entries, p, level, count, chains_inout, near_out):
 
 @kernel
 def find_in_cells(proxies, changed, base, cells, chains_out, near_out, pairs_out, work_inout):
-    """List the overlapping pairs that contain a changed proxy. Return their number. O(cells + candidates).
+    """Write the overlapping pairs that contain a changed proxy, and return their number. O(cells + candidates).
 
-    On each level, a box is tested against the proxies in the cells that the box touches. If these are too many cells,
-    it is tested against all proxies of the level. So the number of cells is at most proportional to the perimeter of
-    the box. A pair that shares several cells is reported only in the cell that contains the lower corner of the
-    overlap. changed: slots of the changed proxies; base [px]: cell size on level 0; chains_out, near_out: scratch, see
-    follow; pairs_out (capacity, 2) int32: pairs of slots; work_inout: counters, see COUNTERS.
+    On each level, a box is tested against the proxies in the cells that the box touches. If these cells are too many,
+    the box is tested against all proxies of the level instead. Therefore the number of cells read is at most
+    proportional to the perimeter of the box. A pair that shares several cells is reported only in the cell that
+    contains the lower corner of the overlap. proxies: PROXY table; changed: slots of the changed proxies; base: cell
+    size on level 0 [px]; cells: Cells; chains_out, near_out: scratch, see follow; pairs_out: (capacity, 2) int32, the
+    slots of each pair; work_inout: counters, see COUNTERS.
     """
     heads = cells.heads
     entries = cells.entries
@@ -338,12 +343,12 @@ def find_in_cells(proxies, changed, base, cells, chains_out, near_out, pairs_out
 
 @kernel
 def near_in_cells(base, cells, proxies, box, slots_out, work_inout):
-    """Find the proxies whose boxes overlap `box`. Return their number. O(cells + boxes in them).
+    """Write the slots of the proxies whose boxes overlap `box`, and return their number. O(cells + boxes in them).
 
-    On each level the cells that the box touches are read. If these are more cells than proxies, the list of all proxies
-    of the level is read instead. A proxy in several of the cells is reported only in the cell that contains the lower
-    corner of the overlap. base [px]: cell size on level 0; box [px]: lower x, y, upper x, y; slots_out: slots of the
-    found proxies; work_inout: counters, see COUNTERS.
+    On each level, the lists of the cells that the box touches are read. If there are more such cells than proxies, the
+    list of all proxies of the level is read instead. A proxy in several cells is reported only in the cell that
+    contains the lower corner of the overlap. base: cell size on level 0 [px]; cells: Cells; proxies: PROXY table; box:
+    (lower x, lower y, upper x, upper y) [px]; slots_out: the result; work_inout: counters, see COUNTERS.
     """
     heads = cells.heads
     level_counts = cells.level_counts
@@ -399,9 +404,9 @@ def near_in_cells(base, cells, proxies, box, slots_out, work_inout):
 
 @subkernel
 def search_cells(box, structure, slots_out, work_inout):
-    """Find the proxies whose boxes overlap `box`, as near_in_cells does. Return their number.
+    """Call near_in_cells with the data of SpatialHashGrid.structure, and return the number of proxies found.
 
-    structure: (base, cells, PROXY table) of near_in_cells.
+    structure: (base, cells, PROXY table); other arguments: see near_in_cells.
     """
     base, cells, proxies = structure
     return near_in_cells(base, cells, proxies, box, slots_out, work_inout)
@@ -420,9 +425,9 @@ SMALLEST_CELL = 2.0**-1000  # [px] its inverse is finite
 
 
 class SpatialHashGrid:
-    """Broad phase with a hierarchical hash grid.
+    """Broad phase with a hierarchical hash grid: a grid of cells in a hash table, and coarser grids for larger boxes.
 
-    cell: size of the finest cells [px]; None: the size is derived from the sizes of the boxes.
+    cell: size of the finest cells [px]; None: the size is computed from the sizes of the boxes.
 
     Raises TypeError for a cell that is not a number, ValueError for a cell below 2^-1000.
     """
@@ -438,9 +443,9 @@ class SpatialHashGrid:
         self.lists = empty_cells(0, 16)
 
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
-        """Return the overlapping pairs of n closed boxes: (m, 2) int32, sorted, each as indices a < b.
+        """Return the pairs of overlapping or touching boxes: (m, 2) int32 indices a < b, sorted.
 
-        lower, upper: corners of the boxes, (n, 2) [px].
+        lower, upper: corners of n boxes, (n, 2) [px].
 
         Raises TypeError for values that are not numbers, ValueError for a wrong shape, NaN, and lower > upper.
         """
@@ -451,12 +456,12 @@ class SpatialHashGrid:
         return SpatialHashGrid(self.cell)
 
     def update(self, arena: Arena) -> None:
-        """Move the changed proxies to their cells.
+        """Link the changed proxies into the cells that their boxes touch.
 
-        arena: see proxies.Arena.
+        arena: the Arena with the proxies and the slots of the changed ones.
 
-        The hash table is enlarged when it has fewer buckets than proxies. The cell size is tuned again when the number
-        of proxies has doubled, or when most proxies are on coarse levels.
+        The hash table is enlarged when it has fewer buckets than proxies. The cell size is computed again when the
+        number of proxies has doubled, or when most proxies are on coarse levels.
         """
         proxies = arena.proxies
         changed = arena.changed
@@ -479,9 +484,9 @@ class SpatialHashGrid:
 
     @staticmethod
     def _tuned(boxes):
-        """Return a cell size [px] that suits these boxes (PROXY rows): twice the median of their extents.
+        """Return a cell size [px] for these boxes (PROXY rows): CELL_OF_MEDIAN (2) times the median of their extents.
 
-        Boxes that are infinite, or only a point, are ignored; without any other box the result is 1.
+        Infinite boxes and boxes of size 0 are ignored; if there are no other boxes, the result is 1.
         """
         with np.errstate(invalid="ignore", over="ignore"):
             extent = np.maximum(boxes["upper_x"] - boxes["lower_x"], boxes["upper_y"] - boxes["lower_y"])
@@ -489,18 +494,19 @@ class SpatialHashGrid:
         return max(SMALLEST_CELL, CELL_OF_MEDIAN * float(np.median(extent))) if len(extent) else 1.0
 
     def query(self, arena: Arena) -> Query:
-        """Return a function (pairs, work) -> count, which writes the pairs with a changed proxy to `pairs`.
+        """Return a function (pairs, work) -> count, which writes the overlapping pairs that contain a changed proxy.
 
-        arena: the proxies, and which have changed.
+        arena: the Arena with the proxies and the slots of the changed ones.
 
-        pairs (capacity, 2) int32 are slots, work the counters, see COUNTERS.
+        The function writes the slots of each pair to `pairs`, (capacity, 2) int32. It returns the number of pairs, even
+        if they do not fit, and increases `work`, the counters named in COUNTERS.
         """
         return lambda pairs, work: find_in_cells(
             arena.proxies, arena.changed, self.base, self.lists, self.chains, self.near_entries, pairs, work
         )
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Find the proxies whose boxes overlap a box. Write their slots, and return their number.
+        """Write the slots of the proxies whose boxes overlap a box to `slots`, and return the number of slots.
 
         proxies: PROXY table; box: (lower x, lower y, upper x, upper y) [px].
         slots: array with room for all proxies, which is written; work: counters, see COUNTERS, which are increased.
@@ -508,14 +514,17 @@ class SpatialHashGrid:
         return near_in_cells(self.base, self.lists, proxies, box, slots, work)
 
     def structure(self, proxies: np.ndarray) -> tuple:
-        """Return the data that the kernel search_cells reads.
+        """Return (cell size on level 0, Cells, proxies), which is the argument `structure` of the kernel search_cells.
 
         proxies: PROXY table.
         """
         return self.base, self.lists, proxies
 
     def cells(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the occupied cells for drawing: (rectangles (m, 4) [px], level (m,) of each)."""
+        """Return the cells that contain proxies, for drawing: (boxes (m, 4) [px], levels (m,)).
+
+        The columns of the boxes are lower x, lower y, upper x, upper y.
+        """
         linked = self.lists.entries["bucket"] >= 0
         used, level = self.lists.entries[linked], np.repeat(self.lists.levels, 4)[linked]
         cells = np.unique(np.stack([level, used["cell_x"], used["cell_y"]], axis=1), axis=0)

@@ -1,10 +1,10 @@
-"""Sweep and prune: sort the boxes along an axis and test only the pairs whose intervals overlap on this axis.
+"""Sweep and prune: sort the boxes along an axis, and test only the pairs whose intervals overlap on this axis.
 
 `axes="auto"` sorts along the axis with the greater variance of the centres, and tests the intervals on the other axis.
 `axes="both"` sorts and sweeps along x and along y, and intersects the two lists of overlaps (dimension reduction). The
-order is kept between steps and repaired by insertion sort, which makes one swap for each pair that has changed its
-order. Source: Baraff 1992; Ericson, Real-Time Collision Detection, 7.5. O(n + swaps + interval overlaps of the changed
-proxies). Suits slow bodies spread along one axis.
+order is kept between steps. Insertion sort repairs it, with one swap for each pair that has changed its order. O(n +
+swaps + interval overlaps of the changed proxies). Suitable for slow bodies that are spread along one axis. Source:
+Baraff 1992; Ericson, Real-Time Collision Detection, 7.5.
 """
 
 import numpy as np
@@ -23,10 +23,10 @@ SWAP_BUDGET = 16  # swaps per proxy after which a full sort is cheaper than inse
 
 @kernel
 def refresh_order(proxies, axis, order_inout, lower_out):
-    """Remove freed slots from the order, and read the lower ends of the boxes along the axis. O(n).
+    """Remove freed slots from order_inout, and write the lower ends of the remaining boxes to lower_out. O(n).
 
-    Return the number of remaining slots. axis: 0 for x, 1 for y; order_inout: slots; lower_out [px]: lower ends, in
-    this order; proxies: PROXY table.
+    Return the number of remaining slots. proxies: PROXY table; axis: 0 for x, 1 for y; order_inout: slots in sorted
+    order; lower_out: lower end [px] of each box along the axis, in the same order.
     """
     count = 0
     for i in range(len(order_inout)):
@@ -41,10 +41,10 @@ def refresh_order(proxies, axis, order_inout, lower_out):
 
 @kernel
 def insertion_sort(count, budget, order_inout, lower_inout, work_inout):
-    """Sort slots by the lower ends of their boxes, which are nearly sorted, by insertion sort. O(n + swaps).
+    """Sort nearly sorted slots by the lower ends of their boxes, by insertion sort. O(n + swaps).
 
-    Return 0, or 1 if the sort was stopped after more than `budget` swaps. order_inout: slots, of which the first
-    `count` are in use; lower_inout [px]: lower ends of their boxes; work_inout: counters, see COUNTERS.
+    Return 0, or 1 if the sort was stopped after more than `budget` swaps. order_inout: slots; lower_inout: lower end
+    [px] of each slot's box; count: number of slots in use; work_inout: counters, see COUNTERS.
     """
     left = budget
     for i in range(1, count):
@@ -66,11 +66,11 @@ def insertion_sort(count, budget, order_inout, lower_inout, work_inout):
 
 @kernel
 def sort_boxes(proxies, order, count, axis, boxes_out, next_changed_out):
-    """Copy the boxes in sorted order, so that the sweep reads them sequentially. O(n).
+    """Copy the boxes of the proxies in sorted order, so that the sweep reads them sequentially. O(n).
 
-    order: slots in sorted order, of which the first `count` are in use; axis: 0 for x, 1 for y. boxes_out (n, 4)
-    float64 [px]: low and high end along the axis, then along the other axis. next_changed_out (n,): for each position
-    in the order, the position of the next changed proxy after it; proxies: PROXY table.
+    proxies: PROXY table; order: slots in sorted order; count: number of slots in use; axis: 0 for x, 1 for y;
+    boxes_out: (n, 4) float64 [px], low and high end along the axis, then low and high end along the other axis;
+    next_changed_out: (n,) for each position in the order, the position of the next changed proxy after it.
     """
     following = count
     for k in range(count):
@@ -87,11 +87,12 @@ def sort_boxes(proxies, order, count, axis, boxes_out, next_changed_out):
 
 @kernel
 def sweep_one(proxies, order, count, boxes, next_changed, pairs_out, work_inout):
-    """List the overlapping pairs that contain a changed proxy, by a sweep along the axis. Return their number.
+    """Write the overlapping pairs that contain a changed proxy, by a sweep along the axis. Return the number of pairs.
 
-    order: slots in sorted order, of which the first `count` are in use; boxes, next_changed: see sort_boxes; pairs_out
-    (capacity, 2) int32: pairs of slots; work_inout: counters, see COUNTERS. An unchanged proxy is tested only against
-    changed proxies, so a few moving bodies among many cost few tests.
+    If the pairs do not fit into pairs_out, the result is a number above the capacity. An unchanged proxy is tested only
+    against changed proxies, so few tests are made if few bodies move. proxies: PROXY table; order: slots in sorted
+    order; count: number of slots in use; boxes, next_changed: see sort_boxes; pairs_out: (capacity, 2) int32, the slots
+    of each pair; work_inout: counters, see COUNTERS.
     """
     found = 0
     tested = 0
@@ -133,10 +134,10 @@ def sweep_one(proxies, order, count, boxes, next_changed, pairs_out, work_inout)
 
 @kernel
 def sweep_intervals(proxies, order, count, boxes, next_changed, keys_out, work_inout):
-    """Write the pairs with a changed proxy whose intervals along one axis overlap. Return their number.
+    """Write the pairs that contain a changed proxy and whose intervals along one axis overlap. Return their number.
 
-    keys_out: lower slot << 32 | higher slot of each pair; pairs that do not fit into keys_out are only counted. Other
-    arguments: see sweep_one.
+    keys_out: for each pair the key lower slot << 32 | higher slot. Pairs that do not fit into keys_out are only
+    counted. Other arguments: see sweep_one.
     """
     found = 0
     for i in range(count):
@@ -159,10 +160,10 @@ def sweep_intervals(proxies, order, count, boxes, next_changed, keys_out, work_i
 
 @kernel
 def intersect(proxies, keys_x, count_x, keys_y, count_y, pairs_out, work_inout):
-    """Write the pairs that are in both sorted lists of keys, if may_meet allows them. Return their number. O(keys).
+    """Write the pairs that are in both sorted lists of keys and that may_meet allows. Return their number. O(keys).
 
-    keys_x, keys_y: the lists, see sweep_intervals; count_x, count_y: their lengths; pairs_out (capacity, 2) int32:
-    pairs of slots; work_inout: counters, see COUNTERS; proxies: PROXY table.
+    proxies: PROXY table; keys_x, keys_y: the lists, see sweep_intervals; count_x, count_y: lengths of the lists;
+    pairs_out: (capacity, 2) int32, the slots of each pair; work_inout: counters, see COUNTERS.
     """
     found = 0
     i, j = 0, 0
@@ -183,12 +184,12 @@ def intersect(proxies, keys_x, count_x, keys_y, count_y, pairs_out, work_inout):
 
 @kernel
 def near_in_order(order, boxes, highest, axis, box, slots_out, work_inout):
-    """Find the proxies whose boxes overlap `box`, by binary search along the sorted axis. Return their number.
+    """Write the slots of the proxies whose boxes overlap `box`, and return the number of slots. O(log n + boxes read).
 
-    order: slots by the lower ends of their boxes; boxes (n, 4) [px]: see sort_boxes; highest (n,) [px]: running maximum
-    of the high ends. With it the search skips all boxes at the start of the order that end before `box` begins. axis: 0
-    for x, 1 for y; box [px]: lower x, y, upper x, y; slots_out: slots of the found proxies; work_inout: counters, see
-    COUNTERS. O(log n + boxes read).
+    order: slots sorted by the lower ends of their boxes; boxes: (n, 4) [px], see sort_boxes; highest: (n,) running
+    maximum of the high ends [px]; a binary search in it skips the first boxes, which end before `box` begins; axis: 0
+    for x, 1 for y; box: (lower x, lower y, upper x, upper y) [px]; slots_out: the result; work_inout: counters, see
+    COUNTERS.
     """
     count = len(order)
     lower, upper = box[axis], box[axis + 2]
@@ -214,9 +215,9 @@ def near_in_order(order, boxes, highest, axis, box, slots_out, work_inout):
 
 @subkernel
 def search_order(box, structure, slots_out, work_inout):
-    """Find the proxies whose boxes overlap `box`, as near_in_order does. Return their number.
+    """Call near_in_order with the data of Axis.structure, and return the number of proxies found.
 
-    structure: (order, boxes, highest, axis) of near_in_order.
+    structure: (order, boxes, highest, axis); other arguments: see near_in_order.
     """
     order, boxes, highest, axis = structure
     return near_in_order(order, boxes, highest, axis, box, slots_out, work_inout)
@@ -238,7 +239,7 @@ class Axis:
         self.highest = None  # running maximum of the upper ends; None until a query needs it
 
     def update(self, arena: Arena) -> None:
-        """Add new proxies to the order, remove freed ones, and sort it again. arena: see proxies.Arena."""
+        """Add new proxies to the order, remove freed proxies, and sort the order again. arena: see proxies.Arena."""
         proxies, changed = arena.proxies, arena.changed
         if len(self.known) < len(proxies):
             self.known = np.concatenate([self.known, np.zeros(len(proxies) - len(self.known), bool)])
@@ -261,15 +262,15 @@ class Axis:
         self.highest = None
 
     def query_box(self, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Find the proxies whose boxes overlap `box`. Write their slots to `slots`, and return their number.
+        """Write the slots of the proxies whose boxes overlap `box` to `slots`, and return the number of slots.
 
-        box [px]: lower x, y, upper x, y; work: counters, see COUNTERS.
+        box: (lower x, lower y, upper x, upper y) [px]; work: counters, see COUNTERS, which are increased.
         """
         order, boxes, highest, axis = self.structure()
         return near_in_order(order, boxes, highest, axis, box, slots, work)
 
     def structure(self) -> tuple:
-        """Return the data that the kernel search_order reads."""
+        """Return (order, boxes, highest, axis), which is the argument `structure` of the kernel search_order."""
         if self.highest is None:
             self.highest = np.maximum.accumulate(self.boxes[: len(self.order), 1])
         return self.order, self.boxes, self.highest, self.axis
@@ -278,10 +279,10 @@ class Axis:
         return sweep_one(arena.proxies, self.order, len(self.order), self.boxes, self.next_changed, pairs, work)
 
     def intervals(self, arena: Arena, work: np.ndarray) -> tuple[np.ndarray, int]:
-        """Return (keys, count): the sorted keys of the pairs with a changed proxy that overlap along this axis.
+        """Return (keys, count): the sorted keys of the pairs with a changed proxy whose intervals on this axis overlap.
 
-        Only the first `count` keys are valid; they are those of sweep_intervals. work: counters, see COUNTERS; arena:
-        see proxies.Arena.
+        Only the first `count` keys are valid. For their form see sweep_intervals. arena: see proxies.Arena; work:
+        counters, see COUNTERS.
         """
         before = work.copy()
         count = sweep_intervals(
@@ -296,9 +297,9 @@ class Axis:
 
 
 class SweepAndPrune:
-    """Broad phase that sorts the boxes along one axis or both.
+    """Broad phase that sorts the boxes along one axis or along both axes (sweep and prune).
 
-    axes: "auto" chooses x or y, "both" sorts along both.
+    axes: "auto": choose the axis with the greater variance of the boxes' centres; "both": sort along x and along y.
 
     Raises ValueError for another string, TypeError for a value that is not a string.
     """
@@ -312,9 +313,9 @@ class SweepAndPrune:
         self.sorted = [Axis(0), Axis(1)] if self.axes == "both" else [Axis(0)]
 
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
-        """Return the overlapping pairs of n closed boxes: (m, 2) int32, sorted, each as indices a < b.
+        """Return the pairs of overlapping or touching boxes: (m, 2) int32 indices a < b, sorted.
 
-        lower, upper: corners of the boxes, (n, 2) [px].
+        lower, upper: corners of n boxes, (n, 2) [px].
 
         Raises TypeError for values that are not numbers, ValueError for a wrong shape, NaN, and lower > upper.
         """
@@ -325,11 +326,11 @@ class SweepAndPrune:
         return SweepAndPrune(self.axes)
 
     def update(self, arena: Arena) -> None:
-        """Move the changed proxies to their positions in the order.
+        """Sort the proxies again after some of them have changed.
 
-        arena: see proxies.Arena.
+        arena: the Arena with the proxies and the slots of the changed ones.
 
-        With axes "auto", the axis is chosen again every AXIS_INTERVAL updates, and whenever most proxies are new.
+        With axes="auto", the axis is chosen again every AXIS_INTERVAL updates, and whenever most proxies are new.
         """
         self.updates += 1
         if self.axes == "auto" and (
@@ -357,11 +358,12 @@ class SweepAndPrune:
         return 1 - now if spread[1 - now] > needed * spread[now] else now
 
     def query(self, arena: Arena) -> Query:
-        """Return a function (pairs, work) -> count, which writes the pairs with a changed proxy to `pairs`.
+        """Return a function (pairs, work) -> count, which writes the overlapping pairs that contain a changed proxy.
 
-        arena: the proxies, and which have changed.
+        arena: the Arena with the proxies and the slots of the changed ones.
 
-        pairs (capacity, 2) int32 are slots, work the counters, see COUNTERS.
+        The function writes the slots of each pair to `pairs`, (capacity, 2) int32. It returns the number of pairs, even
+        if they do not fit, and increases `work`, the counters named in COUNTERS.
         """
         if self.axes == "auto":
             return lambda pairs, work: self.sorted[0].sweep(arena, pairs, work)
@@ -374,7 +376,7 @@ class SweepAndPrune:
         return both
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Find the proxies whose boxes overlap a box. Write their slots, and return their number.
+        """Write the slots of the proxies whose boxes overlap a box to `slots`, and return the number of slots.
 
         proxies: PROXY table (unused); box: (lower x, lower y, upper x, upper y) [px].
         slots: array with room for all proxies, which is written; work: counters, see COUNTERS, which are increased.
@@ -382,7 +384,7 @@ class SweepAndPrune:
         return self.sorted[0].query_box(box, slots, work)
 
     def structure(self, proxies: np.ndarray) -> tuple:
-        """Return the data that the kernel search_order reads.
+        """Return (order, boxes, highest, axis), which is the argument `structure` of the kernel search_order.
 
         proxies: PROXY table, unused.
         """
