@@ -1,1 +1,1 @@
-"""Characters, which the game moves by whole pixels among solids, belts and lifts."""
+"""Characters of platform games, which the game moves in whole pixels among solids, conveyors and moving platforms."""

@@ -1,4 +1,4 @@
-"""Moving solids, which carry the characters that ride on them and push the characters in front of them."""
+"""Carrying and pushing of characters by moving solids: characters on a solid move with it, others are pushed aside."""
 
 import math
 
@@ -49,17 +49,18 @@ from physics.tables.table import row_of, rows_of
 
 @subkernel
 def motion_of(b):
-    """Return an upper bound of the distance [px] that any point of a body moved in the step. b: BODY row."""
+    """Return an upper bound of the distance [px] by which any point of a body moved in this step. b: BODY row."""
     turn = abs(b.angle - b.previous_angle) * (b.extent + abs(b.local_center_x) + abs(b.local_center_y))
     return abs(b.x - b.previous_x) + abs(b.y - b.previous_y) + turn
 
 
 @kernel
 def find_stirred(bodies, shapes, characters, pairs, count, stirred_out):
-    """Flag the characters that a step may move: riders, those on conveyors, and those near a body that is not static.
+    """Flag the characters that this step may move. Return the greatest motion [px] of the bodies that may move them.
 
-    Return the greatest distance [px] that any point of the ridden or touched bodies moved in the step. pairs (count,
-    2): row numbers in SHAPE from the broad phase; stirred_out (characters,): the flags. O(pairs · log characters).
+    Flagged are characters that stand on a moving body or a conveyor, or are paired with a body that is not static.
+    bodies, shapes, characters: BODY, SHAPE and CHARACTER tables; pairs: (count, 2) candidate pairs as SHAPE row
+    numbers; stirred_out: (characters,) bool, the flags. O(pairs · log characters).
     """
     most = 0.0
     for me in range(len(characters)):
@@ -79,10 +80,10 @@ def find_stirred(bodies, shapes, characters, pairs, count, stirred_out):
 
 
 def near_characters(state: StepState) -> tuple[np.ndarray, np.ndarray]:
-    """Return (near, spans) for a Walk: rows of the shapes that may carry, push or stop each character in this step.
+    """Find the shapes that may carry, push or stop each character in this step. Return (near, spans) for a Walk.
 
-    near: row numbers in SHAPE, character after character; spans (characters, 2): first index in `near` and number of
-    rows of each.
+    near: SHAPE row numbers, first those for the first character, and so on; spans: (characters, 2) first index in
+    `near` and number of rows for each character.
     """
     rows, pairs = state.characters, state.pairs.rows
     dirty = np.zeros(len(rows), bool)
@@ -112,10 +113,10 @@ def near_characters(state: StepState) -> tuple[np.ndarray, np.ndarray]:
 
 @subkernel
 def shift_aside(me, without, pixels, walk_inout, rows_out):
-    """Move a character along x by up to `pixels` (negative: left). Return how many of these pixels were blocked.
+    """Move a character along x by up to `pixels` (negative: left). Return the number of pixels that were blocked.
 
-    The character also moves up and down walkable slopes. me: row number in CHARACTER; without: body row to ignore, or
-    -1; rows_out: scratch array for the nearby solids. walk_inout: see solids.Walk.
+    The character also moves up and down walkable slopes. me: row number of the character; without: row number of a body
+    to ignore, or -1; walk_inout: see solids.Walk; rows_out: scratch array for the nearby solids.
     """
     c = walk_inout.characters[me]
     reach = 2.0 + abs(pixels)
@@ -139,10 +140,10 @@ def shift_aside(me, without, pixels, walk_inout, rows_out):
 
 @subkernel
 def shift_along_y(me, without, pixels, walk_inout, rows_out):
-    """Move a character along y by up to `pixels` (negative: up). Return how many of these pixels were blocked.
+    """Move a character along y by up to `pixels` (negative: up). Return the number of pixels that were blocked.
 
-    me: row number in CHARACTER; without: body row to ignore, or -1; rows_out: scratch array for the nearby solids.
-    walk_inout: see solids.Walk.
+    me: row number of the character; without: row number of a body to ignore, or -1; walk_inout: see solids.Walk;
+    rows_out: scratch array for the nearby solids.
     """
     c = walk_inout.characters[me]
     reach = 2.0 + abs(pixels)
@@ -158,11 +159,11 @@ def shift_along_y(me, without, pixels, walk_inout, rows_out):
 
 @subkernel
 def shift(me, without, pixels, along_x, walk_inout, rows_out):
-    """Move a character and its body by up to `pixels` along one axis. Return how many of these pixels were blocked.
+    """Move a character and its body by up to `pixels` along one axis. Return the number of pixels that were blocked.
 
-    along_x: 1 for the x axis, along which the character also moves up and down walkable slopes, 0 for the y axis. me:
-    row number in CHARACTER; without: body row to ignore, or -1; rows_out: scratch array for the nearby solids.
-    walk_inout: see solids.Walk.
+    along_x: 1 for the x axis, 0 for the y axis. On the x axis the character also moves up and down walkable slopes. me:
+    row number of the character; without: row number of a body to ignore, or -1; walk_inout: see solids.Walk; rows_out:
+    scratch array for the nearby solids.
     """
     if along_x == 1:
         stopped = shift_aside(me, without, pixels, walk_inout, rows_out)
@@ -174,15 +175,18 @@ def shift(me, without, pixels, along_x, walk_inout, rows_out):
 
 @subkernel
 def carried_by(way, stopped):
-    """Return the signed number of pixels that a character was moved: `way` less the `stopped` blocked pixels."""
+    """Return the signed number of pixels by which a character was moved.
+
+    way: intended motion [px], with a sign; stopped: number of pixels that were blocked.
+    """
     return way - stopped if way > 0 else way + stopped
 
 
 @subkernel
 def carry_riders(along_x, walk_inout):
-    """Move each character that stands on a moved character by the same number of pixels, and so on up a stack.
+    """Move each character that stands on a moved character by the same number of pixels, from the bottom of a stack up.
 
-    along_x: 1 for the x axis, 0 for the y axis. walk_inout: see solids.Walk.
+    along_x: 1 for the x axis, 0 for the y axis; walk_inout: see solids.Walk.
     """
     characters = walk_inout.characters
     for _ in range(len(characters)):
@@ -209,10 +213,10 @@ def carry_riders(along_x, walk_inout):
 
 @subkernel
 def loose_under(walk, me):
-    """Return the row of the loose shape (solids.is_loose) on which a character stands; -1 if there is none.
+    """Return the SHAPE row number of the loose shape (see solids.is_loose) on which a character stands, or -1.
 
-    Such a shape carries the character by the motion of its point under the feet. me: row number in CHARACTER; walk: see
-    solids.Walk.
+    A loose shape carries the character by the motion of the shape's point under the feet. walk: see solids.Walk; me:
+    row number of the character.
     """
     c = walk.characters[me]
     row = row_of(walk.shapes, c.riding_shape) if c.riding >= 0 else -1
@@ -224,9 +228,9 @@ def loose_under(walk, me):
 
 @kernel
 def note_feet(shapes, characters_inout):
-    """Store the point [px] under the feet of each rider before its support moves it. O(characters · log shapes).
+    """Store the point [px] under the feet of each character that stands on a moving body, before the body moves it.
 
-    characters_inout: CHARACTER table.
+    O(characters · log shapes). shapes: SHAPE table; characters_inout: CHARACTER table.
     """
     for me in range(len(characters_inout)):
         c = characters_inout[me]
@@ -237,9 +241,9 @@ def note_feet(shapes, characters_inout):
 
 @kernel
 def take_back(characters_inout, bodies_inout):
-    """Move the bodies of characters back to the characters' pixel boxes, after the step has moved them.
+    """Move the bodies of all characters back to the characters' pixel boxes, because the step has moved the bodies.
 
-    O(characters). characters_inout: CHARACTER table; bodies_inout: BODY table.
+    O(characters). characters_inout: CHARACTER table, whose push velocities are set to 0; bodies_inout: BODY table.
     """
     for me in range(len(characters_inout)):
         c = characters_inout[me]
@@ -250,9 +254,9 @@ def take_back(characters_inout, bodies_inout):
 
 @subkernel
 def motion_under(c, body):
-    """Return the displacement (x, y) [px] in this step of the body's point that is under a character's feet.
+    """Return the displacement (x, y) [px] in this step of the point of a body that was under a character's feet.
 
-    c: CHARACTER row; body: BODY row of the ground.
+    c: CHARACTER row; body: BODY row of the body on which the character stands.
     """
     u, v = rotate(
         c.foot_x - body.previous_x,
@@ -265,10 +269,11 @@ def motion_under(c, body):
 
 @subkernel
 def pixels_carried(me, row, along_x, walk_inout):
-    """Return the whole pixels by which the ground and its conveyor carry a character along an axis.
+    """Return by how many whole pixels the ground and its conveyor carry a character along an axis in this step.
 
-    me: row number in CHARACTER; row: shape row of the ground, -1 if its motion does not carry the character; along_x: 1
-    for the x axis, 0 for the y axis. The fractions are kept for the next step. walk_inout: see solids.Walk.
+    Fractions of a pixel are stored for the next step. me: row number of the character; row: SHAPE row number of the
+    ground, -1 if its motion does not carry the character; along_x: 1 for the x axis, 0 for the y axis; walk_inout: see
+    solids.Walk.
     """
     c = walk_inout.characters[me]
     way = 0
@@ -295,9 +300,9 @@ def pixels_carried(me, row, along_x, walk_inout):
 
 @subkernel
 def step_down(me, walk_inout):
-    """Move a character down to its ground if it has sunk no further than walking by one pixel may lead down.
+    """Move a character down to its ground, if this is no further than a walk of one pixel can lead down.
 
-    me: row number in CHARACTER. walk_inout: see solids.Walk.
+    me: row number of the character; walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     gather(walk_inout, me, -1, 1.0, 1.0, 3.0 + c.climb, walk_inout.found)
@@ -309,10 +314,10 @@ def step_down(me, walk_inout):
 
 @subkernel
 def ride_bodies(walk_inout):
-    """Carry characters by the motion of the ground under their feet, in whole pixels with a remainder.
+    """Carry characters by the motion of the loose shapes and conveyors under their feet, in whole pixels.
 
-    Then move them down to ground that rotated or was pushed down. O(characters · nearby solids). walk_inout: see
-    solids.Walk.
+    Then move the characters down onto ground that rotated or was pushed down. The remainders below one pixel are stored
+    for the next step. O(characters · nearby solids). walk_inout: see solids.Walk.
     """
     for axis in range(2):
         along_x = 1 - axis
@@ -335,9 +340,9 @@ def ride_bodies(walk_inout):
 
 @subkernel
 def move_out(me, row, walk_inout):
-    """Move a character out of a loose shape until it is blocked, and store the depth of overlap that remains.
+    """Move a character out of a loose shape (see solids.is_loose), as far as it is free, and store the remaining depth.
 
-    me, row: row numbers in CHARACTER and SHAPE. walk_inout: see solids.Walk.
+    me: row number of the character; row: SHAPE row number of the loose shape; walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     depth, nx, ny = depth_in(me, row, walk_inout)
@@ -364,11 +369,11 @@ def move_out(me, row, walk_inout):
 
 @subkernel
 def give_way(walk_inout):
-    """Move characters out of loose bodies (solids.is_loose) that moved into them. Mark those without space as squeezed.
+    """Move characters out of loose shapes (see solids.is_loose) that moved into them, or mark them as squeezed.
 
-    A body that has just fallen onto a character overlaps it until the solver has separated them. So an overlap with a
-    loose body squeezes a character only if it was deeper than GIVE and is at least as deep one step later. O(characters
-    · nearby solids). walk_inout: see solids.Walk.
+    A body that has just fallen onto a character overlaps it until the solver has separated the two. Therefore an
+    overlap with a loose shape squeezes a character only if it was deeper than GIVE and is at least as deep one step
+    later. O(characters · nearby solids). walk_inout: see solids.Walk.
     """
     for me in range(len(walk_inout.characters)):
         c = walk_inout.characters[me]
@@ -394,10 +399,10 @@ def give_way(walk_inout):
 
 @subkernel
 def swept_box(walk, row, along_x):
-    """Return the area that a box sweeps along one axis in a step: (left, top, right, bottom, pixels moved) [px].
+    """Return the area that a box sweeps along one axis in this step, as (left, top, right, bottom, pixels moved).
 
-    All values are whole pixels. row: shape row of the box, which moves along x first, then along y; along_x: 1 for the
-    x axis, 0 for the y axis; walk: see solids.Walk.
+    All values are whole pixels, and pixels moved has a sign. The box moves along x first, then along y. walk: see
+    solids.Walk; row: SHAPE row number of the box; along_x: 1 for the x axis, 0 for the y axis.
     """
     b = walk.bodies[walk.shapes[row].body_row]
     old_left, old_top, old_right, old_bottom = aabb_at(
@@ -425,8 +430,8 @@ def swept_box(walk, row, along_x):
 def in_swept(me, row, shifted, along_x, box, walk_inout):
     """Return whether a character, moved by `shifted` pixels along an axis, would overlap the area that a solid sweeps.
 
-    me, row: row numbers of the character in CHARACTER and of the solid in SHAPE; along_x: 1 for the x axis, 0 for the y
-    axis; box: result of swept_box for the solid. A tile grid is tested at its pose after the motion along this axis.
+    A tile grid is tested at its pose after the motion along this axis. me: row number of the character; row: SHAPE row
+    number of the solid; along_x: 1 for the x axis, 0 for the y axis; box: result of swept_box for the solid;
     walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
@@ -452,9 +457,9 @@ def in_swept(me, row, shifted, along_x, box, walk_inout):
 
 @subkernel
 def way_clear(me, row, along_x, box, walk_inout):
-    """Return by how many pixels to move a character out of the area that a solid sweeps, along the solid's motion.
+    """Return the displacement [px] along a solid's motion that moves a character out of the area the solid sweeps.
 
-    The number has a sign. It is 0 if the character does not overlap this area. Arguments as in in_swept.
+    It is a signed whole number, and 0 if the character does not overlap this area. For the arguments see in_swept.
     """
     if not in_swept(me, row, 0, along_x, box, walk_inout):
         return 0
@@ -475,7 +480,7 @@ def way_clear(me, row, along_x, box, walk_inout):
 
 @subkernel
 def carry_one(me, row, along_x, box, walk_inout):
-    """Carry or push one character with a solid that moved by whole pixels along an axis. Arguments as in in_swept."""
+    """Carry or push one character by a solid that moved by whole pixels along an axis. Arguments: see in_swept."""
     c = walk_inout.characters[me]
     s = walk_inout.shapes[row]
     b = walk_inout.bodies[s.body_row]
@@ -498,10 +503,10 @@ def carry_one(me, row, along_x, box, walk_inout):
 
 @subkernel
 def carry_and_push(movers, walk_inout):
-    """Let kinematic solids that moved by whole pixels carry their riders and push characters in front of them.
+    """Carry the characters on kinematic solids that moved by whole pixels, and push the characters in front of them.
 
-    movers: row numbers in SHAPE, ascending. Only axis-aligned boxes and tile grids are used; ride_bodies handles other
-    shapes. O(moved solids · characters). walk_inout: see solids.Walk.
+    Only axis-aligned boxes and tile grids are handled here; other shapes are handled by ride_bodies and give_way.
+    movers: ascending SHAPE row numbers; walk_inout: see solids.Walk. O(moved solids · characters).
     """
     for k in range(len(movers)):
         row = movers[k]
@@ -523,9 +528,9 @@ def carry_and_push(movers, walk_inout):
 
 @kernel
 def carry_all(movers, walk_inout):
-    """Carry and push characters by all motion of solids in the step. movers: row numbers in SHAPE, ascending.
+    """Carry and push all characters by the motion of solids in this step.
 
-    walk_inout: see solids.Walk.
+    movers: ascending SHAPE row numbers of the solids; walk_inout: see solids.Walk.
     """
     carry_and_push(movers, walk_inout)
     ride_bodies(walk_inout)
@@ -546,7 +551,7 @@ def carry_all(movers, walk_inout):
     ),
 )  # fmt: skip
 def carry_characters(state: StepState) -> None:
-    """Move the characters that solids carry or push.
+    """Move the characters that are carried or pushed by moving solids.
 
     The candidate pairs of moved characters are updated, so that their contacts are found in the same step.
     """
@@ -584,9 +589,9 @@ def carry_characters(state: StepState) -> None:
     ),
 )  # fmt: skip
 def apply_character_weight(state: StepState) -> None:
-    """Apply the weight of characters to their ground before a step.
+    """Apply the weight of characters to the bodies on which they stand, before the step.
 
-    Sleeping ground is woken if a character has arrived on it, left it or walked on it.
+    A sleeping body is woken if a character has stepped onto it, left it or walked on it.
     """
     characters, bodies = state.characters, state.bodies
     if state.effects.sleeping:

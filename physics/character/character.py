@@ -1,4 +1,4 @@
-"""Character: the player of a platformer, moved by the game in whole pixels, with ground, walls and slopes."""
+"""Character, the player figure of a platformer, which the game moves in whole pixels over ground and slopes."""
 
 from __future__ import annotations
 
@@ -30,17 +30,17 @@ MAX_SLOPE = 0.8  # [rad] 46 degrees: a character walks on a slope of one tile pe
 
 
 class Moved(NamedTuple):
-    """The result of a move: pixels moved, and the contacts of the character after the move.
+    """The result of Character.move: pixels moved, and the contacts of the character after the move.
 
-    x, y: pixels moved.
-    grounded: whether the character stands on ground that it can walk on, or is held by the ground.
-    wall: -1 for a solid at its left, 1 at its right, 0 for none.
-    slope: rise per px to the right of the ground under its feet (1: 45 degrees up to the right), also of ground down
-        which the character slides.
-    riding: the kinematic or dynamic body, or the body of the pushable character, under its feet; None on static ground
-        and in the air.
-    squeezed: whether a moving body left the character no space; True in every move until this body no longer overlaps
-        the character.
+    x, y: pixels moved along x and y.
+    grounded: whether the character stands on ground on which it can walk, or on a slope whose foot holds it.
+    wall: -1: a solid touches its left side; 1: its right side; 0: neither.
+    slope: rise per px to the right of the ground under the feet (1: 45 degrees up to the right), also while the
+        character slides down.
+    riding: the Body under the feet if it is kinematic or dynamic, or belongs to a pushable character; None on static
+        ground and in the air.
+    squeezed: whether a moving body has left the character no space; True in every move until this body no longer
+        overlaps the character.
     """
 
     x: int
@@ -53,26 +53,26 @@ class Moved(NamedTuple):
 
 
 class Character:
-    """A convex shape that the game moves, in whole pixels, and that never overlaps a solid.
+    """A convex shape that the game moves in whole pixels, and that stops before it overlaps a solid.
 
     world: the World, which must have the effect `response`.
-    shape: Polygon, Circle, Capsule, or Bounds of one of them or of a sprite, of at least one pixel. A box without angle
-        is rounded to whole pixels.
+    shape: a Polygon, Circle or Capsule, or Bounds of one of these or of a PixelMask; at least one pixel large. An
+        axis-aligned box is rounded to whole pixels.
     position: position (x, y) of the shape's origin [px], rounded so that the left side and the feet are on the pixel
         grid.
     filter: the Filter of the shape.
-    pushable: whether the character is solid for other characters, and they push it.
-    user: any value of the game, kept as body.user.
-    mass: weight, and momentum on landing [density px²], > 0, with the effect `stacking`; None: the mass of the shape at
-        density 1.
-    push: greatest force per mass with which the character pushes bodies in its way [px/s²], >= 0, with the effect
-        stacking; None: 2000.
-    max_slope: angle of the steepest ground that it walks on [rad], 0 <= max_slope < pi/2. It slides down steeper
-        ground, up to 86 degrees.
+    pushable: whether the character is solid for other characters and is pushed by them.
+    user: any value of the caller, stored as body.user.
+    mass: mass [density px²], > 0, which determines its weight on bodies and its momentum on landing, with the effect
+        `stacking`; None: the mass of the shape at density 1.
+    push: greatest force per mass with which the character pushes bodies in front of it [px/s²], >= 0, with the effect
+        `stacking`; None: 2000.
+    max_slope: angle of the steepest ground on which the character can walk [rad], 0 <= max_slope < pi/2. On steeper
+        ground, up to 86 degrees, it slides down.
 
-    body: the kinematic Body of the character, which contacts and sensors see.
+    body: the kinematic Body of the character, which takes part in contacts and sensor overlaps.
 
-    With the effect `stacking`, dynamic bodies stop and carry the character, and the character acts on them. Raises
+    With the effect `stacking`, dynamic bodies stop and carry the character, and the character pushes them. Raises
     TypeError for values of other types, ValueError for values out of range and for a world without the needed effects.
     """
 
@@ -124,7 +124,7 @@ class Character:
         row["riding"] = row["riding_shape"] = row["pressed"] = -1
 
     def __repr__(self):
-        """Return the id and the position of the character's body. It never raises."""
+        """Return a text with the id and the position of the character's body. No error is raised."""
         return f"Character({self.body!r})" if hasattr(self, "body") else "Character(unfinished)"
 
     @property
@@ -137,39 +137,39 @@ class Character:
 
     @property
     def position(self) -> tuple[float, float]:
-        """Position [px] of the shape's origin."""
+        """The position (x, y) [px] of the shape's origin."""
         return self.body.position
 
     @property
     def previous(self) -> tuple[float, float]:
-        """Position [px] of the shape's origin before the last move, for interpolated drawing."""
+        """The position (x, y) [px] of the shape's origin before the last move, for interpolated drawing."""
         row = self.world.characters.rows[self._row]
         return (float(row["previous_left"] + row["offset_x"]), float(row["previous_top"] + row["offset_y"]))
 
     @property
     def max_slope(self) -> float:
-        """Angle [rad] of the steepest ground that the character can walk on."""
+        """The angle [rad] of the steepest ground on which the character can walk."""
         return math.atan(self.world.characters.rows["climb"][self._row])
 
     @property
     def surface_speed(self) -> float:
-        """Surface speed [px/s], to the right, of the ground under the character's feet at its last move; 0 in the air.
+        """The surface speed [px/s] of the ground under the feet after the last move, positive to the right; 0 in air.
 
-        A step of a world with the effect `conveyor` moves the character at this speed.
+        In a world with the effect `conveyor`, a step moves the character at this speed.
         """
         return float(self.world.characters.rows["belt"][self._row])
 
     def move(self, dx: float, dy: float, drop: bool = False) -> Moved:
         """Move the character, along x first. Return the result as a Moved.
 
-        dx, dy: the move [px], at most 1e6 each. Parts of a pixel are kept for the next move.
+        dx, dy: displacement [px], each at most 1e6. Fractions of a pixel are added to the next move.
         drop: True lets the character fall through one-way tiles.
 
-        On a slope that is too steep it slides down, by the component of dy along the slope. While the character's body
-        is quarantined, or would be by the next step, the character does not move and touches nothing. A character that
-        was placed in a static solid is moved out, two pixels per move, if there is free space within its own size.
-        Raises TypeError for values of other types, ValueError for a move that is not finite or too long, KeyError for a
-        removed character, RuntimeError during a step.
+        On a slope steeper than max_slope the character slides down, by the component of dy along the slope. If its body
+        is quarantined (disabled because a number is invalid), or will be in the next step, the character does not move
+        and has no contacts. A character that overlaps a static solid is moved out of it by two pixels per move, if
+        there is free space within its own size. Raises TypeError for values of other types, ValueError for a move that
+        is not finite or too long, KeyError for a removed character, RuntimeError during a step.
         """
         world = self.world
         world._unlocked()
@@ -204,13 +204,13 @@ class Character:
         )
 
     def blocked(self, dx: float, dy: float) -> bool:
-        """Return whether a move would not move the character: no pixel in its direction is free.
+        """Return whether the character cannot move by even one pixel in a direction.
 
-        dx, dy: the move [px]; only the signs count.
+        dx, dy: the direction; only the signs are used.
 
-        Bodies that a walk pushes, and slopes that the character walks or slides down, do not block. The world is
-        unchanged. Raises TypeError for values that are not numbers, ValueError for a move that is not finite or too
-        long, KeyError for a removed character, RuntimeError during a step.
+        Not blocking are other characters that can be pushed, and slopes that the character can walk on or slide down.
+        The world is unchanged. Raises TypeError for values that are not numbers, ValueError for a value that is not
+        finite or above 1e6, KeyError for a removed character, RuntimeError during a step.
         """
         self.world._unlocked()
         dx, dy = _checked_move(dx, dy)
@@ -218,9 +218,9 @@ class Character:
         return bool(is_stopped(me, int(np.sign(dx)), int(np.sign(dy)), self._walk(me, 0.0, 0.0)))
 
     def _walk(self, me, dx, dy):
-        """Return the Walk for a move by (dx, dy) [px], with the shapes near the character's path.
+        """Return the Walk for a move by (dx, dy) [px], which lists the shapes near the character's path.
 
-        me: its row number in CHARACTER.
+        me: row number of the character in the CHARACTER table.
         """
         world = self.world
         rows = world.characters.rows
@@ -243,7 +243,7 @@ class Character:
         return walk_for(world, rows, near, spans, world.dt)
 
     def move_to(self, position: Pair) -> None:
-        """Teleport the character.
+        """Teleport the character to a position.
 
         position: new position (x, y) of the shape's origin [px], rounded to the pixel grid.
 
@@ -262,12 +262,12 @@ class Character:
         self.body.move_to((float(row["left"][0] + row["offset_x"][0]), float(row["top"][0] + row["offset_y"][0])))
 
     def remove(self) -> None:
-        """Remove the character and its body."""
+        """Remove the character and its body from the world."""
         self.world.remove_body(self.body)
 
 
 def _asleep(world, near):
-    """Return the row numbers of the sleeping bodies among the bodies of the shapes `near` (row numbers)."""
+    """Return the BODY row numbers of the sleeping bodies that have a shape in `near`. near: SHAPE row numbers."""
     if not world.sleeps:
         return np.zeros(0, np.int64)
     rows = np.unique(world.shapes["body_row"][near])
@@ -287,9 +287,10 @@ def _is_upright_box(shape):
 
 
 def _outline(shape):
-    """Return (shape, left, top, right, bottom): the shape for a character's body, and its bounds [px].
+    """Check the argument `shape` of Character. Return (shape for its body, left, top, right, bottom).
 
-    The bounds are relative to the shape's origin.
+    left, top, right, bottom: bounds of the returned shape [px], relative to the shape's origin. Raises TypeError or
+    ValueError for a shape that is not allowed.
     """
     inner = shape._inner if isinstance(shape, Shape) else shape
     wrapped = inner is not shape

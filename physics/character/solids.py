@@ -1,4 +1,4 @@
-"""Solids that block a character: tiles, chains, static and kinematic shapes, other characters, dynamic bodies."""
+"""Tests of a character against the solids that block it: tiles, chains, other shapes, and other characters."""
 
 import math
 from typing import NamedTuple
@@ -53,21 +53,21 @@ STEEPEST_CLIMB = (
 
 @subkernel
 def pixels_along(slope):
-    """Return the greatest number of whole pixels by which ground of this slope rises or falls along one pixel."""
+    """Return the greatest number of whole pixels by which ground with a slope [px per px] rises or falls over 1 px."""
     return math.floor(abs(slope) + 1.0 + 1e-6)
 
 
 @subkernel
 def is_walkable(c, nx, ny):
-    """Return whether a character (row c) can walk on a surface. (nx, ny): unit normal into the surface."""
+    """Return whether a character (CHARACTER row c) can walk on a surface. (nx, ny): unit normal into the surface."""
     return ny > SHEER and abs(nx) <= c.climb * ny + EVEN
 
 
 @subkernel
 def verdict(c, nx, ny):
-    """Return (ON_SLOPE, STEEP or BLOCKED; slope) for a character (row c) at a surface.
+    """Classify a surface for a character (CHARACTER row c). Return (ON_SLOPE, STEEP or BLOCKED; slope of the surface).
 
-    (nx, ny): unit normal into the surface; slope: its rise per px to the right, 0 if BLOCKED.
+    (nx, ny): unit normal into the surface. slope: rise per px to the right, 0 if BLOCKED.
     """
     if ny <= SHEER:
         return BLOCKED, 0.0
@@ -77,9 +77,9 @@ def verdict(c, nx, ny):
 
 @subkernel
 def allowed_depth(c, loose, nx, ny, give, slop):
-    """Return the depth [px] by which a character (row c) may overlap a surface without being blocked.
+    """Return the depth [px] by which a character (CHARACTER row c) may overlap a surface without being blocked.
 
-    loose: see is_loose; (nx, ny): unit normal into the surface; give [px]: depth that is added for a loose shape.
+    loose: see is_loose; (nx, ny): unit normal into the surface; give: depth added for a loose shape [px]; slop [px].
     """
     if not loose:
         return slop
@@ -88,10 +88,10 @@ def allowed_depth(c, loose, nx, ny, give, slop):
 
 @subkernel
 def deepest_of(b, slop, dt):
-    """Return the greatest depth [px] to which a character can have entered an outline of body b since it was free.
+    """Return the greatest depth [px] to which a character can overlap an outline of body b (BODY row) after one motion.
 
-    It is a pixel and two slops [px]; for a body that is not static also GIVE, and its motion in dt [s]. If the overlap
-    behind an edge of a part is deeper, a neighbouring part has the nearer surface, see hulls.collide_hulls.
+    It is one pixel plus two slops [px]; for a body that is not static plus GIVE and the body's motion in dt [s]. If the
+    overlap with an edge of a part is deeper, a neighbouring part has the nearer surface, see hulls.collide_hulls.
     """
     if b.kind == STATIC:
         return 1.0 + 2.0 * slop
@@ -100,10 +100,11 @@ def deepest_of(b, slop, dt):
 
 @subkernel
 def judge(c, kind, beyond, nx, ny, way_x, way_y):
-    """Return (FREE, ON_SLOPE, STEEP or BLOCKED; slope) for a character (row c) that overlaps a surface.
+    """Return (FREE, ON_SLOPE, STEEP or BLOCKED; slope) for a character (CHARACTER row c) that overlaps a surface.
 
-    beyond [px]: overlap minus allowed_depth; kind: kind of the surface's body; way_x, way_y: pixels that the character
-    just moved. A moving body may itself have caused the overlap, so it blocks only motion that leads deeper.
+    A moving body may itself have caused the overlap, so it blocks only motion that leads deeper. kind: kind of the
+    surface's body; beyond: overlap minus allowed_depth [px]; nx, ny: unit normal into the surface; way_x, way_y: pixels
+    by which the character has just moved.
     """
     if beyond <= 0.0:
         return FREE, 0.0
@@ -120,7 +121,7 @@ def judge(c, kind, beyond, nx, ny, way_x, way_y):
 def place_outline(walk, me, left, top):
     """Write the corners [px] and normals of a character's outline, with its box at pixel (left, top), to scratch.mine.
 
-    me: row number in CHARACTER. Return (number of corners, rounding radius [px]). walk: see Walk.
+    Return (number of corners, rounding radius [px]). walk: see Walk; me: row number of the character.
     """
     c = walk.characters[me]
     radius = 0.0
@@ -136,9 +137,9 @@ def place_outline(walk, me, left, top):
 
 @subkernel
 def manifold_depth(points, manifold):
-    """Return (depth, nx, ny, x, y) [px] of a manifold: its depth, unit normal and middle; all 0 without points.
+    """Return (greatest depth [px], unit normal nx, ny, midpoint x, y [px]) of a manifold; all 0 for no points.
 
-    points: number of points; manifold (11,): see hulls.clip_edges.
+    points: number of points of the manifold; manifold: (11,), see hulls.clip_edges.
     """
     if points == 0:
         return 0.0, 0.0, 0.0, 0.0, 0.0
@@ -152,9 +153,9 @@ def manifold_depth(points, manifold):
 
 @subkernel
 def meet_disc(scratch, count, radius, x, y, other):
-    """Return the overlap (depth, nx, ny, px, py) [px] of a character's outline with a disc, see meet.
+    """Return the overlap (depth, nx, ny, px, py) of a character's outline with a disc. For these values see meet.
 
-    x, y, other [px]: centre and radius of the disc; count, radius: result of place_outline, which writes the outline.
+    x, y, other: centre and radius of the disc [px]; count, radius: result of place_outline, which writes the outline.
     """
     mine = scratch.mine
     if count == 1:
@@ -166,11 +167,11 @@ def meet_disc(scratch, count, radius, x, y, other):
 
 @subkernel
 def meet_hull(scratch, count, radius, corners, rounded, edges, deepest):
-    """Return the overlap (depth, nx, ny, x, y) [px] of a character's outline with the hull in scratch.theirs, see meet.
+    """Return the overlap (depth, nx, ny, x, y) of a character's outline with the hull in scratch.theirs. See meet.
 
-    count, radius: result of place_outline, which writes the outline; corners, rounded: number of corners and rounding
-    radius [px] of the hull; edges: see hulls.Hull; deepest: see hulls.collide_hulls. scratch.points[0] is
-    COVERED_OVERLAP if a neighbouring part reports the contact.
+    scratch.points[0] is set to COVERED_OVERLAP if a neighbouring part reports the contact. count, radius: result of
+    place_outline, which writes the outline; corners, rounded: number of corners and rounding radius [px] of the hull;
+    edges: see hulls.Hull; deepest: see hulls.collide_hulls.
     """
     mine = scratch.mine
     theirs = Hull(scratch.theirs, corners, rounded, edges)
@@ -191,10 +192,10 @@ def meet_hull(scratch, count, radius, corners, rounded, edges, deepest):
 
 @subkernel
 def meet_link(links, link, scratch, count, radius):
-    """Return the overlap (depth, nx, ny, x, y) [px] of a character's outline with a chain link, see meet.
+    """Return the overlap (depth, nx, ny, x, y) of a character's outline with a chain link. For these values see meet.
 
-    The depth is 0 for a character behind the link. The ends of the link are in scratch.theirs; links, link: LINK table
-    and row number; count, radius: result of place_outline, which writes the outline.
+    The depth is 0 if the character is behind the link. links: LINK table; link: row number; scratch: Scratch with the
+    ends of the link in scratch.theirs; count, radius: result of place_outline, which writes the outline.
     """
     if count == 1:
         hit, nx, ny, x, y, separation, feature = collide_link_circle(
@@ -210,11 +211,11 @@ def meet_link(links, link, scratch, count, radius):
 
 @subkernel
 def meet(walk, row, count, radius):
-    """Return the overlap (depth, nx, ny, x, y) [px] of a character's outline with a hull or a disc.
+    """Return the overlap of a character's outline with a hull or a disc: (depth [px], nx, ny, x, y).
 
-    nx, ny: unit normal from the character; x, y: contact point. row: row number in SHAPE; count, radius: result of
-    place_outline. The depth is 0 if the two are apart, or if a neighbouring part of the shape has the nearer surface;
-    then scratch.points[0] is COVERED_OVERLAP. walk: see Walk.
+    nx, ny: unit normal from the character into the shape; x, y: contact point [px]. The depth is 0 without an overlap.
+    It is also 0 if a neighbouring part of the shape has the nearer surface; then scratch.points[0] is set to
+    COVERED_OVERLAP. walk: see Walk; row: SHAPE row number; count, radius: result of place_outline.
     """
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -233,7 +234,7 @@ def meet(walk, row, count, radius):
 
 @subkernel
 def deepest_on(walk, body):
-    """Return the greatest depth [px] in a chain link of `body` that a character can reach from the link's front."""
+    """Return the greatest overlap [px] with a link of a chain that a character can have if it comes from the front."""
     most = 1.0 + 2.0 * walk.settings.slop
     if body.kind == KINEMATIC:
         most += 1.0 + (abs(body.vx) + abs(body.vy) + abs(body.angular_velocity) * body.extent) * walk.settings.dt
@@ -242,11 +243,11 @@ def deepest_on(walk, body):
 
 @subkernel
 def link_depth(walk, row, link, drops, count, radius):
-    """Return (depth [px], nx, ny) of the overlap of a character with a link; the unit normal is from the character.
+    """Return the overlap of a character with a chain link: (depth [px], nx, ny), with the unit normal into the link.
 
-    The depth is 0 if the link lets the character pass: at a depth above deepest_on, which means that it comes from the
-    back of the link; with `drops`, also at a level link or one-way surface. row, link: row numbers in SHAPE and LINK;
-    count, radius: result of place_outline, which writes the outline; walk: see Walk.
+    The depth is 0 if the link lets the character pass. This is the case if the depth would exceed deepest_on, because
+    the character then comes from the back; and, if `drops` is True, for a level link or a one-way surface. walk: see
+    Walk; row: SHAPE row number; link: LINK row number; count, radius: result of place_outline.
     """
     b = walk.bodies[walk.shapes[row].body_row]
     scratch = walk.scratch
@@ -261,9 +262,9 @@ def link_depth(walk, row, link, drops, count, radius):
 
 @subkernel
 def is_across(walk, me, row, left, top):
-    """Return whether a character, with its box at pixel (left, top), lies across a one-way surface and so passes it.
+    """Return whether a character, with its box at pixel (left, top), overlaps a one-way surface so far that it passes.
 
-    The result is False for a chain that is not the surface of a one-way mask. walk: see Walk.
+    The result is False for a chain (SHAPE row number `row`) that is not the surface of a one-way mask.
     """
     s = walk.shapes[row]
     if s.role != PART:
@@ -282,7 +283,7 @@ def is_across(walk, me, row, left, top):
 
 @subkernel
 def in_chain(walk, me, row, left, top, way_x, way_y, give):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) for a character in a chain. Arguments as in in_shape."""
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) for a character at a chain. See in_shape."""
     c = walk.characters[me]
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -325,7 +326,7 @@ def in_chain(walk, me, row, left, top, way_x, way_y, give):
 
 @subkernel
 def deepest_link(walk, me, row, left, top):
-    """Return (depth [px], nx, ny) of the deepest overlap of a character with a link of a chain, see link_depth."""
+    """Return the deepest overlap (depth [px], nx, ny) of a character with any link of a chain. See link_depth."""
     c = walk.characters[me]
     span = walk.geometry.chains[walk.shapes[row].geometry]
     if is_across(walk, me, row, left, top):
@@ -348,19 +349,19 @@ def deepest_link(walk, me, row, left, top):
 
 @subkernel
 def on_pixels(kind, coordinate):
-    """Return a coordinate [px] of a body as characters see it: rounded to whole pixels if `kind` is KINEMATIC."""
+    """Return a body's coordinate [px] for tests on the pixel grid: rounded if `kind`, the body's kind, is KINEMATIC."""
     return float(math.floor(coordinate + 0.5)) if kind == KINEMATIC else coordinate
 
 
 @subkernel
 def is_falling(c, way_x, way_y):
-    """Return 1 if one-way tiles stop the move (way_x, way_y) of a character (row c): a fall straight down; else 0."""
+    """Return 1 if one-way tiles stop a move (way_x, way_y), which must be straight down and without drop; else 0."""
     return 1 if way_x == 0 and way_y > 0 and not c.drop else 0
 
 
 @subkernel
 def slope_tile_verdict(c, slope, depth):
-    """Return ON_SLOPE, STEEP or BLOCKED for a character that is `depth` [px] below the surface of a slope tile."""
+    """Return ON_SLOPE, STEEP or BLOCKED for a character whose feet are `depth` [px] below a slope tile's surface."""
     if depth > pixels_along(slope):
         return BLOCKED  # at its side, or inside
     return ON_SLOPE if abs(slope) <= c.climb + EVEN else STEEP
@@ -368,7 +369,7 @@ def slope_tile_verdict(c, slope, depth):
 
 @subkernel
 def in_tiles(walk, me, row, left, top, way_x, way_y):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) for a box in a tile grid. Arguments as in in_shape."""
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) for a box-shaped character at a tile grid. See in_shape."""
     c = walk.characters[me]
     b = walk.bodies[walk.shapes[row].body_row]
     g = walk.geometry.grids[walk.shapes[row].geometry]
@@ -409,10 +410,10 @@ def in_tiles(walk, me, row, left, top, way_x, way_y):
 
 @subkernel
 def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
-    """Return (depth [px], nx, ny) of the overlap of a character's outline with the tile in scratch.theirs.
+    """Return the overlap (depth [px], nx, ny) of a character's outline with the tile in scratch.theirs.
 
-    nx, ny: unit normal from the character; count, radius: result of place_outline; corners: number of corners of the
-    tile; edges: see hulls.Hull; deepest: see hulls.collide_hulls; is_slope: whether the tile is a slope.
+    nx, ny: unit normal from the character into the tile; count, radius: result of place_outline; corners: number of
+    corners of the tile; edges: see hulls.Hull; deepest: see hulls.collide_hulls; is_slope: whether the tile is a slope.
     """
     mine = scratch.mine
     tile = Hull(scratch.theirs, corners, 0.0, edges)
@@ -432,9 +433,9 @@ def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
 
 @subkernel
 def in_tile_outlines(walk, me, row, left, top, way_x, way_y):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) for a character that is not a box in a tile grid.
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) for a character without box shape at a tile grid. See in_shape.
 
-    The character is tested against the outlines of runs of tiles and of slopes. Arguments as in in_shape.
+    The character is tested against the outlines of slope tiles and of runs of other tiles.
     """
     c = walk.characters[me]
     s = walk.shapes[row]
@@ -502,7 +503,7 @@ class Scratch(NamedTuple):
 
 
 class Settings(NamedTuple):
-    """The values of a world on which the motion of characters depends."""
+    """The effects and tolerances of a world on which the motion of characters depends."""
 
     stacking: int  # 1: dynamic bodies stop, carry and squeeze characters
     rotation: int  # 1: dynamic bodies rotate
@@ -532,7 +533,7 @@ def new_scratch() -> Scratch:
 
 
 def walk_for(tables: WorldTables, characters: np.ndarray, near: np.ndarray, spans: np.ndarray, dt: float) -> Walk:
-    """Return the Walk of a world or a StepState (`tables`) for a motion within dt [s].
+    """Return the Walk for a motion of characters within dt [s]. tables: a World or a StepState.
 
     characters: CHARACTER table; near, spans: see Walk.
     """
@@ -555,7 +556,7 @@ def walk_for(tables: WorldTables, characters: np.ndarray, near: np.ndarray, span
 
 @subkernel
 def character_of(characters, body):
-    """Return the row number of the character with this body id, or -1. O(log characters)."""
+    """Return the CHARACTER row number of the character with the body id `body`, or -1. O(log characters)."""
     low, high = 0, len(characters)
     while low < high:
         middle = (low + high) // 2
@@ -568,13 +569,13 @@ def character_of(characters, body):
 
 @kernel
 def can_walk(me, characters):
-    """Return whether a character can move: its numbers are finite and in range. me: its row number in CHARACTER."""
+    """Return whether a character can move, which means that its numbers are finite and in range. me: its row number."""
     return is_finite_character(characters[me])
 
 
 @kernel
 def find_own_rows(bodies, shapes, characters_inout):
-    """Write the row numbers of the body and of the shape of each character. O(characters · log shapes)."""
+    """Write the row numbers of their body and shape to all CHARACTER rows. O(characters · log shapes)."""
     for me in range(len(characters_inout)):
         c = characters_inout[me]
         c.body_row = row_of(bodies, c.body)
@@ -583,7 +584,7 @@ def find_own_rows(bodies, shapes, characters_inout):
 
 @subkernel
 def place_body(c, body_inout):
-    """Move the body of a character (row c) to where the character's pixel box is. body_inout: BODY row."""
+    """Move the body of a character (CHARACTER row c) to the character's pixel box. body_inout: BODY row."""
     body_inout.x, body_inout.y = c.left + c.offset_x, c.top + c.offset_y
     body_inout.center_x = body_inout.x + body_inout.local_center_x
     body_inout.center_y = body_inout.y + body_inout.local_center_y
@@ -591,7 +592,7 @@ def place_body(c, body_inout):
 
 @subkernel
 def settle(me, walk_inout):
-    """Move the body of a character to where its pixel box is. me: row number in CHARACTER. walk_inout: see Walk."""
+    """Move the body of a character to the character's pixel box. me: row number of the character; walk_inout: Walk."""
     c = walk_inout.characters[me]
     place_body(c, walk_inout.bodies[c.body_row])
 
@@ -606,7 +607,7 @@ def settle(me, walk_inout):
 
 @subkernel
 def is_box(walk, row):
-    """Return whether a shape is an axis-aligned box at the present pose of its body. walk: see Walk."""
+    """Return whether a shape (SHAPE row number) is an axis-aligned box at its present pose. walk: see Walk."""
     s = walk.shapes[row]
     if s.kind == BOUNDS:
         return True
@@ -619,9 +620,9 @@ def is_box(walk, row):
 
 @subkernel
 def is_loose(walk, row):
-    """Return whether a shape is loose: dynamic, or kinematic and not tested on the pixel grid.
+    """Return whether a shape (SHAPE row number) is loose: dynamic, or kinematic and not tested on the pixel grid.
 
-    Kinematic tile grids, and kinematic boxes that are upright and do not rotate, are tested on the pixel grid.
+    Kinematic tile grids and axis-aligned kinematic boxes are tested on the pixel grid unless they rotate. walk: Walk.
     """
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -634,14 +635,14 @@ def is_loose(walk, row):
 
 @subkernel
 def aabb_of(walk, row):
-    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a shape at the present pose of its body. walk: see Walk."""
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a shape at the present pose of its body. row: SHAPE row."""
     b = walk.bodies[walk.shapes[row].body_row]
     return aabb_at(walk.geometry, walk.shapes, row, b.x, b.y, b.angle)
 
 
 @subkernel
 def in_character(walk, me, other, left, top):
-    """Return whether character `me` with its box at pixel (left, top) would overlap character `other` (rows)."""
+    """Return whether character `me`, with its box at pixel (left, top), overlaps character `other` (row numbers)."""
     c = walk.characters[me]
     o = walk.characters[other]
     hit = left < o.left + o.width and o.left < left + c.width and top < o.top + o.height and o.top < top + c.height
@@ -654,7 +655,7 @@ def in_character(walk, me, other, left, top):
 
 @subkernel
 def in_upright_box(walk, me, row, left, top):
-    """Return whether a character's box at pixel (left, top) shares a pixel with an axis-aligned box, shape `row`."""
+    """Return whether a character's box at pixel (left, top) shares a pixel with an axis-aligned box (SHAPE row)."""
     c = walk.characters[me]
     min_x, min_y, max_x, max_y = aabb_of(walk, row)
     return (
@@ -667,7 +668,7 @@ def in_upright_box(walk, me, row, left, top):
 
 @subkernel
 def in_hull(walk, me, row, left, top, way_x, way_y, give):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) for a character in a hull or disc. Arguments as in in_shape."""
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) for a character at a hull or disc. See in_shape."""
     c = walk.characters[me]
     b = walk.bodies[walk.shapes[row].body_row]
     count, radius = place_outline(walk, me, left, top)
@@ -685,11 +686,11 @@ def in_hull(walk, me, row, left, top, way_x, way_y, give):
 
 @subkernel
 def in_shape(walk, me, row, left, top, way_x, way_y, give):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) for a character at a position, as if there were only one shape.
+    """Test a character at a position against one shape. Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope).
 
-    me, row: row numbers in CHARACTER and SHAPE. left, top: pixel of the character's box. way_x, way_y: pixels that it
-    moved to get there. give [px]: depth that is allowed in a loose shape. slope: rise of the surface per px to the
-    right; walk: see Walk.
+    slope: rise of the shape's surface per px to the right. walk: see Walk; me: row number of the character; row: SHAPE
+    row number; left, top: pixel of the character's box; way_x, way_y: pixels that the character moved to this position;
+    give: depth allowed in a loose shape [px].
     """
     c = walk.characters[me]
     s = walk.shapes[row]
@@ -714,8 +715,8 @@ def in_shape(walk, me, row, left, top, way_x, way_y, give):
 def gather(walk, me, without, reach_x, reach_up, reach_down, rows_out):
     """List the shapes that may block a character, within reach_x, reach_up, reach_down [px] of its box. O(nearby rows).
 
-    rows_out: the number of shapes, then their rows; a loose shape is listed as -1 - row. without: body row to leave out
-    (the platform that moves the character), or -1; walk: see Walk.
+    rows_out: the number of shapes, then their SHAPE row numbers; a loose shape is listed as -1 - row. walk: see Walk;
+    me: row number of the character; without: row number of a body to skip (which moves the character), or -1.
     """
     c = walk.characters[me]
     own = walk.shapes[c.shape_row]
@@ -753,11 +754,11 @@ def gather(walk, me, without, reach_x, reach_up, reach_down, rows_out):
 
 @subkernel
 def blocked_at(walk, me, rows, left, top, way_x, way_y, give):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; shape row or -1; slope) for a character at a position, for all shapes.
+    """Test a character at a position against all nearby shapes, and return the most restrictive result.
 
-    rows: see gather; other arguments: see in_shape. Of the results of all shapes, the one with the greatest first value
-    is returned; BLOCKED ends the search. If all parts of a static mask leave the contact to a neighbour, the position
-    is deep in it, and BLOCKED.
+    The result is (FREE, STEEP, ON_SLOPE or BLOCKED; SHAPE row number of the shape with this result or -1; its slope).
+    The order is FREE < STEEP < ON_SLOPE < BLOCKED. If each part of a static mask leaves the contact to a neighbouring
+    part, the position is deep in the mask, and the result is BLOCKED. rows: see gather; other arguments: see in_shape.
     """
     result = FREE
     by = -1

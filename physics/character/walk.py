@@ -1,4 +1,4 @@
-"""Motion of one character pixel by pixel: slopes, contacts, pushing."""
+"""Motion of one character, pixel by pixel: walking, slopes, falling, pushing, and the contacts after the motion."""
 
 import math
 
@@ -33,11 +33,11 @@ from physics.tables.table import row_of
 
 @subkernel
 def rise_onto(walk, me, rows, direction, slope):
-    """Return how many pixels a character must rise to step one pixel aside onto walkable ground; -1 if it cannot.
+    """Return by how many pixels a character must rise to step one pixel sideways onto walkable ground; -1: it cannot.
 
-    me: row number in CHARACTER; rows: nearby solids, see solids.gather; direction: -1 left, 1 right; slope: rise of
-    this ground per px. The rise may exceed the slope by half a pixel, because of corners of outlines on steps of
-    pixels. Ground that is too steep to walk on does not count, even if it holds the character.
+    The rise may exceed that of the slope by half a pixel, because outlines have corners on steps of pixels. Ground that
+    is too steep to walk on does not count. walk: see solids.Walk; me: row number of the character; rows: nearby solids,
+    see solids.gather; direction: -1 left, 1 right; slope: rise of the ground per px.
     """
     c = walk.characters[me]
     most = pixels_along(abs(slope) + 0.5)
@@ -57,10 +57,11 @@ def rise_onto(walk, me, rows, direction, slope):
 
 @subkernel
 def way_aside(walk, me, rows, direction):
-    """Return (pixels up, blocking shape row or -1, slope of the ground) for a character's move by one pixel to a side.
+    """Test a character's move by one pixel to the left or right. Return (pixels up, SHAPE row of the blocker, slope).
 
-    Pixels up: 0 on level ground, -1 if the move is blocked. me: row number in CHARACTER; rows: nearby solids, see
-    solids.gather; direction: -1 left, 1 right; walk: see solids.Walk.
+    Pixels up: rise of the character, 0 on level ground, -1 if the move is blocked. SHAPE row of the blocker: -1: none.
+    Slope: rise per px of the slope that the character meets, else 0. walk: see solids.Walk; me: row number of the
+    character; rows: nearby solids, see solids.gather; direction: -1 left, 1 right.
     """
     c = walk.characters[me]
     what, by, slope = blocked_at(walk, me, rows, c.left + direction, c.top, direction, 0, 0.0)
@@ -73,11 +74,11 @@ def way_aside(walk, me, rows, direction):
 
 @subkernel
 def drop_onto(walk, me, rows, left, onto):
-    """Return (pixels down to walkable ground, slope of this ground), or (0, 0) without such ground.
+    """Return (pixels down from a character to walkable ground, slope of this ground), or (0, 0) without such ground.
 
-    me: row number in CHARACTER; rows: nearby solids, see solids.gather; left: pixel column of the character; onto:
-    slope of the ground that the character leaves. If `onto` is 0, that ground is flat and only slopes are found.
-    Otherwise flat ground is also found, down to one pixel plus the rise of `onto`.
+    onto: slope of the ground that the character leaves. If it is 0, only slopes are found; otherwise flat ground is
+    also found, if it is at most one pixel plus the rise of `onto` lower. walk: see solids.Walk; me: row number of the
+    character; rows: nearby solids, see solids.gather; left: pixel column of the character.
     """
     c = walk.characters[me]
     for drop in range(pixels_along(c.climb) + 1):
@@ -99,8 +100,8 @@ def drop_onto(walk, me, rows, left, onto):
 def is_wedged(walk, me, rows, slope):
     """Return whether a solid at the foot of a slope stops a character that slides down the slope.
 
-    me: row number in CHARACTER; rows: nearby solids, see solids.gather; slope: rise per px to the right; walk: see
-    solids.Walk.
+    walk: see solids.Walk; me: row number of the character; rows: nearby solids, see solids.gather; slope: rise of the
+    slope per px to the right.
     """
     c = walk.characters[me]
     side = -1 if slope > 0.0 else 1
@@ -110,10 +111,10 @@ def is_wedged(walk, me, rows, slope):
 
 @subkernel
 def steep_below(walk, me, rows, slope):
-    """Return the slope of the ground just below a sliding character if it is too steep to walk on, else 0.
+    """Return the slope of the ground just below a sliding character if this ground is too steep to walk on, else 0.
 
-    The search goes down by the drop of `slope` over one pixel along x. me: row number in CHARACTER; rows: nearby
-    solids, see solids.gather.
+    The search ends at the drop of `slope` over one pixel along x. walk: see solids.Walk; me: row number of the
+    character; rows: nearby solids, see solids.gather; slope: slope down which the character slides.
     """
     c = walk.characters[me]
     for drop in range(1, pixels_along(slope) + 1):
@@ -125,9 +126,9 @@ def steep_below(walk, me, rows, slope):
 
 @subkernel
 def slide_of(slope):
-    """Return (pixels along x, pixels down) that a character slides down a slope for each pixel of a free fall.
+    """Return (pixels along x, pixels down) by which a character slides on a slope for each pixel of a free fall.
 
-    The pixels along x are negative to the left. slope: rise per px to the right.
+    Pixels along x are negative to the left. slope: rise per px to the right.
     """
     length = math.sqrt(1.0 + slope * slope)
     sine = slope / length
@@ -136,11 +137,11 @@ def slide_of(slope):
 
 @subkernel
 def slide_gently(me, rows, pixels, slope, walk_inout):
-    """Slide down ground that is too steep to walk on but flatter than 45 degrees, in place of a fall of `pixels`.
+    """Slide a character down ground that is too steep to walk on but flatter than 45 degrees, instead of a free fall.
 
-    The character moves pixel by pixel along x. me: row number in CHARACTER; rows: nearby solids, see solids.gather;
-    slope: rise of the ground per px to the right. Return True if nothing stopped the character. walk_inout: see
-    solids.Walk.
+    Return True if nothing stopped the character. It moves pixel by pixel along x. me: row number of the character;
+    rows: nearby solids, see solids.gather; pixels: length of the free fall; slope: rise of the ground per px to the
+    right; walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     aside, down = slide_of(slope)
@@ -168,9 +169,9 @@ def slide_gently(me, rows, pixels, slope, walk_inout):
 
 @subkernel
 def tile_slope(walk, row, x, y):
-    """Return the slope (rise per px to the right) of a tile grid at a point [px]; 0 if there is no slope tile.
+    """Return the slope (rise per px to the right) of the slope tile at a world point (x, y) [px]; 0 for other tiles.
 
-    row: row number of the grid in SHAPE; walk: see solids.Walk.
+    walk: see solids.Walk; row: SHAPE row number of the tile grid.
     """
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -185,9 +186,10 @@ def tile_slope(walk, row, x, y):
 
 @subkernel
 def slope_under_box(walk, me, row):
-    """Return the slope of the tile under the middle of a box's feet or, if that is 0, under an end of the feet.
+    """Return the slope of the tile under the middle of the feet of a box-shaped character.
 
-    me: row number of the box in CHARACTER; row: row number of the tile grid in SHAPE; walk: see solids.Walk.
+    If this slope is 0, return the slope under the left end of the feet; if that is 0 too, under the right end. walk:
+    see solids.Walk; me: row number of the character; row: SHAPE row number of the tile grid.
     """
     c = walk.characters[me]
     bottom = c.top + c.height + 0.5
@@ -203,8 +205,8 @@ def slope_under_box(walk, me, row):
 def speed_under(walk, row, x, y):
     """Return the surface speed [px/s] of a shape at the point (x, y) [px] where a character stands on it.
 
-    row: row number in SHAPE. The speed is along the tangent, and positive to the right on a floor (Box2D's tangent
-    speed). walk: see solids.Walk.
+    The speed is along the tangent, and positive to the right on a floor (Box2D: tangent speed). walk: see solids.Walk;
+    row: SHAPE row number.
     """
     s = walk.shapes[row]
     if s.kind != CHAIN:
@@ -228,9 +230,9 @@ def speed_under(walk, row, x, y):
 
 @subkernel
 def feel_ground(me, walk_inout):
-    """Write whether a character is grounded, the body that supports it, and the slope and surface speed of its ground.
+    """Write to a CHARACTER row whether the character is grounded, and the body, slope and surface speed of its ground.
 
-    me: row number in CHARACTER; walk_inout.found: the nearby shapes.
+    me: row number of the character; walk_inout: see solids.Walk, with the nearby shapes in walk_inout.found.
     """
     c = walk_inout.characters[me]
     what, by, slope = blocked_at(walk_inout, me, walk_inout.found, c.left, c.top + 1, 0, 1, 0.0)
@@ -259,9 +261,9 @@ def feel_ground(me, walk_inout):
 
 @subkernel
 def feel(me, walk_inout):
-    """Write the ground and the wall that a character touches, from the nearby shapes in walk_inout.found.
+    """Write the ground and the wall that a character touches to its CHARACTER row.
 
-    me: row number in CHARACTER.
+    me: row number of the character; walk_inout: see solids.Walk, with the nearby shapes in walk_inout.found.
     """
     c = walk_inout.characters[me]
     feel_ground(me, walk_inout)
@@ -278,10 +280,10 @@ def feel(me, walk_inout):
 
 @subkernel
 def depth_in(me, row, walk_inout):
-    """Return (depth [px], nx, ny) of the overlap of a character with a loose shape (solids.is_loose).
+    """Return the overlap (depth [px], nx, ny) of a character with a loose shape (see solids.is_loose).
 
-    nx, ny: unit normal from the character; me: row number in CHARACTER; row: row number in SHAPE. walk_inout: see
-    solids.Walk.
+    nx, ny: unit normal from the character into the shape; me: row number of the character; row: SHAPE row number;
+    walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     if walk_inout.shapes[row].kind == CHAIN:
@@ -293,9 +295,9 @@ def depth_in(me, row, walk_inout):
 
 @subkernel
 def is_in_drawn(me, row, walk_inout):
-    """Return whether a shape overlaps a character on the pixel grid, so that it would block a move in some direction.
+    """Return whether a shape overlaps a character at its present position, so that it blocks a move in some direction.
 
-    me, row: row numbers in CHARACTER and SHAPE. walk_inout: see solids.Walk.
+    me: row number of the character; row: SHAPE row number; walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     for side in range(-1, 2, 2):
@@ -310,10 +312,10 @@ def is_in_drawn(me, row, walk_inout):
 
 @subkernel
 def is_crushed(me, all_kinds, walk_inout):
-    """Return whether a moving solid overlaps a character; if the solid is loose, by more than GIVE. O(nearby solids).
+    """Return whether a moving solid overlaps a character, a loose solid by more than GIVE. O(nearby solids).
 
-    me: row number in CHARACTER; all_kinds: True to test dynamic bodies too, False for kinematic bodies only.
-    walk_inout: see solids.Walk.
+    me: row number of the character; all_kinds: True: test kinematic and dynamic bodies; False: test only kinematic
+    bodies; walk_inout: see solids.Walk.
     """
     gather(walk_inout, me, -1, 0.0, 0.0, 0.0, walk_inout.found)
     for k in range(1, walk_inout.found[0] + 1):
@@ -343,9 +345,9 @@ PACE = 2  # [px] moved out of a solid in one move: about the push-out of overlap
 
 @subkernel
 def keep_still(walk, rows_inout):
-    """Keep only the shapes of static bodies in a list of shape rows.
+    """Remove the shapes of bodies that are not static from a list of SHAPE row numbers.
 
-    rows_inout: the list; its first entry is the number of the rows that follow. walk: see solids.Walk.
+    walk: see solids.Walk; rows_inout: the list; its first element is the number of row numbers that follow.
     """
     kept = 0
     for k in range(1, rows_inout[0] + 1):
@@ -358,9 +360,10 @@ def keep_still(walk, rows_inout):
 
 @subkernel
 def is_inside(me, walk_inout):
-    """Return whether a character overlaps a static solid. walk_inout.found: the nearby solids. O(nearby solids).
+    """Return whether a character overlaps a static solid. O(nearby solids).
 
-    Shapes of other bodies are removed from this list. me: row number in CHARACTER.
+    me: row number of the character; walk_inout: see solids.Walk. Its list walk_inout.found of nearby solids is reduced
+    to the shapes of static bodies.
     """
     c = walk_inout.characters[me]
     keep_still(walk_inout, walk_inout.found)
@@ -372,9 +375,10 @@ def is_inside(me, walk_inout):
 def lead_out(me, reach, walk_inout, moved_inout):
     """Move a character out of a static solid towards the nearest free position, by up to PACE pixels.
 
-    Of equally near positions, up comes before sideways, and sideways before down. The character does not move if there
-    is no free position within `reach` [px]. me: row number in CHARACTER; moved_inout: the pixels moved are added, see
-    walk. O(reach · nearby solids). walk_inout: see solids.Walk.
+    Of equally near positions, one above is preferred to one at a side, and one at a side to one below. The character
+    does not move if there is no free position within `reach` [px]. me: row number of the character; walk_inout: see
+    solids.Walk; moved_inout: (4,) the pixels moved along x and y are added to elements 0 and 1. O(reach · nearby
+    solids).
     """
     c = walk_inout.characters[me]
     rows = walk_inout.found
@@ -413,10 +417,10 @@ def lead_out(me, reach, walk_inout, moved_inout):
 
 @subkernel
 def push_body(me, row, direction, speed, left, walk_inout):
-    """Push one body towards a speed [px/s] along x, by an impulse of at most `left`. Return the unused part of `left`.
+    """Push one body towards a speed [px/s] along x, by an impulse of at most `left` [mass px/s].
 
-    me, row: row numbers of the character in CHARACTER and of the body's shape in SHAPE; direction: -1 left, 1 right.
-    walk_inout: see solids.Walk.
+    Return the unused part of `left`. me: row number of the character; row: SHAPE row number of the body's shape;
+    direction: -1 left, 1 right; walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     b = walk_inout.bodies[walk_inout.shapes[row].body_row]
@@ -442,10 +446,10 @@ def push_body(me, row, direction, speed, left, walk_inout):
 
 @subkernel
 def shove(me, direction, speed, walk_inout):
-    """Push the bodies next to a character until they have the speed [px/s] of its move, as far as its strength allows.
+    """Push the dynamic bodies beside a character towards the speed of its move, by at most an impulse mass · push · dt.
 
-    The push is a force over the coming step, so sufficient friction holds a body in place. me: row number in CHARACTER;
-    direction: -1 left, 1 right. walk_inout: see solids.Walk.
+    The push is a force during the next step, so sufficient friction keeps a body at rest. me: row number of the
+    character; direction: -1 left, 1 right; speed: speed of the move along x [px/s]; walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     speed += walk_inout.bodies[c.body_row].vx  # the speed of its carrier
@@ -464,19 +468,19 @@ def shove(me, direction, speed, walk_inout):
 
 @subkernel
 def foot_of(c, s):
-    """Return the point (x, y) [px] at which the feet of a character (row c) stand on a shape (row s).
+    """Return the point (x, y) [px] at which the feet of a character (CHARACTER row c) stand on a shape (SHAPE row s).
 
-    It is the middle of the feet, or the nearest point to it along x that is within the shape's AABB.
+    It is the middle of the feet, moved along x into the shape's AABB if it is outside.
     """
     return min(max(c.left + 0.5 * c.width, s.min_x), s.max_x), float(c.top + c.height)
 
 
 @subkernel
 def knock(me, row, direction, speed, walk_inout):
-    """Apply the inelastic impact of a character that lands on a body, or hits it from below with its head.
+    """Apply the inelastic impact of a character that lands on a body, or hits the body from below with its head.
 
-    me, row: row numbers of the character in CHARACTER and of the body's shape in SHAPE; direction: 1 for a landing, -1
-    for the head; speed [px/s]: speed of the character along y, positive down. walk_inout: see solids.Walk.
+    me: row number of the character; row: SHAPE row number of the body's shape; direction: 1 for a landing, -1 for a hit
+    from below; speed: velocity of the character along y [px/s], positive down; walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     x, y = foot_of(c, walk_inout.shapes[row])
@@ -496,11 +500,12 @@ def knock(me, row, direction, speed, walk_inout):
 
 @kernel
 def press(shapes, gravity_x, gravity_y, slow, characters_inout, bodies_inout):
-    """Apply the weight of characters to the awake dynamic bodies that they stand on. O(characters · log shapes).
+    """Apply the weight of characters to the awake dynamic bodies on which they stand. O(characters · log shapes).
 
-    Store the point under the feet [px] of each character, and give its body the velocity of the ground there. Ground
-    that is slower than `slow` [px/s] is an exception: it is coming to rest, and must not be kept awake. gravity_x,
-    gravity_y [px/s2]. characters_inout: CHARACTER table; bodies_inout: BODY table.
+    Also store the point under the feet of each character [px], and set the velocity of the character's body to that of
+    the ground at this point. Ground slower than `slow` [px/s] is an exception, because the velocity would keep it
+    awake. shapes: SHAPE table; gravity_x, gravity_y [px/s²]; characters_inout: CHARACTER table; bodies_inout: BODY
+    table.
     """
     for me in range(len(characters_inout)):
         c = characters_inout[me]
@@ -526,17 +531,17 @@ def press(shapes, gravity_x, gravity_y, slow, characters_inout, bodies_inout):
 
 @subkernel
 def is_between(manifold, first, second):
-    """Return whether a CONTACT row is between the bodies with the ids `first` and `second`, in either order."""
+    """Return whether a contact (CONTACT row) is between the bodies with the ids `first` and `second`, in any order."""
     m = manifold
     return (m.body_a == first and m.body_b == second) or (m.body_b == first and m.body_a == second)
 
 
 @kernel
 def write_weight(characters, weight_rate, manifolds_inout):
-    """Write the weight of characters as normal impulses to their contacts with the ground.
+    """Write the weight of characters as normal impulses to the contacts with the bodies on which they stand.
 
-    weight_rate [px/s]: gravity times the length of the step. All points of a character's contacts share its weight
-    equally. O(characters · contacts). manifolds_inout: CONTACT rows.
+    The weight of a character is divided equally among all points of these contacts. characters: CHARACTER table;
+    weight_rate: gravity times the length of the step [px/s]; manifolds_inout: CONTACT rows. O(characters · contacts).
     """
     for me in range(len(characters)):
         c = characters[me]
@@ -563,16 +568,17 @@ def write_weight(characters, weight_rate, manifolds_inout):
 
 @subkernel
 def whole_pixels(remainder):
-    """Return `remainder` [px], the part of a motion that is not yet made, rounded to the nearest whole number."""
+    """Return `remainder` [px], the part of a motion that has not been made yet, rounded to the nearest whole number."""
     return math.floor(remainder + 0.5)
 
 
 @subkernel
 def way_for_pushed(by, direction, walk_inout):
-    """Return (row of the character that blocks a move, pixels that it must rise to be pushed one pixel along x).
+    """Return (row number of the character that blocks a move, pixels that it must rise to be pushed one pixel along x).
 
-    by: shape row that blocks the move; direction: -1 left, 1 right. The first value is -1 if `by` does not belong to a
-    character; the second is -1 if this character cannot move. walk_inout: see solids.Walk.
+    The first value is -1 if the shape `by` does not belong to a character; the second is -1 if that character cannot be
+    pushed. by: SHAPE row number of the shape that blocks the move; direction: -1 left, 1 right; walk_inout: see
+    solids.Walk.
     """
     other = character_of(walk_inout.characters, walk_inout.shapes[by].body)
     if other < 0:
@@ -584,10 +590,10 @@ def way_for_pushed(by, direction, walk_inout):
 
 @subkernel
 def step_sideways(me, direction, follow, walk_inout):
-    """Move a character one pixel along x, and push a pushable character in front of it. Return whether it moved.
+    """Move a character one pixel along x, if it is not blocked, and push a pushable character in front of it.
 
-    The character also moves up a slope, and if `follow` is 1 down a slope. me: row number in CHARACTER; direction: -1
-    left, 1 right. walk_inout: see solids.Walk.
+    Return whether the character `me` moved. It also moves up a slope and, if `follow` is 1, down a slope. me: row
+    number of the character; direction: -1 left, 1 right; walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     rows = walk_inout.found
@@ -620,8 +626,8 @@ def step_sideways(me, direction, follow, walk_inout):
 def walk_along(me, dx, follow, walk_inout, moved_out):
     """Move a character along x by dx [px], pixel by pixel, and push bodies in front of it by impulses.
 
-    me: row number in CHARACTER; follow: 1 to stay on ground that goes down; walk_inout: see solids.Walk. moved_out
-    (4,): result of walk; element 2 is set to 1 if the character was stopped.
+    me: row number of the character; follow: 1: move down with the ground, 0: do not; walk_inout: see solids.Walk;
+    moved_out: (4,) result of walk; element 2 is set to 1 if the character was stopped.
     """
     c = walk_inout.characters[me]
     c.remainder_x += dx
@@ -641,9 +647,9 @@ def walk_along(me, dx, follow, walk_inout, moved_out):
 
 @subkernel
 def slide_pixel(me, slope, walk_inout):
-    """Move a character one pixel sideways, down a slope that is too steep to walk on.
+    """Move a character one pixel sideways, down a slope that is too steep to walk on, if that pixel is free.
 
-    me: row number in CHARACTER; slope: rise of the ground per px to the right. Return whether the pixel was free.
+    Return whether it was free. me: row number of the character; slope: rise of the ground per px to the right;
     walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
@@ -656,11 +662,11 @@ def slide_pixel(me, slope, walk_inout):
 
 @subkernel
 def fall_or_rise(me, dy, walk_inout, moved_out):
-    """Move a character along y by dy [px], pixel by pixel, with impacts on bodies that it hits.
+    """Move a character along y by dy [px], pixel by pixel, and apply its impacts on bodies that it hits.
 
-    On ground too steep to walk on the character slides down, by the component of dy along the slope. me: row number in
-    CHARACTER; walk_inout: see solids.Walk. moved_out (4,): result of walk; element 3 is set to 1 if the character was
-    stopped.
+    On ground that is too steep to walk on, the character slides down by the component of dy along the slope. me: row
+    number of the character; walk_inout: see solids.Walk; moved_out: (4,) result of walk; element 3 is set to 1 if the
+    character was stopped.
     """
     c = walk_inout.characters[me]
     rows = walk_inout.found
@@ -712,9 +718,9 @@ def fall_or_rise(me, dy, walk_inout, moved_out):
 def walk(me, dx, dy, walk_inout, moved_out):
     """Move a character by (dx, dy) [px], x first, and write its contacts. Return whether it overlaps a static solid.
 
-    In that case the caller must lead it out, see lead_out. me: row number in CHARACTER. moved_out (4,): pixels moved
-    along x, along y; 1 if the character was stopped along x, along y. O(pixels · nearby solids). walk_inout: see
-    solids.Walk.
+    If it does, the caller must call lead_out. me: row number of the character; walk_inout: see solids.Walk; moved_out:
+    (4,) pixels moved along x, pixels moved along y, 1 if stopped along x, 1 if stopped along y. O(pixels · nearby
+    solids).
     """
     c = walk_inout.characters[me]
     reach = 3.0 + abs(dx) + abs(dy)
@@ -737,9 +743,10 @@ def walk(me, dx, dy, walk_inout, moved_out):
 
 @kernel
 def is_stopped(me, along_x, along_y, walk_inout):
-    """Return whether a character could not move by (along_x, along_y) pixels, each -1, 0 or 1. It is not moved.
+    """Return whether a character can move neither by along_x pixels along x nor by along_y pixels along y.
 
-    me: row number in CHARACTER. walk_inout: see solids.Walk.
+    The character is not moved. For a direction (0, 0) the result is False. me: row number of the character; along_x,
+    along_y: -1, 0 or 1; walk_inout: see solids.Walk.
     """
     c = walk_inout.characters[me]
     gather(walk_inout, me, -1, 3.0, 3.0 + STEEPEST_CLIMB, 3.0, walk_inout.found)
