@@ -1,13 +1,13 @@
-"""Kernels: plain functions over tables and scalars, compiled or run as plain Python.
+"""Kernels: functions over tables and numbers that are compiled by numba or run as plain Python.
 
-Only this folder imports numba, and only when it is needed. With numba a kernel is compiled at its first call and stored
-on disk. Without numba the same source is called with views of the tables and arrays (plain.py). A program may opt in to
-background compilation (tiers.py). Then a kernel runs as plain Python until its compiled form is available. Both forms
-give the same bits.
+Only this folder imports numba, and only when it is needed. With numba, a kernel is compiled at its first call and
+stored on disk. Without numba, the same function is called with views of the tables and arrays (plain.py). A program can
+opt in to background compilation (tiers.py): a kernel then runs as plain Python until its compiled form is available.
+Compiled and plain kernels return bit-identical results.
 
 There are five decorators: `kernel` for functions that a stage calls with arrays; `generic` for functions that are
 called with arrays of several types; `subkernel` for functions that only kernels call; `inlined` for subkernels that are
-inlined at every call; `noalias` for subkernels whose arrays never overlap. Python can call the compiled form only of
+inlined at every call; `noalias` for subkernels whose arrays never overlap. Python can call compiled forms only of
 `kernel` and `generic` functions.
 """
 
@@ -28,29 +28,29 @@ DECORATORS = ("generic", "inlined", "kernel", "noalias", "subkernel")  # their n
 
 
 def subkernel(function: Callable) -> Any:
-    """Decorator: make a function that only kernels call. Return a Part, or without numba the function itself."""
+    """Decorate a function that only kernels call. Return a Part, or the function itself if numba is not used."""
     return Part(function) if JIT else function
 
 
 def inlined(function: Callable) -> Any:
-    """Decorator: make a subkernel that is inlined at every call. A loop that contains a call is not vectorised."""
+    """Decorate a subkernel that is to be inlined at every call, because a loop with a call is not vectorised."""
     return Part(function, is_inlined=True) if JIT else function
 
 
 def noalias(function: Callable) -> Any:
-    """Decorator: make a subkernel whose arrays never overlap, so that a loop over two of them is vectorised."""
+    """Decorate a subkernel whose array arguments never overlap in memory, so that loops over them are vectorised."""
     return Part(function, noalias=True) if JIT else function
 
 
 def kernel(function: Callable) -> Any:
-    """Decorator: make a kernel, which a stage calls with tables, arrays and scalars, always of the same types."""
+    """Decorate a function that a stage calls with tables, arrays and numbers, always of the same types."""
     return StageKernel(function) if JIT else _viewing(function)
 
 
 def generic(function: Callable) -> Any:
-    """Decorator: make a kernel that is called with arguments of several types.
+    """Decorate a function that a stage calls with arguments of several types.
 
-    There is one compiled form for each list of types, which is looked up in every call.
+    A compiled form is made for each list of types, and looked up in every call.
     """
     return StageKernel(function, is_generic=True) if JIT else _viewing(function)
 

@@ -1,6 +1,6 @@
-"""Compiled forms of kernels and of the parts that they call: loaded from the store, or compiled and stored.
+"""Compilation of kernels and of their parts: a compiled form is loaded from the store, or compiled and stored.
 
-This module imports numba.
+A part is a kernel that only kernels call. This module imports numba.
 """
 
 import hashlib
@@ -39,9 +39,9 @@ from physics.jit.store import store
 
 
 class PartLibrary(codegen.JITCodeLibrary):
-    """The code of a part (a kernel that only kernels call), which is linked into the code of its callers.
+    """The LLVM code of a part (a kernel that only kernels call), which is linked into the code of the part's callers.
 
-    The calls in it are resolved, but the code is neither optimised nor executable.
+    Calls in this code are resolved, but the code is neither optimised nor executable.
     """
 
     def _optimize_final_module(self):
@@ -52,12 +52,12 @@ class PartLibrary(codegen.JITCodeLibrary):
         self._finalized = True
 
     def bitcode(self) -> bytes:
-        """Return the LLVM bitcode, which the store keeps."""
+        """Return the code as LLVM bitcode, for the store."""
         return self._get_module_for_linking().as_bitcode()
 
     @classmethod
     def from_bitcode(cls, generator: Any, name: str, code: bytes) -> "PartLibrary":
-        """Return the library whose bitcode was stored. generator: a numba CPUCodegen; name: name of the library."""
+        """Return a PartLibrary made from stored bitcode. generator: a numba CPUCodegen; name: name of the library."""
         library = cls(generator, name)
         library._final_module = library._shared_module = llvm.parse_bitcode(code)
         library._finalized = True
@@ -71,7 +71,10 @@ class PartLowering(typed_passes.NativeLowering):
     _name = "part_lowering"
 
     def run_pass(self, state: Any) -> bool:
-        """Lower the function as numba does, but without making machine code, so that the function has no address."""
+        """Lower the function to LLVM code as numba does, but generate no machine code. Return True.
+
+        state: numba's compiler state. The entry point of the result is a placeholder without an address, see entry_of.
+        """
         state.library = PartLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
         state.flags.no_compile = True
         state.flags.noalias = getattr(state.func_id.func, "noalias", False)
@@ -85,10 +88,10 @@ class PartLowering(typed_passes.NativeLowering):
 
 
 class PartCompiler(CompilerBase):
-    """Numba's compiler pipeline, with PartLowering as its last pass."""
+    """Numba's compiler pipeline with PartLowering in place of the native lowering pass."""
 
     def define_pipelines(self) -> list:
-        """Return a list of one pipeline: numba's own, with the last pass replaced."""
+        """Return [pipeline]: numba's nopython pipeline with PartLowering in place of NativeLowering."""
         manager = DefaultPassBuilder.define_nopython_pipeline(self.state)
         manager.add_pass_after(PartLowering, typed_passes.NativeLowering)
         manager.passes = [each for each in manager.passes if each[0] is not typed_passes.NativeLowering]
@@ -97,18 +100,18 @@ class PartCompiler(CompilerBase):
 
 
 def entry_of(descriptor: Any, environment: Any, library: PartLibrary) -> Any:
-    """Return the function object by which numba identifies a compiled part. It is never called and has no address.
+    """Return a placeholder function object by which numba identifies a compiled part. It is never called.
 
-    descriptor, environment: numba's objects of the part; library: its code.
+    descriptor, environment: numba's function descriptor and environment of the part; library: the part's code.
     """
     name = descriptor.qualname.split(".")[-1]
     return _dynfunc.make_function(descriptor.lookup_module(), name, "", 0, environment, (library,))
 
 
 def reduce(result: Any) -> tuple:
-    """Return the data of a part's CompileResult that the store keeps, as a tuple that can be pickled.
+    """Convert a part's CompileResult to a tuple that can be pickled, for the store. The inverse is rebuild.
 
-    Inverse: rebuild.
+    result: numba's CompileResult of the part.
     """
     descriptor = result.fndesc
     descriptor.typemap = descriptor.calltypes = None  # these cannot always be pickled
@@ -116,7 +119,7 @@ def reduce(result: Any) -> tuple:
 
 
 def rebuild(target_context: Any, kept: tuple) -> Any:
-    """Return a part's CompileResult from `kept`, the result of reduce. target_context: numba's target context."""
+    """Convert `kept`, a result of reduce, back to a part's CompileResult. target_context: numba's target context."""
     name, code, descriptor, environment, signature = kept
     library = PartLibrary.from_bitcode(target_context.codegen(), name, code)
     return compile_result(
@@ -150,23 +153,23 @@ READABLE = 48  # characters of a kernel's name in the name of its file
 
 
 def file_name(kernel: Kernel, types_text: str) -> str:
-    """Return the name of a compiled form in the store: readable name, fingerprint of the kernel, hash of its types.
+    """Return the file name of a kernel's compiled form in the store: readable name, fingerprint, hash of the types.
 
-    types_text: the types of the arguments as text.
+    types_text: the types of the kernel's arguments, as text.
     """
     readable = f"{kernel.__module__.partition('.')[2]}.{kernel.__name__}"[-READABLE:]
     return f"{readable}.{fingerprint(kernel)}.{hashlib.blake2b(types_text.encode(), digest_size=8).hexdigest()}"
 
 
 def name_of(kernel: Kernel, keys: Keys) -> str:
-    """Return the name in the store of a kernel that stages call, compiled for arguments of the types `keys`."""
+    """Return the file name in the store of a kernel's compiled form for arguments of the types `keys`."""
     return file_name(kernel, ",".join(map(text_of, keys)))
 
 
 def load(kernel: Kernel, keys: Keys) -> Form | None:
-    """Return the compiled form of a kernel from the store, or None if the store does not have it.
+    """Load the compiled form of a kernel from the store, and return it; return None if it is not stored.
 
-    keys: types of the arguments.
+    keys: types of the kernel's arguments.
     """
     content = store().read(name_of(kernel, keys))
     if content is None:
@@ -179,9 +182,9 @@ def load(kernel: Kernel, keys: Keys) -> Form | None:
 
 
 def load_or_compile(kernel: Kernel, keys: Keys) -> Form:
-    """Return the compiled form of a kernel from the store. If it is not there, compile and store it.
+    """Return the compiled form of a kernel. Load it from the store; if it is not stored, compile and store it.
 
-    keys: types of the arguments.
+    keys: types of the kernel's arguments.
     """
     form = load(kernel, keys)
     if form is None:
@@ -201,9 +204,9 @@ def _compile(kernel, keys):
 
 
 def _kept(result):
-    """Return the data of a compiled kernel that the store keeps: names, constants of its entry, machine code.
+    """Convert a kernel's CompileResult to a tuple for the store: names, constants of environments, machine code.
 
-    result: numba's CompileResult.
+    result: numba's CompileResult of the kernel.
     """
     descriptor = result.fndesc
     constants = [
@@ -220,7 +223,7 @@ def _kept(result):
 
 
 def prepare() -> None:
-    """Start LLVM now, so that the first kernel that is loaded need not wait for it."""
+    """Initialise LLVM, so that the first load of a kernel does not have to wait for this."""
     with global_compiler_lock:
         _generator()
         _add_runtime_symbols()
@@ -233,7 +236,10 @@ def _generator() -> Any:
 
 
 def _link(kept):
-    """Link stored machine code into numba's engine, and return its function. kept: the result of _kept."""
+    """Link stored machine code into numba's execution engine, and return it as a Python function.
+
+    kept: a result of _kept.
+    """
     modname, qualname, symbol, env_name, constants, code = kept
     with global_compiler_lock:
         generator = _generator()
@@ -254,7 +260,10 @@ def _link(kept):
 
 
 def _environment(name, module, values):
-    """Return numba's environment `name` for compiled code: the globals of a module, and the constants `values`."""
+    """Return numba's Environment with a name, which contains data for compiled code. Make it if it does not exist.
+
+    module: name of the module whose globals the code uses; values: constants of the code.
+    """
     known = lookup_environment(name)
     if known is not None:
         return known
@@ -280,9 +289,10 @@ _UNDER_WAY = object()
 
 
 def dispatcher_of(kernel: Kernel) -> Any:
-    """Return numba's dispatcher for a kernel, in a copy whose calls of other kernels go to their dispatchers.
+    """Return numba's dispatcher for a kernel. It is made at the first call, and then cached.
 
-    Raises TypeError for a kernel that calls itself.
+    It compiles a copy of the kernel's function in which other kernels are replaced by their dispatchers. Raises
+    TypeError for a kernel that calls itself.
     """
     if kernel.dispatcher is _UNDER_WAY:
         raise TypeError(f"{kernel.name} calls itself, which kernels do not")
@@ -313,9 +323,9 @@ def _compiled_form_of(value):
 
 
 def _take_literals_as_values(dispatcher):
-    """Make a dispatcher compile one version for all calls with the same types, also if arguments are literals.
+    """Change a dispatcher, so that it compiles only one version for all calls with the same argument types.
 
-    Numba would compile a version for every literal argument. With this change the kernels of the platformer compile in
+    Numba would compile a version for each literal argument. With this change the kernels of the platformer compile in
     80 s of processor time instead of 136 s.
     """
     general = dispatcher.get_call_template
@@ -333,7 +343,7 @@ _claimed: dict[str, ExitStack] = {}  # file name -> release of the claim, for al
 
 @contextmanager
 def _claims():
-    """Context manager: at its end, release the claims (locks) on parts that an error has left behind."""
+    """Return a context manager that at its end releases all claims (locks) on parts, also after an error."""
     try:
         yield
     finally:
@@ -343,7 +353,7 @@ def _claims():
 
 
 class PartCache(caching._Cache):
-    """Numba's cache interface to the store, for the dispatcher of a part."""
+    """The store of compiled code as a cache in numba's interface, for the dispatcher of one part."""
 
     def __init__(self, kernel: Kernel) -> None:
         self.kernel = kernel
@@ -354,9 +364,10 @@ class PartCache(caching._Cache):
         return str(store().folder)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """Return a part from the store, or None if it is not there. sig: numba's signature of the part.
+        """Load the part from the store, and return its CompileResult; return None if it is not stored.
 
-        If None is returned, the part is claimed, so that other processes wait until this process has stored it.
+        If None is returned, the part is claimed (locked), so that other processes wait until this process has stored
+        it. sig: numba's signature of the part; target_context: numba's target context.
         """
         name = self._name(sig)
         content = store().read(name)
@@ -373,7 +384,10 @@ class PartCache(caching._Cache):
         return rebuild(target_context, pickle.loads(zlib.decompress(content)))
 
     def save_overload(self, sig: Any, data: Any) -> None:
-        """Store a compiled part, and release the claim on it."""
+        """Store the compiled part, and release the claim (lock) on it.
+
+        sig: numba's signature of the part; data: its CompileResult.
+        """
         name = self._name(sig)
         store().write(name, zlib.compress(pickle.dumps(reduce(data)), 1))
         if name in _claimed:
@@ -383,17 +397,17 @@ class PartCache(caching._Cache):
         return file_name(self.kernel, ",".join(map(_type_text, sig)))
 
     def enable(self) -> None:
-        """Do nothing, because the store is always on."""
+        """Do nothing, because the store is always enabled."""
 
     def disable(self) -> None:
-        """Do nothing, because the store is always on."""
+        """Do nothing, because the store is always enabled."""
 
     def flush(self) -> None:
-        """Do nothing, because no file is ever stale: its name contains a hash of its sources."""
+        """Do nothing, because no stored file becomes stale: the name of a file contains a hash of its sources."""
 
 
 def _type_text(found: Any) -> str:
-    """Return a numba type as text that is different for different types."""
+    """Return a numba type as text. Different types have different texts."""
     any_tuple, named_tuple = _tuple_types()
     if isinstance(found, named_tuple):
         kind = found.instance_class
@@ -409,7 +423,7 @@ def _tuple_types() -> Any:  # whose members numba does not declare
 
 @contextmanager
 def stable_symbols() -> Iterator[None]:
-    """Have numba name compiled functions by content, not by a counter of the process, while the context is open."""
+    """Return a context manager in which numba names compiled functions by their content, not by a process counter."""
     identity: Any = bytecode.FunctionIdentity
     counted = identity.__dict__["from_function"]
 
@@ -427,7 +441,7 @@ def stable_symbols() -> Iterator[None]:
 
 
 def _symbol(function):
-    """Return a unique name for a function's symbol: the hash of its content, or random digits if it has no hash."""
+    """Return a unique id for a function's symbol: the hash of its content, or random digits if it cannot be hashed."""
     content = getattr(function, "content", None)
     if content is not None:
         return content

@@ -1,9 +1,9 @@
-"""Fingerprints of kernels: hashes of all data on which their machine code depends, equal in every process.
+"""Fingerprints of kernels: hashes of all data on which the machine code of a kernel depends, equal in every process.
 
-A fingerprint covers the code of the kernel and of all functions that it calls or closes over, at any depth, with
-docstrings. It also covers closed-over values and module globals that it reads, its flags, the name of its module, and
-the sources of this folder. The environment is covered by the versions of Python, NumPy, numba and llvmlite, the
-processor and its features, bounds checks and SVML. Comments of kernels and line numbers are not covered.
+A fingerprint covers the code, with docstrings, of the kernel and of all functions that it calls or closes over, at any
+depth; closed-over values and module globals that the kernel reads; its flags; the name of its module; and the sources
+of this folder. It also covers the versions of Python, NumPy, numba and llvmlite, the processor and its features, bounds
+checks and SVML. It does not cover comments in kernels and line numbers.
 """
 
 import hashlib
@@ -28,18 +28,21 @@ _describing = threading.RLock()
 
 
 class NotHashable(TypeError):
-    """Error for a value whose hash would differ between processes, such as an address."""
+    """An error for a value whose hash would differ between processes, such as an address."""
 
 
 def fingerprint(kernel: Kernel) -> str:
-    """Return the hash of a kernel and of the environment that compiles it, as hexadecimal digits. Imports numba."""
+    """Return the fingerprint of a kernel as hexadecimal digits: a hash of its content and of environment().
+
+    This function imports numba.
+    """
     return _digest(environment(), content_of(kernel))
 
 
 def content_of(kernel: Kernel) -> str:
-    """Return the hash of a kernel's code and of everything that it refers to.
+    """Return a hash of a kernel's code and of all values to which the code refers, as hexadecimal digits.
 
-    Raises NotHashable for a value without a hash; the message names it.
+    Raises NotHashable if such a value cannot be hashed; the message contains the value.
     """
     with _describing:
         if kernel.content is None:
@@ -62,10 +65,10 @@ def _digest(*parts):
 
 
 def content_of_library(function: FunctionType) -> str:
-    """Return the hash of the code and the closure of one of numba's own functions that kernels call.
+    """Return a hash of the code and the closure of a function of numba itself, as hexadecimal digits.
 
-    The globals of the function's module are left out, because numba's version identifies them. Raises NotHashable for a
-    function of another package.
+    The globals of the function's module are not hashed, because numba's version identifies them. Raises NotHashable for
+    a function of another package.
     """
     return _digest(*_describe_library(function, ()))
 
@@ -110,7 +113,11 @@ def _describe_code(code):
 
 
 def _describe(value, names=()):
-    """Yield texts that are equal only for equal values. names: for a module, the attributes to describe."""
+    """Yield texts that describe a value; only equal values have equal texts.
+
+    names: if the value is a module, the names of its attributes to describe. Raises NotHashable for a value that cannot
+    be part of a kernel.
+    """
     kind = type(value)
     if value is None or kind in (bool, int, float, complex, str, bytes):
         yield f"{kind.__name__} {value!r}"
@@ -169,9 +176,10 @@ def _described_type(value):
 
 @cache
 def environment() -> str:
-    """Return, as text, all data besides the kernel on which machine code depends. Imports numba.
+    """Return a text with all data on which machine code depends, except the kernel itself.
 
-    The data are sources of this folder, versions, processor and numba's settings.
+    The data are the sources of this folder, versions of packages, the processor and numba's settings. This function
+    imports numba.
     """
     import llvmlite.binding as llvm
 

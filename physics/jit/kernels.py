@@ -1,4 +1,4 @@
-"""Kernels as objects, and the types of their arguments. This module does not import numba."""
+"""The class Kernel, and keys that describe the types of a kernel's arguments. This module does not import numba."""
 
 import math
 import os
@@ -27,7 +27,7 @@ _depth = 0
 
 @contextmanager
 def compiling() -> Iterator[None]:
-    """Context manager that adds its time to the seconds of compiling. Nested contexts count once."""
+    """Return a context manager that adds its time to `seconds` and 1 to `compiled`. Nested contexts count once."""
     global compiled, seconds, _depth
     started = perf_counter()
     _depth += 1
@@ -42,7 +42,7 @@ def compiling() -> Iterator[None]:
 
 @contextmanager
 def measured() -> Iterator[Callable[[], float]]:
-    """Context manager that yields a function. It returns the seconds of compiling and loading since the entry."""
+    """Return a context manager that yields a function () -> time [s] of compiling and loading since the yield."""
     before = seconds + loading
     yield lambda: seconds + loading - before
 
@@ -60,9 +60,9 @@ SCALARS = {bool: ("scalar", "bool"), int: ("scalar", "int64"), float: ("scalar",
 
 
 def key_of(value: Any) -> Key:
-    """Return the key of one argument: a tuple that names its type, see Key.
+    """Return the key of one argument of a kernel: a tuple that describes the type of the argument, see Key.
 
-    Raises TypeError for a type that kernels cannot have as an argument.
+    Raises TypeError for a type that an argument of a kernel cannot have.
     """
     kind = type(value)
     if kind is np.ndarray:
@@ -83,7 +83,7 @@ def key_of(value: Any) -> Key:
 
 
 def text_of(key: Key) -> str:
-    """Return a key as text that is equal in every process and different for different types."""
+    """Return a key as text. The text is the same in every process, and different keys have different texts."""
     if key[0] == "array":
         _, dtype, dimensions, layout, writeable = key
         return f"array({_dtype_text(dtype)},{dimensions},{layout},{'writeable' if writeable else 'readonly'})"
@@ -101,7 +101,7 @@ def _dtype_text(dtype):
 
 @cache
 def type_of(key: Key) -> Any:
-    """Return numba's type for the key of an argument. Imports numba."""
+    """Return the numba type that corresponds to a key. This function imports numba."""
     from numba import types
     from numba.np.numpy_support import from_dtype
 
@@ -115,7 +115,7 @@ def type_of(key: Key) -> Any:
 
 
 def is_whole(key: Key) -> bool:
-    """Return whether a key names an int or a bool. A kernel refuses a float for such an argument."""
+    """Return whether a key describes an int or a bool. A kernel raises TypeError if such an argument is a float."""
     return key[0] == "scalar" and not key[1].startswith("float")
 
 
@@ -129,9 +129,9 @@ registry: "list[Kernel]" = []  # every kernel, in the order of definition; empty
 
 
 class Kernel:
-    """A function over tables that can be compiled.
+    """A function over tables that can be compiled by numba or run as plain Python.
 
-    A call executes `run`, the present form of the kernel: a compiled form, or plain Python.
+    A call of a Kernel calls its attribute `run`, which is a compiled form or the plain Python function.
     """
 
     is_part = False
@@ -156,25 +156,22 @@ class Kernel:
 
     @property
     def name(self) -> str:
-        """The module and the qualified name of the function."""
+        """The qualified name of the function, with its module."""
         return f"{self.__module__}.{self.__qualname__}"
 
     @property
     def flags_text(self) -> str:
-        """The flags on which the machine code depends, as text."""
+        """The flags on which the kernel's machine code depends, as text."""
         return f"part={self.is_part} inlined={self.is_inlined} noalias={self.noalias}"
 
     @property
     def signatures(self) -> list[Keys]:
-        """The argument types of each compiled form."""
+        """A list with the argument types of each compiled form."""
         return list(self.forms)
 
     @property
     def plain(self) -> Form:
-        """The plain twin of the kernel: the same function as plain Python.
-
-        Its calls of other kernels go to their plain twins.
-        """
+        """The plain twin of the kernel: a Python function with the same code, which calls plain twins of kernels."""
         if self._plain is None:
             rebound(self.py_func, plain_form_of, self._note_plain)
         assert self._plain is not None
@@ -187,31 +184,35 @@ class Kernel:
         return f"<kernel {self.name}>"
 
     def reset(self) -> None:
-        """Make calls run the kernel as plain Python again."""
+        """Have calls run the kernel as plain Python again."""
         self.run = self.call_plain
 
     def call_plain(self, *arguments: Any) -> Any:
-        """Run the kernel as plain Python, on views of the arguments that return Python numbers."""
+        """Run the kernel as plain Python, and return its result.
+
+        Arrays are replaced by views whose elements are Python numbers, see plain.view_of.
+        """
         return self.plain(*[view_of(each) for each in arguments])
 
     def install(self, keys: Keys, form: Form) -> None:
-        """Keep a compiled form for arguments of the types `keys`."""
+        """Store a compiled form for arguments of the types `keys`."""
         self.forms[keys] = form
 
 
 class Part(Kernel):
-    """A kernel that has no compiled form of its own for Python: only other compiled kernels call it.
+    """A kernel that only other kernels call. Python cannot call its compiled form.
 
-    Python can call it as plain Python, with the same result.
+    A call from Python runs it as plain Python, with the same result.
     """
 
     is_part = True
 
 
 def plain_form_of(value: Any) -> Any:
-    """Return the object that replaces a global or closed-over value when a kernel runs as plain Python.
+    """Return the object that replaces a global or closed-over value in the plain twin of a kernel.
 
-    For a kernel it is the kernel's plain form, for most other values the value itself.
+    For a Kernel or Builtin it is the plain form, for the module math it is plain_math, for other values the value
+    itself.
     """
     if value is math:
         return plain_math

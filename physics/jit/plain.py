@@ -1,6 +1,6 @@
-"""Kernels without the compiler: views of tables, 64-bit words, and plain twins (kernels as plain Python functions).
+"""Plain Python forms of kernels: views of tables, 64-bit words, row copies, and plain twins of kernels.
 
-This module imports numba only when it is needed.
+A plain twin is a Python function with the code of a kernel. This module imports numba only when it is needed.
 """
 
 import math
@@ -30,7 +30,10 @@ _found: list[Any] = []  # numba, or None if it cannot be imported
 
 
 def compiler() -> Any:
-    """Return numba, imported at the first call, or None if it cannot be imported. A failure is reported once."""
+    """Import numba at the first call, and return the module; return None if it cannot be imported.
+
+    A failed import is reported once as a warning.
+    """
     if not _found:
         try:
             import numba
@@ -53,9 +56,9 @@ _kept: dict[int, tuple[ref, "TableView"]] = {}  # id of an array -> the array, a
 
 
 class TableView:
-    """View of a structured array for plain kernels: `view[i].x = 1.0` writes to row i of the array.
+    """A view of a structured array for plain kernels: `view[i].x = 1.0` writes to row i of the array.
 
-    Raises TypeError for a row type that C cannot hold.
+    Raises TypeError if a column is not numeric.
     """
 
     __slots__ = ("rows",)
@@ -74,9 +77,9 @@ class TableView:
 
 
 def _table_view(array):
-    """Return the TableView of a structured array. It is cached as long as the array exists.
+    """Return the TableView of a structured array. The view is cached as long as the array exists.
 
-    Most tables are used in many calls: the cache saves 10 % of a plain step (three games).
+    The cache saves 10 % of a plain step (three games), because most tables are used in many calls.
     """
     place = id(array)
     kept = _kept.get(place)
@@ -101,9 +104,10 @@ def _row_class(dtype):
 
 
 def view_of(argument: Any) -> Any:
-    """Return an argument in the form for plain kernels: TableView of a table, memoryview of an array, Python number.
+    """Convert an argument to its form for plain kernels, and return it.
 
-    Tuples are converted item by item.
+    A structured array becomes a TableView, any other array a memoryview, a NumPy number a Python number. Tuples are
+    converted item by item; other arguments are unchanged.
     """
     kind = type(argument)
     if kind is float or kind is int or kind is bool:
@@ -125,10 +129,10 @@ WORD_MASK = 0xFFFFFFFFFFFFFFFF
 
 
 class Builtin:
-    """A function that kernels call and that has separate forms for plain and compiled kernels.
+    """A function that kernels call, with separate forms for plain and for compiled kernels.
 
-    plain: the Python function. make: function that returns the form for numba. sources: functions whose code is part of
-    the fingerprint of every kernel that calls this function.
+    plain: the Python function for plain kernels; make: function that returns the form for numba; sources: functions
+    whose code is part of the fingerprint of every kernel that calls this Builtin.
     """
 
     def __init__(self, plain: Callable, make: Callable[[], Any], *sources: Callable) -> None:
@@ -140,7 +144,7 @@ class Builtin:
 
     @property
     def compiled(self) -> Any:
-        """The form for numba, made at its first use."""
+        """The form for compiled kernels, made at its first use."""
         if self.made is None:
             self.made = self.make()
         return self.made
@@ -155,7 +159,7 @@ def _masked(value):
 
 
 def _count_bits(typing_context, word):
-    """Return (type, code generator) for counting the set bits of a uint64, as numba.extending.intrinsic needs them."""
+    """Count the set bits of a word in compiled kernels. Return (type, code generator) for numba.extending.intrinsic."""
 
     def generate(context, builder, signature, args):
         narrow = signature.args[0].bitwidth < 64
@@ -167,14 +171,14 @@ def _count_bits(typing_context, word):
 
 
 def _as_word(value):
-    """Return the value as an unsigned 64-bit word."""
+    """Convert a value to an unsigned 64-bit word, and return it."""
     return np.uint64(value)
 
 
 def _total(function):
-    """Return `function`, a function of `math`, changed to return NaN at infinity, as compiled code does.
+    """Return a version of a `math` function that returns NaN for infinite arguments, as compiled code does.
 
-    `math` itself raises an error there.
+    The functions of `math` raise ValueError for infinite arguments.
     """
 
     def total(x):
@@ -194,7 +198,7 @@ def _make_popcount():
 
 
 def put_in(function: Callable) -> Callable[[], Any]:
-    """Return a `make` for Builtin: a function that returns numba's form of `function`, inlined at every call."""
+    """Return the argument `make` of a Builtin: a function that compiles `function` for inlining at every call."""
     return lambda: compiler().njit(inline="always")(function)
 
 
@@ -211,7 +215,7 @@ def _copy_head(source, row_out, size):
 
 
 def _row_copy(typing_context, source, row_out):
-    """Return (type, code generator) for copying a row to another row, as numba.extending.intrinsic needs them."""
+    """Copy a row to another row in compiled kernels. Return (type, code generator) for numba.extending.intrinsic."""
 
     def generate(context, builder, signature, args):
         from numba.core import cgutils
@@ -224,7 +228,7 @@ def _row_copy(typing_context, source, row_out):
 
 
 def _head_copy(typing_context, source, row_out, size):
-    """Return (type, code generator) for copying the first bytes of a row, as numba.extending.intrinsic needs them."""
+    """Copy the first bytes of a row to another row. Return (type, code generator) for numba.extending.intrinsic."""
 
     def generate(context, builder, signature, args):
         from numba.core import cgutils
@@ -264,7 +268,7 @@ Replace = Callable[[Any], Any]
 
 
 def names_in(code: CodeType) -> tuple[str, ...]:
-    """Return the names that a code object, and code nested in it, reads as globals or attributes, sorted."""
+    """Return the sorted names that a code object, or code nested in it, reads as globals or attributes."""
     names = set(code.co_names)
     for each in code.co_consts:
         if isinstance(each, CodeType):
@@ -273,7 +277,7 @@ def names_in(code: CodeType) -> tuple[str, ...]:
 
 
 def globals_of(function: FunctionType) -> Iterator[tuple[str, Any]]:
-    """Yield (name, value) of the module globals that a function may read, in the order of their names."""
+    """Yield (name, value) of each module global that a function may read, in the order of names."""
     for name in names_in(function.__code__):
         if name in function.__globals__:
             yield name, function.__globals__[name]
@@ -282,8 +286,8 @@ def globals_of(function: FunctionType) -> Iterator[tuple[str, Any]]:
 def rebound(function: FunctionType, replace: Replace, made: Callable[[FunctionType], Any] = lambda twin: None) -> Any:
     """Return a copy of a function in which every global and closed-over value is replaced by replace(value).
 
-    made(copy) is called before the values are replaced. So if the function refers to itself, `replace` can return the
-    copy for it.
+    made(copy) is called before the values are replaced. If the function refers to itself, `replace` can therefore
+    return the copy.
     """
     names = {"__builtins__": __builtins__, "__name__": function.__module__}
     cells = tuple(CellType() for _ in function.__closure__ or ())

@@ -1,8 +1,8 @@
-"""The store: compiled kernels on disk, in a private folder. The folder is checked before a file is loaded as code.
+"""The store of compiled kernels: files in a private folder, which is checked before a file is loaded as code.
 
-There is one file per kernel and argument types. The name of a file contains a hash of all data on which its contents
-depend, and the file starts with a checksum. Files are written by atomic replace. A file that was not used for KEPT is
-removed; if the folder exceeds LIMIT, the least recently used files are also removed.
+There is one file for each kernel and list of argument types. The name of a file contains a hash of all data on which
+its contents depend, and the file starts with a checksum. Files are replaced atomically. A file that was not used for
+KEPT [s] is deleted. If the folder is larger than LIMIT [bytes], the least recently used files are also deleted.
 """
 
 import atexit
@@ -39,7 +39,10 @@ _opening = threading.Lock()
 
 
 def cache_home() -> Path:
-    """Return the folder for compiled kernels: HITBOX_CACHE_DIR, or the platform's usual place. It is not created."""
+    """Return the path of the folder for compiled kernels, without creating the folder.
+
+    It is the environment variable HITBOX_CACHE_DIR, or else a subfolder of the platform's cache folder.
+    """
     override = os.environ.get("HITBOX_CACHE_DIR")
     if override:
         return Path(os.path.expanduser(override))
@@ -51,10 +54,10 @@ def cache_home() -> Path:
 
 
 def make_private(folder: Path) -> str:
-    """Make a folder that only this user can read and write. Return "", or the reason why that failed.
+    """Create a folder that only this user can read and write. Return "", or the reason if this failed.
 
-    An existing folder is not changed, with one exception: if it holds only kernels, read permission of other users is
-    removed.
+    An existing folder is not changed, with one exception: if it contains only kernels, other users' permission to read
+    it is removed.
     """
     try:
         for each in (*reversed(folder.parents), folder):
@@ -75,9 +78,9 @@ def make_private(folder: Path) -> str:
 
 
 def _exposed(folder):
-    """Return a message if another user could read or write code in the folder, else "".
+    """Return the reason if another user can write or read files in a folder, else "".
 
-    A folder that holds only kernels, and that others could only read, is made private instead.
+    If the folder contains only kernels and other users can only read it, it is made private instead.
     """
     info = folder.stat()
     if info.st_uid != os.getuid():
@@ -96,10 +99,10 @@ def _exposed(folder):
 
 
 def store() -> "Store":
-    """Return the store of this process: in the user's cache folder, in a folder next to it, or in a temporary folder.
+    """Return the Store of this process, which is made at the first call.
 
-    The first of these folders that is private and writable is used. If it is not the first, this is reported. The
-    temporary folder lasts for this run only.
+    Its folder is the first private and writable one of: cache_home(), a folder beside it, a temporary folder. If it is
+    not cache_home(), this is reported on standard error. The temporary folder is deleted at exit.
     """
     with _opening:
         return _open_store()
@@ -127,7 +130,7 @@ def _warn(where):
 
 
 def _remove_at_exit(folder):
-    """Have a temporary folder removed at exit. Until then a lock on a file in it marks it as in use."""
+    """Have a temporary folder deleted at exit. Until then, a lock on the file `in-use` in it marks it as in use."""
     lock = _locked(folder / "in-use", wait=False)
 
     def remove():
@@ -139,10 +142,10 @@ def _remove_at_exit(folder):
 
 
 def _locked(path, wait):
-    """Return a file opened with an exclusive lock, held until the file is closed; None if another process holds it.
+    """Open a file with an exclusive lock, and return it; return None if another process has locked it.
 
-    wait: whether to wait for the lock. On a system without such locks every process gets the file; then work may be
-    done twice.
+    The lock is released when the file is closed. wait: whether to wait for the lock. On a system without such locks
+    every process gets the file, so two processes may do the same work.
     """
     file = open(path, "ab")  # noqa: SIM115, closed by the owner of the lock
     if fcntl is None:
@@ -158,7 +161,7 @@ def _locked(path, wait):
 
 
 class Store:
-    """Compiled kernels as files in one private folder."""
+    """A store of compiled kernels, which are files in one private folder."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -166,7 +169,10 @@ class Store:
         self._swept = False
 
     def read(self, name: str) -> bytes | None:
-        """Return the contents of a stored file, or None if it is absent or damaged. Its use is recorded."""
+        """Return the contents of the file `name`, without the checksum; None if it is absent or damaged.
+
+        The use of the file is recorded at most once a day.
+        """
         path = self.folder / (name + SUFFIX)
         try:
             with open(path, "rb", opener=_no_link) as file:
@@ -189,16 +195,16 @@ class Store:
         return content[CHECKSUM:]
 
     def has(self, name: str) -> bool:
-        """Return whether a file of that name exists."""
+        """Return whether the file `name` exists in the store."""
         return (self.folder / (name + SUFFIX)).exists()
 
     @property
     def empty(self) -> bool:
-        """True if the folder holds no compiled kernel."""
+        """Whether the folder contains no compiled kernel."""
         return next(self.folder.glob("*" + SUFFIX), None) is None
 
     def write(self, name: str, content: bytes) -> None:
-        """Store contents under a name. A failure is reported once and otherwise ignored."""
+        """Write contents to the file `name`. A failure is reported once as a warning, and otherwise ignored."""
         path = self.folder / (name + SUFFIX)
         beside = self.folder / f"{name}.{os.getpid()}{UNFINISHED}"
         try:
@@ -217,9 +223,9 @@ class Store:
             warnings.warn(line, stacklevel=3)
 
     def sweep(self) -> None:
-        """Remove files unused for KEPT [s], the least recently used files beyond LIMIT [bytes], and unfinished files.
+        """Delete files that were not used for KEPT [s], and the least recently used files above LIMIT [bytes] in total.
 
-        Unfinished files are files and claims that killed processes have left.
+        Also delete unfinished files, claims and temporary folders of processes that were killed.
         """
         self._swept = True
         now = time.time()
@@ -243,9 +249,9 @@ class Store:
 
     @contextlib.contextmanager
     def claim(self, name: str) -> Iterator[None]:
-        """Hold a lock on a name while the context is open, so that only one process compiles the kernel of this name.
+        """Return a context manager that locks a name, so that only one process compiles the kernel of this name.
 
-        If another process holds the lock, wait for it, but no longer than PATIENCE [s].
+        If another process has the lock, the context waits for it, but at most PATIENCE [s].
         """
         path, lock, until = self.folder / (name + CLAIMED), None, time.monotonic() + PATIENCE
         with contextlib.suppress(OSError):
@@ -261,7 +267,7 @@ class Store:
 
 
 def checksum(name: str, content: bytes) -> bytes:
-    """Return the checksum with which a stored file begins: a hash of its name and contents."""
+    """Return the checksum (CHECKSUM bytes) at the beginning of a stored file: a hash of its name and contents."""
     return hashlib.blake2b(content, digest_size=CHECKSUM, key=hashlib.blake2b(name.encode()).digest()).digest()
 
 
@@ -270,7 +276,7 @@ def _no_link(path, flags):
 
 
 def _sweep_temporary():
-    """Remove temporary folders that killed runs of this user have left. A free lock marks such a folder."""
+    """Delete temporary folders that killed processes of this user have left: those whose lock is free."""
     if fcntl is None:
         return
     for folder in Path(tempfile.gettempdir()).glob(f"{TEMPORARY}*"):

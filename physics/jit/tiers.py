@@ -1,4 +1,7 @@
-"""Calls of kernels from Python: which form of a kernel runs, and references by which other processes find a kernel."""
+"""Choice of the form (compiled or plain) that runs when Python calls a kernel, and references to kernels.
+
+With a reference, another process finds the same kernel.
+"""
 
 import importlib
 from collections import deque
@@ -31,7 +34,10 @@ _recording = False
 
 
 def form_of(kernel: "Kernel", keys: "Keys") -> Form | None:
-    """Return the compiled form for the first call of a kernel with arguments of these types; None: run plain Python."""
+    """Return the form that runs at the first call of a kernel with arguments of the types `keys`.
+
+    None: run its plain twin in this call, because it is not compiled now.
+    """
     if _collected is not None:
         return _note(kernel, keys, _collected)
     if background:
@@ -61,10 +67,10 @@ def _note(kernel, keys, collected):
 
 @contextmanager
 def collecting(all_calls: bool = False) -> Iterator[dict[tuple[Kernel, Keys], None]]:
-    """Run kernels that are not on disk as plain Python while the context is open, and compile nothing.
+    """Return a context manager in which kernels that are not on disk run as plain Python, and nothing is compiled.
 
-    Yield a dict whose keys are (kernel, types) of these kernels, in the order of their first calls. all_calls: also run
-    and record kernels that are on disk, unless they are already loaded.
+    It yields a dict whose keys are the pairs (kernel, types of its arguments) of these kernels, in the order of first
+    calls. all_calls: True: also run and record kernels that are on disk but not yet loaded.
     """
     global _collected, _recording
     before = _collected, _recording
@@ -76,13 +82,13 @@ def collecting(all_calls: bool = False) -> Iterator[dict[tuple[Kernel, Keys], No
 
 
 def start(when_asked: Callable[[], object]) -> None:
-    """Run kernels without a compiled form as plain Python from now on, and call when_asked() once for each of them."""
+    """Have kernels without a compiled form run as plain Python from now on. Call when_asked() once for each of them."""
     global background, asked
     background, asked = True, when_asked
 
 
 def stop() -> None:
-    """End the effect of start(): all kernels, also those that ran as plain Python, are compiled at their next call."""
+    """End the effect of start(): each kernel without a compiled form is compiled at its next call."""
     global background, asked, load
     background, asked, load = False, None, None
     take_over()
@@ -92,7 +98,7 @@ def stop() -> None:
 
 
 def take_over() -> None:
-    """Install the compiled forms that have arrived since the last call. World.step calls this at its beginning."""
+    """Install the compiled forms in `arrived`, so that later calls run them. World.step calls this function first."""
     while arrived:
         kernel, keys, form = arrived.popleft()
         wanted.pop((kernel, keys), None)
@@ -101,7 +107,7 @@ def take_over() -> None:
 
 
 def share_taken_over() -> float:
-    """Return the fraction of the called kernels that run compiled, from 0 to 1; 1 before any kernel was called."""
+    """Return the compiled fraction, from 0 to 1, of the kernels that have been called; 1 if none was called."""
     if not wanted:
         return 1.0
     compiled = sum(len(each.forms) for each in registry)
@@ -109,7 +115,7 @@ def share_taken_over() -> float:
 
 
 def forget() -> None:
-    """Drop the compiled forms of all kernels, for tests."""
+    """Delete the compiled forms of all kernels from memory, for tests."""
     wanted.clear()
     arrived.clear()
     for each in registry:
@@ -128,18 +134,18 @@ def forget() -> None:
 class StageKernel(Kernel):
     """A kernel that a stage calls. Once it is compiled, Python calls the compiled form directly.
 
-    A direct call does not inspect the types of the arguments. Numba takes 1.07 us for that with six tables, and 0.1 us
-    for the call; a step of 55 boxes makes 15 calls. Unless it is `generic`, a kernel is called with the same types each
-    time. A float for an int raises TypeError, and the compiled form refuses another element size. Other types are
-    refused only under HITBOX_CHECK_CALLS=1.
+    A direct call does not inspect the types of the arguments, which would take 1.07 us for six tables, compared with
+    0.1 us for the call; a step of 55 boxes makes 15 calls. A kernel that is not `generic` must be called with the same
+    types each time. A float instead of an int, or another element size of an array, raises an error. Other wrong types
+    are detected only if the environment variable HITBOX_CHECK_CALLS is 1.
     """
 
     def reset(self) -> None:
-        """Drop the present form, so that the next call looks for a compiled form."""
+        """Have the next call look for a compiled form again."""
         self.run = self._generic_call if self.is_generic else self._first_call
 
     def install(self, keys: Keys, form: Form) -> None:
-        """Keep a compiled form, which runs from now on in calls with arguments of the types `keys`."""
+        """Store a compiled form, which runs from now on in calls with arguments of the types `keys`."""
         self.forms[keys] = form
         if self.is_generic:
             return
@@ -175,9 +181,10 @@ class StageKernel(Kernel):
 
 
 def _checked(kernel, keys, whole, form):
-    """Return a wrapper of a compiled form that refuses a float for an int, and under CHECKING any other new type.
+    """Return a wrapper of a compiled form that raises TypeError if an argument that must be an int is a float.
 
-    keys: types of the arguments; whole: indices of the arguments that must be ints.
+    If CHECKING is True, it raises TypeError for any argument of another type. keys: types of the arguments; whole:
+    indices of the arguments that must be ints.
     """
 
     def call(*arguments):
@@ -207,7 +214,7 @@ Spec = tuple[str, str, str, tuple[tuple[bool, Any], ...], dict[str, bool]]
 
 
 def spec_of(kernel: Kernel) -> Spec:
-    """Return a reference to a kernel that can be pickled, by which another process finds or makes the same kernel."""
+    """Return a reference to a kernel, which can be pickled. Another process gets the same kernel by kernel_of(spec)."""
     function = kernel.py_func
     closed = tuple(
         (True, spec_of(cell.cell_contents)) if isinstance(cell.cell_contents, Kernel) else (False, cell.cell_contents)
@@ -224,7 +231,10 @@ def spec_of(kernel: Kernel) -> Spec:
 
 
 def kernel_of(spec: Spec) -> Kernel:
-    """Return the kernel to which a spec refers. Raises LookupError if the sources of this process differ."""
+    """Return the kernel to which a spec refers; make it if this process does not have it.
+
+    Raises LookupError if the sources in this process differ from those of the kernel.
+    """
     module, qualname, content, closed, flags = spec
     importlib.import_module(module)
     for each in registry:
@@ -247,7 +257,7 @@ def _make(module, code, cells, flags):
 
 
 def _codes_of(module, qualname):
-    """Yield the code objects in a module that have this qualified name, code of outer functions first."""
+    """Yield the code objects in a module that have a qualified name, those of outer functions first."""
     outer: Any = getattr(importlib.import_module(module), qualname.partition(".")[0], None)
     while hasattr(outer, "__wrapped__"):
         outer = outer.__wrapped__
@@ -260,13 +270,13 @@ def _codes_of(module, qualname):
 
 
 def code_of(kernel: Kernel, known: Container[Kernel]) -> int:
-    """Return the size [bytes] of the code of a kernel and of all kernels that it calls, without those in `known`."""
+    """Return the size [bytes] of the byte code of a kernel and the kernels that it calls, without those in `known`."""
     return sum(size for part, size in parts_of(kernel).items() if part not in known)
 
 
 @cache
 def parts_of(kernel: Kernel) -> dict[Kernel, int]:
-    """Return a kernel and all kernels that it calls, at any depth, as {kernel: length of its code in bytes}."""
+    """Return {kernel: size of its byte code [bytes]} for a kernel and for all kernels that it calls, at any depth."""
     found: dict[Any, int] = {}
     todo = [kernel]
     while todo:

@@ -1,4 +1,4 @@
-"""Worker processes that compile kernels, the order of their tasks, and how background threads share the interpreter."""
+"""Pool of worker processes that compile kernels, and sharing of the interpreter with background threads."""
 
 import atexit
 import base64
@@ -27,10 +27,10 @@ TURN = 0.0005  # [s] switch interval of the threads of this process while kernel
 
 @contextmanager
 def short_turns() -> Iterator[None]:
-    """Have the interpreter switch threads after TURN [s] while the context is open.
+    """Return a context manager in which the interpreter switches between threads after TURN [s].
 
-    The main thread releases the interpreter in every call of NumPy, and would wait 5 ms to get it back. With short
-    turns, frames of the platformer take 55 ms instead of 80 ms while the compiler is imported.
+    The main thread releases the interpreter lock in every call of NumPy, and would wait 5 ms to get it back. With the
+    shorter interval, frames of the platformer take 55 ms instead of 80 ms while the compiler is imported.
     """
     before = sys.getswitchinterval()
     sys.setswitchinterval(TURN)
@@ -41,9 +41,9 @@ def short_turns() -> Iterator[None]:
 
 
 class _Pauses:
-    """An import hook that slows the imports of one thread: it sleeps before each import while kernels run as Python.
+    """An import hook that slows down the imports of the current thread while kernels run as plain Python.
 
-    It is a module finder that never finds a module.
+    It is a module finder that sleeps before each import and finds no module.
     """
 
     def __init__(self):
@@ -57,10 +57,10 @@ class _Pauses:
 
 @contextmanager
 def unhurried_imports() -> Iterator[None]:
-    """Limit the imports of this thread to the fraction SHARE of its time while the context is open.
+    """Return a context manager in which imports take at most the fraction SHARE of this thread's time.
 
-    So a game with plain kernels continues to run: importing the compiler takes 0.7 s of processor time, and without
-    pauses a game showed 20 frames in this second.
+    The import of the compiler takes 0.7 s of processor time. Without pauses, a game with plain kernels showed only 20
+    frames in that second.
     """
     pauses: Any = _Pauses()
     sys.meta_path.insert(0, pauses)
@@ -77,12 +77,11 @@ IMPORTED_FROM = Path(__file__).resolve().parents[__name__.count(".")]  # the fol
 
 
 def start_module(module: str, **environment: str) -> "subprocess.Popen[str]":
-    """Start `python -m module` at low priority, with pipes for lines of text. Return the process.
+    """Start `python -m module` at low priority, with text pipes for its standard input and output. Return the process.
 
-    The process ignores Ctrl-C in the terminal. module: full name of the module, as in f"{__package__}.worker". The
-    child imports from the same folders as this program, and not from the current folder, where a `physics.py` or
-    `numpy.py` belongs to the user. environment: additional environment variables. Raises OSError or ValueError if no
-    process can be started.
+    The process is not interrupted by Ctrl-C in the terminal. It imports from the same folders as this program, but not
+    from the current folder, where a file such as `numpy.py` may belong to the user. module: full name of the module;
+    environment: additional environment variables. Raises OSError or ValueError if no process can be started.
     """
     # A process group, not a session: Linux divides processor time between sessions, whatever the priority of their
     # processes (autogroups, man 7 sched). A session of its own would take as much time as the program.
@@ -101,9 +100,9 @@ def start_module(module: str, **environment: str) -> "subprocess.Popen[str]":
 
 
 def search_path() -> dict[str, str]:
-    """Return the environment variable {"PYTHONPATH": …} with which a child process imports this same package.
+    """Return {"PYTHONPATH": …}, the environment variable with which a child process imports this same package.
 
-    The dict is empty if the child imports it without this variable.
+    The dict is empty if the child process imports the package without this variable.
     """
     if IMPORTED_FROM in {Path(each).resolve() for each in (*site.getsitepackages(), site.getusersitepackages())}:
         return {}  # if named again, site-packages would come before the standard library
@@ -111,7 +110,7 @@ def search_path() -> dict[str, str]:
 
 
 def end_all(processes: Iterable["subprocess.Popen[str]"]) -> None:
-    """Kill all processes, then wait for each of them to end."""
+    """Kill all processes, wait for the end of each, and close their pipes."""
     processes = list(processes)
     for process in processes:
         process.kill()
@@ -138,18 +137,18 @@ DEATHS = 4  # after this many deaths in a row without an answer, no more process
 
 
 def cores_here() -> int:
-    """Return the number of cores that this program may use."""
+    """Return the number of processor cores that this program may use, at least 1."""
     affinity = getattr(os, "sched_getaffinity", None)
     return max(1, len(affinity(0)) if affinity else os.cpu_count() or 1)
 
 
 def encoded(value: Any) -> str:
-    """Return a value as one line of text, for a pipe between processes."""
+    """Convert a value to one line of text, for a pipe between processes, and return the line."""
     return MARK + base64.b64encode(pickle.dumps(value)).decode()
 
 
 def decoded(line: str) -> Any:
-    """Return the value that encoded() turned into this line.
+    """Convert a line made by encoded() back to a value, and return the value.
 
     Use it only for lines from this program's own processes, because the line is unpickled.
     """
@@ -157,10 +156,10 @@ def decoded(line: str) -> Any:
 
 
 class Task:
-    """A task for a worker process. Tasks with the largest urgency() are started first.
+    """A task for a worker process. The waiting task with the largest urgency() is started first.
 
-    order: the value that is sent to the process. done(answer) is called in the thread of that process, with None if the
-    task fails.
+    order: the value that is sent to the process; done: function that is called with the answer of the process, or with
+    None if the task fails. It is called in the thread that communicates with the process.
     """
 
     def __init__(self, order: Any, urgency: Callable[[], float], done: Callable[[Any], object]) -> None:
@@ -169,9 +168,9 @@ class Task:
 
 
 class Workers:
-    """A pool of worker processes that run one module. count: number of processes, None for one per core.
+    """A pool of worker processes that all run one module.
 
-    `limit`: number of processes that may start tasks now.
+    module: full name of the module; count: greatest number of processes, None: one for each core.
     """
 
     def __init__(self, module: str, count: int | None = None) -> None:
@@ -189,7 +188,7 @@ class Workers:
 
     @property
     def limit(self) -> int:
-        """The number of processes that may start tasks now. A busy process finishes its task."""
+        """The number of processes that may start tasks now. A process above the limit finishes its present task."""
         return self._limit
 
     @limit.setter
@@ -200,16 +199,16 @@ class Workers:
 
     @property
     def left(self) -> int:
-        """The number of tasks that wait or are being processed."""
+        """The number of tasks that are not done: tasks that wait, and tasks that are being processed."""
         return len(self._tasks) + self._under_way
 
     @property
     def alive(self) -> bool:
-        """True if worker processes run or can be started."""
+        """Whether worker processes run or can be started."""
         return self.count > 0 and not self._stopped and self._deaths < DEATHS
 
     def add(self, tasks: list[Task]) -> None:
-        """Add tasks, and start processes for them, up to `count` processes in total."""
+        """Add tasks, and start processes as needed, up to self.count processes in total."""
         with self._changed:
             self._tasks += tasks
             while len(self._threads) < min(self.count, len(self._tasks) + self._under_way):
@@ -219,12 +218,15 @@ class Workers:
             self._changed.notify_all()
 
     def wait(self, seconds: float | None = None) -> bool:
-        """Wait until all tasks are done, at most `seconds` (None: without limit). Return whether all are done."""
+        """Wait until all tasks are done. Return whether all tasks are done.
+
+        seconds: longest wait [s]; None: no limit. The wait also ends when stop() is called.
+        """
         with self._changed:
             return self._changed.wait_for(lambda: not self.left or self._stopped, seconds) and not self.left
 
     def stop(self) -> None:
-        """End all processes. The kernels that they have stored remain."""
+        """Kill all processes. The kernels that they have stored remain in the store."""
         with self._changed:
             self._stopped = True
             processes = list(self._processes.values())
@@ -233,7 +235,10 @@ class Workers:
         atexit.unregister(self.stop)
 
     def _serve(self, number):
-        """Pass tasks one by one to process number `number` until stop(). This runs in a thread for each process."""
+        """Send tasks one by one to process number `number` until stop() is called.
+
+        This method runs in a separate thread for each process.
+        """
         while True:
             with self._changed:
                 self._changed.wait_for(lambda: self._stopped or (self._tasks and number < self._limit))
@@ -260,9 +265,9 @@ class Workers:
                 self._changed.notify_all()
 
     def _ask(self, number, order):
-        """Send an order to process number `number`. Return (whether it answered, its answer).
+        """Send an order to process number `number`. Return (True, answer), or (False, None) if the process died.
 
-        A process that has died or hangs is replaced when the next order is sent.
+        A process that gives no answer for HUNG [s] is killed. A dead process is replaced when the next order is sent.
         """
         process = self._processes.get(number)
         if process is None or process.poll() is not None:

@@ -1,1 +1,1 @@
-"""Queries between steps: rays, casts, overlaps, and pairs of shapes without a world."""
+"""Queries between steps: ray casts, shape casts, overlaps, points, and queries of two shapes without a world."""

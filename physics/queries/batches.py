@@ -1,7 +1,7 @@
-"""Rays and points, one or many in a call: the candidates of each from the broad phase, then the exact tests.
+"""Ray casts and point queries, one or many in a call: a search of candidates in the broad phase, then exact tests.
 
-A long slanted ray is cut into pieces, and the broad phase is searched with the box around each piece. The candidates
-are the admitted shapes whose AABBs the ray crosses. A point is a ray of length 0.
+A long slanted ray is divided into pieces, and the broad phase is searched with the box around each piece. The
+candidates of a ray are the shapes that the query admits and whose AABBs the ray crosses. A point is a ray of length 0.
 """
 
 import math
@@ -53,7 +53,7 @@ ROW, FRACTION, HIT_NX, HIT_NY = range(4)  # columns of a hit
 
 
 class Targets(NamedTuple):
-    """The shapes of a world that a search may list."""
+    """The tables of a world in which a search of candidates finds shapes."""
 
     geometry: Geometry
     bodies: np.ndarray  # BODY
@@ -63,7 +63,7 @@ class Targets(NamedTuple):
 
 
 class Workspace(NamedTuple):
-    """The candidates of n rays, and scratch memory of their search."""
+    """The candidates of n rays, and the scratch arrays of their search."""
 
     starts: np.ndarray  # (n + 2,) int64: first candidate of each ray, number of candidates, number of searched boxes
     rows: np.ndarray  # SHAPE rows of the candidates, ray after ray
@@ -74,7 +74,7 @@ class Workspace(NamedTuple):
 
 
 class Admitted(NamedTuple):
-    """The shapes that a query admits, and how it searches."""
+    """The conditions for shapes that a query admits, and the parameters of its search."""
 
     membership: int  # bits of the query's Filter
     mask: int
@@ -86,7 +86,10 @@ class Admitted(NamedTuple):
 
 
 class MaskOutlines(NamedTuple):
-    """The outlines of masks in body space as convex parts, for worlds in which they have no rows of their own."""
+    """The outlines of masks as convex parts in body space, which ray casts use.
+
+    They are needed because the parts have SHAPE rows of their own only in worlds with the effect `response`.
+    """
 
     first: np.ndarray  # (masks,) int64: first part of each mask, by geometry row
     count: np.ndarray  # (masks,) int64
@@ -98,10 +101,10 @@ class MaskOutlines(NamedTuple):
 
 @subkernel
 def is_admitted(shape, point, admitted):
-    """Return whether a query admits a SHAPE row.
+    """Return whether a query admits a shape (SHAPE row).
 
-    point: True for a point, which is tested against the pixels of masks, False for a ray, which is tested against their
-    outlines; admitted: an Admitted.
+    point: True: the query is a point, which is tested against the pixels of masks; False: it is a ray, which is tested
+    against the outlines of masks. admitted: an Admitted.
     """
     return (
         shape.role != (PART if point else PIXELS)
@@ -113,7 +116,10 @@ def is_admitted(shape, point, admitted):
 
 @subkernel
 def box_around(x, y, dx, dy, margin):
-    """Return the box (lower x, y, upper x, y) [px] around the segment from (x, y) by (dx, dy), enlarged by `margin`."""
+    """Return the box (lower x, lower y, upper x, upper y) [px] around the segment from (x, y) to (x + dx, y + dy).
+
+    The box is enlarged by `margin` [px], and by a share ROUNDING of its coordinates.
+    """
     lower_x = min(x, x + dx) - margin
     lower_y = min(y, y + dy) - margin
     upper_x = max(x, x + dx) + margin
@@ -124,14 +130,20 @@ def box_around(x, y, dx, dy, margin):
 
 @subkernel
 def may_hit(x, y, dx, dy, shape, beyond):
-    """Return whether a ray from (x, y) by (dx, dy) [px] crosses the AABB of a SHAPE row, enlarged by `beyond` [px]."""
+    """Return whether a ray crosses the AABB of a shape (SHAPE row), enlarged by `beyond` [px].
+
+    x, y, dx, dy: start and vector of the ray [px].
+    """
     return crosses_box(
         x, y, dx, dy, shape.min_x - beyond, shape.min_y - beyond, shape.max_x + beyond, shape.max_y + beyond
     )
 
 
 def make_candidate_search(search: Any) -> Any:
-    """Return the kernel that lists the candidates of rays. search: function that searches a broad phase by a box."""
+    """Return a kernel that lists the candidates of rays.
+
+    search: function (box, structure, slots, work) -> count that finds the proxies in a box, such as search_trees.
+    """
 
     @kernel
     def list_candidates(
@@ -144,11 +156,11 @@ def make_candidate_search(search: Any) -> Any:
         workspace,
         work_inout,
     ):
-        """List the shapes that each ray may hit in `workspace`. Return their number, also if there is no room for all.
+        """Write the candidates of each ray to `workspace`, and return their number, even if they do not all fit.
 
-        targets: a Targets; rays (n, 4): start and vector (x, y, dx, dy) [px]; admitted: an Admitted; structure_inout:
-        the data of the broad phase, as `search` reads it; workspace: a Workspace. work_inout: counters, see COUNTERS.
-        O(pieces · search).
+        targets: a Targets; rays: (n, 4) start and vector (x, y, dx, dy) [px]; admitted: an Admitted; structure_inout:
+        the argument `structure` of `search`; workspace: a Workspace; work_inout: counters, see COUNTERS. O(pieces ·
+        search).
         """
         count = 0
         boxes = 0
@@ -197,9 +209,9 @@ SEARCHES = {  # by name of the broad phase
 
 @subkernel
 def cast_on_outline(outlines, mask, body, ray, corners_inout):
-    """Return (fraction or MISS, nx, ny) of a ray (x, y, dx, dy) [px] that is cast at the outline of a mask.
+    """Cast a ray (x, y, dx, dy) [px] at the outline of a mask. Return (fraction or MISS, nx, ny), see rays.py.
 
-    outlines: a MaskOutlines; mask: geometry row of the mask; body: BODY row; corners_inout (16, 2): scratch. O(parts).
+    outlines: a MaskOutlines; mask: geometry row of the mask; body: BODY row; corners_inout: (16, 2) scratch. O(parts).
     """
     cosine, sine = cosine_and_sine(body.angle, body.angle)
     x, y = rotate(ray[0] - body.x, ray[1] - body.y, cosine, -sine)
@@ -226,7 +238,7 @@ def cast_on_outline(outlines, mask, body, ray, corners_inout):
 
 @subkernel
 def write_hit(row, hit, place, hits_out):
-    """Write a hit to row `place` of hits_out. row: row number in SHAPE; hit: (fraction, normal x, y)."""
+    """Write a hit to hits_out[place]. row: SHAPE row number; hit: (fraction, normal x, normal y)."""
     hits_out[place, ROW] = float(row)
     hits_out[place, FRACTION] = hit[0]
     hits_out[place, HIT_NX] = hit[1]
@@ -246,12 +258,12 @@ def cast_candidates(
     hits_out,
     work_inout,
 ):
-    """Cast rays at the candidates in `workspace`, and write (row, fraction or MISS, normal) of each hit.
+    """Cast rays at their candidates in `workspace`, and write (SHAPE row number, fraction or MISS, nx, ny) of each hit.
 
-    targets: a Targets; outlines: a MaskOutlines with all masks that a ray of some length may hit; rays (n, 4): start
-    and vector (x, y, dx, dy) [px]; nearest: 1 to write only the nearest hit of each ray to hits_out (n, 4), with row -1
-    if there is none, and with the lowest row if several are equally near; 0 to write one row for each candidate to
-    hits_out (candidates, 4). workspace: a Workspace. work_inout: counters, see COUNTERS. O(candidates).
+    nearest: 1: write the nearest hit of each ray to hits_out (n, 4), with row -1 for no hit and the lowest row of
+    equally near hits; 0: write the result for each candidate to hits_out (candidates, 4). targets: a Targets; outlines:
+    a MaskOutlines with all masks that a ray of length > 0 may hit; rays: (n, 4) start and vector (x, y, dx, dy) [px];
+    workspace: a Workspace; work_inout: counters, see COUNTERS. O(candidates).
     """
     rows = workspace.rows
     for i in range(len(rays)):
@@ -279,14 +291,17 @@ def cast_candidates(
 
 
 class OutlineStore:
-    """The outlines of the masks that rays have met, as one flat MaskOutlines. They are computed at their first use."""
+    """The outlines of the masks at which rays were cast, in one MaskOutlines. Each is computed at its first use."""
 
     def __init__(self) -> None:
         self.masks: dict[int, Any] = {}  # geometry row of each mask -> the PixelMask
         self.outlines = MaskOutlines(np.zeros(0, np.int64), np.zeros(0, np.int64), parts_of([]))
 
     def with_all(self, library: Any, rows: list[int]) -> MaskOutlines:
-        """Return the outlines, including those of the geometry rows `rows`. library: the Library of the world."""
+        """Return a MaskOutlines that contains at least the masks `rows`. library: the Library of the world.
+
+        rows: geometry rows of masks.
+        """
         masks = library.masks
         if all(self.masks.get(row) is masks[row] for row in rows):
             return self.outlines
@@ -303,7 +318,7 @@ class OutlineStore:
 
 
 class Found(NamedTuple):
-    """The candidates of rays, as cast_candidates reads them. count: number of candidates of all rays."""
+    """The result of find_candidates, and the input of `cast`. count: total number of candidates of all rays."""
 
     targets: Targets
     rays: np.ndarray
@@ -312,9 +327,10 @@ class Found(NamedTuple):
 
 
 def find_candidates(world: AskedWorld, rays: np.ndarray, filter: Filter, sensors: bool) -> Found:
-    """Return the candidates of rays (n, 4): start and vector (x, y, dx, dy) [px].
+    """Return the candidates of n rays as a Found.
 
-    filter: Filter of the rays; sensors: whether sensors are admitted.
+    rays: (n, 4) start and vector (x, y, dx, dy) [px]; filter: Filter of the rays; sensors: whether sensors are
+    admitted.
     """
     index = world.queries
     index.begin(world)
@@ -341,9 +357,10 @@ def find_candidates(world: AskedWorld, rays: np.ndarray, filter: Filter, sensors
 
 
 def cast(world: AskedWorld, found: Found, nearest: bool) -> np.ndarray:
-    """Cast rays at their candidates. Return (row, fraction or MISS, normal x, y) for each ray or each candidate.
+    """Cast rays at their candidates, and return rows (SHAPE row number, fraction or MISS, normal x, normal y).
 
-    nearest: as in cast_candidates.
+    found: result of find_candidates; nearest: True: one row for each ray, False: one for each candidate, see
+    cast_candidates.
     """
     index, rows = world.queries, found.workspace.rows[: found.count]
     if index.outlines is None:
@@ -363,9 +380,9 @@ def cast(world: AskedWorld, found: Found, nearest: bool) -> np.ndarray:
 
 
 def beyond_drawn(world: AskedWorld) -> float:
-    """Return an upper bound [px] of how far the outline of a mask at its exact pose extends beyond its drawn pixels.
+    """Return an upper bound [px] of the distance by which outlines of masks extend beyond the masks' drawn pixels.
 
-    The bound holds for all masks of the world.
+    The outlines are at the exact poses, and the bound holds for all masks of the world.
     """
     if not world.library.masks or not len(world.bodies):
         return 0.0
@@ -374,7 +391,7 @@ def beyond_drawn(world: AskedWorld) -> float:
 
 
 def ray_casts(world: AskedWorld, origins: Points, translations: Points, filter: Filter, sensors: bool) -> Any:
-    """Return the first hit of each ray as RAY_HIT rows. For errors see World.ray_casts."""
+    """Return a RAY_HIT row (n,) with the first hit of each of n rays. For arguments and errors see World.ray_casts."""
     origins = checks.positions("origins", origins)
     translations = checks.columns("translations", translations, len(origins), like="origins")
     filter, sensors = checked_filter(filter), checks.flag("sensors", sensors)
@@ -391,7 +408,10 @@ def ray_casts(world: AskedWorld, origins: Points, translations: Points, filter: 
 
 
 def query_points(world: AskedWorld, points: Points, filter: Filter, sensors: bool) -> Any:
-    """Return the bodies that contain points as POINT_HIT rows. For errors see World.query_points."""
+    """Return a POINT_HIT row for each pair of a point and a body that contains it, sorted by point, then by body.
+
+    For arguments and errors see World.query_points.
+    """
     points = checks.positions("points", points)
     filter, sensors = checked_filter(filter), checks.flag("sensors", sensors)
     rays = np.concatenate([points, np.zeros_like(points)], axis=1)

@@ -1,4 +1,4 @@
-"""Queries of a world between steps: ray and shape casts, overlaps, points and boxes."""
+"""Queries of a world between steps: ray casts, shape casts, nearest points, overlaps, points and boxes."""
 
 import math
 from dataclasses import dataclass
@@ -49,11 +49,11 @@ from physics.tables.table import joined
 
 
 def query_aabb(world: AskedWorld, lower: Pair, upper: Pair, filter: Filter, sensors: bool) -> list:
-    """Return the bodies that have a shape whose AABB meets a closed box [px].
+    """Return the bodies that have a shape whose AABB overlaps or touches a box, in the order of body ids.
 
-    Masks and grids without solid pixels or tiles are not found.
+    Masks without solid pixels and grids without solid tiles are not found.
 
-    lower, upper: corners (min_x, min_y), (max_x, max_y) of the box; filter: Filter of the query; sensors: whether
+    lower, upper: corners (min_x, min_y), (max_x, max_y) of the box [px]; filter: Filter of the query; sensors: whether
     sensors are included. Raises TypeError for values of other types, ValueError for lower > upper.
     """
     filter, sensors = checked_filter(filter), checks.flag("sensors", sensors)
@@ -71,10 +71,10 @@ def query_aabb(world: AskedWorld, lower: Pair, upper: Pair, filter: Filter, sens
 
 
 def query_rect(world: AskedWorld, rect: Any, filter: Filter, sensors: bool) -> list:
-    """Return the bodies that have a shape whose AABB meets a rectangle [px].
+    """Return the bodies that have a shape whose AABB overlaps or touches a rectangle, in the order of body ids.
 
-    rect: (x, y, width, height) or ((x, y), (width, height)); filter, sensors: as in query_aabb. Raises TypeError for
-    another value, ValueError for a width or height < 0 and for a number that is not finite.
+    rect: (x, y, width, height) or ((x, y), (width, height)) [px]; filter, sensors: see query_aabb. Raises TypeError for
+    values of other types, ValueError for a width or height < 0 and for a number that is not finite.
     """
     try:
         parts = tuple(rect)
@@ -102,7 +102,7 @@ def bounds_of(world: Any, identity: int) -> tuple[float, float, float, float] | 
 
 
 def with_content(world: IndexedWorld, rows: np.ndarray) -> np.ndarray:
-    """Return `rows` (indices of SHAPE rows) without those of empty masks and empty grids."""
+    """Return the SHAPE row numbers `rows` without those of empty masks and empty tile grids."""
     shapes, library = world.shapes[rows], world.library
     kinds = np.where(shapes["kind"] == BOUNDS, shapes["wrapped"], shapes["kind"])
     keep = np.ones(len(rows), bool)
@@ -121,12 +121,12 @@ def with_content(world: IndexedWorld, rows: np.ndarray) -> np.ndarray:
 
 @kernel
 def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out, work_inout):
-    """Write (row, fraction, normal) of every listed shape that a moving hull hits to hits_out. Return their number.
+    """Cast a moving hull at listed shapes. Return the number of shapes that are hit.
 
-    The normal points from the shape to the hull. A shape that touches the hull at the start is hit at fraction 0 if the
-    hull approaches it. rows: indices of SHAPE rows, without masks; hull: a Hull with corners relative to its centre of
-    rotation; workspace: RotationalWorkspace that holds the hull's motion; hits_out (rows, 4). work_inout: counters, see
-    COUNTERS.
+    Write (SHAPE row number, fraction, normal x, normal y) of each hit to hits_out (rows, 4). The normal points from the
+    shape to the hull. A shape that touches the hull at the start is hit at fraction 0 if the hull approaches it. rows:
+    SHAPE row numbers of the shapes, no masks; hull: a Hull with corners relative to its centre of rotation; workspace:
+    a RotationalWorkspace that contains the hull's motion; work_inout: counters, see COUNTERS.
     """
     r = workspace.advance
     corners, count, radius, _ = hull
@@ -167,11 +167,11 @@ def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out,
 
 @kernel
 def nearest_hull(geometry, bodies, shapes, rows, point, workspace, nearest_out, work_inout):
-    """Find the point nearest to `point` on the listed hulls. Return its SHAPE row, or -1 if no hull is listed.
+    """Find the hull nearest to a point among listed shapes. Return its SHAPE row number, or -1 if no hull is listed.
 
-    nearest_out (3,) receives (distance, x, y) [px]. If `point` lies in a hull, the distance is 0 and the nearest point
-    is `point` itself. rows: indices of SHAPE rows in ascending order, of which tiles, masks and chains are skipped;
-    workspace: AdvanceWorkspace. work_inout: counters, see COUNTERS.
+    Write (distance, x, y of the nearest point) [px] to nearest_out (3,). If `point` is inside a hull, the distance is 0
+    and the nearest point is `point`. rows: ascending SHAPE row numbers; tile grids, masks and chains are skipped;
+    workspace: an AdvanceWorkspace; work_inout: counters, see COUNTERS.
     """
     x, y = point
     own, corners = workspace.local_a, workspace.local_b
@@ -208,11 +208,11 @@ HitBody = TypeVar("HitBody")  # Body, whose module imports this one
 
 @dataclass(frozen=True)
 class RayHit(Generic[HitBody]):
-    """A hit of a ray or of a cast shape: the body and shape that were hit, and where.
+    """A hit of a ray or of a cast shape: the body and the shape that were hit, the point and the normal.
 
-    body: the Body; shape: id of its shape.
-    point: where it was hit (x, y) [px].
-    normal: unit normal of the hit surface.
+    body: the Body that was hit; shape: id of the shape that was hit.
+    point: point of the hit (x, y) [px].
+    normal: unit normal (x, y) of the surface that was hit.
     fraction: fraction of the translation before the hit, 0 to 1.
     """
 
@@ -226,12 +226,13 @@ class RayHit(Generic[HitBody]):
 def ray_cast_all(
     world: AskedWorld, origin: Pair, translation: Pair, filter: Filter, sensors: bool, first: bool = False
 ) -> list[RayHit]:
-    """Return all hits of a ray, nearest first. Hits at equal fractions are in the order of shape ids.
+    """Return all hits of a ray as a list, in the order of fraction, then of shape id.
 
-    translation [px]: vector from the origin to the end of the ray; filter: Filter of the ray; sensors: whether sensors
-    are also hit; first: whether to return only the nearest hit. A ray that starts inside a shape hits it at fraction 0,
-    with the normal against the ray's direction. A ray of zero length is a point query with normals (0, -1). Raises
-    TypeError for values of other types, ValueError for numbers that are not finite or an origin too far away.
+    origin: start of the ray [px]; translation: vector from the start to the end of the ray [px]; filter: Filter of the
+    ray; sensors: whether sensors are also hit; first: True: return only the nearest hit. A ray that starts inside a
+    shape hits it at fraction 0, with a normal opposite to the ray. A ray of zero length is a point query with normals
+    (0, -1). Raises TypeError for values of other types, ValueError for numbers that are not finite or an origin too far
+    away.
     """
     x, y = checks.position("origin", origin)
     dx, dy = checks.vector("translation", translation)
@@ -253,14 +254,14 @@ def shape_cast(
 ) -> RayHit | None:
     """Return the first hit of a shape that moves from a pose by a translation [px]; None without a hit.
 
-    Of several hits at the same fraction, that of the smallest shape id is returned. filter: Filter of the cast shape;
-    sensors: whether sensors are also hit. The normal points from the hit shape to the cast shape, and the point lies
-    midway between them. Shapes that touch or overlap at the start give a hit at fraction 0 if the cast shape
-    approaches; otherwise the cast continues. A cast of zero length returns the first shape that it overlaps.
+    Of several hits at the same fraction, the one of the smallest shape id is returned. filter: Filter of the cast
+    shape; sensors: whether sensors are also hit. The normal points from the hit shape to the cast shape, and the point
+    is midway between the two. A shape that touches or overlaps the cast shape at the start is hit at fraction 0 if the
+    cast shape approaches it; otherwise the cast continues. A cast of zero length returns the first overlapping shape.
 
-    A PixelMask is cast as its outline at the exact pose, and a grazing contact is not a hit. A Chain is hit from its
-    front, a one-way tile or mask from above. Raises TypeError for values of other types, ValueError for numbers that
-    are not finite or a pose that the shape cannot have.
+    A PixelMask is cast as its outline at the exact pose, and a grazing contact is not a hit. A Chain is hit only from
+    its front, a one-way tile or mask only from above. Raises TypeError for values of other types, ValueError for
+    numbers that are not finite or a pose that the shape cannot have.
     """
     pose, filter = checked_pose("shape", shape, "pose", pose), checked_filter(filter)
     sensors = checks.flag("sensors", sensors)
@@ -298,11 +299,11 @@ def shape_cast(
 
 
 def _sweep(world, shape, probe, rows, motion, feet) -> np.ndarray:
-    """Return an array (n, 4) of the shapes that a cast shape hits: (row, fraction, normal towards the cast shape).
+    """Return the hits of a cast shape as an array (n, 4): (SHAPE row number, fraction, normal x, normal y).
 
-    A mask with several rows is hit once, in its first row. probe: Parts of the cast shape; rows: indices of the SHAPE
-    rows to test; motion: (start x, y, translation x, y) [px]; feet: y [px] of the lowest point of the cast shape at its
-    start.
+    The normals point to the cast shape. A mask with several SHAPE rows is hit once, in its first row. probe: Parts of
+    the cast shape; rows: SHAPE row numbers of the shapes to test; motion: (start x, y, translation x, y) [px]; feet: y
+    coordinate [px] of the lowest point of the cast shape at the start.
     """
     x, y, dx, dy = motion
     workspace, hits, found, work = new_rotational_workspace(), np.zeros((len(rows), 4)), 0, world.queries.work
@@ -335,8 +336,8 @@ def _sweep(world, shape, probe, rows, motion, feet) -> np.ndarray:
 def _outline_at(world, rows, x, y, probe, way, feet) -> Parts:
     """Return the convex parts of one shape that a cast shape may hit during its motion, relative to (x, y) [px].
 
-    rows: indices of the SHAPE rows of this one shape; probe: Parts of the cast shape; way: translation of the cast
-    shape [px]; feet: y [px] of the lowest point of the cast shape.
+    rows: SHAPE row numbers of the one shape; probe: Parts of the cast shape; way: translation of the cast shape [px];
+    feet: y coordinate [px] of the lowest point of the cast shape.
     """
     every = [_swept_parts(world, row, x, y, feet) for row in rows.tolist()]
     parts = Parts(*(np.concatenate(columns) for columns in zip(*every, strict=True)))
@@ -348,21 +349,21 @@ def _outline_at(world, rows, x, y, probe, way, feet) -> Parts:
 
 
 def _swept_parts(world, row, x, y, feet) -> Parts:
-    """Return the convex parts of a SHAPE row for casts, relative to (x, y) [px].
+    """Return the convex parts of the shape in SHAPE row number `row`, relative to (x, y) [px], for casts.
 
-    feet: y [px] of the lowest point of the cast shape. A one-way tile is included only if it lies below this point.
+    feet: y coordinate [px] of the lowest point of the cast shape. One-way tiles are included only if they are below it.
     """
     placed = Placed(world.library.tables, world.bodies, world.shapes, row, x, y, feet, True)
     return world.library.shape_of(world.shapes[row])._parts_at(placed)
 
 
 def closest(world: AskedWorld, point: Pair, filter: Filter, sensors: bool) -> tuple[Any, Vec2, float] | None:
-    """Return (body, point, distance) [px] of the point nearest to `point` on any shape; None in an empty world.
+    """Find the shape nearest to a point. Return (its Body, nearest point [px], distance [px]), or None without a shape.
 
-    Of several shapes at the same distance, the one with the smallest id is returned. If `point` lies inside a shape,
-    the nearest point is `point` itself and the distance 0. filter: Filter of the point; sensors: whether sensors are
-    included. A Chain is measured from both sides, a one-way tile by its top. Raises TypeError for values of other
-    types, ValueError for a point that is not finite or too far away.
+    Of several shapes at the same distance, the one with the smallest id is used. If `point` is inside a shape, the
+    nearest point is `point` and the distance is 0. filter: Filter of the query; sensors: whether sensors are included.
+    A Chain is measured from both sides, a one-way tile by its top. Raises TypeError for values of other types,
+    ValueError for a point that is not finite or too far away.
     """
     x, y = checks.position("point", point)
     filter, sensors, index = checked_filter(filter), checks.flag("sensors", sensors), world.queries
@@ -386,9 +387,9 @@ def closest(world: AskedWorld, point: Pair, filter: Filter, sensors: bool) -> tu
 
 
 def _nearest(world, rows, x, y):
-    """Return (row, distance, point) [px] of the point nearest to (x, y) on the listed shapes; None for no shapes.
+    """Find the listed shape nearest to (x, y) [px]. Return (SHAPE row number, distance [px], nearest point [px]).
 
-    rows: indices of SHAPE rows.
+    Return None if there is no shape. rows: SHAPE row numbers of the listed shapes.
     """
     nearest, workspace, work = np.zeros(3), new_advance_workspace(), world.queries.work
     best = nearest_hull(world.library.tables, world.bodies, world.shapes, rows, (x, y), workspace, nearest, work)
@@ -408,9 +409,10 @@ def _nearest(world, rows, x, y):
 
 
 def query_point(world: AskedWorld, point: Pair, filter: Filter, sensors: bool) -> list:
-    """Return the bodies that have a shape that contains the point [px], in the order of ids.
+    """Return the bodies that have a shape that contains `point` [px], in the order of body ids.
 
-    Raises TypeError for a value that is not a point, ValueError for a point that is not finite or too far away.
+    filter: Filter of the query; sensors: whether sensors are included. Raises TypeError for a value that is not a
+    point, ValueError for a point that is not finite or too far away.
     """
     x, y = checks.position("point", point)
     found = query_points(world, [(x, y)], filter, sensors)
@@ -418,9 +420,10 @@ def query_point(world: AskedWorld, point: Pair, filter: Filter, sensors: bool) -
 
 
 def overlap(world: AskedWorld, shape: Shape, pose: Pose, filter: Filter, sensors: bool) -> list:
-    """Return the bodies that a shape at a pose overlaps. filter: Filter of the shape; sensors: whether sensors count.
+    """Return the bodies that a shape at a pose overlaps, in the order of body ids.
 
-    Raises TypeError for values of other types, ValueError for a pose that the shape cannot have.
+    filter: Filter of the shape; sensors: whether sensors are included. Raises TypeError for values of other types,
+    ValueError for a pose that the shape cannot have.
     """
     pose, filter = checked_pose("shape", shape, "pose", pose), checked_filter(filter)
     sensors = checks.flag("sensors", sensors)
@@ -435,10 +438,10 @@ def overlap(world: AskedWorld, shape: Shape, pose: Pose, filter: Filter, sensors
 
 
 def _contacts(world, bodies, shapes, rows):
-    """Return the CONTACT rows of a query shape with listed shapes. The query shape is B in each.
+    """Return the CONTACT rows between listed shapes (A) and a query shape (B).
 
-    CONTACT.candidate is an index into `rows`. bodies, shapes: the BODY and SHAPE row of the query shape; rows: indices
-    of the world's SHAPE rows.
+    CONTACT.candidate is an index into `rows`. bodies, shapes: BODY and SHAPE row of the query shape, arrays (1,); rows:
+    SHAPE row numbers of the listed shapes in the world.
     """
     others, owners = np.unique(world.shapes["body_row"][rows], return_inverse=True)
     all_bodies = joined([world.bodies[others], bodies])
@@ -465,9 +468,9 @@ def _first_contact(world, bodies, shapes, rows):
 
 
 def _probe(world, shape, pose):
-    """Return tables with one BODY row and one SHAPE row, for a query shape at a pose.
+    """Return (BODY row, SHAPE row), two arrays (1,), for a query shape at a pose.
 
-    The shape's geometry is added to the world's library, until the end of the block library.visited().
+    The shape's geometry is added to the world's library, and removed when the context library.visited() ends.
     """
     bodies, shapes = np.zeros(1, BODY), np.zeros(1, SHAPE)
     place(world.library, shape, bodies, shapes, 0, pose)
@@ -476,10 +479,10 @@ def _probe(world, shape, pose):
 
 
 def _allowed(world, rows, filter, sensors, leave=PIXELS):
-    """Return those of the SHAPE rows `rows` that the filter of a query admits.
+    """Return the SHAPE row numbers in `rows` that a query admits.
 
-    sensors: whether sensors are admitted; leave: role of the mask rows to leave out, PIXELS for queries of outlines,
-    PART for queries of pixels, NO_ROLE for queries of AABBs, which leave out no row.
+    filter: Filter of the query; sensors: whether sensors are admitted; leave: SHAPE.role of the rows to omit: PIXELS
+    for queries of outlines, PART for queries of pixels, NO_ROLE (no row is omitted) for queries of AABBs.
     """
     s = world.shapes
     rows = rows[s["role"][rows] != leave]

@@ -1,4 +1,4 @@
-"""The index with which queries between steps find the shapes of a world, and the boxes that the last query visited."""
+"""Search index of queries between steps, and the boxes that the last query visited in the broad phase."""
 
 from math import floor
 from typing import Any, NamedTuple, Protocol
@@ -28,16 +28,16 @@ ROUNDING = 2.0**-48  # margin of a searched box relative to its coordinates, bec
 
 @subkernel
 def is_found(body):
-    """Return whether queries can find a body: it is not quarantined, and its pose is finite and within the limits."""
+    """Return whether queries find a body (BODY row): it is not quarantined, and its pose is finite and in range."""
     return is_within_limits(body) and not body.quarantined
 
 
 @kernel
 def find_moved(rows, bodies, poses_inout, moved_out):
-    """List the bodies whose pose has changed since this function last read it. Return their number. O(rows).
+    """Find the bodies whose pose has changed since the last call. Return the number of these bodies. O(rows).
 
-    rows: indices of the BODY rows to compare; poses_inout (bodies, 3): poses (x, y, angle) last read, which are
-    updated; moved_out: the BODY rows that have moved.
+    rows: BODY row numbers of the bodies to compare; poses_inout: (bodies, 3) poses (x, y, angle) at the last call,
+    which are updated; moved_out: BODY row numbers of the bodies that have moved.
     """
     found = 0
     for n in range(len(rows)):
@@ -56,12 +56,12 @@ def find_moved(rows, bodies, poses_inout, moved_out):
 
 @kernel
 def find_loose(rows, bodies, shapes, proxies, known, row_of_slot_inout, loose_out):
-    """List the loose shapes, which a search of the broad phase may miss. Return their number. O(rows).
+    """Find the loose shapes, which a search of the broad phase may miss. Return the number of these shapes. O(rows).
 
-    The broad phase finds a shape if its AABB lies within the box of its proxy. Then the shape's row is written to
-    row_of_slot_inout, at the slot of its proxy. Otherwise -1 is written there, and the row is listed in loose_out.
-    Shapes of bodies that queries cannot find (see is_found) are in neither. rows: indices of the SHAPE rows to examine;
-    known: 0 if the broad phase has no data yet; proxies: PROXY table.
+    The broad phase finds a shape if its AABB is within the box of its proxy. Then the shape's row number is written to
+    row_of_slot_inout[slot of the proxy]. Otherwise -1 is written there, and the row number is written to loose_out.
+    Shapes of bodies that queries do not find (see is_found) are in neither array. rows: SHAPE row numbers of the shapes
+    to examine; known: 0 if the broad phase has no data yet, else 1; proxies: PROXY table.
     """
     found = 0
     for n in range(len(rows)):
@@ -92,16 +92,20 @@ def find_loose(rows, bodies, shapes, proxies, known, row_of_slot_inout, loose_ou
 
 @subkernel
 def meets_aabb(shape, box):
-    """Return whether the AABB of a SHAPE row meets a closed box (lower x, y, upper x, y) [px]."""
+    """Return whether the AABB of a shape (SHAPE row) overlaps or touches a box.
+
+    box: (lower x, lower y, upper x, upper y) [px].
+    """
     return shape.min_x <= box[2] and shape.max_x >= box[0] and shape.min_y <= box[3] and shape.max_y >= box[1]
 
 
 @kernel
 def rows_meeting(shapes, row_of_slot, slots, loose, box, rows_out, work_inout):
-    """List the shape rows whose AABBs meet a closed box (lower x, y, upper x, y) [px]. Return their number.
+    """Find the shapes whose AABBs overlap or touch a box. Write their SHAPE row numbers, and return their number.
 
-    slots: slots of proxies that the broad phase found; row_of_slot: index of the SHAPE row of each slot, or -1; loose:
-    indices of further SHAPE rows to test; rows_out: the result. work_inout: counters, see COUNTERS.
+    slots: slots of the proxies that the broad phase found; row_of_slot: SHAPE row number for each slot, or -1; loose:
+    SHAPE row numbers of further shapes to test; box: (lower x, lower y, upper x, upper y) [px]; rows_out: the result;
+    work_inout: counters, see COUNTERS.
     """
     found = 0
     for k in range(len(slots) + len(loose)):
@@ -119,28 +123,28 @@ def rows_meeting(shapes, row_of_slot, slots, loose, box, rows_out, work_inout):
 
 
 def is_same(now: tuple, before: tuple) -> bool:
-    """Return whether the tuples `now` and `before` hold the same objects. Ints are compared by value."""
+    """Return whether two tuples contain identical objects in the same order. Ints are compared by value."""
     return len(now) == len(before) and all(
         a is b or (type(a) is int and a == b) for a, b in zip(now, before, strict=True)
     )
 
 
 class IndexedWorld(WorldTables, Protocol):
-    """A world, or the StepState of its step, with the QueryIndex of its shapes."""
+    """Protocol of a World or a StepState that has a QueryIndex of its shapes."""
 
     queries: "QueryIndex"
     steps: int
 
     @property
     def broadphase(self) -> Strategy:
-        """The broad phase strategy whose data structure queries search."""
+        """The broad phase whose data structure queries search."""
         ...
 
 
 class AskedWorld(IndexedWorld, Protocol):
-    """The fields of a world that queries use.
+    """Protocol of the attributes of a World that queries use.
 
-    A field annotated Any has a type from a module that imports this one.
+    An attribute is annotated Any if its type is defined in a module that imports this module.
     """
 
     def body(self, identity: int) -> Any:
@@ -149,10 +153,11 @@ class AskedWorld(IndexedWorld, Protocol):
 
 
 class QueryIndex:
-    """The index of one world's shapes for queries by boxes, and the work counters of the last query.
+    """The search index of one world's shapes for queries by boxes, and the work counters of the last query.
 
-    asked: the boxes (lower x, y, upper x, y) [px] that the last query searched, in order. The counters are separate
-    from those of the last step. outlines: those of the masks that rays have met, see batches.OutlineStore.
+    asked: the boxes (lower x, lower y, upper x, upper y) [px] that the last query searched, in order. work: the work
+    counters, which are separate from those of the last step. outlines: a batches.OutlineStore, the outlines of masks at
+    which rays were cast.
     """
 
     def __init__(self) -> None:
@@ -181,26 +186,26 @@ class QueryIndex:
 
     @property
     def counters(self) -> dict[str, int]:
-        """The work of the last query: {name: number}, with every name of COUNTERS."""
+        """The work counters of the last query, {name: int}, with all names in COUNTERS."""
         return dict(zip(COUNTERS, self.work.tolist(), strict=True))
 
     def begin(self, world: IndexedWorld) -> None:
-        """Start a query: reset the counters, and update the index to the present poses of the world."""
+        """Start a query: reset the counters, and update the index to the present poses of the world's bodies."""
         self.work[:] = 0
         self.asked = []
         self.refresh(world)
 
     def asks_broadphase(self, world: IndexedWorld) -> bool:
-        """Return whether a query searches the broad phase: it has data and can find at least one shape."""
+        """Return whether a query searches the broad phase, because this has data and not all shapes are loose."""
         return not world.pairs.everything and self.loose_count < len(world.shapes)
 
     def refresh(self, world: IndexedWorld) -> None:
         """Update the AABBs of shapes to the present poses, and the list of loose shapes.
 
-        Loose shapes are those that the broad phase may miss. world: a World, or the StepState of its step. If no body
-        has moved since the last call, nothing is done. After a step of a world with sleeping, only some bodies are
-        read: those that were awake before or after the step, that the user moved, or that were edited. Otherwise all
-        bodies are read.
+        Loose shapes are those that a search of the broad phase may miss. world: a World or a StepState. If no body has
+        moved since the last call, nothing is done. After a step of a world with sleeping, only those bodies are read
+        that were awake before or after the step, that the caller moved, or that were edited. Otherwise all bodies are
+        read.
         """
         bodies, shapes, pairs, awake = world.bodies, world.shapes, world.pairs, world.awake
         newest = int(shapes["id"][-1]) if len(shapes) else -1
@@ -229,9 +234,9 @@ class QueryIndex:
         )
 
     def _watched(self, awake, bodies):
-        """Return the BODY rows that may have moved since the last refresh.
+        """Return the BODY row numbers of the bodies that may have moved since the last refresh.
 
-        The result is cached while the lists of awake bodies are unchanged.
+        The result is cached while the lists of awake bodies are unchanged. awake: the world's Awake.
         """
         lists = (self.awake, awake.bodies, awake.dynamic, awake.kinematic)
         if awake.dirty or not is_same(lists, self.lists):
@@ -248,14 +253,14 @@ class QueryIndex:
             self.stamps = np.zeros(2 * len(shapes), np.int64)
 
     def next_stamps(self, count: int) -> int:
-        """Return the first of `count` new stamps, see batches.Targets."""
+        """Return the first of `count` consecutive unused stamps, which number rays, see batches.Workspace."""
         self.stamp += count
         return self.stamp - count
 
     def rows_in(self, world: IndexedWorld, lower: Coordinates, upper: Coordinates) -> np.ndarray:
-        """Return the SHAPE rows, ascending, whose AABBs meet the closed box from `lower` to `upper` [px].
+        """Return the ascending SHAPE row numbers of the shapes whose AABBs overlap or touch a box.
 
-        Shapes of quarantined bodies are left out.
+        lower, upper: corners of the box (x, y) [px]. Shapes of quarantined (disabled) bodies are omitted.
         """
         reach = ROUNDING * max(abs(lower[0]), abs(lower[1]), abs(upper[0]), abs(upper[1]))
         box = (float(lower[0]) - reach, float(lower[1]) - reach, float(upper[0]) + reach, float(upper[1]) + reach)
@@ -277,12 +282,12 @@ CORNERS = ("lower_x", "lower_y", "upper_x", "upper_y")
 
 
 class Visited(NamedTuple):
-    """The boxes that a query searched, and the boxes that it compared with them, in order and with repetitions.
+    """The boxes with which a query searched the broad phase, and the boxes of the broad phase that it compared.
 
-    kind: "brute", "sweep", "hash" or "tree".
-    asked: searched boxes (k, 4): min_x, min_y, max_x, max_y [px].
-    rects: compared boxes (m, 4): nodes of the tree, cells of the hash, or boxes of shapes [px].
-    met: (m,) bool, whether the compared box meets the searched box.
+    kind: the broad phase, "brute", "sweep", "hash" or "tree".
+    asked: (k, 4) searched boxes: min_x, min_y, max_x, max_y [px].
+    rects: (m, 4) compared boxes, in order and with repetitions: nodes of the tree, cells of the hash, or AABBs [px].
+    met: (m,) bool, whether each compared box overlaps the searched box.
     """
 
     kind: str
@@ -292,9 +297,9 @@ class Visited(NamedTuple):
 
 
 def visited(world: IndexedWorld) -> Visited:
-    """Return the boxes that the last query of a world visited. The world must not have changed since.
+    """Return the boxes that the last query of a world visited, as a Visited.
 
-    world: a World.
+    world: a World, which must not have changed since the query.
     """
     strategy, asked = world.broadphase, np.array(world.queries.asked).reshape(-1, 4)
     boxes = asked.tolist() if world.queries.asks_broadphase(world) else []
@@ -324,7 +329,10 @@ def _boxes(rows):
 
 
 def _nodes(tree, box):
-    """Return the boxes of the tree nodes that a search for `box` visits: roots, and children of nodes that meet it."""
+    """Return the boxes (n, 4) of the tree nodes that a search for `box` visits.
+
+    They are the roots, and the children of all nodes that overlap the box.
+    """
     boxes, children, height = _boxes(tree.nodes), tree.nodes[["child_a", "child_b"]], tree.nodes["height"]
     found, level = [], tree.state[ROOT_MOVING:]
     level = level[level >= 0]
@@ -336,9 +344,9 @@ def _nodes(tree, box):
 
 
 def _cells(grid, proxies, box):
-    """Return the boxes that a search for `box` compares in each level of a grid.
+    """Return the boxes (n, 4) that a search for `box` compares on all levels of a SpatialHashGrid.
 
-    They are the cells that the box covers, or the AABBs of the level's proxies if these are fewer.
+    On each level they are the cells that the box touches, or the AABBs of the level's proxies if these are fewer.
     """
     found, (x0, y0, x1, y1) = [np.zeros((0, 4))], box
     for level in np.flatnonzero(grid.lists.level_counts).tolist():
@@ -359,9 +367,9 @@ def _cells(grid, proxies, box):
 
 
 def _stretch(sweep, proxies, box):
-    """Return the AABBs of the proxies that sweep and prune compares with `box`.
+    """Return the AABBs (n, 4) of the proxies that a SweepAndPrune compares with `box`.
 
-    Their intervals on the sorted axis may overlap that of the box.
+    They are the proxies whose intervals on the sorted axis may overlap the interval of the box.
     """
     axis = sweep.sorted[0]
     lows, highest = axis.boxes[: len(axis.order), 0], np.maximum.accumulate(axis.boxes[: len(axis.order), 1])

@@ -1,4 +1,4 @@
-"""Queries of two shapes without a world: collide, distance and time_of_impact."""
+"""The functions collide, distance and time_of_impact, which test two shapes without a world."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ Kept = TypeVar("Kept")
 
 
 class PairRows(NamedTuple):
-    """BODY and SHAPE tables of two shapes, with their geometry. The first shape is row 0, the second row 1."""
+    """BODY and SHAPE tables of two shapes, with their geometry. Row 0 is the first shape, row 1 the second shape."""
 
     geometry: Geometry
     bodies: np.ndarray  # BODY
@@ -54,7 +54,7 @@ class PairRows(NamedTuple):
 
 
 class HullRow(NamedTuple):
-    """The table rows of a convex shape as bytes. Joining two HullRows takes a tenth of the time of joining arrays."""
+    """The table rows of a convex shape, as bytes. Concatenating bytes takes a tenth of the time that arrays take."""
 
     first: bytes  # its SHAPE row as the first shape of a pair
     second: bytes  # its SHAPE row as the second shape of a pair
@@ -63,9 +63,9 @@ class HullRow(NamedTuple):
 
 
 def kept_with_shape(make: Callable[[Shape], Kept]) -> Callable[[Shape], Kept]:
-    """Decorate `make`, a function of a shape, so that its result is cached in the shape.
+    """Decorate `make`, a function of a shape, so that its result is cached as an attribute of the shape.
 
-    Shapes that differ only in material, filter or sensor flag share one result.
+    Shapes that differ only in material, filter or sensor flag share one cached result.
     """
 
     def find(shape: Shape) -> Kept:
@@ -95,7 +95,7 @@ def hull_row(shape: Shape) -> HullRow | None:
 def order_of(shape: Shape) -> tuple:
     """Return a sort key of a shape's geometry.
 
-    Two shapes are measured in sorted order, so that swapping them changes only signs.
+    Queries process two shapes in the order of their keys, so swapping the shapes changes only signs of the result.
     """
     inside = () if shape._inner is shape else (rank_of(shape._inner),)
     return (rank_of(shape), *inside, *shape._inner._key)
@@ -103,7 +103,7 @@ def order_of(shape: Shape) -> tuple:
 
 @kept_with_shape
 def name_of(shape: Shape) -> tuple:
-    """Return a sort key of a shape that also includes the text of its constructor call, for collide()."""
+    """Return a sort key of a shape, for collide(): its kind, the text of its constructor call, and order_of(shape)."""
     return rank_of(shape), repr(shape), order_of(shape)
 
 
@@ -116,7 +116,10 @@ FIRST_POSE = int(BODIES["x"].__array_interface__["data"][0] - BODIES.__array_int
 
 
 def hull_pair(a: HullRow, pose_a: At, b: HullRow, pose_b: At) -> PairRows:
-    """Return the PairRows of two convex shapes at two poses (x, y [px], angle [rad]). The rows contain no AABBs."""
+    """Return the PairRows of two convex shapes at two poses. The AABBs in the rows are not set.
+
+    a, b: HullRows of the shapes; pose_a, pose_b: (x [px], y [px], angle [rad]).
+    """
     spans = np.frombuffer(bytearray(SPANS.pack(0, a.count, a.count, b.count)), SPAN)
     corners = np.frombuffer(bytearray(a.corners + b.corners), CORNER) if a.count + b.count else NOTHING.corners
     shapes = np.frombuffer(bytearray(a.first + b.second), SHAPE)
@@ -127,10 +130,10 @@ def hull_pair(a: HullRow, pose_a: At, b: HullRow, pose_b: At) -> PairRows:
 
 
 class KeptPair:
-    """The library, the rows and the narrow phase of two shapes, of which at least one is not a convex shape.
+    """The library, table rows and narrow phase for two shapes, at least one of which is not convex.
 
-    Each thread keeps the objects of its last KEPT_PAIRS pairs, see kept_pair. With kept objects, collide() of two masks
-    of 8 to 64 px is 2.4 to 8.5 times as fast as with new ones.
+    Each thread caches the KeptPairs of its last KEPT_PAIRS pairs of shapes, see kept_pair. With a cached KeptPair,
+    collide() of two masks of 8 to 64 px is 2.4 to 8.5 times as fast as with a new one.
     """
 
     def __init__(self, shape_a: Shape, shape_b: Shape) -> None:
@@ -139,7 +142,7 @@ class KeptPair:
         self.narrow = NarrowPhase(full_masks=True, one_way=True, boxes_only=False)
 
     def at(self, pose_a: At, pose_b: At) -> PairRows:
-        """Return the PairRows at two poses (x, y, angle). The next call overwrites them."""
+        """Return the PairRows of the two shapes at two poses (x, y, angle) [px, rad]. The next call overwrites them."""
         for row, (shape, pose) in enumerate(zip(self.shapes, (pose_a, pose_b), strict=True)):
             place(self.library, shape, self.bodies, self.rows, row, pose)
         refresh_aabbs(BOTH_ROWS, self.library.tables, self.bodies, self.rows)
@@ -152,7 +155,10 @@ THREAD = threading.local()
 
 
 def kept_pair(shape_a: Shape, shape_b: Shape) -> KeptPair:
-    """Return the KeptPair of two shapes, made anew unless it is one of the last KEPT_PAIRS that this thread used."""
+    """Return the KeptPair of two shapes: the cached one, or a new one.
+
+    The cache contains the KEPT_PAIRS KeptPairs that this thread used last.
+    """
     kept: dict[tuple[int, int], KeptPair] = vars(THREAD).setdefault("pairs", {})
     bare = shape_a.bare, shape_b.bare
     key = id(bare[0]), id(bare[1])  # unique while the pair is kept, because the pair refers to both shapes
@@ -180,12 +186,12 @@ NAMES = CONTACT.names or ()
 
 @dataclass(frozen=True)
 class Manifold:
-    """A contact of two shapes, as collide returns it. len() is the number n of its points.
+    """A contact of two shapes A and B, the result of collide. len() returns the number n of contact points.
 
     normal: unit vector from A to B; (0, 0) without points.
-    points: (n, 2) [px], midway between the two surfaces.
-    separations: (n,) [px], negative where the shapes overlap.
-    features: (n,) int64, ids of the corners, edges, tiles or pixels that touch.
+    points: contact points (n, 2) [px], midway between the two surfaces.
+    separations: separation at each point (n,) [px], negative where the shapes overlap.
+    features: (n,) int64, feature ids of the corners, edges, tiles or pixels that touch.
     area: area shared by two masks [px²], 0 for other shapes.
     """
 
@@ -199,7 +205,7 @@ class Manifold:
         return len(self.points)
 
     def __repr__(self):
-        """Return normal, points and separations on one line; area only if masks share pixels."""
+        """Return a text with normal, points and separations on one line, and with area if masks share pixels."""
         places = [(round(x, 6), round(y, 6)) for x, y in self.points.tolist()]
         gaps, area = (
             [round(each, 6) for each in self.separations.tolist()],
@@ -211,13 +217,13 @@ class Manifold:
 def collide(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose, margin: float = 0.0) -> Manifold:
     """Return the contact of two shapes as a Manifold.
 
-    shape_a, shape_b: the shapes.
-    pose_a, pose_b: their poses, (x, y) or (x, y, angle) [px, rad].
-    margin: greatest separation of a point [px], >= 0.
+    shape_a, shape_b: the two shapes A and B.
+    pose_a, pose_b: poses of A and B, (x, y) or (x, y, angle) [px, rad].
+    margin: greatest separation of a contact point [px], >= 0.
 
-    If the two shapes are swapped, the points and separations are the same, and the normal is reversed. Against a
-    TileGrid or a Chain, the points of all tiles or links are returned, with the normal of the deepest point. Two shapes
-    that are each a TileGrid or a Chain never collide. Raises TypeError for values that are not shapes, poses or
+    If A and B are swapped, the points and separations are the same, and the normal is reversed. If one shape is a
+    TileGrid or a Chain, the points at all tiles or links are returned, with the normal of the deepest point. A TileGrid
+    or Chain never collides with another TileGrid or Chain. Raises TypeError for values that are not shapes, poses or
     numbers, ValueError for a pose that the shape cannot have or a margin < 0.
     """
     poses = [checked_pose("shape_a", shape_a, "pose_a", pose_a), checked_pose("shape_b", shape_b, "pose_b", pose_b)]
@@ -231,9 +237,10 @@ def collide(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose, margin: 
 
 
 def _collide_hulls(rows, margin, swapped) -> Manifold:
-    """Return the Manifold of two convex shapes with points within margin [px]. rows: PairRows.
+    """Return the Manifold of two convex shapes, with contact points of separation <= margin [px].
 
-    swapped: whether the collider takes the shapes in reverse order, so that the normal is reversed afterwards.
+    rows: PairRows of the shapes; swapped: whether the shapes are processed in reverse order; the normal is then
+    reversed afterwards.
     """
     low, high = sorted(rows.shapes["kind"].tolist())
     kind = kind_of_pair(low, high)
@@ -279,7 +286,7 @@ def _collide_any(shape_a, pose_a, shape_b, pose_b, margin, swapped) -> Manifold:
 
 
 def nowhere() -> Manifold:
-    """Return an empty Manifold, for shapes that do not touch."""
+    """Return a Manifold without points, for shapes that do not touch."""
     return Manifold(Vec2(0.0, 0.0), np.zeros((0, 2)), np.zeros(0), np.zeros(0, np.int64), 0.0)
 
 
@@ -294,12 +301,13 @@ NEXT_TO_NOTHING = math.ulp(
 
 @dataclass(frozen=True)
 class Distance:
-    """The distance of two shapes, as the function distance returns it.
+    """The distance of two shapes A and B, the result of the function distance.
 
-    distance: [px], negative for an overlap: minus the shortest translation of B along the normal that ends it.
-    point_a, point_b: nearest points on the two surfaces [px]; point_b = point_a + distance · normal.
+    distance: distance [px]. For an overlap it is negative: minus the length of the shortest translation of B along the
+        normal that separates the shapes.
+    point_a, point_b: nearest points on the surfaces of A and B [px]; point_b = point_a + distance · normal.
     normal: unit vector from A to B.
-    iterations: rounds of GJK and EPA.
+    iterations: number of iterations of GJK and EPA.
     """
 
     distance: float
@@ -310,19 +318,20 @@ class Distance:
 
 
 def distance(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> Distance:
-    """Return the distance of two shapes and their nearest points.
+    """Return the distance of two shapes and their nearest points, as a Distance.
 
-    shape_a, shape_b: the shapes.
-    pose_a, pose_b: their poses, (x, y) or (x, y, angle) [px, rad].
+    shape_a, shape_b: the two shapes A and B.
+    pose_a, pose_b: poses of A and B, (x, y) or (x, y, angle) [px, rad].
 
-    Convex shapes: exact up to rounding. Concave shapes: the distance of the nearest parts, or for an overlap minus the
-    depth of `collide`. A mask is measured by its pixels, at the pose at which it is tested (as drawn if snap=True).
+    For convex shapes the result is exact up to rounding. For concave shapes it is the distance of their nearest convex
+    parts, or for an overlap minus the depth that `collide` finds. A mask is measured by its pixels, as drawn if
+    snap=True, otherwise at its exact pose.
 
     The distance is <= 0 if `collide` finds a contact, and < 0 if masks have a contact. A shape that touches a mask
-    without shared area has distance 0 and no contact. Other shapes may touch or cross without a contact (a Chain from
-    behind, tiles on tiles): then their distance is the smallest positive number. The distance to an empty shape is
-    infinite, with the normal (1, 0). Raises TypeError for values that are not shapes or poses, ValueError for a pose
-    that the shape cannot have.
+    without shared area has distance 0 and no contact. Other shapes may touch or cross without a contact, for example a
+    Chain from behind or tiles on tiles; the distance is then the smallest positive number. The distance to an empty
+    shape is infinite, with the normal (1, 0). Raises TypeError for values that are not shapes or poses, ValueError for
+    a pose that the shape cannot have.
     """
     pose_a = checked_pose("shape_a", shape_a, "pose_a", pose_a)
     pose_b = checked_pose("shape_b", shape_b, "pose_b", pose_b)
@@ -373,10 +382,10 @@ def _measure(shape_a, pose_a, shape_b, pose_b) -> Distance:
 
 @kernel
 def separate_hulls(geometry, bodies, shapes, x, y, corners_a_out, corners_b_out, workspace):
-    """Write the separation of two hulls, its normal and nearest points to workspace.gap, relative to (x, y) [px].
+    """Compute the separation of two hulls. Return (separation [px], size of the larger hull [px], GJK/EPA iterations).
 
-    Return (separation [px], size of the larger hull [px], rounds of GJK and EPA). The hulls are in rows 0 and 1 of
-    bodies and shapes. corners_a_out, corners_b_out (16, 2): scratch.
+    Also write the separation, the normal and the nearest points, relative to (x, y) [px], to workspace.gap. The hulls
+    are in rows 0 and 1 of bodies and shapes. corners_a_out, corners_b_out: (16, 2) scratch.
     """
     a, b = bodies[0], bodies[1]
     count_a = hull_at(geometry, shapes, 0, a.x - x, a.y - y, a.angle, corners_a_out)
@@ -389,7 +398,10 @@ def separate_hulls(geometry, bodies, shapes, x, y, corners_a_out, corners_b_out,
 
 @subkernel
 def size_of(corners, count, radius):
-    """Return the longer side [px] of the AABB of a hull rounded by a radius [px]."""
+    """Return the longer side [px] of the AABB of a rounded hull.
+
+    corners: corners of the hull [px], of which the first `count` are in use; radius: rounding radius [px].
+    """
     longest = 0.0
     for axis in range(2):
         low = corners[0, axis]
@@ -402,9 +414,10 @@ def size_of(corners, count, radius):
 
 
 def _separate_any(shape_a, pose_a, shape_b, pose_b, workspace):
-    """Return (separation [px], greater size [px], rounds of GJK and EPA) of any two shapes at two poses.
+    """Compute the separation of any two shapes. Return (separation [px], larger size [px], GJK/EPA iterations).
 
-    The separation is infinite if one shape is empty. workspace.gap receives the details, as in separate_hulls.
+    The separation is infinite if one shape is empty. The normal and the nearest points are written to workspace.gap,
+    relative to the position of A.
     """
     parts_a, parts_b = parts_of_pair(shape_a, pose_a, shape_b, pose_b, pose_a[0], pose_a[1])
     totals = np.zeros(2)
@@ -416,7 +429,10 @@ def _separate_any(shape_a, pose_a, shape_b, pose_b, workspace):
 
 
 def parts_of_pair(shape_a: Shape, pose_a: At, shape_b: Shape, pose_b: At, x: float, y: float) -> tuple[Parts, ...]:
-    """Return the convex parts of both shapes at poses (x, y, angle), relative to the point (x, y) [px]."""
+    """Return (Parts of A, Parts of B): the convex parts of two shapes, relative to the point (x, y) [px].
+
+    pose_a, pose_b: poses (x, y, angle) of the shapes [px, rad].
+    """
     geometry, bodies, shapes = kept_pair(shape_a, shape_b).at(pose_a, pose_b)
     return tuple(
         shape._parts_at(Placed(geometry, bodies, shapes, row, x, y, float(shapes[1 - row]["max_y"])))
@@ -433,11 +449,11 @@ LOOKS = 1024  # number of parts of a motion at which touching shapes are tested 
 
 @dataclass(frozen=True)
 class TimeOfImpact:
-    """The first impact of two moving shapes, as time_of_impact returns it.
+    """The first impact of two moving shapes A and B, the result of time_of_impact.
 
     hit: whether there is an impact.
     fraction: fraction of the motion at which the shapes touch, 0 to 1; 1 without an impact.
-    point: where they touch (x, y) [px]; None without an impact.
+    point: point at which the shapes touch (x, y) [px]; None without an impact.
     normal: unit vector from A to B; None without an impact.
     """
 
@@ -453,21 +469,21 @@ NO_IMPACT = TimeOfImpact(False, 1.0, None, None)
 def time_of_impact(
     shape_a: Shape, start_a: Pose, end_a: Pose, shape_b: Shape, start_b: Pose, end_b: Pose
 ) -> TimeOfImpact:
-    """Return the first impact of two shapes whose poses move linearly from start to end.
+    """Return the first impact of two shapes whose poses change linearly from start to end, as a TimeOfImpact.
 
-    shape_a, shape_b: the shapes.
-    start_a, start_b: their poses at the start, (x, y) or (x, y, angle) [px, rad].
-    end_a, end_b: their poses at the end; angles are not wrapped.
+    shape_a, shape_b: the two shapes A and B.
+    start_a, start_b: poses of A and B at the start, (x, y) or (x, y, angle) [px, rad].
+    end_a, end_b: poses of A and B at the end; angles are not wrapped.
 
     Two discs are solved in closed form, other convex shapes to 1e-13 of their size and motion. If the shapes touch or
-    overlap at the start, the impact is at fraction 0 if they approach; otherwise the search continues until they
-    approach.
+    overlap at the start, the impact is at fraction 0 if they approach each other; otherwise the search continues until
+    they approach.
 
-    A Chain is hit from its front, a one-way tile from above. Seams between tiles or links are not hit. Tiles and chains
-    do not collide with each other. Grazing contacts with tiles, links and PixelMasks are not impacts. A PixelMask moves
-    as its outline at the exact pose. A Bounds whose shape rotates changes its size during the motion; its impact is
-    found to 1e-12 of size and motion. Raises TypeError for values that are not shapes or poses, ValueError for a pose
-    that the shape cannot have.
+    A Chain is hit only from its front, a one-way tile only from above. Seams between tiles or links are not hit. Tiles
+    and chains do not collide with each other. Grazing contacts with tiles, links and PixelMasks are not impacts. A
+    PixelMask moves as its outline at the exact pose. A Bounds whose shape rotates changes its size during the motion;
+    its impact is found to 1e-12 of size and motion. Raises TypeError for values that are not shapes or poses,
+    ValueError for a pose that the shape cannot have.
     """
     moves = [
         [checked_pose(f"shape_{side}", shape, f"{when}_{side}", at) for when, at in (("start", start), ("end", end))]
@@ -529,9 +545,10 @@ def _motion(move):
 
 
 def _local(shape, move) -> tuple[Parts, np.ndarray]:
-    """Return (parts in body space, motion) of a shape that moves between two poses, move = (start, end).
+    """Return (Parts in body space, motion) of a shape that moves from one pose to another. move: (start, end).
 
-    motion (6,): start x, y, angle, then their changes. A Bounds, which does not rotate here, is the box at its angle.
+    motion: (6,) x, y, angle at the start, and the changes of x, y, angle. A Bounds, which must not rotate here, is
+    represented by its box at the angle of the start.
     """
     motion = _motion(move)
     if shape._kind != BOUNDS:
@@ -541,7 +558,7 @@ def _local(shape, move) -> tuple[Parts, np.ndarray]:
 
 
 def _placed(parts, pose, x=0.0, y=0.0) -> Parts:
-    """Return Parts at a pose (x, y, angle), relative to the point (x, y) [px]."""
+    """Return Parts transformed to a pose (x, y, angle) [px, rad], relative to the point (x, y) [px]."""
     return turned_parts(parts, pose[0] - x, pose[1] - y, math.cos(pose[2]), math.sin(pose[2]))
 
 
@@ -559,7 +576,7 @@ def _parts_at(shape, move, fraction, x, y) -> Parts:
 def _point(a, move_a, b, move_b, fraction):
     """Return the point [px] midway between the nearest points of two moving shapes at a fraction of their motion.
 
-    a, b: the shapes; move_a, move_b: (start pose, end pose) of each.
+    a, b: the shapes; move_a: (start pose, end pose) of a; move_b: (start pose, end pose) of b.
     """
     x, y = move_a[0][:2]
     gap = _gap_at(*(_parts_at(each, move, fraction, x, y) for each, move in ((a, move_a), (b, move_b))))
@@ -573,10 +590,10 @@ def _gap_at(parts_a, parts_b):
 
 
 def _advance_boxes(a, move_a, b, move_b):
-    """Return (fraction or MISS, nx, ny) of the first impact of two shapes, one of which is a Bounds that changes size.
+    """Return the first impact (fraction or MISS, nx, ny) of two shapes, one of which is a Bounds that changes size.
 
-    A Bounds changes size when its shape rotates. The method is conservative advancement with a bound of the speed.
-    move_a, move_b: (start pose, end pose) of each shape.
+    A Bounds changes size when its shape rotates. The method is conservative advancement with an upper bound of the
+    speed. move_a, move_b: (start pose, end pose) of each shape.
     """
     x, y = move_a[0][:2]
     parts = [each._inner._pixel_parts if each._kind == BOUNDS else each._parts for each in (a, b)]

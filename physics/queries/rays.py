@@ -1,7 +1,7 @@
-"""Casts of a ray at every kind of shape: circles, hulls, lines, chains, tiles and pixels.
+"""Ray casts at single shapes of every kind: circles, hulls, lines, chains, tiles and pixels.
 
-A cast returns (fraction, nx, ny): the fraction of the ray's vector before the hit, and the unit normal of the surface
-that was hit. The fraction MISS, a number greater than 1, means no hit.
+A ray cast returns (fraction, nx, ny): the fraction of the ray's vector before the hit, and the unit normal of the
+surface that was hit. The fraction MISS, a number greater than 1, means no hit.
 """
 
 import math
@@ -22,11 +22,11 @@ from physics.tables.shape import CHAIN, CIRCLE, MASK, TILES
 
 @subkernel
 def cast_on_line(ax, ay, bx, by, x, y, dx, dy):
-    """Return the fraction at which a ray hits the line from a to b, ends included, or MISS.
+    """Return the fraction at which a ray hits the line segment from (ax, ay) to (bx, by), ends included, or MISS.
 
-    The ray starts at (x, y) and has the vector (dx, dy) [px]. The test compares on which side of the ray the two ends
-    of the line lie, so no ray passes between two lines that share an end. A ray along the line hits the nearer end. A
-    ray that starts on the line hits at 0.
+    x, y, dx, dy: start and vector of the ray [px]. The test compares the sides of the ray on which the two ends are, so
+    no ray passes between two segments with a common end. A ray along the segment hits the nearer end. A ray that starts
+    on the segment hits at fraction 0.
     """
     side_a, side_b = dx * (ay - y) - dy * (ax - x), dx * (by - y) - dy * (bx - x)
     if (side_a > 0.0 and side_b > 0.0) or (side_a < 0.0 and side_b < 0.0):
@@ -48,10 +48,10 @@ def cast_on_line(ax, ay, bx, by, x, y, dx, dy):
 
 @subkernel
 def cast_on_segment(corners, x, y, dx, dy):
-    """Return (fraction or MISS, nx, ny) of a ray that is cast at a two-sided segment.
+    """Cast a ray at a two-sided segment. Return (fraction or MISS, nx, ny).
 
-    The normal points towards the start of the ray. corners: its first two rows are the ends [px]; x, y, dx, dy [px]:
-    start and vector of the ray.
+    The normal points towards the start of the ray. corners: the first two rows are the ends of the segment [px]; x, y,
+    dx, dy: start and vector of the ray [px].
     """
     back_x, back_y = unit(-dx, -dy, 0.0, -1.0)
     if distance_to_edge(corners[0, 0], corners[0, 1], corners[1, 0], corners[1, 1], x, y) == 0.0:
@@ -66,9 +66,10 @@ def cast_on_segment(corners, x, y, dx, dy):
 
 @subkernel
 def cast_on_disc(x, y, dx, dy, radius):
-    """Return (fraction or MISS, nx, ny) of a ray from (x, y) by (dx, dy) [px] that is cast at a disc around (0, 0).
+    """Cast a ray at a disc around (0, 0). Return (fraction or MISS, nx, ny).
 
-    A ray that starts inside hits at 0, with the normal against the ray.
+    A ray that starts inside the disc hits at fraction 0, with a normal opposite to the ray. x, y, dx, dy: start and
+    vector of the ray [px]; radius: radius of the disc [px].
     """
     if x * x + y * y <= radius * radius:
         back_x, back_y = unit(-dx, -dy, 0.0, -1.0)
@@ -78,10 +79,11 @@ def cast_on_disc(x, y, dx, dy, radius):
 
 @subkernel
 def cast_on_hull(corners, count, radius, x, y, dx, dy):
-    """Return (fraction or MISS, nx, ny) of a ray that is cast at a rounded hull of two or more corners.
+    """Cast a ray at a rounded hull with at least two corners. Return (fraction or MISS, nx, ny).
 
-    radius [px]: rounding radius; x, y, dx, dy [px]: start and vector of the ray. A ray that starts inside hits at 0,
-    with the normal against the ray. A ray of zero length tests whether its start is inside.
+    A ray that starts inside the hull hits at fraction 0, with a normal opposite to the ray. A ray of zero length tests
+    whether its start is inside. corners: corners [px], of which the first `count` are in use; radius: rounding radius
+    [px]; x, y, dx, dy: start and vector of the ray [px].
     """
     if radius == 0.0 and count == 2:
         return cast_on_segment(corners, x, y, dx, dy)
@@ -121,9 +123,9 @@ def cast_on_hull(corners, count, radius, x, y, dx, dy):
 
 @subkernel
 def crosses_box(x, y, dx, dy, min_x, min_y, max_x, max_y):
-    """Return whether a ray from (x, y) by (dx, dy) [px] may meet a closed box.
+    """Return whether a ray may cross a box, which is enlarged by a margin for rounding errors.
 
-    The box is enlarged by a margin for rounding errors.
+    x, y, dx, dy: start and vector of the ray [px]; min_x, min_y, max_x, max_y: the box [px].
     """
     rim = 1e-9 * (max_x - min_x + max_y - min_y + abs(dx) + abs(dy)) + 1e-15 * (abs(x) + abs(y))
     enter = 0.0
@@ -144,10 +146,10 @@ def crosses_box(x, y, dx, dy, min_x, min_y, max_x, max_y):
 
 @subkernel
 def cast_on_chain(geometry, chain, body, ray):
-    """Return (fraction or MISS, nx, ny) of a ray (x, y, dx, dy) [px] that is cast at the fronts of a chain's links.
+    """Cast a ray at the fronts of a chain's links. Return (fraction or MISS, nx, ny). O(blocks + links near the ray).
 
-    A ray of zero length tests whether its start is on a link. chain: row of geometry.chains; body: BODY row. O(blocks +
-    links near the ray).
+    A ray of zero length tests whether its start is on a link. chain: row number in geometry.chains; body: BODY row;
+    ray: start and vector (x, y, dx, dy) [px].
     """
     cosine, sine = math.cos(body.angle), math.sin(body.angle)
     x, y = rotate(ray[0] - body.x, ray[1] - body.y, cosine, -sine)
@@ -185,10 +187,10 @@ def cast_on_chain(geometry, chain, body, ray):
 
 @subkernel
 def enter_box(x, y, dx, dy, width, height):
-    """Return the fractions at which a ray enters and leaves the box from (0, 0) to (width, height) [px].
+    """Return the two fractions at which a ray enters and leaves the box from (0, 0) to (width, height) [px].
 
-    x, y, dx, dy [px]: start and vector of the ray. If the ray misses the box, the first fraction is greater than the
-    second.
+    If the ray misses the box, the first fraction is greater than the second. x, y, dx, dy: start and vector of the ray
+    [px].
     """
     enter = 0.0
     leave = 1.0
@@ -209,10 +211,10 @@ def enter_box(x, y, dx, dy, width, height):
 
 @subkernel
 def next_border(position, step, cell, size):
-    """Return the fraction at which a ray leaves a cell along one axis; infinite if it does not move along this axis.
+    """Return the fraction at which a ray leaves a cell along one axis; infinity if its vector is 0 on this axis.
 
-    position [px], step [px]: coordinates of the ray's start and vector on this axis; cell: index of the cell; size
-    [px]: size of a cell.
+    position, step: coordinates of the ray's start and vector on this axis [px]; cell: index of the cell; size: size of
+    a cell [px].
     """
     if step > 0.0:
         return ((cell + 1) * size - position) / step
@@ -223,10 +225,10 @@ def next_border(position, step, cell, size):
 
 @subkernel
 def start_cell(position, step, size, count):
-    """Return the index, along one axis, of the first cell on a ray.
+    """Return the index, along one axis, of the cell in which a ray starts.
 
-    A ray that starts on a border belongs to the cell into which it moves. position [px], step [px]: coordinates of the
-    ray's start and vector on this axis; size [px]: size of a cell; count: number of cells.
+    If the start is on a border between two cells, it is the cell into which the ray moves. position, step: coordinates
+    of the ray's start and vector on this axis [px]; size: size of a cell [px]; count: number of cells.
     """
     at = position / size
     cell = math.floor(at)
@@ -237,10 +239,10 @@ def start_cell(position, step, size, count):
 
 @subkernel
 def cast_on_cell(geometry, grid, row, column, ray, corners_inout):
-    """Return (fraction or MISS, nx, ny) of a ray that is cast at one cell of a tile grid.
+    """Cast a ray at one cell of a tile grid. Return (fraction or MISS, nx, ny).
 
-    A one-way cell is hit only from above. grid: row of geometry.grids; ray: (x, y, dx, dy) [px] relative to the grid's
-    origin; corners_inout (16, 2): scratch.
+    A one-way cell is hit only from above. grid: row number in geometry.grids; row, column: the cell; ray: start and
+    vector (x, y, dx, dy) [px] relative to the grid's origin; corners_inout: (16, 2) scratch.
     """
     x, y, dx, dy = ray
     g = geometry.grids[grid]
@@ -255,11 +257,11 @@ def cast_on_cell(geometry, grid, row, column, ray, corners_inout):
 
 @subkernel
 def cast_on_tiles(geometry, grid, ray, corners_inout):
-    """Return (fraction or MISS, nx, ny) of a ray that is cast at the tiles of a grid. O(cells on the ray).
+    """Cast a ray at the tiles of a grid. Return (fraction or MISS, nx, ny). O(cells on the ray).
 
-    A ray along a border hits the tiles on both sides, and a ray through a corner hits all four tiles. So the neighbours
-    of each cell are also tested. grid: row of geometry.grids; ray: (x, y, dx, dy) [px] relative to the grid's origin;
-    corners_inout (16, 2): scratch.
+    A ray along a border hits the tiles on both sides, and a ray through a corner hits all four tiles, so the neighbours
+    of each cell are also tested. grid: row number in geometry.grids; ray: start and vector (x, y, dx, dy) [px] relative
+    to the grid's origin; corners_inout: (16, 2) scratch.
     """
     x, y, dx, dy = ray
     g = geometry.grids[grid]
@@ -295,9 +297,10 @@ def cast_on_tiles(geometry, grid, ray, corners_inout):
 
 @subkernel
 def is_solid_at(rasters, words, mask, x, y):
-    """Return whether the point (x, y) [px] of a raster, measured from its top left corner, is in a solid pixel.
+    """Return whether a point of a raster is in a solid pixel. Pixel (i, j) covers [i, i + 1) x [j, j + 1).
 
-    Pixel (i, j) is [i, i + 1) x [j, j + 1). rasters, words: tables of the geometry; mask: RASTER row number.
+    rasters, words: tables of the geometry; mask: RASTER row number; x, y: the point [px], measured from the top left
+    corner of the raster.
     """
     r = rasters[mask]
     if not (0.0 <= x < r.width and 0.0 <= y < r.height):
@@ -309,7 +312,8 @@ def is_solid_at(rasters, words, mask, x, y):
 def is_in_mask(geometry, shape, body, x, y):
     """Return whether the world point (x, y) [px] is in a solid pixel of a mask.
 
-    A mask with snap=True is tested as drawn, any other at its exact pose. shape, body: SHAPE and BODY row of the mask.
+    A mask with snap=True is tested as drawn, any other mask at its exact pose. shape: SHAPE row of the mask; body: its
+    BODY row.
     """
     if not shape.snap:
         mask = raster_of_shape(geometry, shape)
@@ -325,7 +329,10 @@ def is_in_mask(geometry, shape, body, x, y):
 
 @subkernel
 def inside_polygon(corners, count, x, y):
-    """Return whether a point is in a closed convex polygon. The `count` corners are clockwise on the screen."""
+    """Return whether the point (x, y) is in a convex polygon or on its boundary.
+
+    corners: the corners, clockwise on the screen, of which the first `count` are in use.
+    """
     for k in range(count):
         n = k + 1 if k + 1 < count else 0
         ex = corners[n, 0] - corners[k, 0]
@@ -337,9 +344,10 @@ def inside_polygon(corners, count, x, y):
 
 @subkernel
 def point_in_tiles(geometry, grid, x, y, corners_inout):
-    """Return whether a point [px], relative to the grid's origin, is in a closed solid tile or slope.
+    """Return whether a point is in a solid tile or slope of a grid, boundary included.
 
-    grid: row of geometry.grids; corners_inout (16, 2): scratch.
+    grid: row number in geometry.grids; x, y: the point relative to the grid's origin [px]; corners_inout: (16, 2)
+    scratch.
     """
     g = geometry.grids[grid]
     column, row = math.floor(x / g.tile_size), math.floor(y / g.tile_size)
@@ -360,10 +368,11 @@ def point_in_tiles(geometry, grid, x, y, corners_inout):
 
 @subkernel
 def cast_on_shape(geometry, bodies, shapes, row, ray, corners_inout):
-    """Return (fraction or MISS, nx, ny) of a ray (x, y, dx, dy) [px] that is cast at SHAPE row `row`.
+    """Cast a ray at a shape. Return (fraction or MISS, nx, ny).
 
-    A ray of zero length tests whether its start is inside. For a mask only the start of the ray is tested, against its
-    pixels; longer rays are cast at mask outlines by other functions. corners_inout (16, 2): scratch.
+    A ray of zero length tests whether its start is inside. For a mask only the start of the ray is tested, against the
+    pixels; batches.cast_on_outline casts longer rays at masks. row: SHAPE row number; ray: start and vector (x, y, dx,
+    dy) [px]; corners_inout: (16, 2) scratch.
     """
     x, y, dx, dy = ray
     s = shapes[row]
