@@ -1,7 +1,7 @@
-"""2D collision that understands sprites: shapes, broad phases, narrow phase down to pixels, contacts, events.
+"""2D physics with collision detection down to the pixels of sprites: shapes, broad and narrow phases, contacts, events.
 
-Pixels, seconds, radians; x right, y down; a positive angle turns clockwise on the screen. Start reading at
-`World.step` in physics/world.py.
+Units are pixels, seconds and radians. x points right, y points down, and a positive angle is clockwise on the screen.
+Start reading at `World.step` in physics/world.py.
 """
 
 from physics.background import compile_in_background

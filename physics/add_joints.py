@@ -235,7 +235,7 @@ def _default_point(world, kind, name, body):
 
 
 def _body_ids(world, name, values) -> np.ndarray:
-    """Return the ids (n,) int64 of bodies. values: a Body, an id, or None for the world (WORLD), for each of n bodies.
+    """Return the ids (n,) int64 of n bodies. values: n Bodies, ids or None; None means the world, whose id is WORLD.
 
     name: name of the argument in messages. Raises TypeError or ValueError for an invalid value, KeyError for an unknown
     body.
@@ -250,7 +250,7 @@ def _body_ids(world, name, values) -> np.ndarray:
 def add_many(world: WorldState, kind: Any, bodies_a: Any, bodies_b: Any, settings: dict[str, Any]) -> np.ndarray:
     """Add n joints of one kind between pairs of bodies, and return the ids (n,) of the joints.
 
-    The arguments and errors are those of World.add_joints. settings: its keyword arguments.
+    The arguments and errors are those of World.add_joints. settings: the keyword arguments of World.add_joints.
     """
     world._unlocked()
     if not (isinstance(kind, type) and kind in KINDS):
@@ -276,8 +276,8 @@ def add_many(world: WorldState, kind: Any, bodies_a: Any, bodies_b: Any, setting
 def _add_many_of_bodies(world, kind, first, second, settings) -> np.ndarray:
     """Add a joint of one kind for each of n pairs of bodies, and return the ids (n,) of the joints.
 
-    first, second: bodies A and B of the pairs, as Bodies, ids or None (the world), or None for the world in all pairs.
-    settings: keyword arguments of World.add_joints. Raises the errors of add_many.
+    first, second: lists with bodies A and B of the pairs, as Bodies, ids or None (the world); None instead of a list
+    means the world in all pairs. settings: keyword arguments of World.add_joints. Raises the errors of add_many.
     """
     n = len(first or second or ())
     sides = [name for name in ("a", "b", "body") if name in kind.__dataclass_fields__]
@@ -297,8 +297,8 @@ def _add_many_of_bodies(world, kind, first, second, settings) -> np.ndarray:
 def _add_many_gears(world, kind, first, second, settings) -> np.ndarray:
     """Add a gear for each of n pairs of sides, and return the ids (n,) of the gears. Raises the errors of add_many.
 
-    kind: the class Gear; first, second: sides A and B, as Joints, ids of joints, or Bodies. settings: keyword arguments
-    of World.add_joints.
+    kind: the class Gear; first, second: lists with sides A and B of the gears, as Joints, ids of joints, or Bodies;
+    settings: keyword arguments of World.add_joints.
     """
     if len(first) != len(second):
         raise ValueError(f"bodies_b must have as many entries as bodies_a (got {len(second)} and {len(first)})")

@@ -127,8 +127,8 @@ class Body(Handle):
         The velocity is the distance divided by the length of the next step. The body carries the characters that stand
         on it, and pushes other bodies out of its path. After the step its velocity is 0. Setting a velocity or
         teleporting the body before the next step cancels the target. Raises TypeError for arguments of other types;
-        ValueError for a body that is not kinematic, for a position that would need more than the speed limit, and for
-        a new angle without the effect `rotation`.
+        ValueError for a body that is not kinematic, for a position that cannot be reached below the speed limit, and
+        for a new angle without the effect `rotation`.
         """
         step.set_target(self.world, self.id, position, angle)
 
@@ -312,7 +312,7 @@ class Body(Handle):
 
         shape: a Circle, Capsule, Polygon or PixelMask.
         pose: pose of the shape in the world, (x, y) or (x, y, angle) [px, rad].
-        crumb: separated pieces with fewer pixels than this are deleted, a whole number >= 0.
+        crumb: a whole number >= 0. Separated pieces with fewer pixels than this number are deleted.
 
         Pieces are 8-connected. In a dynamic body, each carved mask keeps only its largest piece. In a body of another
         kind, pieces that were separate before the cut stay, and a piece that splits keeps its largest part. Of equally

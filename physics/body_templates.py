@@ -2,7 +2,7 @@
 
 edit.add_rows checks all arguments of a new body and computes its rows: mass, geometry, proxies of the broad phase. For
 a further body with equal arguments, only pose and velocity differ. A template stores the other values, so only pose
-and velocity are checked and written. Unusual arguments are passed to edit.add_rows, which raises the errors.
+and velocity are checked and written. Arguments of unusual types are passed to edit.add_rows, which raises the errors.
 """
 
 from collections.abc import Sequence

@@ -14,20 +14,20 @@ from physics.world_state import WorldState
 def _own_rows(world, at, own) -> np.ndarray:
     """Return the SHAPE row numbers of the shapes of a body that have no value of their own and use the body's value.
 
-    at: row number of the body; own: SHAPE column of the value, "own_material", "own_filter" or "own_sensor".
+    at: row number of the body; own: SHAPE column that flags own values: "own_material", "own_filter" or "own_sensor".
     """
     rows = world._shape_rows(at)
     return rows[~world.shapes[own][rows]]
 
 
 def material_of(world: WorldState, identity: int) -> Material:
-    """Return the material of a body, which its shapes without a material of their own use. identity: id of the body."""
+    """Return the material of a body (id). The body's shapes use it unless they have a material of their own."""
     given = world._definitions.rows[world._row_number(identity)]
     return Material(*(given[name].item() for name in MATERIALS))
 
 
 def filter_of(world: WorldState, identity: int) -> Filter:
-    """Return the filter of a body, which its shapes without a filter of their own use. identity: id of the body."""
+    """Return the collision filter of a body (id). The body's shapes use it unless they have a filter of their own."""
     given = world._definitions.rows[world._row_number(identity)]
     return Filter(given["membership"].item(), given["mask"].item())
 

@@ -22,7 +22,7 @@ class Carved(NamedTuple):
     """The result of Body.carve.
 
     removed: number of pixels that were removed because they were inside the shape.
-    fragments: Bodies of the separated pieces, in the order of masks, and for each mask in the order of first pixels.
+    fragments: Bodies of the separated pieces, in the order of the carved masks, then of the first pixels of the pieces.
     crumbs: number of pixels that were removed because their separated piece was too small.
     """
 
@@ -100,7 +100,7 @@ def _in_raster(mask, frame, x, y):
 
 
 def _mask_tool(mask, frame, shape, pose) -> Tool:
-    """Return a Tool (see pixel_tiles) that finds the pixels of one mask whose centres are in solid pixels of another.
+    """Return a Tool (see pixel_tiles) that finds the pixels of a mask whose centres are in solid pixels of `shape`.
 
     mask: the carved mask; shape: the other mask; frame: pose (x, y, angle) of the body of `mask`; pose: pose of `shape`
     in the world.
@@ -149,7 +149,7 @@ def _shrink(world: WorldState, identity: int, cuts: dict[int, Cut], given: "_Giv
 
 
 class _Given(NamedTuple):
-    """The centre of mass, velocities, mass ratio and density of a body before it is carved, for its fragments."""
+    """The motion and density of a body before it is carved, from which those of its fragments are computed."""
 
     center: tuple[float, float]
     velocity: tuple[float, float]

@@ -59,7 +59,7 @@ def add_shapes(world: WorldState, first_row: int, bodies: int, shapes: Sequence[
 
 
 def _append_rows(world, first_row, bodies, pieces) -> np.ndarray:
-    """Append SHAPE rows for `pieces` (Pieces) to each of some consecutive bodies, and return the new rows.
+    """Append a SHAPE row for each Piece in `pieces` and each body in a range of bodies, and return the new rows.
 
     first_row: row number of the first body; bodies: number of bodies. The column `parent` is not written.
     """
@@ -296,10 +296,10 @@ def rows_at_cells(world: WorldState, at: int, size: float, cells: np.ndarray, ma
 
 
 def _wake_at_cells(world, at, rows):
-    """Wake the sleeping islands at changed cells of a grid, and have the next step visit static and kinematic bodies.
+    """Wake the sleeping islands at changed cells of a grid, and have the next step visit other bodies at these cells.
 
-    Static bodies are visited only if they touch the grid. at: row number of the grid's body; rows: SHAPE row numbers of
-    the shapes at the changed cells.
+    Kinematic bodies are visited; static bodies are visited only if they touch the grid. at: row number of the grid's
+    body; rows: SHAPE row numbers of the shapes at the changed cells.
     """
     if not world.sleeps:
         return

@@ -87,8 +87,8 @@ class Effects:
     def rigid_bodies(cls, **others: Never) -> "Effects":
         """Return the Effects for rigid bodies, which fall, rotate, bounce, have friction, stack and sleep.
 
-        They are response, gravity, rotation, friction, restitution, stacking, continuous, sleeping and sensors, besides
-        narrowphase.
+        The following effects are on: narrowphase, response, gravity, rotation, friction, restitution, stacking,
+        continuous, sleeping and sensors.
         """
         _check_no_effects("rigid_bodies", others)
         return cls(
@@ -141,7 +141,7 @@ class Effects:
         return self.with_(**{name: False}, **{each: False for each in self.names() if name in NEEDS.get(each, ())})
 
     def and_needed(self, name: str) -> "Effects":
-        """Return a copy in which all effects are on that the effect `name` needs. The effect itself is unchanged.
+        """Return a copy in which all effects needed by the effect `name` are on. The effect itself is unchanged.
 
         name: name of the effect. For an unknown name, the copy equals the original.
         """

@@ -96,13 +96,14 @@ def look_at_pair(contacts, first, last, slop):
 def compare_pairs(before, contacts, fell_asleep, sensors, persisting, slop, hit_speed, comparison_inout):
     """Compare the pairs that touched in the last step with the contacts of this step, and write the changes.
 
-    Return True. Return False if a contact belongs to a part of a shape: the comparison then stops, and the caller must
-    first replace the ids of parts by those of whole shapes. before: EVENT rows of the pairs that touched in the last
-    step; contacts: CONTACT rows of this step; both sorted by shape ids. fell_asleep: CONTACT rows of pairs whose island
-    fell asleep. Such pairs still touch; they are not reported, but written to comparison_inout.aside. sensors: 1: read
-    only contacts of sensors, 0: read only other contacts. persisting: 1: report pairs that continue to touch. slop
-    [px]: greatest separation at which a pair that touched before still touches. hit_speed [px/s]: approach speed above
-    which a hit is reported. comparison_inout: a Comparison. O(before + contacts).
+    Return False if a contact belongs to a part of a shape, otherwise True. The comparison stops at such a contact; the
+    caller must replace the ids of parts by those of whole shapes and call again. before: EVENT rows of the pairs that
+    touched in the last step; contacts: CONTACT rows of this step; both sorted by shape ids. fell_asleep: CONTACT rows
+    of pairs whose island fell asleep. Such pairs still touch; they are not reported, but written to
+    comparison_inout.aside. sensors: 1: read only contacts of sensors, 0: read only other contacts. persisting: 1:
+    report pairs that continue to touch. slop [px]: greatest separation at which a pair that touched before still
+    touches. hit_speed [px/s]: approach speed above which a hit is reported. comparison_inout: a Comparison. O(before +
+    contacts).
     """
     counts = comparison_inout.counts
     now = comparison_inout.now
@@ -264,7 +265,7 @@ class Pairs:
         self.last.now[: len(before)] = before
 
     def give_back(self, rows: np.ndarray) -> None:
-        """Add touching pairs, as EVENT rows, that are moved here from the sleeping set."""
+        """Add touching pairs that were in the sleeping set. rows: EVENT rows (n,) of these pairs."""
         if len(rows):
             both = joined([self.rows, rows])
             self.restore(both[np.lexsort((both["shape_b"], both["shape_a"]))])
@@ -298,8 +299,9 @@ class Pairs:
 def collect_bodies(touching, shapes, pairs_out):
     """Write the body ids a < b of touching pairs. Return (number of pairs written, whether they are sorted).
 
-    Omitted are pairs with a shape that was removed after the step, and a pair of bodies equal to the previous one.
-    touching: EVENT rows (n,); pairs_out: (n, 2) int64. O(n) if no shape was ever removed, otherwise O(n log shapes).
+    Pairs with a shape that was removed after the step are omitted. A pair of bodies is written once if it occurs in
+    consecutive rows. touching: EVENT rows (n,); pairs_out: (n, 2) int64. O(n) if no shape was ever removed, otherwise
+    O(n log shapes).
     """
     found = 0
     in_order = True

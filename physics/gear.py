@@ -51,11 +51,11 @@ def _shown(side):
 
 
 def _side(world, name, of_joint, identity):
-    """Check one side of a gear, a joint or a body. Return (joint id or NO_JOINT, body id, rotates, has a dynamic body).
+    """Check one side of a gear, which is a joint or a body, and return its properties.
 
-    For a joint, the body is B if B is dynamic, otherwise A if A is dynamic. name: name of the argument, for messages;
-    of_joint: whether `identity` is the id of a joint; False: of a body. rotates: True for a body and for a joint whose
-    coordinate is an angle.
+    The result is (joint id or NO_JOINT, body id, whether the coordinate of the side is an angle, whether the side has a
+    dynamic body). For a joint, the body is B if B is dynamic, otherwise A if A is dynamic. name: name of the argument,
+    for messages; of_joint: True: `identity` is the id of a joint, False: of a body.
     """
     if not of_joint:
         row = world._body_row(identity)

@@ -245,8 +245,8 @@ def explained_class(made: Made) -> Made:
 def without_others(function: Called) -> Called:
     """Hide the last argument of a function, `**others: Never`, from help() and signature(). Return the function.
 
-    The function itself must raise `unexpected` for these keyword arguments. Unlike with `explained`, calls are not
-    slower.
+    The function itself must raise the error that `unexpected` returns for these keyword arguments. Calls are not
+    slower, unlike with `explained`.
     """
     whole = signature(function)
     kept = [each for each in whole.parameters.values() if each.kind != Parameter.VAR_KEYWORD]

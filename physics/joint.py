@@ -242,12 +242,12 @@ class Joint:
 
     @property
     def body_a(self) -> Any:
-        """The first body of the joint, a Body; None if it is the world."""
+        """The first body of the joint, as a Body; None for the world."""
         return self._body("body_a")
 
     @property
     def body_b(self) -> Any:
-        """The second body of the joint, a Body; None if it is the world."""
+        """The second body of the joint, as a Body; None for the world."""
         return self._body("body_b")
 
     def _body(self, name):
@@ -405,7 +405,7 @@ class Joint:
 
     @property
     def contacts(self) -> bool:
-        """Whether the two bodies of the joint collide with each other."""
+        """Whether the two bodies of the joint can collide with each other."""
         return bool(self._row["contacts"])
 
     @contacts.setter

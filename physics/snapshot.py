@@ -162,7 +162,7 @@ def _as_laid_out(name, rows, dtype) -> np.ndarray:
 
 
 class Snapshot:
-    """A copy of the state of a world. World.snapshot returns it, and World.restore restores it."""
+    """A copy of the state of a world. World.snapshot returns a Snapshot; World.restore sets a world to its state."""
 
     def __init__(self, arrays: dict[str, np.ndarray], facts: dict[str, Any], geometry: Any = None) -> None:
         for name, value in (("arrays", arrays), ("facts", facts)):

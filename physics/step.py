@@ -251,7 +251,7 @@ def plans(effects: Effects, solver: str) -> tuple[Plan, Plan]:
 class Workspace:
     """The scratch arrays of the stages of one world. They are reused in each step, and grow as needed.
 
-    The contents of an array are valid only during a stage. CONTACT rows are an exception.
+    The contents of an array are valid only during one stage, except for CONTACT rows, which later stages read.
     """
 
     def __init__(self, effects: Effects, solver: str) -> None:
@@ -370,9 +370,10 @@ def finish(world: WorldState, state: StepState) -> None:
 def staged_step(world: WorldState, dt: float | None = None) -> Generator[Stage | None, None, None]:
     """Run the step of World.step(dt) stage by stage. Yield None before the first stage, then each stage after its run.
 
-    Between stages the world contains intermediate results: bodies, candidates, contacts and events, and in `profile`
-    times and counters. It cannot be changed then, and it is not in a valid state for further steps. The caller must
-    restore a snapshot afterwards if it stops before the end, or if it uses physics.debug or a query between stages.
+    Between stages the world contains intermediate results: bodies, candidates, contacts, events, and the times and
+    counters in world.profile. The world cannot be changed between stages, and is not valid for further steps. The
+    caller must restore a snapshot if it stops before the last stage, or if it uses physics.debug or a query between
+    stages.
     Raises ValueError for a negative or non-finite dt, RuntimeError during a step.
     """
     world._unlocked()
@@ -395,7 +396,10 @@ def staged_step(world: WorldState, dt: float | None = None) -> Generator[Stage |
 
 
 def _show(world: WorldState, state: StepState) -> None:
-    """Store the results of the stages that have run so far in the world, with the touching contacts as its contacts."""
+    """Store the results of the stages that have run so far in the world.
+
+    Before the stage `events` has run, the contacts that touch so far are stored as the contacts of the world.
+    """
     world.contact_rows, world.sensed = state.contact_rows, state.sensed
     world.ghosts, world.events = state.ghosts, state.events
     _, keep = state.reported

@@ -94,8 +94,8 @@ def find_movable(ids, motions, limit, bodies, rows_out, dynamic_out, marks_inout
 def place_bodies(rows, motions, runs, shapes, bodies_inout, proxies_inout):
     """Write the poses and velocities of bodies, and mark the proxies of static bodies as changed for the next step.
 
-    Return the number of bodies whose SHAPE rows are not consecutive (SCATTERED). Their proxies are not marked; if there
-    are any, the caller must mark them. rows: BODY row numbers (n,); motions: a Motions; runs: RUN rows; shapes: SHAPE
+    Return the number of bodies whose SHAPE rows are not consecutive (SCATTERED). The proxies of such bodies are not
+    marked; the caller must mark them. rows: BODY row numbers (n,); motions: a Motions; runs: RUN rows; shapes: SHAPE
     rows; proxies_inout: PROXY rows. O(shapes of these bodies) if no shape was ever removed, otherwise O(log shapes)
     more for each body.
     """

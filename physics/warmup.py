@@ -82,7 +82,7 @@ def run_warmup(
     solver: str | None = None,
     pieces: Iterable[str] | None = None,
 ) -> None:
-    """Run small worlds that call all kernels of a world with these effects. Arguments and errors as in warmup()."""
+    """Run small worlds that call all kernels of a world with these effects. For arguments and errors see warmup()."""
     for _, run in _runs(effects, broadphase, solver, pieces):
         run()
 

@@ -96,7 +96,7 @@ class World(WorldState):
     substeps: number of substeps of the stacking solvers, 1 to 1000, or "auto". With "auto" each island gets 4 to 32
         substeps, as many as its contacts need to sag by at most `accuracy`; a leaning island gets up to 128. The
         counter cap_hits counts islands that would need more.
-    accuracy: greatest sag of a contact under its load [px], > 0, for substeps="auto"; None: 1 mm.
+    accuracy: greatest sag (overlap) of a contact under its load [px], > 0, for substeps="auto"; None: 1 mm.
     restitution_speed: speed [px/s], >= 0, below which an impact does not bounce; None: 1 m/s.
     seed: seed of `random`, a whole number >= 0.
 
@@ -368,7 +368,7 @@ class World(WorldState):
         teleport.move(self, ids, positions, angles, velocities)
 
     def touch(self, ids: BodyRefs) -> None:
-        """Wake bodies and have the next step update their AABBs, after their columns in world.bodies were written.
+        """Wake bodies whose columns in world.bodies were written, and have the next step update the bodies' AABBs.
 
         ids: a Body, an id, or many, each once. The call is not needed for bodies that are awake, nor in a world without
             the effect `sleeping`.
@@ -416,7 +416,7 @@ class World(WorldState):
 
         kind: the class of all joints, such as Revolute.
         bodies_a, bodies_b: n Bodies or ids; an entry None means the world, and None instead of the sequence means the
-            world for all joints. For gears: n Joints, ids of joints, or Bodies that each gear couples.
+            world for all joints. For gears: the n sides A and n sides B, as Joints, ids of joints, or Bodies.
         **settings: the other arguments of the kind, one value for all joints. Anchors (at, or at_a and at_b) and
             pulley wheels (ground_a, ground_b) are arrays (n, 2) [px]; axis may be an array (n, 2), user a list of n.
 
@@ -734,8 +734,8 @@ class World(WorldState):
 
         point: (x, y) [px]; filter: the Filter of the query, see ray_cast; sensors: whether sensors are also considered.
 
-        The result is None if no shape is considered. For a point inside a shape the distance is 0. Raises TypeError and
-        ValueError as ray_cast does.
+        The result is None if no shape passes the filter. For a point inside a shape the distance is 0. Raises TypeError
+        and ValueError as ray_cast does.
         """
         return casts.closest(self, point, filter, sensors)
 

@@ -96,7 +96,7 @@ def checked_accuracy(value: Any) -> float | None:
 
 
 class Handle:
-    """A reference to a body, which consists of the body's world and its id. Base class of Body."""
+    """A reference to a body by the World and the id of the body. Base class of Body."""
 
     __slots__ = ("_world", "_id")
 
@@ -653,7 +653,7 @@ class WorldState:
                 values.pop(identity, None)
 
     def _drop_removed(self) -> None:
-        """Delete the rows of all bodies that _remove_one has removed from the tables."""
+        """Delete from the tables the rows of all bodies that were removed by _remove_one."""
         ids = np.array([*self._removed], np.int64)
         self._removed.clear()
         self._drop_rows(ids, rows_in(self._bodies, ids))

@@ -212,7 +212,7 @@ def take_node(nodes_inout, state_inout):
 
 @subkernel
 def insert_leaf(leaf, nodes_inout, state_inout, work_inout):
-    """Insert a leaf into its tree. Its sibling is chosen by the surface area heuristic. O(height).
+    """Insert a leaf into its tree. The sibling of the leaf is chosen by the surface area heuristic. O(height).
 
     leaf: index of the leaf; nodes_inout: NODE rows; state_inout: see place_changed; work_inout: counters, see COUNTERS.
     """
@@ -277,8 +277,8 @@ def remove_leaf(leaf, nodes_inout, state_inout, work_inout):
 def select_median(along, first, last, middle, leaves_inout):
     """Partition leaves_inout[first] to leaves_inout[last] at position `middle` by the values of `along` (quickselect).
 
-    Afterwards the leaves before this position have values not greater than the leaf at it, and the leaves after it
-    values not less. along: value of each leaf; leaves_inout: indices of leaves. Source: Hoare 1961.
+    Afterwards no leaf before this position has a greater value than the leaf at this position, and no leaf after it a
+    smaller value. along: value of each leaf; leaves_inout: indices of leaves. Source: Hoare 1961.
     """
     low, high = first, last
     while low < high:
@@ -488,8 +488,8 @@ def place_changed(proxies, changed, margins, loose, leaf_of_inout, nodes_inout, 
     """Insert, remove, or move the leaves of the changed proxies. Return the number of leaves changed. O(moved · log n).
 
     A leaf is not moved while its proxy is within the leaf's fat box. changed: slots of the changed proxies. margins:
-    (margin of a fat box [px], the same as a share of the box's size); the smaller margin is used. loose: (flag of the
-    moving tree, flag of the static tree); 1 if the caller rebuilds this tree next, so its leaves are not linked here.
+    (margin of a fat box [px], margin as a share of the box's size); the smaller one is used. loose: (flag of the moving
+    tree, flag of the static tree); 1 if the caller rebuilds this tree next, so its leaves are not linked here.
     leaf_of_inout: (slots,) index of each proxy's leaf, or -1. state_inout: (first free node, number of used nodes, root
     of the moving tree, root of the static tree). nodes_inout: NODE rows; work_inout: counters, see COUNTERS.
     """
@@ -653,7 +653,7 @@ class DynamicTree:
 
     @property
     def height(self) -> int:
-        """The height of the higher of the two trees; 0 for a single leaf, -1 if both are empty."""
+        """The greater of the heights of both trees: 0 for a single leaf, -1 if both trees are empty."""
         return max(int(self.nodes[root]["height"]) if root >= 0 else -1 for root in self.state[ROOT_MOVING:])
 
     def boxes(self) -> tuple[np.ndarray, np.ndarray]:

@@ -57,7 +57,7 @@ def empty_cells(slots: int, buckets: int) -> Cells:
 
 @subkernel
 def cell_of(coordinate, inverse_size):
-    """Return the number of the column (or row) of cells that contains the x (or y) coordinate `coordinate` [px].
+    """Return the index of the column (or row) of cells that contains an x (or y) coordinate [px].
 
     inverse_size: 1 / (size of a cell) [1/px].
     """

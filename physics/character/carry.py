@@ -300,7 +300,7 @@ def pixels_carried(me, row, along_x, walk_inout):
 
 @subkernel
 def step_down(me, walk_inout):
-    """Move a character down to its ground, if this is no further than a walk of one pixel can lead down.
+    """Move a character down to walkable ground just below it, at most as far as ground can drop over 1 px of walking.
 
     me: row number of the character; walk_inout: see solids.Walk.
     """

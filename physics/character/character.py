@@ -33,7 +33,7 @@ class Moved(NamedTuple):
     """The result of Character.move: pixels moved, and the contacts of the character after the move.
 
     x, y: pixels moved along x and y.
-    grounded: whether the character stands on ground on which it can walk, or on a slope whose foot holds it.
+    grounded: whether the character stands on ground on which it can walk, or a solid at the foot of a slope stops it.
     wall: -1: a solid touches its left side; 1: its right side; 0: neither.
     slope: rise per px to the right of the ground under the feet (1: 45 degrees up to the right), also while the
         character slides down.
@@ -160,16 +160,17 @@ class Character:
         return float(self.world.characters.rows["belt"][self._row])
 
     def move(self, dx: float, dy: float, drop: bool = False) -> Moved:
-        """Move the character, along x first. Return the result as a Moved.
+        """Move the character by (dx, dy), along x first. Return the result as a Moved.
 
         dx, dy: displacement [px], each at most 1e6. Fractions of a pixel are added to the next move.
         drop: True lets the character fall through one-way tiles.
 
         On a slope steeper than max_slope the character slides down, by the component of dy along the slope. If its body
         is quarantined (disabled because a number is invalid), or will be in the next step, the character does not move
-        and has no contacts. A character that overlaps a static solid is moved out of it by two pixels per move, if
-        there is free space within its own size. Raises TypeError for values of other types, ValueError for a move that
-        is not finite or too long, KeyError for a removed character, RuntimeError during a step.
+        and has no contacts. A character that overlaps a static solid is moved out of it by two pixels per move, if a
+        free position is no further away than the character's size. Raises TypeError for values of other types,
+        ValueError for a move that is not finite or too long, KeyError for a removed character, RuntimeError during a
+        step.
         """
         world = self.world
         world._unlocked()
@@ -208,7 +209,7 @@ class Character:
 
         dx, dy: the direction; only the signs are used.
 
-        Not blocking are other characters that can be pushed, and slopes that the character can walk on or slide down.
+        Other characters that can be pushed, and slopes that the character can walk on or slide down, do not block it.
         The world is unchanged. Raises TypeError for values that are not numbers, ValueError for a value that is not
         finite or above 1e6, KeyError for a removed character, RuntimeError during a step.
         """

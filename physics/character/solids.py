@@ -88,7 +88,7 @@ def allowed_depth(c, loose, nx, ny, give, slop):
 
 @subkernel
 def deepest_of(b, slop, dt):
-    """Return the greatest depth [px] to which a character can overlap an outline of body b (BODY row) after one motion.
+    """Return the greatest depth [px] by which a character that was free can overlap an outline of body b (BODY row).
 
     It is one pixel plus two slops [px]; for a body that is not static plus GIVE and the body's motion in dt [s]. If the
     overlap with an edge of a part is deeper, a neighbouring part has the nearer surface, see hulls.collide_hulls.
@@ -245,9 +245,9 @@ def deepest_on(walk, body):
 def link_depth(walk, row, link, drops, count, radius):
     """Return the overlap of a character with a chain link: (depth [px], nx, ny), with the unit normal into the link.
 
-    The depth is 0 if the link lets the character pass. This is the case if the depth would exceed deepest_on, because
-    the character then comes from the back; and, if `drops` is True, for a level link or a one-way surface. walk: see
-    Walk; row: SHAPE row number; link: LINK row number; count, radius: result of place_outline.
+    The depth is 0 if the link lets the character pass: if the overlap is deeper than deepest_on, because the character
+    then comes from the back; and, if `drops` is True, for a level link or a one-way surface. walk: see Walk; row: SHAPE
+    row number; link: LINK row number; count, radius: result of place_outline.
     """
     b = walk.bodies[walk.shapes[row].body_row]
     scratch = walk.scratch
@@ -355,7 +355,7 @@ def on_pixels(kind, coordinate):
 
 @subkernel
 def is_falling(c, way_x, way_y):
-    """Return 1 if one-way tiles stop a move (way_x, way_y), which must be straight down and without drop; else 0."""
+    """Return 1 if a move (way_x, way_y) is straight down and without drop, so that one-way tiles stop it; else 0."""
     return 1 if way_x == 0 and way_y > 0 and not c.drop else 0
 
 
@@ -575,7 +575,7 @@ def can_walk(me, characters):
 
 @kernel
 def find_own_rows(bodies, shapes, characters_inout):
-    """Write the row numbers of their body and shape to all CHARACTER rows. O(characters · log shapes)."""
+    """Write the row numbers of each character's body and shape to its CHARACTER row. O(characters · log shapes)."""
     for me in range(len(characters_inout)):
         c = characters_inout[me]
         c.body_row = row_of(bodies, c.body)
@@ -635,7 +635,7 @@ def is_loose(walk, row):
 
 @subkernel
 def aabb_of(walk, row):
-    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a shape at the present pose of its body. row: SHAPE row."""
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a shape (SHAPE row number) at its present pose."""
     b = walk.bodies[walk.shapes[row].body_row]
     return aabb_at(walk.geometry, walk.shapes, row, b.x, b.y, b.angle)
 
@@ -655,7 +655,7 @@ def in_character(walk, me, other, left, top):
 
 @subkernel
 def in_upright_box(walk, me, row, left, top):
-    """Return whether a character's box at pixel (left, top) shares a pixel with an axis-aligned box (SHAPE row)."""
+    """Return whether a character's box at pixel (left, top) shares a pixel with the axis-aligned box in SHAPE `row`."""
     c = walk.characters[me]
     min_x, min_y, max_x, max_y = aabb_of(walk, row)
     return (

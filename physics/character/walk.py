@@ -76,9 +76,9 @@ def way_aside(walk, me, rows, direction):
 def drop_onto(walk, me, rows, left, onto):
     """Return (pixels down from a character to walkable ground, slope of this ground), or (0, 0) without such ground.
 
-    onto: slope of the ground that the character leaves. If it is 0, only slopes are found; otherwise flat ground is
-    also found, if it is at most one pixel plus the rise of `onto` lower. walk: see solids.Walk; me: row number of the
-    character; rows: nearby solids, see solids.gather; left: pixel column of the character.
+    onto: slope of the ground that the character leaves. If it is 0, only slopes are found. Otherwise flat ground is
+    also found, at most one pixel plus the rise of `onto` lower. walk: see solids.Walk; me: row number of the character;
+    rows: nearby solids, see solids.gather; left: pixel column of the character.
     """
     c = walk.characters[me]
     for drop in range(pixels_along(c.climb) + 1):
@@ -113,8 +113,8 @@ def is_wedged(walk, me, rows, slope):
 def steep_below(walk, me, rows, slope):
     """Return the slope of the ground just below a sliding character if this ground is too steep to walk on, else 0.
 
-    The search ends at the drop of `slope` over one pixel along x. walk: see solids.Walk; me: row number of the
-    character; rows: nearby solids, see solids.gather; slope: slope down which the character slides.
+    The search goes down as far as ground with the slope `slope` drops over one pixel along x. walk: see solids.Walk;
+    me: row number of the character; rows: nearby solids, see solids.gather; slope: slope down which it slides.
     """
     c = walk.characters[me]
     for drop in range(1, pixels_along(slope) + 1):
@@ -312,10 +312,11 @@ def is_in_drawn(me, row, walk_inout):
 
 @subkernel
 def is_crushed(me, all_kinds, walk_inout):
-    """Return whether a moving solid overlaps a character, a loose solid by more than GIVE. O(nearby solids).
+    """Return whether a moving solid overlaps a character. O(nearby solids).
 
-    me: row number of the character; all_kinds: True: test kinematic and dynamic bodies; False: test only kinematic
-    bodies; walk_inout: see solids.Walk.
+    An overlap with a loose solid (see solids.is_loose) counts only if it is deeper than GIVE. me: row number of the
+    character; all_kinds: True: test kinematic and dynamic bodies, False: test only kinematic bodies; walk_inout: see
+    solids.Walk.
     """
     gather(walk_inout, me, -1, 0.0, 0.0, 0.0, walk_inout.found)
     for k in range(1, walk_inout.found[0] + 1):

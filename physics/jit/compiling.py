@@ -260,7 +260,7 @@ def _link(kept):
 
 
 def _environment(name, module, values):
-    """Return numba's Environment with a name, which contains data for compiled code. Make it if it does not exist.
+    """Return the numba Environment `name`, which contains data for compiled code. Create it if it does not exist.
 
     module: name of the module whose globals the code uses; values: constants of the code.
     """
@@ -289,7 +289,7 @@ _UNDER_WAY = object()
 
 
 def dispatcher_of(kernel: Kernel) -> Any:
-    """Return numba's dispatcher for a kernel. It is made at the first call, and then cached.
+    """Return numba's dispatcher for a kernel. The dispatcher is made at the first call, and then cached.
 
     It compiles a copy of the kernel's function in which other kernels are replaced by their dispatchers. Raises
     TypeError for a kernel that calls itself.

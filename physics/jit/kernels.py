@@ -42,7 +42,10 @@ def compiling() -> Iterator[None]:
 
 @contextmanager
 def measured() -> Iterator[Callable[[], float]]:
-    """Return a context manager that yields a function () -> time [s] of compiling and loading since the yield."""
+    """Return a context manager that yields a function, which returns the time spent on compiling and loading [s].
+
+    The time is counted from the beginning of the context.
+    """
     before = seconds + loading
     yield lambda: seconds + loading - before
 

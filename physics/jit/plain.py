@@ -159,7 +159,7 @@ def _masked(value):
 
 
 def _count_bits(typing_context, word):
-    """Count the set bits of a word in compiled kernels. Return (type, code generator) for numba.extending.intrinsic."""
+    """Return (type, code generator), from which numba.extending.intrinsic makes a function that counts set bits."""
 
     def generate(context, builder, signature, args):
         narrow = signature.args[0].bitwidth < 64
@@ -215,7 +215,7 @@ def _copy_head(source, row_out, size):
 
 
 def _row_copy(typing_context, source, row_out):
-    """Copy a row to another row in compiled kernels. Return (type, code generator) for numba.extending.intrinsic."""
+    """Return (type, code generator), from which numba.extending.intrinsic makes a function that copies a row."""
 
     def generate(context, builder, signature, args):
         from numba.core import cgutils
@@ -228,7 +228,7 @@ def _row_copy(typing_context, source, row_out):
 
 
 def _head_copy(typing_context, source, row_out, size):
-    """Copy the first bytes of a row to another row. Return (type, code generator) for numba.extending.intrinsic."""
+    """Return (type, code generator), from which numba.extending.intrinsic makes a function that copies bytes."""
 
     def generate(context, builder, signature, args):
         from numba.core import cgutils

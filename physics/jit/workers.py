@@ -158,8 +158,9 @@ def decoded(line: str) -> Any:
 class Task:
     """A task for a worker process. The waiting task with the largest urgency() is started first.
 
-    order: the value that is sent to the process; done: function that is called with the answer of the process, or with
-    None if the task fails. It is called in the thread that communicates with the process.
+    order: the value that is sent to the process; urgency: function that returns the priority of the task; done:
+    function that is called with the answer of the process, or with None if the task fails. `done` is called in the
+    thread that communicates with the process.
     """
 
     def __init__(self, order: Any, urgency: Callable[[], float], done: Callable[[Any], object]) -> None:

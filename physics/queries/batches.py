@@ -291,7 +291,7 @@ def cast_candidates(
 
 
 class OutlineStore:
-    """The outlines of the masks at which rays were cast, in one MaskOutlines. Each is computed at its first use."""
+    """The outlines of the masks at which rays were cast, in one MaskOutlines. Outlines are computed when first used."""
 
     def __init__(self) -> None:
         self.masks: dict[int, Any] = {}  # geometry row of each mask -> the PixelMask

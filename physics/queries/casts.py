@@ -358,7 +358,7 @@ def _swept_parts(world, row, x, y, feet) -> Parts:
 
 
 def closest(world: AskedWorld, point: Pair, filter: Filter, sensors: bool) -> tuple[Any, Vec2, float] | None:
-    """Find the shape nearest to a point. Return (its Body, nearest point [px], distance [px]), or None without a shape.
+    """Find the shape nearest to a point. Return (its Body, nearest point [px], distance [px]), or None for no shape.
 
     Of several shapes at the same distance, the one with the smallest id is used. If `point` is inside a shape, the
     nearest point is `point` and the distance is 0. filter: Filter of the query; sensors: whether sensors are included.

@@ -196,16 +196,16 @@ class QueryIndex:
         self.refresh(world)
 
     def asks_broadphase(self, world: IndexedWorld) -> bool:
-        """Return whether a query searches the broad phase, because this has data and not all shapes are loose."""
+        """Return whether queries search the broad phase: it has data, and at least one shape is not loose."""
         return not world.pairs.everything and self.loose_count < len(world.shapes)
 
     def refresh(self, world: IndexedWorld) -> None:
         """Update the AABBs of shapes to the present poses, and the list of loose shapes.
 
-        Loose shapes are those that a search of the broad phase may miss. world: a World or a StepState. If no body has
-        moved since the last call, nothing is done. After a step of a world with sleeping, only those bodies are read
-        that were awake before or after the step, that the caller moved, or that were edited. Otherwise all bodies are
-        read.
+        Loose shapes are those that a search of the broad phase may miss. If no body has moved since the last call,
+        nothing is done. After a step of a world with sleeping, only some bodies are read: those that were awake before
+        or after the step, were moved by the caller, or were edited. Otherwise all bodies are read. world: a World or a
+        StepState.
         """
         bodies, shapes, pairs, awake = world.bodies, world.shapes, world.pairs, world.awake
         newest = int(shapes["id"][-1]) if len(shapes) else -1
