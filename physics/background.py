@@ -1,4 +1,4 @@
-"""Compilation of kernels in worker processes, while the program runs or before it starts."""
+"""Compilation of kernels in worker processes, in the background of a running program or ahead of time."""
 
 import json
 import threading

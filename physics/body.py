@@ -127,8 +127,8 @@ class Body(Handle):
         The velocity is the distance divided by the length of the next step. The body carries the characters that stand
         on it, and pushes other bodies out of its path. After the step its velocity is 0. Setting a velocity or
         teleporting the body before the next step cancels the target. Raises TypeError for arguments of other types;
-        ValueError for a body that is not kinematic, for a position that cannot be reached below the speed limit, and
-        for a new angle without the effect `rotation`.
+        ValueError for a body that is not kinematic, a position that cannot be reached below the speed limit, and a new
+        angle without the effect `rotation`.
         """
         step.set_target(self.world, self.id, position, angle)
 
@@ -224,8 +224,8 @@ class Body(Handle):
         force: (x, y) [mass px/s²].
         point: point of application (x, y) in the world [px]; None: the centre of mass.
 
-        Raises TypeError for arguments of other types; ValueError for numbers that are not finite, for a body that is
-        not dynamic, and in a world with none of the effects `response`, `gravity`, `drag` and `wind`.
+        Raises TypeError for arguments of other types; ValueError for numbers that are not finite and for a body that is
+        not dynamic. Also raises ValueError in a world without any of the effects `response`, `gravity`, `drag`, `wind`.
         """
         self.world._unstepped()
         force = checks.vector("force", force)
@@ -298,7 +298,7 @@ class Body(Handle):
     def contacts(self) -> ContactRows:
         """The contact points of this body as a copy of their CONTACT_POINT rows, in the order of shape ids.
 
-        They include the contacts of the last step and, if the body sleeps, its stored contacts.
+        They include the contacts of the last step and the stored contacts with or between sleeping bodies.
         """
         world, row = self.world, self._row
         points = world.contacts
@@ -318,8 +318,8 @@ class Body(Handle):
         kind, pieces that were separate before the cut stay, and a piece that splits keeps its largest part. Of equally
         large pieces, the one with the first pixel stays. The other pieces become dynamic bodies; their pixels keep
         their velocities. The body is removed if it has no shape left, or if it is dynamic and has no mass left. Bodies
-        that touch carved pixels wake. Raises TypeError for an argument of another type, ValueError without the effect
-        `carving`, for a body without a PixelMask and for a pose or crumb out of range, RuntimeError during a step.
+        that touch carved pixels wake. Raises TypeError for an argument of another type; ValueError without the effect
+        `carving`, for a body without a PixelMask, and for a pose or crumb out of range; RuntimeError during a step.
         """
         self._must_exist()
         found = carving.carve(self.world, self.id, shape, pose, crumb)
@@ -500,8 +500,8 @@ class Body(Handle):
         solid: a bool, or one bool for each cell.
 
         A one-way cell or a slope becomes an ordinary solid or empty cell. The shape keeps its id. Only bodies that
-        touch a changed cell wake; no other body gets begin or end events. Raises TypeError for values of other types,
-        and ValueError for a cell outside the grid or for a body that does not have exactly one TileGrid.
+        touch a changed cell wake; no other body gets begin or end events. Raises TypeError for values of other types;
+        ValueError for a cell outside the grid, and for a body that does not have exactly one TileGrid.
         """
         edit.exchange_cells(self.world, self.id, cells, solid)
 
@@ -519,8 +519,8 @@ class Body(Handle):
 
         shape_id: id of the shape, one of shape_ids.
 
-        Raises KeyError if shape_id is not the id of a shape of this body, TypeError if it is not a whole number,
-        ValueError if a body of this kind cannot have only the remaining shapes.
+        Raises KeyError if the body has no shape with this id; TypeError if shape_id is not a whole number; ValueError
+        if a body of this kind cannot have only the remaining shapes.
         """
         edit.remove_shape(self.world, self.id, shape_id)
 

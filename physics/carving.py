@@ -22,7 +22,7 @@ class Carved(NamedTuple):
     """The result of Body.carve.
 
     removed: number of pixels that were removed because they were inside the shape.
-    fragments: Bodies of the separated pieces, in the order of the carved masks, then of the first pixels of the pieces.
+    fragments: Bodies of the separated pieces, sorted by the carved mask, then by the first pixel of the piece.
     crumbs: number of pixels that were removed because their separated piece was too small.
     """
 

@@ -269,8 +269,8 @@ def users(value: Any, count: int) -> Iterable[Any]:
 def positions(name: str, value: Any) -> np.ndarray:
     """Copy positions [px] to a C-ordered float64 array (n, 2), and return it. They must be within POSITION_LIMIT.
 
-    Raises TypeError for a value that is not an array of numbers, and ValueError for another shape, a number that is not
-    finite, or a coordinate at or beyond the limit. name: name of the argument, for messages.
+    Raises TypeError for a value that is not an array of numbers; ValueError for another shape, a number that is not
+    finite, and a coordinate at or beyond the limit. name: name of the argument, for messages.
     """
     array = columns(name, value)
     far = np.abs(array) >= POSITION_LIMIT

@@ -117,8 +117,8 @@ def shape_rows(world: World) -> np.ndarray:
 
     world: a World.
 
-    A ROW contains the ids of shape and body, the kind of the body, the filter bits, and whether the shape is a sensor
-    and the body awake.
+    A ROW contains the ids of the shape and of its body, the kind of the body, the filter bits of the shape, whether the
+    shape is a sensor, and whether the body is awake.
     """
     shapes = world.shapes
     rows = np.zeros(len(shapes), ROW)

@@ -273,7 +273,7 @@ def checked_cells(cells: Any, solid: Any, rows: int, columns: int) -> tuple[np.n
 
 
 def rows_at_cells(world: WorldState, at: int, size: float, cells: np.ndarray, margin: float) -> np.ndarray:
-    """Return the SHAPE row numbers of the shapes near marked cells of a TileGrid, without the shapes of its own body.
+    """Return the SHAPE row numbers of the shapes near marked cells of a TileGrid, except shapes of the grid's body.
 
     A shape is near if its AABB, enlarged by `margin` [px], overlaps or touches a marked cell. at: row number of the
     grid's body; size: size of a cell [px]; cells: bool array [row, column], True for marked cells.

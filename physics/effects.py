@@ -120,8 +120,8 @@ class Effects:
 
         **changes: effects by name, True or False.
 
-        Raises TypeError for an unknown effect or a value that is not a bool, and ValueError if in the copy an effect is
-        on while an effect that it needs is off.
+        Raises TypeError for an unknown effect or a value that is not a bool; ValueError if an effect would be on while
+        an effect that it needs is off.
         """
         known = [field.name for field in fields(self)]
         unknown = sorted(set(changes) - set(known))
@@ -153,9 +153,9 @@ class Effects:
 
 
 def declaring(effects: Effects, name: str) -> str:
-    """Return Python code, for messages, that makes the given Effects with one more effect and the effects it needs.
+    """Return Python code for an Effects that has all given effects, one more effect, and the effects needed by it.
 
-    name: name of the effect to add.
+    The code is shown in messages. name: name of the additional effect.
     """
     if effects == Effects.rigid_bodies():
         return f"Effects.rigid_bodies().with_({name}=True)"

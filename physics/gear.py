@@ -22,7 +22,7 @@ def gear_rows(
 
     kind: a Gear with the settings of all gears; sides_a, sides_b: the sides of n gears, each (True, id of a joint) or
     (False, id of a body). The phases are set later by report_gears. Raises ValueError for a joint that neither rotates
-    nor slides, for two equal sides, for a gear without a dynamic body, for the body of a character, and without the
+    nor slides, two equal sides, a gear without a dynamic body, and the body of a character. Also raises it without the
     effect `rotation`. The world is unchanged.
     """
     rows = np.zeros(len(sides_a), JOINT)

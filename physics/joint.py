@@ -283,8 +283,8 @@ class Joint:
     def translation(self) -> float:
         """The translation of body B along the axis of the joint [px] after the last step.
 
-        For a Distance it is the distance of the anchors, for a Gear the sum of coordinates that the gear keeps
-        constant, for a Pulley the length of rope in use.
+        For a Distance it is the distance of the anchors; for a Gear, the sum of coordinates that the gear keeps
+        constant; for a Pulley, the length of rope in use.
         """
         return self._row["translation"].item()
 

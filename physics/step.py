@@ -56,8 +56,8 @@ def set_target(world: WorldState, identity: int, position: Pair, angle: float | 
     """Set the pose that a kinematic body (id) reaches at the end of the next step.
 
     position: (x, y) [px]; angle: [rad], None: unchanged. Raises TypeError for arguments of a wrong type; ValueError for
-    a body that is not kinematic, a position too far away for one step, a rotation without the effect `rotation`, or a
-    rotation of a TileGrid; KeyError for an unknown body; RuntimeError during a step.
+    a body that is not kinematic, a position too far away for one step, and a rotation of a TileGrid or without the
+    effect `rotation`; KeyError for an unknown body; RuntimeError during a step.
     """
     world._unlocked()
     row = world._body_row(identity)

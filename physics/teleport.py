@@ -57,9 +57,9 @@ class Motions(NamedTuple):
 def find_movable(ids, motions, limit, bodies, rows_out, dynamic_out, marks_inout):
     """Check the arguments of `move`. Write the row numbers of the bodies, and those of the dynamic bodies among them.
 
-    Return the number of dynamic bodies. Return -1 for invalid arguments: an id that is unknown or listed twice, a
-    number that is not finite, a position of at least `limit` [px], or a velocity other than 0 of a static body. ids,
-    rows_out, dynamic_out: (n,) int64; motions: a Motions; bodies: BODY rows; marks_inout: scratch (bodies,) bool, all
+    Return the number of dynamic bodies, or -1 for invalid arguments: an unknown or repeated id, a number that is not
+    finite, a coordinate of at least `limit` [px], or a velocity other than 0 of a static body. ids, rows_out,
+    dynamic_out: (n,) int64; motions: a Motions; bodies: BODY rows; marks_inout: scratch (bodies,) bool, all
     False before and after the call. O(n) if no body was ever removed, otherwise O(n log bodies).
     """
     found = 0

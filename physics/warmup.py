@@ -1,4 +1,4 @@
-"""Compilation ahead of time: small worlds are run that call all kernels that a world with given effects will call."""
+"""Compilation ahead of time: run small worlds to find and compile the kernels of a world with given effects."""
 
 from collections.abc import Callable, Iterable
 from itertools import pairwise

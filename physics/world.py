@@ -338,8 +338,8 @@ class World(WorldState):
 
         body: a Body or an id.
 
-        Raises KeyError for an unknown body, TypeError for anything but a Body or an id, ValueError for a Body of
-        another world, RuntimeError during a step.
+        Raises KeyError for an unknown body; TypeError for anything but a Body or an id; ValueError for a Body of
+        another world; RuntimeError during a step.
         """
         self._remove_one(self._identity("body", body))
 
@@ -605,7 +605,7 @@ class World(WorldState):
         "iterative": converges from substep to substep. "direct": solves each tree of joints exactly, with its loops,
         limits and motors, at about three times the cost. "auto": as "direct", except for meshes with too many loops to
         solve exactly, which are solved iteratively. If a tree has more than 96 rows of loops, limits and motors, or
-        more than 16 motors, these rows are solved iteratively, and the counter `cap_hits` increases.
+        more than 16 motors, these rows are solved iteratively. The counter `cap_hits` then increases.
         """
         return self._joint_solver
 

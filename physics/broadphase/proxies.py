@@ -50,9 +50,9 @@ def overlaps(proxies, a, b, work_inout):
 def may_meet(proxies, a, b, work_inout):
     """Return whether two proxies whose boxes overlap may be a candidate pair. O(1).
 
-    Excluded are pairs of two static proxies, of two sleeping proxies, and of two proxies of one body. Also excluded are
-    pairs whose columns `plane` and `avoids` exclude each other, and pairs that a collision filter excludes. Pairs
-    excluded by a filter are counted in work_inout[FILTERED]. proxies: PROXY table; a, b: slots of the two proxies.
+    The result is False for two static proxies, two sleeping proxies, and two proxies of one body. It is also False if
+    the columns `plane` and `avoids`, or the collision filters, exclude the pair. Pairs excluded by filters are counted
+    in work_inout[FILTERED]. proxies: PROXY table; a, b: slots of the two proxies.
     """
     p, q = proxies[a], proxies[b]
     if (p.still and q.still) or p.body == q.body or not (p.awake or q.awake) or (p.plane & q.avoids) != 0:
@@ -193,10 +193,10 @@ def write_states(proxies: np.ndarray, states_out: np.ndarray) -> None:
 def keep_pairs(states, old, old_rows, old_count, kept_out, rows_out):
     """Copy the old pairs that have no changed proxy and at least one awake proxy. Return the number of pairs. O(pairs).
 
-    Freed proxies count as changed. The order of the pairs is unchanged. states: result of write_states; old, kept_out:
-    (capacity, 2) int32, slots of each old and each copied pair; old_rows, rows_out: (capacity, 2) int64, the SHAPE row
-    numbers of the same proxies; old_count: number of old pairs. The loop has no branch, because a branch would be
-    mispredicted.
+    Freed proxies count as changed. The order of the pairs is unchanged. states: (proxies,) int8, result of
+    write_states; old, kept_out: (capacity, 2) int32, slots of each old and each copied pair; old_rows, rows_out:
+    (capacity, 2) int64, the SHAPE row numbers of the same proxies; old_count: number of old pairs. The loop has no
+    branch, because a branch would be mispredicted.
     """
     kept = 0
     for i in range(old_count):

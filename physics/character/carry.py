@@ -58,8 +58,8 @@ def motion_of(b):
 def find_stirred(bodies, shapes, characters, pairs, count, stirred_out):
     """Flag the characters that this step may move. Return the greatest motion [px] of the bodies that may move them.
 
-    Flagged are characters that stand on a moving body or a conveyor, or are paired with a body that is not static.
-    bodies, shapes, characters: BODY, SHAPE and CHARACTER tables; pairs: (count, 2) candidate pairs as SHAPE row
+    A character is flagged if it stands on a moving body or a conveyor, or if it is paired with a body that is not
+    static. bodies, shapes, characters: BODY, SHAPE and CHARACTER tables; pairs: (count, 2) candidate pairs as SHAPE row
     numbers; stirred_out: (characters,) bool, the flags. O(pairs · log characters).
     """
     most = 0.0
@@ -371,9 +371,9 @@ def move_out(me, row, walk_inout):
 def give_way(walk_inout):
     """Move characters out of loose shapes (see solids.is_loose) that moved into them, or mark them as squeezed.
 
-    A body that has just fallen onto a character overlaps it until the solver has separated the two. Therefore an
-    overlap with a loose shape squeezes a character only if it was deeper than GIVE and is at least as deep one step
-    later. O(characters · nearby solids). walk_inout: see solids.Walk.
+    An overlap squeezes a character only if it was deeper than GIVE and is at least as deep one step later, because a
+    body that has just fallen onto a character overlaps it until the solver has separated the two. O(characters · nearby
+    solids). walk_inout: see solids.Walk.
     """
     for me in range(len(walk_inout.characters)):
         c = walk_inout.characters[me]

@@ -167,10 +167,9 @@ class Character:
 
         On a slope steeper than max_slope the character slides down, by the component of dy along the slope. If its body
         is quarantined (disabled because a number is invalid), or will be in the next step, the character does not move
-        and has no contacts. A character that overlaps a static solid is moved out of it by two pixels per move, if a
-        free position is no further away than the character's size. Raises TypeError for values of other types,
-        ValueError for a move that is not finite or too long, KeyError for a removed character, RuntimeError during a
-        step.
+        and has no contacts. If the character overlaps a static solid, each move shifts it two pixels towards a free
+        position, which must be within the character's size. Raises TypeError for values of other types; ValueError for
+        a move that is not finite or too long; KeyError for a removed character; RuntimeError during a step.
         """
         world = self.world
         world._unlocked()
@@ -210,8 +209,8 @@ class Character:
         dx, dy: the direction; only the signs are used.
 
         Other characters that can be pushed, and slopes that the character can walk on or slide down, do not block it.
-        The world is unchanged. Raises TypeError for values that are not numbers, ValueError for a value that is not
-        finite or above 1e6, KeyError for a removed character, RuntimeError during a step.
+        The world is unchanged. Raises TypeError for values that are not numbers; ValueError for a value that is not
+        finite or above 1e6; KeyError for a removed character; RuntimeError during a step.
         """
         self.world._unlocked()
         dx, dy = _checked_move(dx, dy)
@@ -248,8 +247,8 @@ class Character:
 
         position: new position (x, y) of the shape's origin [px], rounded to the pixel grid.
 
-        Raises TypeError for a value that is not a point, ValueError for a point that is not finite or too far away,
-        KeyError for a removed character, RuntimeError during a step.
+        Raises TypeError for a value that is not a point; ValueError for a point that is not finite or too far away;
+        KeyError for a removed character; RuntimeError during a step.
         """
         self.world._unlocked()
         x, y = checks.position("position", position)

@@ -65,9 +65,10 @@ def is_walkable(c, nx, ny):
 
 @subkernel
 def verdict(c, nx, ny):
-    """Classify a surface for a character (CHARACTER row c). Return (ON_SLOPE, STEEP or BLOCKED; slope of the surface).
+    """Classify a surface for a character (CHARACTER row c). Return (verdict, slope).
 
-    (nx, ny): unit normal into the surface. slope: rise per px to the right, 0 if BLOCKED.
+    verdict: ON_SLOPE (ground on which it can walk), STEEP (too steep to walk on) or BLOCKED (a wall); slope: rise of
+    the surface per px to the right, 0 for a wall. nx, ny: unit normal into the surface.
     """
     if ny <= SHEER:
         return BLOCKED, 0.0
@@ -90,7 +91,7 @@ def allowed_depth(c, loose, nx, ny, give, slop):
 def deepest_of(b, slop, dt):
     """Return the greatest depth [px] by which a character that was free can overlap an outline of body b (BODY row).
 
-    It is one pixel plus two slops [px]; for a body that is not static plus GIVE and the body's motion in dt [s]. If the
+    It is one pixel plus two slops [px]. For a body that is not static, GIVE and the motion in dt [s] are added. If the
     overlap with an edge of a part is deeper, a neighbouring part has the nearer surface, see hulls.collide_hulls.
     """
     if b.kind == STATIC:
@@ -100,7 +101,7 @@ def deepest_of(b, slop, dt):
 
 @subkernel
 def judge(c, kind, beyond, nx, ny, way_x, way_y):
-    """Return (FREE, ON_SLOPE, STEEP or BLOCKED; slope) for a character (CHARACTER row c) that overlaps a surface.
+    """Return (verdict, slope) for a character (CHARACTER row c) that overlaps a surface. See in_shape.
 
     A moving body may itself have caused the overlap, so it blocks only motion that leads deeper. kind: kind of the
     surface's body; beyond: overlap minus allowed_depth [px]; nx, ny: unit normal into the surface; way_x, way_y: pixels
@@ -283,7 +284,7 @@ def is_across(walk, me, row, left, top):
 
 @subkernel
 def in_chain(walk, me, row, left, top, way_x, way_y, give):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) for a character at a chain. See in_shape."""
+    """Return (verdict, slope) for a character at a chain. Arguments and result are described in in_shape."""
     c = walk.characters[me]
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -369,7 +370,7 @@ def slope_tile_verdict(c, slope, depth):
 
 @subkernel
 def in_tiles(walk, me, row, left, top, way_x, way_y):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) for a box-shaped character at a tile grid. See in_shape."""
+    """Return (verdict, slope) for a box-shaped character at a tile grid. Arguments and result: see in_shape."""
     c = walk.characters[me]
     b = walk.bodies[walk.shapes[row].body_row]
     g = walk.geometry.grids[walk.shapes[row].geometry]
@@ -433,7 +434,7 @@ def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
 
 @subkernel
 def in_tile_outlines(walk, me, row, left, top, way_x, way_y):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) for a character without box shape at a tile grid. See in_shape.
+    """Return (verdict, slope) for a character that is not a box at a tile grid. Arguments and result: see in_shape.
 
     The character is tested against the outlines of slope tiles and of runs of other tiles.
     """
@@ -668,7 +669,7 @@ def in_upright_box(walk, me, row, left, top):
 
 @subkernel
 def in_hull(walk, me, row, left, top, way_x, way_y, give):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) for a character at a hull or disc. See in_shape."""
+    """Return (verdict, slope) for a character at a hull or disc. Arguments and result are described in in_shape."""
     c = walk.characters[me]
     b = walk.bodies[walk.shapes[row].body_row]
     count, radius = place_outline(walk, me, left, top)
@@ -686,11 +687,12 @@ def in_hull(walk, me, row, left, top, way_x, way_y, give):
 
 @subkernel
 def in_shape(walk, me, row, left, top, way_x, way_y, give):
-    """Test a character at a position against one shape. Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope).
+    """Test a character at a position against one shape. Return (verdict, slope).
 
-    slope: rise of the shape's surface per px to the right. walk: see Walk; me: row number of the character; row: SHAPE
-    row number; left, top: pixel of the character's box; way_x, way_y: pixels that the character moved to this position;
-    give: depth allowed in a loose shape [px].
+    verdict: FREE (no overlap), STEEP (overlap with ground too steep to walk on), ON_SLOPE (overlap with walkable
+    ground) or BLOCKED; slope: rise of the shape's surface per px to the right. walk: see Walk; me: row number of the
+    character; row: SHAPE row number; left, top: pixel of the character's box; way_x, way_y: pixels that the character
+    moved to this position; give: depth allowed in a loose shape [px].
     """
     c = walk.characters[me]
     s = walk.shapes[row]
@@ -754,11 +756,11 @@ def gather(walk, me, without, reach_x, reach_up, reach_down, rows_out):
 
 @subkernel
 def blocked_at(walk, me, rows, left, top, way_x, way_y, give):
-    """Test a character at a position against all nearby shapes, and return the most restrictive result.
+    """Test a character at a position against all nearby shapes. Return (verdict, SHAPE row number or -1, slope).
 
-    The result is (FREE, STEEP, ON_SLOPE or BLOCKED; SHAPE row number of the shape with this result or -1; its slope).
-    The order is FREE < STEEP < ON_SLOPE < BLOCKED. If each part of a static mask leaves the contact to a neighbouring
-    part, the position is deep in the mask, and the result is BLOCKED. rows: see gather; other arguments: see in_shape.
+    The result is that of the shape with the greatest verdict, in the order FREE < STEEP < ON_SLOPE < BLOCKED. A
+    position deep in a static mask, where each part leaves the contact to a neighbouring part, is BLOCKED. rows: see
+    gather; other arguments, verdict and slope: see in_shape.
     """
     result = FREE
     by = -1

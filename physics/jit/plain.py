@@ -159,7 +159,7 @@ def _masked(value):
 
 
 def _count_bits(typing_context, word):
-    """Return (type, code generator), from which numba.extending.intrinsic makes a function that counts set bits."""
+    """Return (type, code generator), from which numba.extending.intrinsic makes a count of the set bits of a uint64."""
 
     def generate(context, builder, signature, args):
         narrow = signature.args[0].bitwidth < 64

@@ -79,9 +79,9 @@ IMPORTED_FROM = Path(__file__).resolve().parents[__name__.count(".")]  # the fol
 def start_module(module: str, **environment: str) -> "subprocess.Popen[str]":
     """Start `python -m module` at low priority, with text pipes for its standard input and output. Return the process.
 
-    The process is not interrupted by Ctrl-C in the terminal. It imports from the same folders as this program, but not
-    from the current folder, where a file such as `numpy.py` may belong to the user. module: full name of the module;
-    environment: additional environment variables. Raises OSError or ValueError if no process can be started.
+    The process is not interrupted by Ctrl-C in the terminal. It imports from the same folders as this program. It does
+    not import from the current folder, where a file such as `numpy.py` may belong to the user. module: full name of the
+    module; environment: additional environment variables. Raises OSError or ValueError if no process can be started.
     """
     # A process group, not a session: Linux divides processor time between sessions, whatever the priority of their
     # processes (autogroups, man 7 sched). A session of its own would take as much time as the program.

@@ -282,7 +282,7 @@ CORNERS = ("lower_x", "lower_y", "upper_x", "upper_y")
 
 
 class Visited(NamedTuple):
-    """The boxes with which a query searched the broad phase, and the boxes of the broad phase that it compared.
+    """The boxes with which a query searched the broad phase, and the boxes with which the search compared them.
 
     kind: the broad phase, "brute", "sweep", "hash" or "tree".
     asked: (k, 4) searched boxes: min_x, min_y, max_x, max_y [px].

@@ -259,9 +259,9 @@ def cast_on_cell(geometry, grid, row, column, ray, corners_inout):
 def cast_on_tiles(geometry, grid, ray, corners_inout):
     """Cast a ray at the tiles of a grid. Return (fraction or MISS, nx, ny). O(cells on the ray).
 
-    A ray along a border hits the tiles on both sides, and a ray through a corner hits all four tiles, so the neighbours
-    of each cell are also tested. grid: row number in geometry.grids; ray: start and vector (x, y, dx, dy) [px] relative
-    to the grid's origin; corners_inout: (16, 2) scratch.
+    The neighbours of each cell are also tested, because a ray along a border hits the tiles on both sides, and a ray
+    through a corner hits all four tiles. grid: row number in geometry.grids; ray: start and vector (x, y, dx, dy) [px]
+    relative to the grid's origin; corners_inout: (16, 2) scratch.
     """
     x, y, dx, dy = ray
     g = geometry.grids[grid]
