@@ -62,7 +62,7 @@ Pair = tuple[Number, Number] | list[float] | list[int] | Vector | np.ndarray  # 
 Pose = Pair | tuple[Number, ...]  # (x, y, angle), or (x, y) at angle 0; (*vector, angle) has no known length
 Points = Sequence[Pair] | np.ndarray  # (n, 2)
 Coordinates = Sequence[float] | np.ndarray  # (x, y) of checked numbers, inside the package
-Corners = Sequence[Sequence[float]] | np.ndarray  # (n, 2) likewise
+Corners = Sequence[Sequence[float]] | np.ndarray  # (n, 2) of checked numbers, inside the package
 Numbers = Sequence[Number] | np.ndarray  # (n,)
 Range = tuple[Number | None, Number | None] | list[Any] | np.ndarray  # a pair in which None means no bound
 # (x, y, width, height), or ((x, y), (width, height)).

@@ -29,10 +29,10 @@ ROW = np.dtype(
     [
         ("shape", np.int64),  # id
         ("body", np.int64),  # id
-        ("kind", np.int64),  # of the body: STATIC 0, KINEMATIC 1, DYNAMIC 2
+        ("kind", np.int64),  # kind of the body: STATIC 0, KINEMATIC 1, DYNAMIC 2
         ("membership", np.int64),  # 32 bits, see Filter
         ("mask", np.int64),  # 32 bits, see Filter
-        ("sensor", np.bool_),  # it reports overlaps and does not push
+        ("sensor", np.bool_),  # the shape is a sensor: it reports overlaps and does not push
         ("awake", np.bool_),  # the body is awake
     ]
 )
@@ -62,8 +62,8 @@ EDGE = np.dtype(
         ("bx", np.float64),
         ("by", np.float64),
         ("radius", np.float64),  # [px] rounding of the part
-        ("inner", np.bool_),  # lies inside the outline: no body is pushed out through this edge
-        ("covered", np.bool_),  # its start is a corner that lies inside the outline
+        ("inner", np.bool_),  # the edge is inside the outline: no body is pushed out through it
+        ("covered", np.bool_),  # the start of the edge is a corner inside the outline
     ]
 )
 CORNERS = 16  # bits of `inner` in SHAPE: edges below bit 16, corners from bit 16 on
@@ -77,10 +77,10 @@ DRAWN_JOINT = np.dtype(
         ("kind", np.int64),  # index in physics.joints.kinds.KINDS
         ("coordinate", np.int64),  # NO_COORDINATE ANGLE TRANSLATION LENGTH of tables/joint.py
         ("hold", np.int64),  # FREE PINNED ON_AXIS TOOTHED GEARED SLUNG of tables/joint.py
-        ("joint_a", np.int64),  # ids of the joints that a gear couples, whose anchors are its anchors; else -1
+        ("joint_a", np.int64),  # ids of the joints that a gear couples; the gear has their anchors; else -1
         ("joint_b", np.int64),
-        ("ratio", np.float64),  # of a gear or pulley
-        ("ground_ax", np.float64),  # [px] the two pulleys in the world; (0, 0) for other kinds
+        ("ratio", np.float64),  # ratio of a gear or pulley
+        ("ground_ax", np.float64),  # [px] the two pulley wheels in the world; (0, 0) for other kinds
         ("ground_ay", np.float64),
         ("ground_bx", np.float64),
         ("ground_by", np.float64),
@@ -91,11 +91,11 @@ DRAWN_JOINT = np.dtype(
         ("axis_x", np.float64),  # unit: axis of a slider or wheel, along a length or B's rope, direction of angle 0
         ("axis_y", np.float64),
         ("value", np.float64),  # the coordinate, or sum of coordinates, [px or rad]
-        ("lower", np.float64),  # its least value; -inf: no limit
-        ("upper", np.float64),  # its greatest value; inf: no limit
-        ("force_x", np.float64),  # [mass px/s2] on B in the last step
+        ("lower", np.float64),  # lower limit of `value`; -inf: no limit
+        ("upper", np.float64),  # upper limit of `value`; inf: no limit
+        ("force_x", np.float64),  # [mass px/s2] force on B in the last step
         ("force_y", np.float64),
-        ("torque", np.float64),  # [mass px2/s2] likewise
+        ("torque", np.float64),  # [mass px2/s2] torque on B in the last step
         ("awake", np.bool_),  # the joint was solved in the last step
     ]
 )
@@ -510,10 +510,10 @@ def islands(world: World) -> np.ndarray:
 GHOST = np.dtype(
     [
         ("body", np.int64),  # id
-        ("x", np.float64),  # [px] origin at the end of the motion that was cut off
+        ("x", np.float64),  # [px] origin at the end of the motion without the impact
         ("y", np.float64),
-        ("angle", np.float64),  # [rad] likewise
-        ("fraction", np.float64),  # of its motion, at which it was stopped
+        ("angle", np.float64),  # [rad] angle at the end of the motion without the impact
+        ("fraction", np.float64),  # fraction of the motion at which the body was stopped
     ]
 )
 

@@ -41,7 +41,7 @@ class Comparison(NamedTuple):
     now: np.ndarray  # EVENT rows of the pairs that touch
     begin: np.ndarray  # EVENT rows of the pairs that began to touch
     persist: np.ndarray  # EVENT rows of the pairs that continue to touch
-    end: np.ndarray  # EVENT rows of the pairs that ceased to touch
+    end: np.ndarray  # EVENT rows of the pairs that stopped touching
     aside: np.ndarray  # EVENT rows of the touching pairs that fell asleep
     hits: np.ndarray  # HIT rows
     keep: np.ndarray  # bool for each contact, whether its pair touches

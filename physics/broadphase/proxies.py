@@ -296,9 +296,9 @@ def mark_settled(changed, proxies_inout):
 # compares these boxes.
 #
 # A swept AABB is kept while it contains the box that the shape needs. In a world with stacking it has a margin on all
-# sides, so that resting bodies cost the broad phase nothing. In other worlds it is extended along the motion for
-# several steps, so that a moving body is updated once in several steps. This adds candidates, not contacts: the narrow
-# phase tests the tight boxes. Source: Catto, Box2D v3.2, constants.h (margin); Bullet, btDbvtBroadphase (boxes extended
+# sides, so that resting bodies need no updates. In other worlds it is extended along the motion for several steps, so
+# that a moving body is updated once in several steps. This adds candidates, not contacts, because the narrow phase
+# tests the tight boxes. Source: Catto, Box2D v3.2, constants.h (margin); Bullet, btDbvtBroadphase (boxes extended
 # along the velocity).
 
 

@@ -418,7 +418,7 @@ def search_cells(box, structure, slots_out, work_inout):
 # A proxy is on the finest level whose cells are at least as large as its box, so it touches at most four cells. A very
 # large box is in a few coarse cells, and not in many fine ones. A box that would cover too many cells of a finer level
 # is tested against the list of that level instead. Source: Ericson, Real-Time Collision Detection, 7.1–7.2. O(cells
-# touched + candidates). Suits many bodies of similar size, moving or not.
+# touched + candidates). Suitable for many bodies of similar size, moving or not.
 
 CELL_OF_MEDIAN = 2.0  # cell size / median extent of the boxes: the flat optimum of `tests.bench broadphase`
 SMALLEST_CELL = 2.0**-1000  # [px] its inverse is finite

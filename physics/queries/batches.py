@@ -36,7 +36,7 @@ RAY_HIT = np.dtype(
     [  # the first hit of a ray
         ("body", np.int64),  # id of the body that was hit; -1: no hit
         ("shape", np.int64),  # id of the shape; -1: no hit
-        ("point_x", np.float64),  # [px] where it was hit; the end of the ray if there is no hit
+        ("point_x", np.float64),  # [px] point of the hit; the end of the ray if there is no hit
         ("point_y", np.float64),
         ("normal_x", np.float64),  # unit normal of the hit surface; 0 if there is no hit
         ("normal_y", np.float64),
