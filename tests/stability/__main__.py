@@ -1,4 +1,6 @@
-"""python -m tests.stability: write docs/stability.md; measures nothing."""
+"""Command `python -m tests.stability`: write docs/stability.md from the stored measurements,
+without new measurements.
+"""
 
 from tests.stability.page import PAGE, page
 

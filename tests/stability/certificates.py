@@ -1,7 +1,7 @@
-"""Distance, depth and contacts of random pairs, held between bounds that need no distance algorithm.
+"""Checks of distance, depth and contacts of random pairs against bounds that need no distance algorithm.
 
-Golden values show that a result has changed, certificates that it is wrong. A separating line bounds a distance from
-below, a point on each shape from above, and two boxes an overlap's depth.
+Golden values only show that a result has changed; these bounds show that it is wrong. A separating line gives a lower
+bound of a distance. A point on each shape gives an upper bound. The overlap of the bounding boxes limits the depth.
 """
 
 from typing import NamedTuple
@@ -20,7 +20,9 @@ CLIPPING = 1e-9  # of the larger shape: within it a contact keeps a face where t
 
 
 class Chunk(NamedTuple):
-    """Some pairs, with the results for each; points are relative to A's place [px]."""
+    """Some pairs of hulls with the results of distance() and collide() for each; points are relative to the position of
+    shape A [px].
+    """
 
     a: Hulls
     b: Hulls
@@ -35,7 +37,9 @@ class Chunk(NamedTuple):
 
 
 def chunks(seed, count):
-    """Ask distance and collide about random pairs."""
+    """Yield the random pairs of a seed in groups (`Chunk`), with the results of distance() and
+    collide() for each pair.
+    """
     pairs = draw_pairs(seed, count)
     places = [list(map(tuple, poses.tolist())) for poses in (pairs.poses_a, pairs.poses_b)]
     for start in range(0, count, AT_ONCE):
@@ -65,10 +69,11 @@ def room_for(a, b):
 
 
 def distance_excess(found):
-    """Return the worst error of the distances, divided by the allowance for rounding. At most 1 is right.
+    """Return the worst error of the distances in a chunk, divided by the allowance for rounding. A correct result has
+    at most 1.
 
-    The normal must separate the hulls by the reported distance, and no line by more. The points must lie on both
-    surfaces, at that distance from each other.
+    The reported normal must separate the hulls by the reported distance, and no other line may separate them by more.
+    The two reported points must lie on the surfaces, at the reported distance from each other.
     """
     known = rounded_hulls.bounds(found.a, found.b)
     overlap = found.distance <= 0.0
@@ -88,10 +93,10 @@ def distance_excess(found):
 
 
 def contact_excess(found):
-    """Return (worst error of the contacts over the allowance for rounding, share of contacts beyond the allowance).
+    """Return (worst error of the contacts over the allowance for rounding, share of pairs whose error exceeds it).
 
-    The normal must be a unit vector, and the move along it must end the overlap. Contacts beyond the allowance are
-    those that keep a face beside a rounded corner.
+    The normal must be a unit vector, and a move along it by the depth must end the overlap. A larger error occurs only
+    where a contact keeps a face beside a rounded corner.
     """
     met, room = found.touching, found.room * (CLIPPING / ROUNDING)
     along = rounded_hulls.gap_along(found.a, found.b, found.contact_normal)
@@ -101,5 +106,5 @@ def contact_excess(found):
 
 
 def disagreements(found):
-    """Return the number of pairs with a contact though they are apart, or without one though they overlap (U10)."""
+    """Return how many pairs have contacts although they are separate, or none although they overlap (U10)."""
     return int((found.touching != (found.distance <= 0.0)).sum())

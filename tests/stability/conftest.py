@@ -1,4 +1,4 @@
-"""The fixture that holds what a test measures to its row's limit, and keeps it for docs/stability.json."""
+"""Fixtures and hooks that check each measured figure against its row's limit and store it in docs/stability.json."""
 
 import json
 from pathlib import Path
@@ -14,15 +14,19 @@ KEPT = "stability"
 
 
 def pytest_addoption(parser):
-    """Add the option for the file of measurements; given with the folder: pytest tests/stability --stability-json
+    """Add the option `--stability-json FILE`: the file to which measurements are written.
+
+    pytest knows the option only if the folder is named on the command line: pytest tests/stability --stability-json
     FILE.
     """
     parser.addoption("--stability-json", metavar="FILE", help="write what the rows of the stability suite measure")
 
 
 def pytest_generate_tests(metafunc):
-    """Run each test of a row under 4 substeps and under the default settings, where its worlds follow them, and over
-    its phases or seeds.
+    """Parametrize each test of a row by settings and by the number of its sweep.
+
+    A test whose worlds follow the present settings runs with 4 substeps and with the defaults; others run with 4
+    substeps. A test with a phase or a seed runs SWEEP times.
     """
     if "measured" not in metafunc.fixturenames:
         return
@@ -45,16 +49,19 @@ def _name(both, settings, number):
 
 @pytest.fixture
 def world_settings(request):
-    """Make the worlds of a test with some settings, and the phases of one number of a sweep."""
+    """Apply the parametrized settings and sweep number during a test; the fixture's value is
+    the name of the settings.
+    """
     with using(*request.param):
         yield request.param[0]
 
 
 @pytest.fixture
 def measured(request, world_settings):
-    """measured(row, figure, value): record the value, assert that it is within the row's limit, and return it.
+    """Return a function measured(row, figure, value), which asserts that the value meets the row's limit, records it
+    and returns it.
 
-    Where nothing is written to docs/stability.json it is also within twice the value on record there.
+    If `--stability-json` is not given, the value must also be within twice the figure stored in docs/stability.json.
     """
     on_record = {} if request.config.getoption("--stability-json") or not JIT else kept_figures()
 
@@ -73,7 +80,7 @@ def measured(request, world_settings):
 
 
 def pytest_configure(config):
-    """Collect in the one process that receives the reports of every test."""
+    """Register the `Keeper` in the main process, which receives the reports of all worker processes."""
     path = config.getoption("--stability-json")
     if path and not hasattr(config, "workerinput"):
         if not JIT:
@@ -82,13 +89,16 @@ def pytest_configure(config):
 
 
 class Keeper:
-    """Writes the worst value of every figure that was measured; what was not measured now stays as it was."""
+    """Writes the worst value of every measured figure to a JSON file; figures that were not measured stay unchanged."""
 
     def __init__(self, path):
         self.path, self.worst = path, {}
 
     def pytest_runtest_logreport(self, report):
-        """Take what a test has recorded, wherever it ran; reports of workers come as lists."""
+        """Add the figures that a test recorded in its report, in whichever process it ran.
+
+        xdist turns the tuples of a worker's report into lists.
+        """
         if report.when != "call":
             return
         for name, found in report.user_properties:
@@ -98,7 +108,7 @@ class Keeper:
                 figures[figure] = ROWS[row].limit(figure).worse(value, figures.get(figure, value))
 
     def pytest_sessionfinish(self):
-        """Write them, rows in the order of the table, four digits each."""
+        """Write the figures to the JSON file: rows in the order of the table, numbers with four significant digits."""
         kept = json.loads(self.path.read_text()) if self.path.exists() else {}
         for (settings, row), figures in self.worst.items():
             of = kept.setdefault(settings, {})

@@ -1,6 +1,7 @@
-"""The defects that the suite, its invariants, faults and worlds by chance have found: each is a test of tests/regress.
+"""List of the defects that the stability suite found, each with a regression test in tests/regress.
 
-`section()` is the part "What the suite found" of docs/stability.md: the first sentence of each file's docstring.
+`section()` is the part "What the suite found" of docs/stability.md. It quotes the first sentence of each test file's
+docstring.
 """
 
 import ast
@@ -37,13 +38,13 @@ FOUND = (
 
 
 def first_sentence(path: Path) -> str:
-    """Return the first sentence of a test's docstring, on one line."""
+    """Return the first sentence of the module docstring of a test file, on one line."""
     told = " ".join((ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or "").split())
     return told.split(". ")[0].rstrip(".") + "."
 
 
 def section() -> str:
-    """The Markdown of the list, with a link to each test from docs/."""
+    """Return the list of defects as Markdown, each with a link to its test, relative to docs/."""
     lines = []
     for name in FOUND:
         path = REGRESS / f"test_{name}.py"

@@ -1,4 +1,6 @@
-"""Steps a world and asserts after every step what game/invariants watches, and what a test knows of it besides."""
+"""`Watch`, which steps a world and checks its invariants after every step, and the measures
+that tests take of a world.
+"""
 
 import math
 
@@ -14,40 +16,40 @@ DYNAMIC = 2
 
 
 def deepest(world):
-    """Return the overlap of the deepest contact [px], without sensors."""
+    """Return the overlap of the deepest contact [px]; contacts of sensors do not count."""
     contacts = world.contacts
     solid = contacts["separation"]
     return max(0.0, -float(solid.min())) if len(solid) else 0.0
 
 
 def movers(world):
-    """The rows of the dynamic bodies."""
+    """Return the rows of the dynamic bodies in the table world.bodies."""
     return world.bodies[world.bodies["kind"] == DYNAMIC]
 
 
 def kinetic(world):
-    """Kinetic energy of the dynamic bodies."""
+    """Return the kinetic energy of the dynamic bodies."""
     return Bodies(world).kinetic
 
 
 def rms_speed(world):
-    """Root mean square speed of the dynamic bodies [px/s]."""
+    """Return the root mean square speed of the dynamic bodies [px/s]."""
     rows = movers(world)
     return math.sqrt(float((rows["vx"] ** 2 + rows["vy"] ** 2).mean())) if len(rows) else 0.0
 
 
 def pulling(world):
-    """The contacts that pull in place of pushing."""
+    """Return the contacts whose normal impulse is not at least 0: such a contact pulls its bodies together."""
     return world.contacts[~(world.contacts["normal_impulse"] >= 0.0)]
 
 
 class Watch:
-    """Steps a world and asserts the invariants after every step.
+    """Steps a world and asserts the invariants of game/invariants after every step.
 
-    passive: nothing adds energy from here on, whatever the world's tables show (U5). isolated: nothing acts from
-    outside, so momentum stays (U3). depth: the deepest overlap allowed after every step [px]. capped: whether a cap may
-    be hit (U11); under the default settings, too few substeps are counted and are no fault. without: invariants that
-    this world breaks on purpose.
+    passive: no energy may be added from now on (U5), whatever the world's tables suggest. isolated: no external force
+    acts, so the momentum must stay constant (U3). depth: largest overlap allowed after every step [px]. capped: True
+    allows the substep cap to be hit (U11); under the default settings a lack of substeps is counted, but is no failure.
+    without: names of the invariants that this world breaks on purpose.
     """
 
     def __init__(self, world, passive=False, isolated=False, depth=math.inf, capped=False, without=()):
@@ -61,7 +63,10 @@ class Watch:
         self.deepest = self.fastest = 0.0
 
     def step(self, steps=1, dt=None, each=None):
-        """Step so many times; each(): called after every step and its checks."""
+        """Step the world `steps` times by dt [s] (None: the world's own) and check it after every step. Returns self.
+
+        each: function without arguments, called after the check of every step.
+        """
         for _ in range(steps):
             self.onlooker.before(self.world)
             self.world.step(dt)
@@ -73,7 +78,7 @@ class Watch:
         return self
 
     def check(self):
-        """Assert what holds after the step just made."""
+        """Assert the invariants for the step just made."""
         world, where = self.world, f"step {self.steps}"
         for name, answer in self.onlooker.collect()[0].items():
             assert name in self.without or not isinstance(answer, Broken), f"{where}: {answer}"

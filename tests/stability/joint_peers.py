@@ -1,8 +1,8 @@
-"""Pendulums, chains and beams on this engine and on pymunk, for docs/stability.md.
+"""Pendulums, chains and beams in this engine and in pymunk, compared in docs/stability.md.
 
 `python -m tests.stability.joint_peers` measures and writes docs/stability_joint_peers.json; it needs the extra `bench`.
 Lengths are in metres, 60 Hz, gravity 9.8. pymunk runs with ten iterations, in one step of 1/60 s and in four of 1/240
-s. Box2D is quoted: v3 at commit 617d32a, native, with 4 substeps, in the same scenes.
+s. The figures of Box2D are quoted: v3 at commit 617d32a, native, with 4 substeps, in the same scenes.
 """
 
 import json
@@ -50,30 +50,30 @@ class Hitbox:
         self.gaps: Any = None
 
     def disc(self, radius, place, mass=None):
-        """Add a disc."""
+        """Add a disc with its centre at `place` and return the body. mass [kg]; None: area times density."""
         return self.world.add_body(Circle(radius), position=place, mass=mass, filter=Filter(1, 0))
 
     def rod(self, start, end, breadth=BREADTH):
-        """Add a box from one point to another; its mass is its area."""
+        """Add a box from point `start` to point `end` and return the body; its mass equals its area."""
         middle, turn = ((start[0] + end[0]) / 2, (start[1] + end[1]) / 2), angle_of(start, end)
         shape = Polygon.box(math.dist(start, end), breadth)
         return self.world.add_body(shape, position=middle, angle=turn, filter=Filter(1, 0))
 
     def pin(self, a, b, at):
-        """Pin two bodies together; None for the world."""
+        """Pin two bodies together at the point `at`; a body of None stands for the world."""
         self.world.add_joint(Revolute(a, b, at=at))
 
     def weld(self, a, b, at):
-        """Weld two bodies together."""
+        """Weld two bodies together at the point `at`; a body of None stands for the world."""
         self.world.add_joint(Weld(a, b, at=at))
 
     def step(self):
-        """Step a sixtieth of a second."""
+        """Advance the world by 1/60 s."""
         self.gaps = self.gaps or Gaps(self.world)
         self.world.step(STEP)
 
     def gap(self):
-        """Return the greatest error of a joint [m]."""
+        """Return the greatest position error of any joint now [m]."""
         return self.gaps.worst()
 
     def energy(self):
@@ -86,7 +86,7 @@ class Hitbox:
 
 
 class Pymunk:
-    """A space of pymunk in metres, without a cap on how fast joints are corrected."""
+    """A pymunk space in metres, without a limit on the correction speed of joints."""
 
     def __init__(self, steps: int):
         import pymunk
@@ -103,39 +103,39 @@ class Pymunk:
         return body
 
     def disc(self, radius, place, mass=None):
-        """Add a disc."""
+        """Add a disc with its centre at `place` and return the body. mass [kg]; None: its area."""
         mass = math.pi * radius**2 if mass is None else mass
         body = self.pymunk.Body(mass, self.pymunk.moment_for_circle(mass, 0, radius))
         return self._add(body, self.pymunk.Circle(body, radius), place, 0.0)
 
     def rod(self, start, end, breadth=BREADTH):
-        """Add a box from one point to another; its mass is its area."""
+        """Add a box from point `start` to point `end` and return the body; its mass equals its area."""
         size = math.dist(start, end), breadth
         body = self.pymunk.Body(size[0] * breadth, self.pymunk.moment_for_box(size[0] * breadth, size))
         middle = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
         return self._add(body, self.pymunk.Poly.create_box(body, size), middle, angle_of(start, end))
 
     def pin(self, a, b, at):
-        """Pin two bodies together; None for the world."""
+        """Pin two bodies together at the point `at`; a body of None stands for the world."""
         still = self.space.static_body
         joint = self.pymunk.PivotJoint(a or still, b or still, at)
         self.pins.append(joint)
         self.space.add(joint)
 
     def weld(self, a, b, at):
-        """Weld two bodies together: a pin and a gear."""
+        """Weld two bodies together at the point `at` by a pivot joint and a gear joint; None stands for the world."""
         self.pin(a, b, at)
         still = self.space.static_body
         a, b = a or still, b or still
         self.space.add(self.pymunk.GearJoint(a, b, b.angle - a.angle, 1.0))
 
     def step(self):
-        """Step a sixtieth of a second."""
+        """Advance the space by 1/60 s."""
         for _ in range(self.steps):
             self.space.step(STEP / self.steps)
 
     def gap(self):
-        """Return the greatest error of a pin [m]."""
+        """Return the greatest position error of any pin now [m]."""
         return max(
             joint.a.local_to_world(joint.anchor_a).get_distance(joint.b.local_to_world(joint.anchor_b))
             for joint in self.pins
@@ -151,12 +151,12 @@ class Pymunk:
 
 
 def angle_of(start, end):
-    """Return the angle of the way from one point to another [rad]."""
+    """Return the angle of the vector from `start` to `end` [rad]."""
     return math.atan2(end[1] - start[1], end[0] - start[0])
 
 
 def pendulum(engine):
-    """Return the figures of a pendulum's rows."""
+    """Simulate a pendulum in an engine and return {row: figure} for its rows of the table."""
     from tests.stability.test_n_joints import agm
 
     at = 2.0 * math.sin(1.0), 2.0 * math.cos(1.0)
@@ -181,7 +181,7 @@ def pendulum(engine):
 
 
 def double_pendulum(engine):
-    """Return the figures of a double pendulum's rows."""
+    """Simulate a double pendulum in an engine and return {row: figure} for its rows of the table."""
     first, second = engine.rod((0.0, 0.0), (1.0, 0.0)), engine.rod((1.0, 0.0), (2.0, 0.0))
     engine.pin(None, first, (0.0, 0.0))
     engine.pin(first, second, (1.0, 0.0))
@@ -194,7 +194,7 @@ def double_pendulum(engine):
 
 
 def chain(engine, ratio):
-    """Return the figures of the rows of a chain with a ball of so many links."""
+    """Simulate a hanging chain whose end ball has `ratio` times the mass of a link; return {row: figure}."""
     before = None
     for k in range(30):
         link = engine.rod((k, 0.0), (k + 1.0, 0.0))
@@ -210,7 +210,7 @@ def chain(engine, ratio):
 
 
 def cantilever(engine):
-    """Return the figure of a cantilever's row."""
+    """Simulate a cantilever of eight welded beams and return {row: greatest displacement of its end [mm]}."""
     before, worst = None, 0.0
     for k in range(8):
         beam = engine.rod((k, 0.0), (k + 1.0, 0.0), 0.25)
@@ -234,7 +234,7 @@ SCENES: tuple[Callable[[Any], Mapping[str, float]], ...] = (
 
 
 def measure():
-    """Return {row: {engine: figure}}."""
+    """Run all scenes in all engines and return {row: {engine: figure}}."""
     makers = {name: lambda settings=settings: Hitbox(**settings) for name, settings in ENGINES.items()}
     makers |= {name: lambda steps=steps: Pymunk(steps) for name, steps in PEERS.items()}
     found = {row: {} for row in ROWS}
@@ -246,7 +246,7 @@ def measure():
 
 
 def section():
-    """The Markdown of the table, from the figures kept."""
+    """Return the Markdown of the table "Joints beside the peers", made from the stored figures."""
     kept = json.loads(KEPT.read_text())
     names = [*ENGINES, *PEERS]
     lines = [

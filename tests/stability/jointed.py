@@ -1,4 +1,6 @@
-"""Bodies on joints in metres: chains, beams, bridges, and what is measured of them from their poses."""
+"""Jointed bodies in metres (chains, beams, ragdolls), and measures of joint error and energy,
+computed from body poses.
+"""
 
 import math
 
@@ -14,14 +16,17 @@ NAIVE = "iterative"  # the tier without exact trees
 
 
 def jointed(solver="soft_step", gravity=(0.0, GRAVITY), tier="auto", effects=None, **options):
-    """A world in metres whose bodies are held by joints; tier: its `joint_solver`; effects: changes of its effects."""
+    """Return a world in metres for jointed bodies.
+
+    tier: value of its `joint_solver`. effects: {name: value} of effects that differ from `pile_effects`.
+    """
     world = metres(solver, gravity=gravity, effects=pile_effects(joints=True, **(effects or {})), **options)
     world.joint_solver = tier
     return world
 
 
 def run(world, seconds, each=None):
-    """Step for so many seconds; each(): called after every step."""
+    """Step a world for a duration [s]; each: function without arguments, called after every step."""
     for _ in range(round(seconds / world.dt)):
         world.step()
         if each is not None:
@@ -29,19 +34,19 @@ def run(world, seconds, each=None):
 
 
 def named(figure, solver):
-    """Return the name of a figure, with that of the solver if it is not the usual one."""
+    """Return the name of a figure; the solver's name is appended unless it is "soft_step"."""
     return figure if solver == "soft_step" else f"{figure}, {solver}"
 
 
 def energy(world, gravity=GRAVITY):
-    """Return the kinetic and potential energy of all bodies [J]. gravity: gravity of the world [m/s²]."""
+    """Return the kinetic plus potential energy of all dynamic bodies [J]. gravity: gravity of the world [m/s²]."""
     b = world.bodies[world.bodies["kind"] == 2]
     moving = 0.5 * (b["mass"] * (b["vx"] ** 2 + b["vy"] ** 2) + b["inertia"] * b["angular_velocity"] ** 2)
     return float((moving - b["mass"] * gravity * b["center_y"]).sum())
 
 
 class Gaps:
-    """The errors of pins, welds and rods [m], relative to the poses of their bodies when this object is made.
+    """Position errors of pins, welds and rods [m], relative to the body poses at the creation of this object.
 
     No body may be added or removed afterwards.
     """
@@ -67,7 +72,9 @@ class Gaps:
         return joint.kind in ("Revolute", "Weld")
 
     def _poses(self):
-        """x, y, cosine and sine of the body of each end; A's ends, then B's."""
+        """Return four arrays (x, y, cosine and sine of the angle) of the body at each joint end: all A ends, then all B
+        ends.
+        """
         b = self.world.bodies
         x, y, angle = (np.append(b[name], 0.0) for name in ("x", "y", "angle"))
         return x[self.rows], y[self.rows], np.cos(angle)[self.rows], np.sin(angle)[self.rows]
@@ -79,13 +86,13 @@ class Gaps:
         return np.hypot(x[half:] - x[:half], y[half:] - y[:half])
 
     def worst(self):
-        """The greatest error of any joint now."""
+        """Return the greatest position error of any joint now [m]."""
         apart = self._apart()
         return float(np.where(self.rods, np.abs(apart - self.lengths), apart).max())
 
 
 class Worst:
-    """The greatest of the values it is called with, and 0."""
+    """Running maximum: each call passes a value, and `value` is the greatest of them, at least 0."""
 
     value = 0.0
 
@@ -94,14 +101,17 @@ class Worst:
 
 
 def worst_in(world, seconds):
-    """Step for so many seconds and return the greatest error of any pin, weld or rod."""
+    """Step a world for a duration [s] and return the greatest position error of any pin, weld or rod [m]."""
     gaps, worst = Gaps(world), Worst()
     run(world, seconds, lambda: worst(gaps.worst()))
     return worst.value
 
 
 class Period:
-    """The mean period [s] of a value that is 0 in its middle, from its falling zeros after each step of a world."""
+    """Mean period [s] of a quantity that oscillates about 0, measured between its zero crossings from plus to minus.
+
+    The object is called after each step of a world.
+    """
 
     def __init__(self, world, value):
         self.world, self.value, self.before, self.crossings = world, value, value(), []
@@ -113,13 +123,15 @@ class Period:
         self.before = now
 
     def mean(self):
-        """The period, nan for less than two zeros."""
+        """Return the mean period [s]; NaN if fewer than two zero crossings were seen."""
         times = self.crossings
         return (times[-1] - times[0]) / (len(times) - 1) if len(times) > 1 else math.nan
 
 
 def rod(world, start, end, breadth=BREADTH, **more):
-    """A thin box from one point to another."""
+    """Add a thin box from point `start` to point `end` and return the body; it collides with nothing unless `more` says
+    so.
+    """
     (ax, ay), (bx, by) = start, end
     shape = Polygon.box(math.dist(start, end), breadth)
     turn = math.atan2(by - ay, bx - ax)
@@ -127,12 +139,15 @@ def rod(world, start, end, breadth=BREADTH, **more):
 
 
 def along(distance, angle):
-    """The point at a distance from the origin, at an angle clockwise from the right."""
+    """Return the point at a distance from the origin; angle [rad] clockwise from the positive x axis."""
     return distance * math.cos(angle), distance * math.sin(angle)
 
 
 def ragdoll(world, x, y, turn, friction=0.05):
-    """A head, a torso, two arms and two legs on hinges with limits and a friction torque [N m]; returns the torso."""
+    """Add a ragdoll and return its torso: a head, a torso, two arms and two legs on hinges with limits.
+
+    (x, y): position of the torso. turn: angle of all parts [rad]. friction: friction torque of each hinge [N m].
+    """
     torso = world.add_body(Capsule((0.0, -0.4), (0.0, 0.4), 0.2), position=(x, y), angle=turn)
 
     def limb(shape, local, low, high):
@@ -148,9 +163,9 @@ def ragdoll(world, x, y, turn, friction=0.05):
 
 
 def stairs(world, count, turn, friction=0.05):
-    """Build eight steps and a floor, and `count` ragdolls that are thrown at them. Returns the torsos.
+    """Build eight stairs and a floor, and `count` ragdolls thrown at the stairs. Return the torsos.
 
-    turn: angle of all ragdolls [rad].
+    turn: phase [rad] that varies the angles of the ragdolls.
     """
     for k in range(8):
         world.add_body(Polygon.box(2.0, 0.6), position=(2.0 * k, 0.6 * k), kind="static")

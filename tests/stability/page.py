@@ -1,4 +1,4 @@
-"""docs/stability.md from the table of the rows and the figures kept in docs/stability.json."""
+"""Text of docs/stability.md, made from the table of rows and the figures in docs/stability.json."""
 
 import json
 from pathlib import Path
@@ -34,7 +34,7 @@ HEADER = (
 
 
 def kept_figures():
-    """Return {settings: {row: {figure: value}}} as the last measured run left them."""
+    """Return {settings: {row: {figure: value}}} from docs/stability.json."""
     return json.loads(KEPT.read_text())
 
 
@@ -44,12 +44,15 @@ def number(value):
 
 
 def cell(text):
-    """Return a text with its bars escaped, so that it is one cell of a table."""
+    """Return a text with its vertical bars escaped, for one cell of a Markdown table."""
     return text.replace("|", "\\|")
 
 
 def measured_cells(limit, value, usual):
-    """Return (value, margin) as cells. The limit is added to the value if it differs from `usual`, that of the line."""
+    """Return (value, margin) as texts of table cells; both are "–" if value is None.
+
+    The limit is added to the value if it differs from `usual`, the limit shown in the line.
+    """
     if value is None:
         return "–", "–"
     told = f"{number(value)} {limit.unit}".rstrip()
@@ -57,9 +60,9 @@ def measured_cells(limit, value, usual):
 
 
 def lines_of(row, figures, defaults):
-    """Return a line for each figure of a row. The case is in the first line only.
+    """Return the lines of a row in the Markdown table, one for each figure. Only the first line names the case.
 
-    figures, defaults: {figure: value} with 4 substeps and under the default settings.
+    figures, defaults: {figure: value} measured with 4 substeps and with the default settings.
     """
     if row.absent:
         told = f"does not apply: {cell(row.absent)}"
@@ -80,7 +83,10 @@ def lines_of(row, figures, defaults):
 
 
 def page(sections=SECTIONS, kept=None):
-    """The whole page: a table for each section, the faults, what was found."""
+    """Return the text of the whole page: a table for each section, the comparisons, the faults and the defects found.
+
+    kept: figures as returned by `kept_figures`; None: those of docs/stability.json.
+    """
     kept = kept_figures() if kept is None else kept
     parts = [TITLE]
     for section in sections:

@@ -1,4 +1,4 @@
-"""Doors, bowls, eccentric wheels and seams on this engine and on pymunk, for docs/stability.md.
+"""Doors, bowls, eccentric wheels and seams in this engine and in pymunk, compared in docs/stability.md.
 
 `python -m tests.stability.peers` measures and writes docs/stability_peers.json; it needs the extra `bench`. Lengths are
 in metres, 60 Hz; pymunk takes four steps of 1/240 s with 10 iterations and a slop of 0.005 m.
@@ -51,23 +51,27 @@ ROWS = {
 
 
 class Hitbox:
-    """Worlds of this engine in metres."""
+    """A world of this engine in metres."""
 
     def __init__(self, settings: Mapping[str, Any]):
         effects = Effects.rigid_bodies().with_(sleeping=False)
         self.world = World(effects, gravity=(0, GRAVITY), pixels_per_meter=1.0, **settings)
 
     def box(self, width, height, place, kind="static", friction=0.6, velocity=(0, 0)):
-        """Add a box."""
+        """Add a box with its centre at `place` and return the body."""
         shape, material = Polygon.box(width, height), Material(friction=friction)
         return self.world.add_body(shape, position=place, kind=kind, material=material, velocity=velocity)
 
     def chain(self, points):
-        """Add ground without friction along points."""
+        """Add static ground without friction along a polyline."""
         self.world.add_body(Chain(points), kind="static", material=Material(friction=0.0))
 
     def disc(self, radius, place, friction, velocity=(0, 0), weight=None):
-        """Add a disc of density 1; weight: (radius, offset down, density) of one within it."""
+        """Add a disc of density 1 and return the body.
+
+        weight: (radius, offset down, density) of a second disc fixed within it, or None; with a weight the body starts
+        at an angle of 0.5 rad.
+        """
         shapes = [Circle(radius)]
         if weight is not None:
             shapes.append(Circle(weight[0], (0.0, weight[1])).with_(material=Material(weight[2], friction)))
@@ -76,20 +80,20 @@ class Hitbox:
         return self.world.add_body(*shapes, position=place, angle=angle, velocity=velocity, material=material)
 
     def step(self):
-        """Step a sixtieth of a second."""
+        """Advance the world by 1/60 s."""
         self.world.step()
 
     def stop(self, body):
-        """Stop a kinematic body."""
+        """Set the velocity of a kinematic body to zero."""
         body.velocity = (0, 0)
 
     def read(self, body):
-        """Return (y of the centre of mass, vx, vy, kinetic energy, mass) of a body, and its origin's y."""
+        """Return (y of the centre of mass, vx, vy, kinetic energy, mass, y of the origin) of a body."""
         return body.center.y, *body.velocity, body.kinetic_energy, body.mass, body.position.y
 
 
 class Pymunk:
-    """Spaces of pymunk in metres."""
+    """A pymunk space in metres."""
 
     def __init__(self, _):
         import pymunk
@@ -104,7 +108,7 @@ class Pymunk:
         return body
 
     def box(self, width, height, place, kind="static", friction=0.6, velocity=(0, 0)):
-        """Add a box."""
+        """Add a box with its centre at `place` and return the body."""
         pymunk = self.pymunk
         mass = width * height
         body = (
@@ -116,13 +120,17 @@ class Pymunk:
         return self._add(body, [pymunk.Poly.create_box(body, (width, height))], math.sqrt(friction))
 
     def chain(self, points):
-        """Add ground without friction along points."""
+        """Add static ground without friction along a polyline."""
         still = self.space.static_body
         links = zip(points[:-1], points[1:], strict=True)
         self._add(still, [self.pymunk.Segment(still, a, b, 0.0) for a, b in links], 0.0)
 
     def disc(self, radius, place, friction, velocity=(0, 0), weight=None):
-        """Add a disc of density 1; weight: (radius, offset down, density) of one within it."""
+        """Add a disc of density 1 and return the body.
+
+        weight: (radius, offset down, density) of a second disc fixed within it, or None; with a weight the body starts
+        at an angle of 0.5 rad.
+        """
         pymunk = self.pymunk
         body = pymunk.Body()
         shapes = [pymunk.Circle(body, radius)]
@@ -134,23 +142,23 @@ class Pymunk:
         return self._add(body, shapes, math.sqrt(friction))
 
     def step(self):
-        """Step a sixtieth of a second."""
+        """Advance the space by 1/60 s."""
         for _ in range(4):
             self.space.step(1.0 / 240.0)
 
     def stop(self, body):
-        """Stop a kinematic body."""
+        """Set the velocity of a kinematic body to zero."""
         body.velocity = (0, 0)
 
     def read(self, body):
-        """Return (y of the centre of mass, vx, vy, kinetic energy, mass) of a body, and its origin's y."""
+        """Return (y of the centre of mass, vx, vy, kinetic energy, mass, y of the origin) of a body."""
         center = body.local_to_world(body.center_of_gravity).y
         moving = 0.5 * body.mass * body.velocity.length_squared + 0.5 * body.moment * body.angular_velocity**2
         return center, *body.velocity, moving, body.mass, body.position.y
 
 
 def door(engine):
-    """Return the greatest speed of a crate on which a door closes."""
+    """Close a door on a crate and return the greatest speed of the crate [m/s]."""
     engine.box(60.0, 2.0, (0.0, 1.0))
     leaf = engine.box(0.5, 3.0, (0.0, -5.0), "kinematic", velocity=(0, 7.5))
     crate, peak = engine.box(0.6, 0.6, (0.1, -0.303), "dynamic"), 0.0
@@ -163,7 +171,7 @@ def door(engine):
 
 
 def bowl(engine):
-    """Return the greatest energy of a disc in a bowl, of that at the start."""
+    """Let a disc slide in a bowl and return its greatest energy divided by its energy at the start."""
     radius, r, turn = 12.5, 0.625, 0.7 * math.pi
     engine.chain([(radius * math.cos(a), radius * math.sin(a)) for a in np.linspace(math.pi, 0.0, 241)])
     room = radius - r - 0.002
@@ -177,7 +185,7 @@ def bowl(engine):
 
 
 def wheel(engine):
-    """Return the greatest energy of an eccentric wheel in its last ten seconds, of that in its first ten."""
+    """Roll an eccentric wheel; return its greatest energy in the last ten seconds divided by that in the first ten."""
     engine.box(2000.0, 2.0, (0.0, 1.0))
     body = engine.disc(0.8, (0.0, -0.8), 0.6, weight=(0.16, 0.54, 60.0))
     lowest = engine.read(body)[0]
@@ -191,7 +199,7 @@ def wheel(engine):
 
 
 def seams(engine):
-    """Return the least speed of a ball over separate boxes, of that at the start."""
+    """Slide a ball over separate boxes and return its least speed divided by its speed at the start."""
     for k in range(28):
         engine.box(0.5, 0.5, (0.25 + 0.5 * k, 0.25), friction=0.0)
     ball, least = engine.disc(0.22, (0.5, -0.22), 0.0, velocity=(5.5, 0.0)), 1.0
@@ -205,7 +213,7 @@ SCENES: Mapping[str, Callable[[Any], float]] = {"door": door, "bowl": bowl, "whe
 
 
 def measure():
-    """Return {row: {engine: figure}}."""
+    """Run all scenes in all engines and return {row: {engine: figure}}."""
     makers = {name: lambda settings=settings: Hitbox(settings) for name, settings in ENGINES.items()}
     makers["pymunk"] = lambda: Pymunk(None)
     return {
@@ -214,7 +222,7 @@ def measure():
 
 
 def section():
-    """The Markdown of the table, from the figures kept."""
+    """Return the Markdown of the table "Beside the peers", made from the stored figures."""
     kept = json.loads(KEPT.read_text())
     names = [*ENGINES, "pymunk"]
     lines = [

@@ -1,4 +1,4 @@
-"""Scenes that several tests build: worlds in metres, floors, slopes, columns, pyramids."""
+"""Scenes that several tests build: worlds in metres, floors, slopes, columns and pyramids."""
 
 import math
 
@@ -16,25 +16,29 @@ SOLVERS = ("soft_step", "sequential_impulse")
 
 
 def pile_effects(**changes):
-    """Return the effects of piles of bodies; they never sleep unless a test asks for it."""
+    """Return the effects for worlds with piles of bodies; sleeping is off unless `changes` turns it on."""
     return Effects(response=True, gravity=True, rotation=True, friction=True, restitution=True, stacking=True).with_(
         **changes
     )
 
 
 def metres(solver="soft_step", gravity=(0, 10), pixels_per_meter=1.0, effects=None, **options):
-    """A world whose pixels are metres, with the present settings (settings.py) where none are given."""
+    """Return a world in which one pixel is one metre; arguments that are not given follow the present settings
+    (settings.py).
+    """
     options = {"solver": solver, "gravity": gravity, "pixels_per_meter": pixels_per_meter, **options}
     return make(effects, pile_effects(), options)
 
 
 def pixels(effects=None, **options):
-    """A world with the present settings (settings.py) where none are given."""
+    """Return a world; arguments that are not given follow the present settings (settings.py)."""
     return make(effects, pile_effects(), options)
 
 
 def floor(world, friction=0.6, restitution=0.0, width=200.0, y=0.0, x=0.0, angle=0.0):
-    """A thick floor whose surface passes through (x, y); a positive angle falls to the right."""
+    """Add a floor 2 thick whose surface passes through (x, y), and return the body. A positive angle slopes it down to
+    the right.
+    """
     return world.add_body(
         Polygon.box(width, 2.0, center=(0.0, 1.0)),
         position=(x, y),
@@ -45,12 +49,14 @@ def floor(world, friction=0.6, restitution=0.0, width=200.0, y=0.0, x=0.0, angle
 
 
 def on_slope(angle, along, height):
-    """Return the point at the distance `along` down a slope through the origin, and at `height` above it."""
+    """Return the point `along` down a slope through the origin and `height` above its surface. angle: of the slope
+    [rad].
+    """
     return (along * math.cos(angle) + height * math.sin(angle), along * math.sin(angle) - height * math.cos(angle))
 
 
 def column(world, count, gap=0.0, shift=0.0, friction=0.6, size=1.0, density=1.0):
-    """Boxes above one another from y = 0 up, shifted left and right by turns. Returns the bodies, lowest first."""
+    """Add a column of boxes on y = 0, shifted left and right by turns, and return the bodies, lowest first."""
     return [
         world.add_body(
             Polygon.box(size, size),
@@ -62,7 +68,7 @@ def column(world, count, gap=0.0, shift=0.0, friction=0.6, size=1.0, density=1.0
 
 
 def pyramid(world, base, size=1.0, friction=0.6, spread=1.1, x=0.0, y=0.0):
-    """Rows of boxes, each one shorter. Returns ids by row, lowest first."""
+    """Add a pyramid: rows of boxes, each with one box fewer than the row below. Return the ids by row, lowest first."""
     return [
         world.add_bodies(
             Polygon.box(size, size),
@@ -74,9 +80,10 @@ def pyramid(world, base, size=1.0, friction=0.6, spread=1.1, x=0.0, y=0.0):
 
 
 def pyramid_and_load(world, density, height):
-    """Build a pyramid of ten rows without its top, and a box released at `height` above that place.
+    """Build a pyramid of ten rows without its top box, and a box released `height` above the position of the missing
+    one.
 
-    Returns (ids by row, lowest first, the box). density: that of the box.
+    Returns (ids by row, lowest first; the released box). density: density of the released box.
     """
     floor(world)
     rows = pyramid(world, 10, spread=1.01)
@@ -85,5 +92,5 @@ def pyramid_and_load(world, density, height):
 
 
 def tops(world, ids):
-    """Heights of the centres above y = 0."""
+    """Return the heights of the origins of some bodies above y = 0, as an array. ids: sequence of body ids."""
     return -world.bodies["y"][world.rows(np.asarray(ids))]

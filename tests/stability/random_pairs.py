@@ -1,4 +1,7 @@
-"""Random pairs of convex shapes, of which about half overlap: thin and round, tiny and huge, here and far out (C13)."""
+"""Random pairs of convex shapes for C13: thin and round, tiny and huge, near the origin and far from it.
+
+About half of the pairs overlap.
+"""
 
 from typing import NamedTuple
 
@@ -12,7 +15,9 @@ FURTHEST = 1e7  # [px] from the origin
 
 
 class Pairs(NamedTuple):
-    """n pairs: the shapes and poses that physics is asked about, and the same as arrays, seen from A's place."""
+    """n pairs of shapes with their poses as arguments for physics, and the same shapes as arrays, relative to A's
+    position.
+    """
 
     shapes_a: list
     shapes_b: list
@@ -23,8 +28,10 @@ class Pairs(NamedTuple):
 
 
 def any_shape(rng):
-    """A hull of 3 to 16 corners, rounded or not, a disc, capsule or line: 0.1 to 1,000 px, up to 10,000 times as long
-    as it is thick."""
+    """Return a random shape: a disc, capsule, segment, or a hull of 3 to 16 corners, rounded or not.
+
+    It measures 0.1 to 1,000 px and is up to 10,000 times as long as it is thick.
+    """
     size, thin = 10.0 ** rng.uniform(-1.0, 3.0), 10.0 ** -rng.uniform(0.0, 4.0)
     kind, (x, y) = rng.integers(8), rng.normal(size=2) * size
     if kind == 0:
@@ -46,7 +53,7 @@ def any_shape(rng):
 
 
 def hulls_of(shapes):
-    """Shapes as arrays."""
+    """Return the corners and radii of a list of shapes as arrays."""
     corners = np.zeros((len(shapes), CORNERS, 2))
     for row, shape in enumerate(shapes):
         points = (shape.center,) if isinstance(shape, Circle) else shape.points
@@ -56,9 +63,9 @@ def hulls_of(shapes):
 
 
 def draw_pairs(seed, count):
-    """Return `count` random pairs of some shapes: half of them anywhere near each other, the others nearly touching.
+    """Return `count` random pairs: half have random positions near each other, the others nearly touch.
 
-    The number of shapes is a tenth of `count`, at least 20.
+    The pairs draw from count / 10 shapes, at least 20.
     """
     rng = np.random.default_rng(seed)
     shapes = [any_shape(rng) for _ in range(max(count // 10, 20))]
@@ -79,14 +86,19 @@ def draw_pairs(seed, count):
 
 
 def _near(rng, a, b):
-    """Return offsets at which B's box is anywhere on A's box, or beyond it by up to a fifth."""
+    """Return random (n, 2) offsets of B from A, drawn from 1.2 times the range in which their
+    bounding boxes overlap.
+    """
     (low_a, high_a), (low_b, high_b) = a.boxes(), b.boxes()
     low, high = low_a - high_b, high_a - low_b
     return (low + high) / 2.0 + (high - low) / 2.0 * rng.uniform(-1.2, 1.2, low.shape)
 
 
 def _touching(rng, a, b):
-    """Return offsets that leave a gap or overlap along a random direction: 1 to 1e-12 of the smaller size."""
+    """Return (n, 2) offsets of B from A that leave a gap or an overlap along a random direction.
+
+    Gap and overlap are 1 to 1e-12 times the size of the smaller shape.
+    """
     angle = rng.uniform(0.0, 2.0 * np.pi, len(a.radii))
     normal = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     rows = np.arange(len(angle))

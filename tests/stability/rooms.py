@@ -1,6 +1,6 @@
-"""Random passive scenes: rooms full of bodies that come to rest, and bodies that move for ever without friction.
+"""Random passive scenes: rooms whose bodies come to rest, and scenes whose bodies keep their energy and never rest.
 
-The figures of a room are a `Found`; `python -m tests.stability.rooms FIRST LAST` prints those of some seeds.
+The figures of a room are a `Found`; `python -m tests.stability.rooms FIRST LAST` prints those of a range of seeds.
 """
 
 import math
@@ -21,7 +21,7 @@ WALL = 64.0  # [px] thickness of walls
 
 
 class Found(NamedTuple):
-    """The figures of a room."""
+    """Figures measured in one simulated room."""
 
     bodies: int
     masks: bool
@@ -34,13 +34,13 @@ class Found(NamedTuple):
 
 
 def disc_mask(radius):
-    """A drawn disc."""
+    """Return a pixel mask in the form of a disc; radius in pixels."""
     at = np.arange(2 * radius) + 0.5 - radius
     return PixelMask(at[:, None] ** 2 + at[None, :] ** 2 <= radius * radius, None)
 
 
 def sprite(rng):
-    """A mask with notches, one piece."""
+    """Return a random connected pixel mask with notches."""
     solid = rng.random((int(rng.integers(4, 9)), int(rng.integers(4, 9)))) < 0.7
     solid[len(solid) // 2] = True
     solid[:, solid.shape[1] // 2] = True
@@ -48,7 +48,7 @@ def sprite(rng):
 
 
 def shapes_of(kind, rng):
-    """Shapes of a body of about 12 to 28 px."""
+    """Return a tuple of random shapes for one body of about 12 to 28 px."""
     r = float(rng.uniform(6.0, 14.0))
     if kind == "hull":
         angles = np.sort(rng.uniform(0.0, math.tau, int(rng.integers(5, 9))))
@@ -69,7 +69,10 @@ def shapes_of(kind, rng):
 
 
 def room(seed, most=300, **settings):
-    """A random room with the default settings. Returns (world, half width, depth [px], whether it has masks)."""
+    """Return (world, half width [px], whether it has masks) of a random room with the default settings.
+
+    most: greatest number of bodies.
+    """
     rng = np.random.default_rng([34, seed])
     count, masks = int(rng.integers(50, most + 1)), seed % 3 != 0
     kinds = ["circle", "box", "capsule", "hull", "rounded", "cross", *(["disc mask", "sprite"] if masks else [])]
@@ -99,7 +102,10 @@ def room(seed, most=300, **settings):
 
 
 def energy(world, rows):
-    """Mechanical energy of the dynamic bodies above y = 0."""
+    """Return the mechanical energy of dynamic bodies, with the potential energy measured from y = 0.
+
+    rows: rows of these bodies in world.bodies.
+    """
     gravity = world.gravity
     moving = 0.5 * (
         rows["mass"] * (rows["vx"] ** 2 + rows["vy"] ** 2) + rows["inertia"] * rows["angular_velocity"] ** 2
@@ -108,7 +114,7 @@ def energy(world, rows):
 
 
 def play(seed, seconds=SECONDS, most=300, **settings):
-    """Return what a random room does (Found)."""
+    """Simulate the random room of a seed and return its figures. most: greatest number of bodies."""
     world, half, masks = room(seed, most, **settings)
     dynamic = world.bodies["kind"] == 2
     last = start = energy(world, world.bodies[dynamic])
@@ -138,7 +144,9 @@ PASSIVE = ("bowl", "eccentric disc", "balls", "boxes", "masks")
 
 
 def passive(kind, seed, **settings):
-    """A scene of elastic or rolling bodies that has energy for ever: never asleep, no overlap at its start."""
+    """Return a world of elastic, sliding or rolling bodies that keep their energy; they never sleep and start without
+    overlap.
+    """
     rng = np.random.default_rng([35, seed, PASSIVE.index(kind)])
     world = World(Effects.rigid_bodies().with_(sleeping=False), **settings)
     smooth = Material(friction=0.0, restitution=0.0 if kind == "bowl" else 1.0)
@@ -170,7 +178,9 @@ def passive(kind, seed, **settings):
 
 
 def most_energy(kind, seed, seconds, **settings):
-    """Return the greatest energy of a passive scene and its greatest rise in a step, as shares of that at its start."""
+    """Simulate a passive scene and return its greatest energy and its greatest rise in a step, over the energy at the
+    start.
+    """
     world = passive(kind, seed, **settings)
     dynamic = world.bodies["kind"] == 2
     last = start = energy(world, world.bodies[dynamic])

@@ -1,7 +1,8 @@
-"""The settings of a row's worlds: 4 substeps, and those of a world as `World()` makes it; the phases of its sweep.
+"""Settings of the worlds that tests create: 4 substeps or the defaults of `World()`, and the phases of a sweep.
 
-`variants` finds the tests whose worlds have no settings of their own, `sweeps` those with a phase or a seed.
-conftest.py runs the former under both settings and the latter with SWEEP phases, all but the first at night.
+`variants` finds the tests whose worlds have no settings of their own; `sweeps` finds those with a phase or a seed.
+conftest.py runs the former under both settings. It runs the latter with SWEEP phases; only the first is not marked
+nightly.
 """
 
 import ast
@@ -31,7 +32,7 @@ _alone = set[str]()
 
 @contextmanager
 def using(name: str, number: int) -> Iterator[None]:
-    """Make worlds with these settings, and phases of this number of a sweep, until the end of the block."""
+    """Use the named settings for new worlds, and the phase of this sweep number, until the end of the with block."""
     _present.append(name)
     _sweep.append(number)
     try:
@@ -42,30 +43,31 @@ def using(name: str, number: int) -> Iterator[None]:
 
 
 def by_default() -> bool:
-    """Return whether worlds have the default settings now."""
+    """Return whether new worlds get the default settings at present."""
     return _present[-1] == DEFAULTS
 
 
 def alone(function: Callable[..., object]) -> Callable[..., object]:
-    """Run a test under 4 substeps alone: its worlds are made in other processes."""
+    """Mark a test to run with 4 substeps only, because its worlds are created in other processes. Decorator."""
     _alone.add(function.__name__)
     return function
 
 
 def phase(span: float) -> float:
-    """Return the present phase, 0 to span without it; 0 in the first of a sweep."""
+    """Return the present phase of the sweep, from 0 up to but not including `span`; 0 outside a sweep."""
     return span * _sweep[-1] / SWEEP
 
 
 def generator(seed: int) -> np.random.Generator:
-    """Return random numbers of a seed, others in each of a sweep."""
+    """Return a random generator for a seed; each number of a sweep gives another sequence."""
     return np.random.default_rng([seed, _sweep[-1]] if _sweep[-1] else seed)
 
 
 def make(effects: Effects | None, usual: Effects, options: dict[str, Any]) -> World:
-    """Return a world of the present settings; effects and substeps that a caller gives stay.
+    """Return a world with the present settings; `effects` and options that the caller gives have priority.
 
-    usual: effects with 4 substeps, where none are given; by default they are those of `World()`.
+    usual: effects used under the 4-substep settings if `effects` is None. Under the default settings World() chooses
+    them.
     """
     if _present[-1] == FOUR:
         return World(usual if effects is None else effects, **{"substeps": 4, **options})
@@ -73,7 +75,10 @@ def make(effects: Effects | None, usual: Effects, options: dict[str, Any]) -> Wo
 
 
 def variants(function: Callable[..., object], module: ModuleType, arguments: set[str]) -> bool:
-    """Return whether the worlds of a test follow the present settings."""
+    """Return whether the worlds of a test follow the present settings.
+
+    module: module of the test. arguments: names of its parameters and fixtures.
+    """
     if arguments & {"substeps", "settings"} or function.__name__ in _alone:
         return False
     for call, given in _calls(function.__name__, module):
@@ -83,12 +88,14 @@ def variants(function: Callable[..., object], module: ModuleType, arguments: set
 
 
 def sweeps(function: Callable[..., object], module: ModuleType) -> bool:
-    """Return whether a test has a phase or a seed."""
+    """Return whether a test uses a phase or a seed of the sweep."""
     return any(call in SWEEPERS for call, _ in _calls(function.__name__, module))
 
 
 def _calls(start, module):
-    """Yield (name, keywords) of the calls in a function of a module and in those that it names."""
+    """Yield (name, set of keyword names) of each call in a function, and in the module's
+    functions that it refers to.
+    """
     functions, todo, seen = _functions(module), [start], set[str]()
     while todo:
         name = todo.pop()

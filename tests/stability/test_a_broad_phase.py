@@ -42,7 +42,7 @@ every_strategy = pytest.mark.parametrize("strategy", STRATEGIES)
 
 
 def box_sets():
-    """Yield (name, lower, upper) of the boxes of A1."""
+    """Yield (name, lower corners, upper corners) of the box sets of case A1; the corners are (n, 2) arrays."""
     rng = np.random.default_rng(1)
     for count in (0, 1, 2, 17, 256, 2000 if JIT else 300):
         lower = rng.uniform(-20.0, 20.0, (count, 2)) * math.sqrt(count)
@@ -112,7 +112,9 @@ def test_a3_stack_stands_on_a_huge_ground(measured, half, broadphase):
 
 
 def churn(broadphase, steps):
-    """Return the bytes that Python counts after each step of a world whose 60 bodies are replaced all the time."""
+    """Return a list of the bytes allocated by Python after each step of a world whose 60 bodies are constantly
+    replaced.
+    """
     world = World(Effects(response=True), BROADPHASES[broadphase]())
     rng, alive, held = np.random.default_rng(4), [], []
     for _ in range(steps):
@@ -185,7 +187,10 @@ def test_a5_a_box_of_nan_is_told_and_no_other_pair_changes(measured, strategy):
 @pytest.mark.parametrize("way", [(1.0, 0.0), (0.6, -0.8), (math.sqrt(0.5), math.sqrt(0.5))])
 @every_strategy
 def test_a6_a_fast_body_pairs_with_all_it_sweeps(measured, strategy, way):
-    """50 cells in a step; of the boxes at the poses alone, before or after it, none pairs with what lies between."""
+    """A body that moves 50 cells in a step is paired with every body in its path if the motion is continuous.
+
+    Without continuous motion, only boxes at the end poses count, and no body between them is paired.
+    """
     cell = 16.0
     far, way = 50.0 * cell, np.array(way)
     places = way * far * np.arange(1, 20)[:, None] / 20.0
@@ -210,7 +215,9 @@ def test_a6_a_fast_body_pairs_with_all_it_sweeps(measured, strategy, way):
 
 
 def beyond(shape, pose, box):
-    """Return how far [exact] a shape with whole or dyadic coordinates extends beyond a box."""
+    """Return how far [px, exact fraction] a shape extends beyond a box. The numbers of the shape are integers or
+    dyadic.
+    """
     x, y, angle = pose
     c, s, (x, y) = Fraction(math.cos(angle)), Fraction(math.sin(angle)), map(Fraction, (x, y))
     points = (shape.center,) if isinstance(shape, Circle) else shape.points
@@ -230,8 +237,10 @@ def beyond(shape, pose, box):
 
 @pytest.mark.parametrize("place", [0.0, 1e5, 1e7])
 def test_a7_boxes_hold_their_shapes_wherever_they_are(measured, place):
-    """Boxes of moving shapes have a margin and contain them; boxes of static shapes are closed and rounded to the
-    nearest, not outward: where an AABB is the verdict, boxes a rounding apart do not touch.
+    """The boxes of moving shapes have a margin and contain their shapes, at any position.
+
+    The boxes of static shapes are closed and rounded to nearest, not outward. Where an AABB decides the contact, boxes
+    that are one rounding apart do not touch.
     """
     rng, worst = np.random.default_rng(7), {"static": Fraction(0), "dynamic": Fraction(0)}
     for kind in worst:
@@ -257,7 +266,9 @@ def test_a7_boxes_hold_their_shapes_wherever_they_are(measured, place):
 
 @pytest.mark.parametrize("broadphase", BROADPHASES)
 def test_a7_what_touches_is_a_candidate_wherever_it_is(measured, broadphase):
-    """Turned boxes on which a disc is set by rational arithmetic, a rounding deep at most."""
+    """A disc that touches a rotated box is a candidate, even far from the origin; the exact overlap is at most one
+    rounding.
+    """
     rng, missed = np.random.default_rng(8), 0
     world = metres(gravity=(0, 0), broadphase=BROADPHASES[broadphase]())
     pairs = []

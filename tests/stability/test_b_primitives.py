@@ -1,6 +1,6 @@
-"""Hard cases of simple shapes and their manifolds (section B), held to closed forms and to sums without rounding.
+"""Hard cases of simple shapes and their manifolds (section B), checked against closed forms and exact arithmetic.
 
-A sign that flickers by one rounding begins and ends contacts; one that is wrong lets a needle through.
+A sign that flickers by one rounding begins and ends contacts; a wrong sign lets a needle pass through.
 """
 
 import math
@@ -33,13 +33,16 @@ MEETINGS = {  # two outlines, where the second touches the first, and the way th
 
 
 def moved(corners, way, by):
-    """Corners moved along a way by a length, as floats."""
+    """Return the corners, moved by the length `by` along the direction `way`, as floats."""
     along = by / math.hypot(*way)
     return [(x + along * way[0], y + along * way[1]) for x, y in corners]
 
 
 def told(a, b):
-    """Return (sign of the distance, whether collide or the distance of the opposite order contradicts it)."""
+    """Return (sign of the distance of two polygons, whether another call contradicts it).
+
+    The other calls are collide() and distance() with exchanged shapes.
+    """
     a, b = Polygon(a), Polygon(b)
     gap = distance(a, STILL, b, STILL).distance
     odd = (gap <= 0.0) != (len(collide(a, STILL, b, STILL)) > 0)
@@ -64,7 +67,10 @@ def test_b1_boxes_that_overlap_by_a_tenth(measured):
 
 
 def test_b2_faces_that_are_hardly_turned_keep_their_two_points(measured):
-    """As a world keeps them, where the impulses of the last step find their points by their features."""
+    """Two faces that are almost parallel keep two contact points with constant features in a world.
+
+    The world assigns the impulses of the last step to points by their features.
+    """
     seen = []
     for exponent in np.linspace(-12.0, -2.0, 101):
         for sign in (1.0, -1.0):
@@ -131,9 +137,9 @@ def test_b6_shapes_inside_themselves(measured, shape, width):
 
 
 def long_and_short(measured, poses):
-    """Check the contacts of a box that drifts and rotates on a long one.
+    """Check the contacts of a box that drifts and rotates on a long box, for a number of poses.
 
-    The push of each contact must end the overlap, and be no longer than needed.
+    A move along each contact's normal by its depth must end the overlap and be no longer than needed.
     """
     long, short = Polygon.box(600.0, 3.0), Polygon.box(20.0, 20.0)
     x, y, angle, missing, left, most = 0.0, 0.0, 0.0, 0, 0.0, 0.0
@@ -198,7 +204,10 @@ def test_b8_what_is_hardly_a_shape_is_refused_or_right(measured, name):
 @pytest.mark.parametrize("scale", [2.0**-20, 1.0, 3.7, 2.0**20])
 @pytest.mark.parametrize("name", MEETINGS)
 def test_b9_a_hair_apart_is_apart_and_a_hair_inside_overlaps(measured, name, scale):
-    """Gaps and overlaps of 1e-12 to 1e-1 of the size: the sign is that of the rationals. In between it changes once."""
+    """With gaps and overlaps of 1e-12 to 1e-1 of the size, the sign of the distance equals the exact sign.
+
+    Between gap and overlap the sign changes once.
+    """
     a, b, place, way = MEETINGS[name]
     size = scale * max(math.hypot(x, y) for corners in (a, b) for x, y in corners)
     a = [(scale * x, scale * y) for x, y in a]
@@ -220,7 +229,7 @@ def test_b9_a_hair_apart_is_apart_and_a_hair_inside_overlaps(measured, name, sca
 
 @pytest.mark.parametrize("name", ["corner at corner", "edge on edge", "edge on edge, ends alike", "corner at edge"])
 def test_b9_touching_is_a_contact_of_no_depth(measured, name):
-    """Whole numbers, without rounding: closed shapes that touch overlap, at distance 0."""
+    """Touching polygons with integer corners have contacts and distance 0; the arithmetic is exact."""
     a, b, (x, y), way = MEETINGS[name]
     b = [(u + x, v + y) for u, v in b]
     measured("B9", "signs that are not the rationals'", int(sign_of_gap(a, b) != 0) + int(told(a, b)[0] != 0))
@@ -231,7 +240,10 @@ def test_b9_touching_is_a_contact_of_no_depth(measured, name):
 
 
 def needles(measured, count):
-    """Check needles of 100 px by 0.001 px on a lattice with exact products: all crossings are found, no other."""
+    """Check `count` pairs of needles, 100 px by 0.001 px, with corners on a lattice and exact products.
+
+    Every crossing must be found, and nothing else.
+    """
     rng, unit = np.random.default_rng(1), 2.0**-20
     turns = np.radians(rng.choice([-1.0, 1.0], (2, count)) * 10.0 ** rng.uniform(-4.0, -2.0, (2, count)))
     middle = np.stack([rng.uniform(-100.0, 100.0, count), rng.uniform(-4e-3, 4e-3, count)], axis=1)
@@ -264,7 +276,7 @@ def test_b10_a_hundred_thousand_needles(measured):
 
 
 def squared_distance(a, b, c, d):
-    """Return the squared distance of two segments with whole ends, as a rational number."""
+    """Return the exact squared distance of the segments a–b and c–d with integer ends, as a Fraction."""
 
     def to_segment(p, q, r):
         (ux, uy), (vx, vy) = (q[0] - p[0], q[1] - p[1]), (r[0] - p[0], r[1] - p[1])
@@ -299,7 +311,10 @@ def test_b11_segments_are_as_far_apart_as_the_rationals_say(measured):
 
 @pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse", "projection"])
 def test_b12_what_only_might_touch_is_not_touched(measured, solver):
-    """Gaps up to twice the margin of 4 slops; the impulse that was not needed is none, to the bit."""
+    """A speculative contact that is not reached in the step gets an impulse of exactly 0.
+
+    The gaps go up to twice the margin of 4 slops.
+    """
     aside = slowed = heard = 0.0
     for gap in np.linspace(0.0, 8.0 * SLOP, 17).tolist():
         for shape, foot in ((Circle(0.5), 0.5), (Polygon.box(1, 1), 0.5), (Capsule((-0.5, 0), (0.5, 0), 0.25), 0.25)):

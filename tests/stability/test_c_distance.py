@@ -16,7 +16,7 @@ STILL = (0.0, 0.0, 0.0)
 
 
 def off_unit(*vectors):
-    """Return the greatest difference of the length of a vector from 1."""
+    """Return the greatest deviation of the vectors' lengths from 1."""
     return max(abs(math.hypot(*each) - 1.0) for each in vectors)
 
 
@@ -70,7 +70,10 @@ def test_c3_what_slides_a_hair_above_the_ground_has_a_normal(measured):
 
 
 def test_c4_squares_overlap_alike_from_every_start(measured):
-    """Turned and listed from another corner, the search begins elsewhere."""
+    """Two overlapping squares have the same depth and normal whichever corner the search starts from.
+
+    Rotation and another first corner change the start of the search.
+    """
     corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
     for k in range(64):
         turn = math.tau * k / 64.0
@@ -162,7 +165,7 @@ def test_c12_near_parallel_planes_end_soon(measured):
 
 
 def certify(measured, seed, count):
-    """Check `count` random pairs of one seed."""
+    """Measure `count` random pairs of one seed against the limits of C13."""
     hits = 0
     for found in chunks(seed, count):
         measured("C13", "outside the bounds", distance_excess(found))
@@ -186,7 +189,7 @@ def test_c13_more_random_pairs_keep_their_certificates(measured, seed):
 
 @pytest.mark.parametrize("place", [0.0, 1e7])
 def test_c13_a_crowd_has_the_contacts_that_its_shapes_have(measured, place):
-    """Every pair of a crowd, broad phase and narrow phase together: none is missed, none is made up."""
+    """A crowd of shapes in one world has exactly the contacts that its pairs have: none is missing, none is extra."""
     rng, count = np.random.default_rng(3), 300 if JIT else 60
     world = World(Effects(rotation=True))
     shapes = [any_shape(rng) for _ in range(count)]
@@ -253,7 +256,11 @@ def test_c15_a_box_inside_a_big_one_leaves_by_the_least_translation(measured):
 
 
 def test_c16_casts_that_start_in_contact(measured):
-    """Touching and approaching: 0. Leaving, sliding and resting look on, and grazing is meeting."""
+    """A cast that starts in contact hits at fraction 0 if the shapes approach, and misses if they separate, slide or
+    rest.
+
+    A grazing path that touches counts as a hit.
+    """
     box, ball, wrong = Polygon.box(2, 2), Circle(1.0), 0
     for a, b in ((box, box), (ball, ball), (box, ball), (Capsule((0, -1), (0, 1), 1.0), box)):
         for gap in (0.0, -0.5):

@@ -1,6 +1,7 @@
-"""Closed rooms of every kind of wall: still ones under every solver, moving and turning ones under those that stack.
+"""Closed rooms with every kind of wall keep the bodies inside them.
 
-A room is never narrower than a body; how fast it moves and turns, and how fast what is in it flies, is drawn at random.
+Resting rooms run under every solver; moving and rotating rooms run under the stacking solvers. A room is never narrower
+than a body. The speeds of the room and of the bodies inside it are random.
 """
 
 import itertools
@@ -22,7 +23,7 @@ THICK = 16.0  # [px] of walls that have an inside
 
 
 def walls_of(kind, half_x, half_y):
-    """Shapes around the free box of these half sizes [px] about the origin."""
+    """Return the wall shapes around a free box of these half sizes [px] about the origin."""
     corners = [(-half_x, -half_y), (half_x, -half_y), (half_x, half_y), (-half_x, half_y)]
     if kind == "chain":
         return [Chain(corners[::-1], loop=True)]  # counter-clockwise on the screen: a room
@@ -38,7 +39,9 @@ def walls_of(kind, half_x, half_y):
 
 
 def add_room(world, rng, kind, moves):
-    """Return (the room's body, the pose of its middle in body space, half sizes [px])."""
+    """Add a random room and return (body of the room, its centre in body space, half sizes [px]). moves: True if it
+    moves.
+    """
     columns, rows = int(rng.integers(4, 9)), int(rng.integers(4, 9))
     half_x, half_y = columns * THICK / 2.0, rows * THICK / 2.0
     speed = rng.uniform(-400.0, 400.0, 2) * moves
@@ -58,7 +61,7 @@ def add_room(world, rng, kind, moves):
 
 
 def fill(world, rng, half_x, half_y):
-    """Bodies that do not touch, in the cells of the room."""
+    """Add random bodies that do not touch, on a grid inside the room, and return them."""
     inside = []
     for x, y in itertools.product(np.arange(-half_x + 10, half_x - 9, 20.0), np.arange(-half_y + 10, half_y - 9, 20.0)):
         if len(inside) == 6 or rng.random() < 0.5:
@@ -83,7 +86,10 @@ def fill(world, rng, half_x, half_y):
 
 
 def outside(body, room, middle, halves):
-    """Return how far [px] a body's centre of mass is beyond the walls."""
+    """Return how far [px] a body's centre of mass lies beyond the walls, 0 inside.
+
+    middle: centre of the room in its body space. halves: half sizes of the room.
+    """
     cosine, sine = math.cos(room.angle), math.sin(room.angle)
     x, y = body.center[0] - room.position[0], body.center[1] - room.position[1]
     u, v = cosine * x + sine * y - middle[0], cosine * y - sine * x - middle[1]
@@ -91,7 +97,9 @@ def outside(body, room, middle, halves):
 
 
 def lost_in(rng, kind, solver, moves, steps=STEPS):
-    """Return the bodies of one random world that are beyond its walls in the end."""
+    """Simulate one random room and return the bodies that are beyond its walls at the end. moves: True if the room
+    moves.
+    """
     stacking = solver in STACKING
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, restitution=True, continuous=True)
     world = World(
@@ -126,7 +134,9 @@ def test_nobody_gets_out_of_a_closed_room(kind, solver, moves):
     ],
 )
 def test_rooms_that_lost_somebody(kind, solver, seed, number):
-    """Small bodies pressed into the corner of a turning room, whose centres came nearer to its walls in every step."""
+    """Small bodies pressed into the corner of a rotating room stay inside; each of these random
+    rooms once lost a body.
+    """
     rng = np.random.default_rng([1000 + seed, CASES.index((kind, solver, True))])
     for _ in range(number):
         lost_in(rng, kind, solver, True, steps=0)

@@ -1,4 +1,4 @@
-"""Compiled kernels and plain Python give the same bits: one busy scene, run both ways, the digests of every step."""
+"""Compiled kernels and plain Python give identical digests after every step of one scene with many bodies."""
 
 import os
 import subprocess
@@ -73,7 +73,7 @@ def run(kind, broadphase, plain):
 
 
 def output_of(plain, script, *words):
-    """The lines that a script prints in a process of its own."""
+    """Run a script in a separate process and return the lines that it prints. plain: True disables the compiler."""
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "NUMBA_DISABLE_JIT": "1" if plain else "0"}
     found = subprocess.run(
         [sys.executable, "-c", script, *words], cwd=ROOT, env=environment, capture_output=True, text=True, timeout=300

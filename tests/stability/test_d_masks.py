@@ -1,4 +1,6 @@
-"""Hard cases of pixel masks (section D): verdicts by pixels, pushes by outlines, both against exact sums."""
+"""Hard cases of pixel masks (section D): overlap tests by pixels and contacts by outlines,
+checked against exact sums.
+"""
 
 import math
 
@@ -15,7 +17,10 @@ def squares(*size, **options):
 
 
 def test_d2_single_pixels_meet_where_they_share_area(measured):
-    """Offsets in eighths; exactly when both are nearer than 1, as drawn when they fall on one pixel."""
+    """Two single pixels at offsets in eighths of a pixel collide exactly if they overlap.
+
+    With exact poses both offsets must be less than 1. With snapped poses both must fall on the same pixel.
+    """
     exact, drawn, wrong = squares(1, 1, snap=False), squares(1, 1), 0
     for dx in np.arange(-16, 17) / 8.0:
         for dy in np.arange(-16, 17) / 8.0:
@@ -26,9 +31,9 @@ def test_d2_single_pixels_meet_where_they_share_area(measured):
 
 
 def wrong_verdicts(turned):
-    """Return the number of random pairs of masks whose verdict differs from that of their squares.
+    """Return how many random pairs of masks get another verdict than the union of their pixel squares.
 
-    turned: whether the masks are rotated.
+    turned: True rotates the masks.
     """
     pytest.importorskip("shapely")
     from tests.oracles import outlines
@@ -52,7 +57,10 @@ def wrong_verdicts(turned):
 
 
 def test_d4_at_exact_poses_no_overlap_is_missed_and_as_drawn_a_known_share(measured):
-    """An overlap of less than a whole pixel is not drawn: 1 - (63/64)² of them."""
+    """With exact poses no overlap of two masks is missed; with snapped poses the share missed is 1 - (63/64)².
+
+    Snapping loses overlaps of less than a whole pixel.
+    """
     measured("D4", "overlaps missed or made up at exact poses", wrong_verdicts(False))
     mask, rng, hits, missed = squares(32, 32), np.random.default_rng(5), 0, 0
     for dx, dy in rng.uniform(-32.0, 32.0, (40_000 if JIT else 4_000, 2)).tolist():
@@ -66,7 +74,10 @@ def test_d8_turned_masks_meet_where_their_squares_do(measured):
 
 
 def test_d5_a_turned_line_keeps_its_area_and_lets_no_ball_of_a_pixel_through(measured):
-    """By the exact pose, not by resampling: the area is that of its pixels, the ball is met at every angle."""
+    """A rotated one-pixel line keeps the area of its pixels and stops a ball one pixel wide at every angle.
+
+    The line is rotated by its exact pose, not by resampling.
+    """
     line, ball = squares(1, 32, snap=False), Circle(0.5)
     for degrees in range(0, 91, 5 if JIT else 15):
         turn = math.radians(degrees)
@@ -96,7 +107,10 @@ def test_d7_a_turned_square_has_its_area(measured):
 
 @pytest.mark.parametrize("continuous", [False, True])
 def test_d11_a_sprite_misses_a_thin_wall_at_the_known_rate_and_never_when_swept(measured, continuous):
-    """100 px a step, random phases: 1 - (w + L) / (v dt) pass unseen; with the sweep none."""
+    """At 100 px a step and random phases, a share of 1 - (w + L) / (v dt) of the sprites misses a thin wall.
+
+    With continuous collision none misses it.
+    """
     count, size, width = (10_000 if JIT else 300), 8, 1
     rng = np.random.default_rng(11)
     world = World(Effects(continuous=continuous))
@@ -118,7 +132,7 @@ def test_d11_a_sprite_misses_a_thin_wall_at_the_known_rate_and_never_when_swept(
 
 @pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse"])
 def test_d13_a_frame_that_grows_into_the_floor_is_pushed_out_gently(measured, solver):
-    """3 px in at once: out at 3 m/s at most, and no energy after half a second."""
+    """A sprite that grows 3 px into the floor is pushed out at 3 m/s at most, and is at rest half a second later."""
     world = World(solver=solver)
     world.add_body(squares(20, 400), position=(0.0, 60.0), kind="static")
     body = world.add_body(squares(20, 20), position=(0.0, 40.0))
@@ -142,7 +156,7 @@ def sprite():
 
 
 def test_d14_flipped_and_scaled_sprites_keep_their_centre_and_area(measured):
-    """The centre mirrors exactly; the area goes with the square of the scale, up to a pixel of the border."""
+    """Mirrored and scaled sprites keep their exact centre; the area grows with the square of the scale."""
     mask = sprite()
     x, y = mask.centroid
     for flip_x, flip_y in ((True, False), (False, True), (True, True)):
@@ -156,8 +170,10 @@ def test_d14_flipped_and_scaled_sprites_keep_their_centre_and_area(measured):
 
 
 def test_d16_what_is_thin_is_kept_and_what_is_symmetric_has_a_normal(measured):
-    """Gaps and walls of two pixels are there for who asks the outline; deep in the middle a unit normal, and the
-    way out is right to half a pixel."""
+    """Thin gaps and walls are kept, and a shape deep in a symmetric wall gets a unit normal.
+
+    A gap of two pixels is free for collide(), distance() and rays. The push-out distance is exact to half a pixel.
+    """
     bits = np.ones((20, 30), bool)
     bits[:, 14:16] = False  # a gap
     comb = PixelMask(bits, snap=False)
@@ -177,7 +193,9 @@ def test_d16_what_is_thin_is_kept_and_what_is_symmetric_has_a_normal(measured):
 
 
 def test_d17_a_spike_between_the_corners_of_a_long_edge_is_met(measured):
-    """The tip of a spike against the middle of a long plank, both ways round, at rest and on its way."""
+    """The tip of a spike collides with the middle of a long plank, at rest and in motion,
+    whichever of the two moves.
+    """
     spike = np.tril(np.ones((12, 12), bool))
     spike = PixelMask(np.concatenate([spike, spike[:, ::-1]], axis=1), snap=False)  # wide at its foot
     plank = squares(3, 120, snap=False)
@@ -198,7 +216,10 @@ def test_d17_a_spike_between_the_corners_of_a_long_edge_is_met(measured):
 
 @pytest.mark.parametrize("radius, error", [(4, 0.028), (8, 0.011), (16, 0.0033), (32, 0.0012), (64, 0.0004)])
 def test_d18_discs_of_pixels_weigh_as_discs(measured, radius, error):
-    """Rms of 200 random centres, which are not those of the source; the inertia to twice that."""
+    """The area of a pixel disc has the stated rms error over 200 random centres, and its inertia at most twice that.
+
+    The random centres differ from those of the quoted source.
+    """
     rng, size = np.random.default_rng(radius), 2 * radius + 3
     areas, inertias = [], []
     for x, y in rng.uniform(size / 2 - 0.5, size / 2 + 0.5, (200, 2)):
@@ -240,7 +261,11 @@ def test_d3_offsets_across_words_share_what_the_double_loop_says(measured, width
 
 
 def test_d6_ninety_turns_of_four_degrees_end_at_the_source(measured):
-    """Always turned from the source, in a world as by hand; turned again and again a sprite wears off."""
+    """A sprite rotated 90 times by four degrees has its original pixels again, because each rotation starts from the
+    source.
+
+    Repeated rotation of the rotated image would lose pixels.
+    """
     mask = sprite()
     world = World(Effects())
     body = world.add_body(mask)

@@ -1,4 +1,4 @@
-"""Hard cases of ground made of pieces (section E): seams that nothing feels, thin things that nothing gets through."""
+"""Hard cases of ground made of pieces (section E): seams have no effect, and nothing passes through thin ground."""
 
 import math
 from itertools import pairwise
@@ -20,7 +20,7 @@ SMOOTH = Material(friction=0.0)
 
 
 def ground_of(world, kind, tiles=220, size=16.0):
-    """A floor at y = 0 from x = 0 on, of tiles or of a chain."""
+    """Add a floor at y = 0 that begins at x = 0, made of tiles or of a chain."""
     flat = {
         "tiles": TileGrid(np.ones((2, tiles), bool), size),
         "chain": Chain([(size * k, 0.0) for k in range(tiles + 1)]),
@@ -29,7 +29,9 @@ def ground_of(world, kind, tiles=220, size=16.0):
 
 
 def slide(solver, ground, shape, speed, steps, continuous=True):
-    """Return (greatest relative loss of speed, steps without a contact, greatest height above rest [px])."""
+    """Slide a shape over a floor; return (greatest relative loss of speed, steps without
+    contact, greatest hop [px]).
+    """
     world = pixels(pile_effects(continuous=continuous), solver=solver)
     ground_of(world, ground)
     what, half = SHAPES[shape]
@@ -59,14 +61,16 @@ def test_e3_slide_over_two_hundred_pieces_keeps_the_speed_and_the_ground(measure
 @pytest.mark.parametrize("ground", ["tiles", "chain"])
 @pytest.mark.parametrize("shape", SHAPES)
 def test_e3_fast_slide_is_not_stopped_by_its_own_floor(measured, ground, shape):
-    """3,000 px/s: swept in every step, in contact all the time."""
+    """A shape that slides at 3,000 px/s on tiles or links keeps its speed and its contact in every step."""
     lost, flying, above = slide("soft_step", ground, shape, 3000.0, 60 if JIT else 20)
     measured("E3", "relative speed lost over tiles and links", lost)
     assert flying == 0 and above <= 0.016
 
 
 def over_boxes(raised):
-    """Return the least share of its speed that a box keeps on boxes, every other one raised by `raised` [px]."""
+    """Slide a box over static boxes and return the least share of its speed; every second box is raised by `raised`
+    [px].
+    """
     world = pixels(solver="soft_step")
     for k in range(220):
         world.add_body(Polygon.box(16, 16), position=(16.0 * k, 8.0 - raised * (k % 2)), kind="static", material=SMOOTH)
@@ -88,7 +92,9 @@ def test_e3_sides_of_boxes_stop_nobody_and_a_step_is_felt(measured):
 @pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse"])
 @pytest.mark.parametrize("ground", ["tiles", "chain", "boxes"])
 def test_e3_cube_that_starts_a_slop_inside_slides_on(measured, solver, ground):
-    """Half 0.1, 3 m/s for 2 s over unit pieces."""
+    """A cube of half size 0.1 that starts one slop inside unit pieces of ground slides at 3 m/s
+    for 2 s without a snag.
+    """
     world = metres(solver)
     if ground == "tiles":
         world.add_body(TileGrid(np.ones((1, 9), bool), 1.0), position=(-1.0, 0.0), kind="static", material=SMOOTH)
@@ -107,8 +113,10 @@ def test_e3_cube_that_starts_a_slop_inside_slides_on(measured, solver, ground):
 
 
 def test_e1_driven_box_goes_along_a_chain_without_a_hitch(measured):
-    """Unit links, half 0.2, no turning, driven at 2 m/s: never back, never up or down by 0.05,
-    the full way within 5 %."""
+    """A box with fixed rotation, driven at 2 m/s over unit links, never moves back and stays level within 0.05.
+
+    The box has a half size of 0.2; the distance travelled is exact within 5 %.
+    """
     world = metres()
     world.add_body(Chain([(x, 0.0) for x in range(-2, 39)]), kind="static", material=SMOOTH)
     box = world.add_body(
@@ -170,7 +178,7 @@ def test_e5_capsule_driven_over_the_seam_of_two_chunks(measured, kind):
 
 
 def valley(kind, shape, dt=1 / 60, links=240, radius=10.0):
-    """Return the share of its height that a shape regains after a quarter circle of links or of slabs."""
+    """Return the share of its start height that a shape regains in a quarter circle of links or of slabs."""
     world = metres(effects=pile_effects(continuous=True), dt=dt)
     angles = [math.pi * (0.75 - 0.5 * k / links) for k in range(-20, links + 21)]
     points = [(radius * math.cos(a), radius * math.sin(a)) for a in angles]
@@ -208,9 +216,10 @@ def valley(kind, shape, dt=1 / 60, links=240, radius=10.0):
 @needs_speed
 @pytest.mark.parametrize("shape", ["circle", "capsule", "box"])
 def test_e6_valley_of_links_gives_the_height_back(measured, shape):
-    """240 links of a quarter circle: turning at their joints costs about 1 % of the energy.
+    """A shape regains its height in a valley of 240 links over a quarter circle, except about 1 % of the energy.
 
-    Normals that lag by a step give up to 2 % back at 60 Hz; at 240 Hz nothing is won.
+    The loss comes from the turns at the link joints. Normals that lag by a step can add up to 2 % at 60 Hz; at 240 Hz
+    no energy is gained.
     """
     for dt in (1 / 60, 1 / 240):
         share = valley("chain", shape, dt=dt)
@@ -234,7 +243,10 @@ def test_e6_valley_of_slabs_gives_the_height_back_too(measured):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("ground", ["two sizes", "two bodies", "in a T", "one grid"])
 def test_e7_tiles_of_other_sizes_and_bodies_stop_nobody(measured, ground, solver):
-    """A snag: a step in which a thousandth of the speed is lost."""
+    """Tiles of other sizes and seams between bodies do not slow a sliding shape.
+
+    A snag is a step that loses at least a thousandth of the speed.
+    """
     snags, lost = 0, 0.0
     for shape, half in (*SHAPES.values(), (Polygon.box(7, 7), 3.5)):
         world = pixels(solver=solver)
@@ -263,7 +275,7 @@ def test_e7_tiles_of_other_sizes_and_bodies_stop_nobody(measured, ground, solver
 
 
 def spinner(bodies, segments, radius, steps):
-    """Return how many small bodies get out of a one-way circle in which an arm spins at 5 rad/s."""
+    """Spin an arm at 5 rad/s in a one-way circle and return how many of the small bodies inside get out."""
     world = metres(effects=pile_effects(continuous=True))
     world.add_body(
         Chain(
@@ -336,7 +348,7 @@ def test_e10_thin_slab_dropped_flat_or_tilted_does_not_fall_through(measured, gr
 
 
 def gear(teeth, inner=3.0, outer=5.0):
-    """The corners of a gear wheel."""
+    """Return the corners of a gear wheel."""
     radii = [(inner, inner, outer, outer)[j] for _ in range(teeth) for j in range(4)]
     turns = [math.tau * (k + (0.0, 0.4, 0.5, 0.9)[j]) / teeth for k in range(teeth) for j in range(4)]
     return [(r * math.cos(a), r * math.sin(a)) for r, a in zip(radii, turns, strict=True)]
@@ -366,7 +378,7 @@ def test_e12_parts_weigh_as_the_whole_and_do_not_meet_one_another(measured, teet
 
 
 def coast(count):
-    """A round island with a ragged shore."""
+    """Return the corners of a round island with a ragged shore."""
     rng = np.random.default_rng(13)
     far = (
         100.0 + 8.0 * np.convolve(rng.normal(size=count + 40), np.ones(41) / 6.4, "valid") + rng.uniform(0, 0.3, count)
@@ -425,7 +437,7 @@ def test_e14_ground_with_nothing_in_it_stops_nothing(measured):
 
 @pytest.mark.parametrize("turned", [False, True])
 def test_e15_character_is_pushed_by_a_wall(measured, turned):
-    """In pixels, 32 a metre: the character moves by whole ones."""
+    """A moving wall pushes a character, whose position is in whole pixels (32 px to a metre)."""
     way = -1.0 if turned else 1.0
     world = pixels(pile_effects(gravity=False), gravity=(0, 0))
     wall = world.add_body(
@@ -453,7 +465,9 @@ def test_e15_character_that_starts_inside_a_box_gets_out(measured, way):
 @needs_speed
 @pytest.mark.parametrize("loop", [False, True])
 def test_chain_is_solid_from_one_side_and_open_from_the_other(loop):
-    """A platform listed left to right holds what falls and lets through what rises."""
+    """A chain stops bodies from one side only: a platform listed left to right stops a falling ball and lets a rising
+    one pass.
+    """
     world = metres()
     points = [(-4.0, 0.0), (4.0, 0.0), (4.0, 2.0), (-4.0, 2.0)] if loop else [(-4.0, 0.0), (0.0, 0.0), (4.0, 0.0)]
     world.add_body(Chain(points, loop=loop), kind="static")

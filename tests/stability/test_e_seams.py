@@ -1,4 +1,7 @@
-"""Hard cases of ground made of pieces (section E): level ground in pieces is level for every shape, phase and speed."""
+"""Hard cases of ground made of pieces (section E): level ground in pieces behaves as one level floor.
+
+This holds for every shape, phase and speed.
+"""
 
 import math
 
@@ -27,7 +30,7 @@ PLACES = tuple(-160 + 32 * k for k in range(10))
 
 
 def in_pieces(kind):
-    """Return (position, shapes) of the bodies of a floor at y = 0 with a seam at x = 0."""
+    """Return a list of (position, shapes) of the static bodies that form a floor at y = 0 with a seam at x = 0."""
     return {
         "grids": [((-160, 0), (GRID,)), ((0, 0), (GRID,))],
         "chains": [((0, 0), (Chain([(x, 0), (x + 80, 0), (x + 160, 0)]),)) for x in (-160, 0)],
@@ -44,7 +47,10 @@ GROUNDS = ("grids", "chains", "boxes", "segments", "masks", "boxes of one body")
 
 
 def crossing(ground, name, speed, phase, way=1, friction=SMOOTH, spin=0.0, **settings):
-    """The speeds of a body on its way over x = 0 [px/s], and how high it hops [px]."""
+    """Move a body over x = 0 and return (its forward speed after each step [px/s], greatest hop [px]).
+
+    phase: shift of the start in steps. way: 1 to move right, -1 to move left.
+    """
     shape, half = SHAPES[name]
     world = World(Effects.rigid_bodies().with_(sleeping=False), **settings)
     for place, pieces in ground:
@@ -62,7 +68,9 @@ def crossing(ground, name, speed, phase, way=1, friction=SMOOTH, spin=0.0, **set
 
 
 def hold(measured, found, speed):
-    """Hold a crossing to the limits of its row."""
+    """Assert that the result `found` of `crossing` is within the limits of row E16. speed:
+    speed at the start [px/s].
+    """
     speeds, hop = found
     measured("E16", "relative speed lost", np.abs(1.0 - speeds / speed).max())
     measured("E16", "hop", hop)
@@ -72,7 +80,10 @@ def hold(measured, found, speed):
 @pytest.mark.parametrize("ground", GROUNDS)
 @pytest.mark.parametrize("name", SHAPES)
 def test_e16_level_ground_in_pieces_is_level(measured, ground, name):
-    """The phases, both ways and both settings are spread over the speeds; the nightly test has all of them."""
+    """Level ground in pieces does not slow a body or make it hop.
+
+    Phases, directions and settings vary with the speed here; the nightly test runs every combination.
+    """
     first = GROUNDS.index(ground) + 6 * list(SHAPES).index(name)
     for k, speed in enumerate(SPEEDS):
         phase = (first + k) * 0.618 % 1.0
@@ -112,7 +123,7 @@ def test_e16_a_ball_rolls_over_pieces_as_over_one_box(measured, ground):
 
 
 def raised(kind, step):
-    """Two pieces of ground, the second one higher by a step [px]."""
+    """Return (position, shapes) of two pieces of ground; the right one is higher by `step` [px]."""
     slab = PixelMask.from_array(np.ones((32, 160), bool))
     return {
         "grids": [((-160, 0), (GRID,)), ((0, -step), (GRID,))],
@@ -157,7 +168,7 @@ def test_e16_boxes_whose_corners_touch_pass_each_other(measured, kind, name, vel
 
 @pytest.mark.parametrize("gap", [1.0, 4.0])
 def test_both_edges_of_a_gap_are_felt(gap):
-    """Corners that no piece covers: a disc rests between them, without friction, and stays."""
+    """A frictionless disc in a gap between two boxes rests on both corners and does not move."""
     world = World(Effects.rigid_bodies().with_(sleeping=False))
     for x in (-100.0 - 0.5 * gap, 0.5 * gap):
         world.add_body(Polygon.box(100, 32, (50, 16)), position=(x, 0), kind="static", material=SMOOTH)

@@ -1,4 +1,4 @@
-"""Worlds that are edited in every way between steps: nothing raises, every broad phase comes to the same digest."""
+"""Worlds edited in every way between steps raise no error and give equal digests with every broad phase."""
 
 import numpy as np
 import pytest
@@ -37,7 +37,7 @@ def any_shape(rng):
 
 
 class Editor:
-    """A world with ground, a lift, a zone and a hero, and one random edit after the other."""
+    """A world with ground, a lift, a sensor zone and a character, to which random edits are applied."""
 
     def __init__(self, seed, broadphase):
         self.rng = np.random.default_rng(seed)
@@ -52,7 +52,7 @@ class Editor:
         self.edits = [getattr(self, name) for name in sorted(dir(self)) if name.startswith("edit_")]
 
     def edit(self):
-        """Do one of the edits to one of the bodies, and some steps."""
+        """Apply one random edit to a random body, then make 1 to 5 steps."""
         ids = [each for each in self.world.bodies["id"].tolist() if each != self.hero.body.id]
         self.edits[self.rng.integers(len(self.edits))](self.world.body(int(self.rng.choice(ids))), ids)
         for _ in range(self.rng.integers(1, 6)):
@@ -116,7 +116,7 @@ class Editor:
             self.world.touch(body.id)
 
     def edit_nothing(self, body, ids):
-        """Look only: no answer changes what comes."""
+        """Only query the world; no answer may change the later steps."""
         world = self.world
         assert all(0.0 <= hit.fraction <= 1.0 for hit in world.ray_cast_all((-200, 0), (400, 50)))
         touched = {int(each) for row in body.contacts for each in (row["shape_a"], row["shape_b"])}

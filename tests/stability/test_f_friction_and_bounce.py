@@ -1,4 +1,4 @@
-"""Friction that holds and slides correctly, bounces that neither gain nor lose energy."""
+"""Friction (section F) holds and slides correctly, and bounces neither gain nor lose energy."""
 
 import math
 
@@ -36,7 +36,7 @@ def test_f13_locked_capsule_on_a_slope_gets_finite_impulses(measured, solver):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("speed", [4.0, 9.0])
 def test_f14_sliding_box_follows_its_recurrence(measured, solver, speed):
-    """mu = sqrt(0.9 x 0.8): v less mu g h per substep, both ways alike."""
+    """A sliding box loses mu g h of speed per substep in either direction, with mu = sqrt(0.9 x 0.8)."""
     world = metres(solver)
     floor(world, friction=0.9)
     box, other = (
@@ -87,7 +87,7 @@ def test_f15_box_holds_just_below_its_friction_angle_and_slides_just_above(measu
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_impulses_on_a_slope_carry_both_parts_of_the_weight(solver):
-    """Normal ones m g cos dt, tangential ones m g sin dt, over the points of the contact."""
+    """On a slope, the normal impulses of a resting box add up to m g cos dt and the tangential ones to m g sin dt."""
     angle = 0.3
     world = metres(solver)
     floor(world, friction=0.8, angle=angle)
@@ -101,7 +101,10 @@ def test_impulses_on_a_slope_carry_both_parts_of_the_weight(solver):
 
 
 def dominoes(scale, density=1.0, seconds=9.0):
-    """Strike the first of fifteen dominoes at its top. Return the times at which each has turned by half a radian."""
+    """Strike the first of fifteen dominoes at its top.
+
+    Returns ({index: time [s] at which this domino has turned by half a radian}, angles at the end).
+    """
     world = metres(dt=1 / 240)
     floor(world, width=400.0)
     first = None
@@ -133,7 +136,7 @@ def test_f20_all_dominoes_fall(measured):
 
 @needs_speed
 def test_f20_wave_of_dominoes_scales_with_the_root_of_size_whatever_the_mass(measured):
-    """Four times the size, twice the speed, within 2 %; the mass cancels."""
+    """The wave of dominoes is twice as fast at four times the size, within 2 %, and does not depend on the density."""
     small, large, dense = dominoes(1.0)[0], dominoes(4.0)[0], dominoes(1.0, density=8.0)[0]
     speed = 7.0 / (small[12] - small[5])
     measured("F20", "speed of the wave off sqrt(size)", abs(4.0 * 7.0 / (large[12] - large[5]) / (2.0 * speed) - 1.0))
@@ -144,7 +147,7 @@ def test_f20_wave_of_dominoes_scales_with_the_root_of_size_whatever_the_mass(mea
 
 
 def first_apex(solver, restitution, pixels_per_meter=1.0, dt=1 / 60, friction=0.6, substeps=4):
-    """Return the apex of a ball dropped from 2 m above the floor."""
+    """Return the height [m] of the first bounce of a ball dropped from 2 m above the floor."""
     world = metres(solver, pixels_per_meter=pixels_per_meter, dt=dt, substeps=substeps)
     floor(world)
     ball = world.add_body(
@@ -162,7 +165,10 @@ def first_apex(solver, restitution, pixels_per_meter=1.0, dt=1 / 60, friction=0.
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("restitution", [0.0, 0.3, 0.5, 0.8, 0.95])
 def test_f21_apex_is_the_square_of_restitution_whatever_the_margin(measured, solver, restitution):
-    """Within 0.05; none for e = 0; five times the margin of speculative contact changes it by no more than 0.05."""
+    """The first bounce has e² of the height, within 0.05; for e = 0 there is none.
+
+    Five times the margin of speculative contact changes the height by at most 0.05.
+    """
     found = [first_apex(solver, restitution, scale) / 2.0 for scale in (1.0, 5.0)]
     if restitution == 0.0:
         measured("F21", "apex of e = 0", max(found))
@@ -175,8 +181,10 @@ def test_f21_apex_is_the_square_of_restitution_whatever_the_margin(measured, sol
 @pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse"])
 @pytest.mark.parametrize("restitution, count", [(1.0, 20), (0.9, 10)])
 def test_f22_twenty_bounces_lose_no_height_to_the_length_of_steps(measured, solver, restitution, count, shape):
-    """Flight along the parabola, and the speed of the impact by it. Others end at 0.08 to 1.0 of the height, and this
-    one ended at 0.80 and 0.45."""
+    """Twenty bounces lose no height to the step length: the free flight and the impact speed follow the parabola.
+
+    Other engines end at 0.08 to 1.0 of the correct height; without this method the engine ended at 0.80 and 0.45.
+    """
     world = metres(solver)
     floor(world)
     ball = world.add_body(
@@ -195,8 +203,10 @@ def test_f22_twenty_bounces_lose_no_height_to_the_length_of_steps(measured, solv
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_f22_elastic_ball_comes_back_never_higher_and_lower_by_the_step_of_time(solver):
-    """e = 1: what is lost is at most the way of two steps at the speed of the impact, so it shrinks with dt;
-    nothing is won."""
+    """An elastic ball (e = 1) never gains height, and loses at most the distance of two steps at its impact speed.
+
+    The loss therefore shrinks with dt.
+    """
     lost = [2.0 - first_apex(solver, 1.0, dt=dt) for dt in (1 / 60, 1 / 240, 1 / 960)]
     assert min(lost) >= -0.01 * 2.0
     for missing, dt in zip(lost, (1 / 60, 1 / 240, 1 / 960), strict=True):
@@ -206,7 +216,7 @@ def test_f22_elastic_ball_comes_back_never_higher_and_lower_by_the_step_of_time(
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("restitution", [1.0, 0.9])
 def test_f22_bounces_between_walls_are_a_recurrence(measured, solver, restitution):
-    """Without gravity every impact leaves e times the speed, to the last digits."""
+    """Without gravity, every impact between two walls leaves e times the speed, up to rounding."""
     world = metres(solver, gravity=(0, 0), effects=pile_effects(gravity=False))
     for x in (-5.0, 5.0):
         world.add_body(Polygon.box(2, 8), position=(x, 0.0), kind="static")
@@ -223,7 +233,7 @@ def test_f22_bounces_between_walls_are_a_recurrence(measured, solver, restitutio
 
 
 def room(world, size, kind):
-    """A closed room of a loop of chain, or of four walls."""
+    """Add a closed room of side `size`, made of one chain loop or of four walls."""
     if kind == "chain":
         h = size / 2
         return world.add_body(
@@ -261,7 +271,7 @@ def test_f23_elastic_disc_keeps_speed_and_angles_in_a_room(measured, solver, wal
     ],
 )
 def test_f23_elastic_bar_keeps_its_energy_in_a_room(measured, shape):
-    """Within 1 % over 1,000 steps of flight and tumbling."""
+    """The energy of an elastic bar that flies and tumbles in a room stays within 1 % over 1,000 steps."""
     world = metres(gravity=(0, 0))
     room(world, 20.0, "boxes")
     world.add_body(shape, velocity=(10.0, 20.0), angle=0.3, material=Material(restitution=1.0, friction=0.0))
@@ -272,7 +282,11 @@ def test_f23_elastic_bar_keeps_its_energy_in_a_room(measured, shape):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_f24_ball_bounces_above_the_threshold_of_normal_speed_alone(measured, solver):
-    """v 2.9 at a plane of 70 degrees: 0.99 m/s across. Dead for a threshold of 1 m/s, alive for 0.1, and 2 % faster."""
+    """Only the normal speed counts for the restitution threshold.
+
+    A ball at 2.9 m/s on a plane of 70 degrees has a normal speed of 0.99 m/s. It does not bounce at a threshold of 1
+    m/s. It bounces at 0.1 m/s, and also if it is 2 % faster.
+    """
     left = {}
     for scale, speed in ((1.0, 2.9), (0.1, 2.9), (0.999, 2.9 * 1.02)):
         world = metres(solver, gravity=(0, 1e-6), pixels_per_meter=scale)  # without a pressing force all would bounce
@@ -314,7 +328,10 @@ def test_f26_discs_drawn_to_the_middle_by_forces_settle(measured):
 
 @pytest.mark.parametrize("restitution", [1.5, 2.0])
 def test_f28_bumper_that_gives_more_than_it_got_never_lets_a_ball_through(measured, restitution):
-    """For 60 s: inside, or quarantined and reported once its speed means nothing any more."""
+    """A ball between walls with a restitution above 1 stays inside for 60 s.
+
+    The test ends early if the ball's speed is no longer finite and the world reports the ball as quarantined.
+    """
     world = metres(gravity=(0, 0), effects=pile_effects(continuous=True))
     room(world, 20.0, "boxes")
     ball = world.add_body(
@@ -333,7 +350,10 @@ def test_f28_bumper_that_gives_more_than_it_got_never_lets_a_ball_through(measur
 @pytest.mark.parametrize("restitution", [0.4, 1.0])
 @pytest.mark.parametrize("ball_first", [True, False])
 def test_ball_that_hits_a_free_box_off_its_middle_turns_it_as_the_impact_formula_says(solver, restitution, ball_first):
-    """Frictionless: j = (1 + e) v / (1/m + 1/M + r2/I); any text of mechanics."""
+    """A ball hits a free box off its centre: the impulse is j = (1 + e) v / (1/m + 1/M + r2/I), without friction.
+
+    The formula is in any textbook of mechanics.
+    """
     world = metres(solver, gravity=(0.0, 0.0))
     material = Material(friction=0.0, restitution=restitution)
 

@@ -14,7 +14,7 @@ STEP = 0.25  # [m] between the balls of a chain or a net
 
 
 def jointed():
-    """A world in metres whose bodies are held by joints."""
+    """Return a world in metres with the effect of joints."""
     return metres(effects=pile_effects(joints=True))
 
 
@@ -23,7 +23,11 @@ def ball(world, x, y, mass=None):
 
 
 def chain(world, links, x, angle, ratio=1.0):
-    """A straight chain of balls that hangs on the world at (x, 0); the last has `ratio` times the mass of another."""
+    """Add a straight chain of balls that hangs on the world at (x, 0).
+
+    The last ball has `ratio` times the mass of any other. angle [rad]: direction of the chain, clockwise from the
+    right.
+    """
     before = None
     for k in range(links):
         far = STEP * (k + 0.5)
@@ -35,7 +39,7 @@ def chain(world, links, x, angle, ratio=1.0):
 
 
 def test_f29_a_chain_of_small_balls_holds_a_heavy_one(measured):
-    """It swings from the horizontal or from below for 5 s; no joint parts."""
+    """A chain of small balls with a heavy end swings for 5 s, from horizontal or below, and no joint separates."""
     world = jointed()
     chain(world, 16, 0.0, phase(0.5 * math.pi), 1000.0)
     watch, stretch = Watch(world, passive=True, capped=True), 0.0
@@ -46,7 +50,10 @@ def test_f29_a_chain_of_small_balls_holds_a_heavy_one(measured):
 
 
 def test_f30_chains_and_a_net_of_joints_gain_no_energy(measured):
-    """They swing from the horizontal or from below for 10 s; the net hangs on two corners."""
+    """Chains and a net of joints, released from horizontal or below, gain no energy in 10 s.
+
+    The net hangs on two corners.
+    """
     world, wide = jointed(), 16 if JIT else 4
     for k in range(10):
         chain(world, 8, -4.0 - k, phase(0.5 * math.pi))

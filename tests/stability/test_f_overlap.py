@@ -1,4 +1,4 @@
-"""Hard cases of bodies that start inside one another, and that cannot fit (section F): gently apart, never out."""
+"""Hard cases of bodies that start inside one another or cannot fit (section F): slow push-out, no escape."""
 
 import numpy as np
 import pytest
@@ -43,7 +43,9 @@ def test_f9_pyramid_that_starts_a_quarter_inside_itself(measured, solver):
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_f10_a_hundred_boxes_at_one_point(measured, solver):
-    """Finite, the same every time, no faster than ten push-outs, and apart within 10 s."""
+    """A hundred boxes at one point separate within 10 s, with finite and reproducible values, at ten push-out speeds at
+    most.
+    """
     runs = []
     for _ in range(2):
         world = metres(solver, gravity=(0, 0), effects=pile_effects(gravity=False, friction=False))
@@ -62,7 +64,10 @@ def test_f10_a_hundred_boxes_at_one_point(measured, solver):
 
 
 def crowd(measured, side, steps):
-    """Check a closed box with side x side discs, more than it has room for. The share of the area is that of F11."""
+    """Simulate a closed box with side x side discs, more than fit, and check that none escapes and that they slow down.
+
+    The discs cover the share of the box that F11 states.
+    """
     world = metres(effects=pile_effects())
     width, height = side * 0.8, side * 0.78
     for x, y, w, h in (
@@ -102,7 +107,7 @@ def test_f11_625_discs_in_room_for_496_stay_in_and_calm(measured):
 
 @needs_speed
 def test_f12_discs_crushed_by_plates_stay_between_them(measured):
-    """Overlap grows with the crushing; nothing gets out through the walls."""
+    """Discs crushed between two plates stay between them; their overlap grows with the compression."""
     world = metres(gravity=(0, 0), effects=pile_effects(gravity=False))
     for y in (-5.0, 5.0):
         world.add_body(Polygon.box(40, 2), position=(0.0, y), kind="static")
@@ -126,7 +131,9 @@ def test_f12_discs_crushed_by_plates_stay_between_them(measured):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("depth", [0.5 * SLOP, SLOP, 4 * SLOP, 20 * SLOP])
 def test_f27_overlap_at_the_start_goes_without_a_pop(measured, solver, depth):
-    """It resolves to within a slop; the box never jumps up by more than a slop, nor faster than a push-out."""
+    """An overlap at the start shrinks to at most a slop; the box rises by no more than a slop and no faster than the
+    push-out.
+    """
     world = metres(solver)
     floor(world)
     box = world.add_body(Polygon.box(1, 1), position=(0.0, -0.5 + depth))

@@ -1,4 +1,6 @@
-"""Hard cases of stacks, mass ratios, arches, cards (section F): they stand, sink by less than a slop, come to rest."""
+"""Hard cases of stacks, mass ratios, arches and cards (section F): they stand, sink by less than a slop and come to
+rest.
+"""
 
 import math
 
@@ -25,9 +27,9 @@ G = 10.0
 
 
 def stiffness(substeps):
-    """Return the stiffness of a soft contact per mass of the lighter side [1/s2].
+    """Return the stiffness of a soft contact divided by the mass of the lighter body [1/s2].
 
-    The frequency is 60 Hz, or an eighth of the substeps per second if that is less.
+    The contact frequency is 60 Hz, or an eighth of the substeps per second if that is less.
     """
     return (math.tau * min(60.0, 60.0 * substeps / 8.0)) ** 2
 
@@ -47,7 +49,7 @@ def test_f1_box_that_falls_on_the_floor_lies_flat(measured, solver):
 @pytest.mark.parametrize("substeps", [1, 2, 4, 8])
 @pytest.mark.parametrize("shape", [Polygon.box(1, 1), Circle(1 / math.sqrt(math.pi))], ids=["box", "ball"])
 def test_f2_impulses_of_a_resting_body_carry_its_weight(measured, solver, substeps, shape):
-    """Their sum over the points is m g dt, whatever the substeps."""
+    """The normal impulses of a resting body add up to m g dt for any number of substeps."""
     world = metres(solver, substeps=substeps)
     floor(world)
     world.add_body(shape, position=(0.0, -0.6))
@@ -58,7 +60,10 @@ def test_f2_impulses_of_a_resting_body_carry_its_weight(measured, solver, subste
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_f3_boxes_exactly_above_one_another_stay_upright(solver):
-    """Both points of a face carry alike: solved one after the other they turn the boxes by 0.0014 rad in a second."""
+    """Boxes stacked exactly above one another stay upright, because both points of a face get equal impulses.
+
+    If the points were solved one after the other, the boxes would turn by 0.0014 rad in a second.
+    """
     world = metres(solver)
     floor(world)
     column(world, 10)
@@ -84,7 +89,7 @@ def test_f3_column_of_fifteen_stands_and_falls_asleep(measured, solver):
 
 @needs_speed
 def test_f3_without_friction_in_the_joints_the_shifted_column_slides_apart():
-    """The column above stands by its friction: without it, and pushed a little, it does not."""
+    """Without friction a shifted column slides apart after a small push."""
     world = metres(effects=pile_effects(friction=False))
     floor(world)
     boxes = column(world, 15, gap=0.1, shift=0.01)
@@ -95,7 +100,10 @@ def test_f3_without_friction_in_the_joints_the_shifted_column_slides_apart():
 
 @needs_speed
 def test_f3_column_of_eighty_stands(measured):
-    """With substeps by the load. With eight, contacts give way like springs: the top comes down by 0.56 m."""
+    """A column of eighty boxes stands for 10 s if the substeps follow the load.
+
+    With eight substeps the contacts act as soft springs, and the top sinks by 0.56 m.
+    """
     world = metres(substeps="auto")
     floor(world)
     boxes = column(world, 80, friction=0.6)
@@ -118,7 +126,7 @@ def test_f4_pyramid_of_twenty_rows(measured, solver):
 
 @needs_speed
 def test_f4_tiny_pyramid_keeps_its_boxes(measured):
-    """Boxes of 5 cm, where the margin of contact is nearly half a box: none is thrown out."""
+    """A pyramid of 5 cm boxes keeps all its boxes, although the contact margin is nearly half a box."""
     world = metres()
     floor(world)
     rows = pyramid(world, 12, size=0.05)
@@ -134,7 +142,7 @@ def test_f4_tiny_pyramid_keeps_its_boxes(measured):
 @needs_speed
 @pytest.mark.parametrize("base, size, steps", [(100, 1.0, 600), (30, 0.05, 600)])
 def test_f4_large_and_tiny_pyramids(measured, base, size, steps):
-    """5,050 boxes, with substeps by the load."""
+    """Pyramids of up to 5,050 boxes, large or tiny, stand if the substeps follow the load."""
     world = metres(substeps="auto")
     floor(world, width=1000.0)
     rows = pyramid(world, base, size=size)
@@ -151,9 +159,10 @@ def test_f4_large_and_tiny_pyramids(measured, base, size, steps):
 @pytest.mark.parametrize("substeps", [4, "auto"])
 @pytest.mark.parametrize("density", [100, 200, 300])
 def test_f5_heavy_box_dropped_on_a_pyramid(measured, density, substeps):
-    """Ten rows, the top one 100 to 300 times as heavy and let go 2 m up: it stands for 10 s with four substeps.
+    """A pyramid of ten rows stands for 10 s after a box 100 to 300 times as heavy drops 2 m onto it, with four
+    substeps.
 
-    A soft contact sinks under a load F by F / (m w2), m the lighter side: 300 g at 30 Hz is 0.08 m.
+    A soft contact under a load F sinks by F / (m w2), with m the mass of the lighter body: 300 g at 30 Hz gives 0.08 m.
     """
     world = metres(substeps=substeps)
     rows, heavy = pyramid_and_load(world, density, 2.0)
@@ -170,9 +179,9 @@ def test_f5_heavy_box_dropped_on_a_pyramid(measured, density, substeps):
 @needs_speed
 @pytest.mark.parametrize("props, substeps", [("boxes", 8), ("triangles", 8), ("triangles", "auto")])
 def test_f6_big_box_falls_on_two_small_props(measured, props, substeps):
-    """20 x 20 falls 15 m on two unit boxes (400 : 1), or 2.5 m on two triangles of area a half (800 : 1).
+    """A box of 20 x 20 falls 15 m on two unit boxes (400 : 1), or 2.5 m on two triangles of area 0.5 (800 : 1).
 
-    They stay under it; it sinks by no more than twice what soft contacts give way under 200 g each.
+    The props stay under the box. The box sinks by no more than twice the deflection of soft contacts under 200 g each.
     """
     world = metres(substeps=substeps)
     floor(world, width=400.0)
@@ -195,10 +204,11 @@ def test_f6_big_box_falls_on_two_small_props(measured, props, substeps):
 
 @needs_speed
 def test_f7_inverted_pyramid_does_not_explode(measured):
-    """Boxes that double in size five times, the smallest below: 1024 : 1. It may fall; it never speeds up by itself.
+    """An inverted pyramid of six boxes, each twice as wide as the one below (mass ratio 1024 : 1), never accelerates by
+    itself.
 
-    Under four substeps, the given number here, it settles 0.93 deep, far beyond what its springs give way by: not
-    asked.
+    It may fall. With the four substeps used here it overlaps by 0.93, far more than the springs should give; this is
+    not checked.
     """
     world = metres()
     floor(world, width=400.0)
@@ -211,7 +221,7 @@ def test_f7_inverted_pyramid_does_not_explode(measured):
 
 
 def arch(world, blocks, inner, thickness, friction):
-    """Half a ring of wedges, standing on the floor. Returns the keystone."""
+    """Add a half ring of wedges that stands on the floor, and return the keystone."""
     outer, key = inner + thickness, None
     for k in range(blocks):
         ends = [math.pi * k / blocks, math.pi * (k + 1) / blocks]
@@ -229,7 +239,11 @@ def arch(world, blocks, inner, thickness, friction):
 
 @needs_speed
 def test_f16_arch_stands_when_thick_and_falls_when_thin(measured):
-    """A half ring stands when it is thicker than 10.7 % of its radius (Milankovitch 1907), friction permitting."""
+    """A half-ring arch stands if it is thicker than 10.7 % of its radius (Milankovitch 1907) and falls if it is
+    thinner.
+
+    The friction is high enough that no joint slides.
+    """
     sinks = {}
     for share in (0.25, 0.06):
         world = metres(substeps=8)
@@ -258,7 +272,7 @@ def test_f16_arch_stands_when_thick_and_falls_when_thin(measured):
 @needs_speed
 @pytest.mark.parametrize("half_thickness, half_height", [(0.02, 1.0), (0.001, 0.2)])
 def test_f17_house_of_cards_stands(measured, half_thickness, half_height):
-    """Cards of 2 m by 4 cm, and of 40 cm by 2 mm, which is less than the slop."""
+    """A house of cards stands, with cards of 2 m by 4 cm and of 40 cm by 2 mm, the latter thinner than the slop."""
     levels, scale = 5, half_height
     world = metres(substeps="auto", pixels_per_meter=min(1.0, half_thickness / 0.005))
     floor(world, friction=CARD_FRICTION)
@@ -280,7 +294,7 @@ def test_f17_house_of_cards_stands(measured, half_thickness, half_height):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_f25_discs_exactly_above_one_another_stay_so(measured, solver):
-    """No part of the scene has an x: none appears by rounding."""
+    """Discs exactly above one another get no sideways motion by rounding: all x coordinates are 0."""
     world = metres(solver)
     floor(world)
     for k in range(10):

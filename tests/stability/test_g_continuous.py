@@ -1,4 +1,4 @@
-"""Hard cases of continuous collision (section G): none passes with it, most pass without."""
+"""Hard cases of continuous collision (section G): with it no body passes a thin wall, without it most do."""
 
 import math
 
@@ -15,7 +15,7 @@ STILL = pile_effects(continuous=True, gravity=False)
 
 
 def flying(effects=STILL, **options):
-    """A world without gravity."""
+    """Return a world without gravity."""
     return metres(gravity=(0, 0), effects=effects, **options)
 
 
@@ -55,7 +55,7 @@ def test_g2_walls_of_any_shape_stop_and_let_through_when_off(measured, shape, sp
 @pytest.mark.parametrize("restitution", [0.0, 0.5, 1.0])
 @pytest.mark.parametrize("bullet", [False, True])
 def test_g3_the_sweep_does_not_eat_the_speed_of_the_impact(measured, restitution, bullet):
-    """The hit tells 400, and what leaves is e times that."""
+    """The hit event reports the full impact speed of 400, and the ball leaves at e times this speed."""
     world = flying()
     world.add_body(Polygon.box(2, 8), position=(1.0, 0.0), kind="static")
     ball = world.add_body(
@@ -76,7 +76,10 @@ def test_g3_the_sweep_does_not_eat_the_speed_of_the_impact(measured, restitution
 
 
 def test_g4_long_steps_stop_at_the_wall_and_not_before(measured):
-    """dt 0.25, 20 m/s, face at 12.2, r 0.5: free steps exact, 11.35 < x < 11.71 at the impact, then at rest."""
+    """With steps of 0.25 s at 20 m/s, a ball of radius 0.5 moves exactly until it stops at the wall face at x = 12.2.
+
+    After the step of the impact 11.35 < x < 11.71; then it is at rest.
+    """
     world = flying(dt=0.25)
     world.add_body(Polygon.box(2, 8), position=(13.2, 0.0), kind="static")
     ball = world.add_body(Circle(0.5), velocity=(20.0, 0.0))
@@ -104,8 +107,8 @@ def test_g5_disc_that_lies_on_the_floor_slides_freely(measured):
 
 
 def lowest_over(ground, shape, start):
-    """Return how far [m] a shape's centre of mass gets below a ground at y = 0, thrown down at 100 m/s at five
-    angles.
+    """Throw a shape down at 100 m/s at five angles; return how far [m] its centre of mass gets
+    below ground at y = 0.
     """
     world = metres(effects=FAST)
     if ground == "bevelled":
@@ -151,7 +154,7 @@ def test_g8_slivers_at_100_stay_above_ground(measured, ground, shape):
 
 @pytest.mark.parametrize("phase", np.linspace(0.0, 1.0, 16, endpoint=False))
 def test_g9_box_that_passes_a_corner_closely_is_not_touched(measured, phase):
-    """0.015 from the corner, with a margin of speculative contact of 0.02: the flight is unchanged."""
+    """A box that passes a corner at a distance of 0.015 is not deflected, although the speculative margin is 0.02."""
     world = flying()
     world.add_body(Polygon.box(4, 4), position=(-2.0, 2.0), kind="static")
     past = 0.015 / math.sqrt(2)
@@ -210,7 +213,10 @@ def test_g11_body_that_was_made_static_is_hit_by_a_bullet(measured):
     "shape", [Circle(0.2), Polygon.box(0.3, 0.3), Capsule((0, -0.1), (0, 0.1), 0.1)], ids=["ball", "box", "capsule"]
 )
 def test_g12_bodies_head_on_meet_when_one_is_a_bullet(measured, shape, bullets, through):
-    """Fast bodies are swept against what stands still; a bullet against all, other bullets too."""
+    """Two fast bodies that meet head-on collide if at least one is a bullet.
+
+    Other fast bodies are swept against static bodies only; a bullet is swept against all bodies, including bullets.
+    """
     world = flying()
     one, two = (
         world.add_body(shape, position=(-side * 11.5, 0.0), velocity=(side * 200.0, 0.0), bullet=bullet)
@@ -257,7 +263,10 @@ def test_g15_speed_of_ten_thousand_is_exact_in_flight_and_stopped(measured):
 @pytest.mark.parametrize("sensor_moves", [False, True])
 @pytest.mark.parametrize("bullet", [False, True])
 def test_g16_fast_body_through_a_sensor_is_heard_once(measured, sensor_moves, bullet):
-    """Exactly one begin and one end; the solid one stops at the wall behind, the sensor flies on."""
+    """A fast body and a sensor that cross get exactly one begin and one end event.
+
+    A solid body stops at the wall behind the sensor; a sensor passes through the wall.
+    """
     world = flying(STILL.with_(sensors=True))
     world.add_body(Polygon.box(0.1, 4), position=(0.0, 0.0), kind="static", sensor=not sensor_moves)
     world.add_body(Polygon.box(0.1, 4), position=(8.0, 0.0), kind="static")
@@ -296,7 +305,9 @@ def test_g17_box_at_two_metres_a_step_stops_at_a_box(measured, restitution, asle
 
 
 def test_g18_ball_in_a_corner_does_not_freeze_the_step(measured):
-    """e 0.9 into a wedge that narrows: a bounded number of sweeps per step, and it comes back out."""
+    """A ball with e = 0.9 flies into a narrowing wedge and comes out again, with a bounded
+    number of sweeps per step.
+    """
     world = flying(STILL.with_(friction=False))
     world.add_body(Segment((0, -3), (20, 0)), Segment((0, 3), (20, 0)), kind="static")
     ball = world.add_body(Circle(0.2), position=(2.0, 0.3), velocity=(300.0, 5.0), material=Material(restitution=0.9))
@@ -312,7 +323,7 @@ def test_g18_ball_in_a_corner_does_not_freeze_the_step(measured):
 
 
 def shoot_rods(mode, count, solver="soft_step"):
-    """Return how many of so many rotating thin rods end behind walls of 1 to 4 px."""
+    """Shoot `count` rotating thin rods at walls of 1 to 4 px and return how many end behind their wall."""
     rng = generator(21)
     world = World(STILL, solver=solver, gravity=(0, 0))
     rods = []
@@ -351,7 +362,11 @@ def test_g13_thin_rods_pass_thin_walls_when_off_and_never_when_on(measured, mode
 @pytest.mark.parametrize("speed", [0.5, 1.0, 3.0, 10.0 / 3.0, 10.0, 100.0])
 @pytest.mark.parametrize("swept", [False, True])
 def test_g13_a_disc_misses_a_thin_wall_at_the_known_rate_and_never_when_swept(measured, speed, swept):
-    """Of random phases 1 - (w + 2 r) / (v dt) pass unseen (0.91 for 3.33 m a step, w 0.1, r 0.1)."""
+    """A disc that is not swept misses a thin wall at the rate 1 - (w + 2 r) / (v dt) over random phases; a swept one
+    never does.
+
+    The rate is 0.91 for 3.33 m a step, w = 0.1 and r = 0.1.
+    """
     count, width, radius = (10_000 if JIT else 300), 0.1, 0.1
     rng = generator(13)
     world = flying() if swept else World(Effects(rotation=True), pixels_per_meter=1.0)
@@ -374,8 +389,10 @@ def test_g13_a_disc_misses_a_thin_wall_at_the_known_rate_and_never_when_swept(me
 
 @pytest.mark.parametrize("bullet", [True, False])
 def test_g12_500_bullets_against_500(measured, bullet):
-    """Lane by lane, of all shapes, sizes and speeds: none is behind the other before they met;
-    not swept, most never meet."""
+    """Of 500 head-on pairs of all shapes, sizes and speeds, no bullet passes another without a collision.
+
+    Each pair has a lane of its own. Without the sweep most pairs never collide.
+    """
     count = 500 if JIT else 20
     rng = generator(5)
     world = World(STILL, solver="soft_step", gravity=(0, 0))
@@ -410,7 +427,10 @@ def test_g12_500_bullets_against_500(measured, bullet):
 
 @needs_speed
 def test_g12_crowd_of_bullets_head_on_keeps_its_sides():
-    """All in one tube: every bullet of the left half starts, and stays, left of every one of its lane's right half."""
+    """Bullets that start in the left half of a lane stay left of all bullets that start in its right half.
+
+    All lanes are in one crowded tube.
+    """
     world = flying()
     lanes = 25
     for k in range(lanes + 1):
@@ -437,7 +457,10 @@ def test_g12_crowd_of_bullets_head_on_keeps_its_sides():
 
 @needs_speed
 def test_g19_what_drops_on_forty_tiles_lies_on_them(measured):
-    """Tiles of 0.25 m as one grid, as bodies of their own, as segments; a disc of half their width, a ruler."""
+    """A disc and a ruler dropped on forty tiles come to rest on them.
+
+    The tiles are 0.25 m wide: one grid, separate bodies or segments. The disc has half the width of a tile.
+    """
     for ground in ("grid", "boxes", "segments"):
         for shape, start, speed, rest in (
             (Circle(0.125), (0.06, -8.0), 100.0, 0.125),

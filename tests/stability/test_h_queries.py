@@ -15,7 +15,7 @@ BOX = Polygon.box(1, 1)
 
 @every_broadphase
 def test_h2_rays_along_a_segment(measured, broadphase):
-    """Documented: touching is meeting; of no length a ray asks for a point."""
+    """A ray along a segment hits it, because touching counts as a hit; a ray of length 0 is a point query."""
     world = World(Effects(), BROADPHASES[broadphase]())
     world.add_body(Segment((0, 0), (4, 0)), kind="static")
     world.step()
@@ -43,7 +43,10 @@ def test_h2_rays_along_a_segment(measured, broadphase):
 
 @every_broadphase
 def test_h3_points_on_borders(measured, broadphase):
-    """Shapes are closed: both sides of a seam own it. Tiles of one grid are one shape, pixels are half open."""
+    """A point on the border between two shapes belongs to both, because shapes are closed.
+
+    The tiles of one grid are one shape. Pixels are half-open.
+    """
     missed = twice = beyond = 0
     world = World(Effects(), BROADPHASES[broadphase]())
     left = world.add_body(Polygon.box(2, 2), position=(1, 1), kind="static")

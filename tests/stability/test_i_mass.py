@@ -1,4 +1,4 @@
-"""Hard cases of mass properties (section I): closed forms, exact sums, and a mass that cancels."""
+"""Hard cases of mass properties (section I): closed forms, exact sums, and motion that does not depend on the mass."""
 
 import math
 
@@ -14,7 +14,9 @@ OFFSETS = ((0.0, 0.0), (7.0, -3.0), (300.0, 1e3))
 
 
 def forms(offset):
-    """Yield (shape, mass, inertia about its own centre) of density 1, at an offset."""
+    """Yield (shape, mass, inertia about its own centre) of several shapes of density 1, placed at an offset from the
+    origin.
+    """
     x, y = offset
     for radius in (1.0, 0.3):
         yield Circle(radius, offset), math.pi * radius**2, math.pi * radius**4 / 2.0

@@ -1,4 +1,4 @@
-"""Hard cases far from the origin (section J): at 1e7 a double keeps 2e-9, and that is all that may differ."""
+"""Hard cases far from the origin (section J): only the rounding of doubles may differ (2e-9 at 1e7)."""
 
 import math
 
@@ -11,7 +11,7 @@ from tests.stability.piles import SOLVERS, floor, metres, needs_speed, pile_effe
 
 
 def settled_pyramid(x, y, solver):
-    """Return (step at which a pyramid falls asleep, its poses relative to its place) for a pyramid at (x, y)."""
+    """Return (step at which a pyramid at (x, y) falls asleep or None, poses relative to (x, y) as an (n, 2) array)."""
     world = metres(solver, effects=pile_effects(sleeping=True))
     floor(world, x=x, y=y)
     pyramid(world, 4, x=x, y=y, spread=1.25)

@@ -1,6 +1,6 @@
-"""Hard cases of bad input (section K): refused by name, and the world is as it was; what is accepted works.
+"""Hard cases of bad input (section K): errors name the argument and leave the world unchanged; accepted input works.
 
-Every argument of every function is in tests/physics/test_bad_input.py; here are the catalogue's.
+tests/physics/test_bad_input.py covers every argument of every function; this file covers the cases of the catalogue.
 """
 
 import math
@@ -56,7 +56,7 @@ SETTERS = {  # name in the refusal: a call with a number
 
 
 def refusal(call):
-    """Return the message of a call's error, "" without one."""
+    """Return the message of the ValueError or TypeError that a call raises, or "" if it raises none."""
     try:
         call()
     except (ValueError, TypeError) as error:

@@ -1,4 +1,6 @@
-"""Hard cases of time, repetition and long runs (section L): twice, from a snapshot, in another process, for an hour."""
+"""Hard cases of time, repetition and long runs (section L): repeated runs, snapshots, other processes, an hour of
+steps.
+"""
 
 import math
 import os
@@ -38,7 +40,9 @@ STEPS = 300 if JIT else 30
 
 
 def zoo(solver="soft_step", broadphase=None, seed=3):
-    """Every kind of shape in one heap, with bullets, sensors, a kinematic plate, sleepers."""
+    """Return a world with a heap of every kind of shape, with bullets, sensors, a kinematic
+    plate and sleeping bodies.
+    """
     rng = np.random.default_rng(seed)
     world = World(
         pile_effects(
@@ -92,7 +96,10 @@ def record(world, steps):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_l2_snapshot_then_300_steps_restore_then_300_steps(measured, solver, tmp_path):
-    """In the same world, and in another one from a file: the same digests all the way, nothing hidden elsewhere."""
+    """A restored snapshot gives the same digests for 300 steps, in the same world and, from a file, in another world.
+
+    The snapshot therefore contains the whole state.
+    """
     world = zoo(solver)
     record(world, 60 if JIT else 10)
     taken, digest = world.snapshot(), world.digest()
@@ -133,7 +140,9 @@ print(cairn(sys.argv[1], 200))
 
 
 def cairn(solver, steps):
-    """Drop eight balls and eighty boxes on a floor. Return (digest, step at which the last body fell asleep)."""
+    """Drop eight balls and eighty boxes on a floor. Return (digest, step at which the last body
+    fell asleep or None).
+    """
     world = metres(solver, effects=pile_effects(sleeping=True))
     floor(world)
     world.add_bodies(Circle(0.4), [(1.0 * k - 3.5, -4.0 - 0.3 * k) for k in range(8)])
@@ -173,7 +182,9 @@ def test_l1_fresh_processes_with_other_hash_seeds_agree(measured, solver):
 
 @needs_speed
 def test_l3_jitter_of_a_ten_billionth_changes_no_statistics(measured):
-    """The trajectories part in the end; depth, energy and where the heap lies do not."""
+    """An initial shift of 1e-10 changes the trajectories, but not the overlap, the energy or
+    the mean height of a heap.
+    """
     runs = []
     for jitter in (0.0, 1e-10):
         world = metres()
@@ -190,7 +201,9 @@ def test_l3_jitter_of_a_ten_billionth_changes_no_statistics(measured):
 
 
 def sag(h, count):
-    """Return the allowed sag of a stack: a slop per box, and more if substeps h are too long for contacts of 30 Hz."""
+    """Return the allowed sag of a stack of `count` boxes: one slop per box, more if the substep h [s] is too long for
+    30 Hz.
+    """
     return count * 0.005 * max(1.0, (30.0 * 8.0 * h) ** 2)
 
 
@@ -267,7 +280,10 @@ def test_mass_cancels(solver, density):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_mirrored_heap_of_discs_is_mirrored(solver):
-    """Within 1e-9. (The two points of a box are solved one after the other: mirrored, the other one is first.)"""
+    """A mirrored heap of discs moves as the mirror image, within 1e-9.
+
+    Boxes are excluded: their two contact points are solved in order, and mirroring exchanges the order.
+    """
     steps = 60 if JIT else 20
     one, two = (heap(solver=solver, mirror=sign, steps=steps, round_only=True) for sign in (1.0, -1.0))
     assert two == pytest.approx(one, abs=1e-9)
@@ -316,7 +332,7 @@ def test_l6_awake_stack_does_not_creep_for_an_hour(measured):
 @needs_speed
 @pytest.mark.parametrize("rate", [240, 1920, 15_360])
 def test_l7_stack_at_any_rate_stays(measured, rate):
-    """Ten boxes: where they are after 5 s they are after 10."""
+    """A stack of ten boxes is in the same position after 5 s and after 10 s at any step rate."""
     seconds = 5
     world = metres(dt=4 / rate)
     floor(world)
@@ -331,7 +347,7 @@ def test_l7_stack_at_any_rate_stays(measured, rate):
 
 
 class Frames:
-    """Frame times [s] of a game in one of PATTERNS. The run ends after a number of frames."""
+    """Clock of a game whose frame times [s] follow one of PATTERNS; the run ends after a number of frames."""
 
     PATTERNS = {
         "even": lambda rng, k: 1 / 60,
@@ -344,7 +360,10 @@ class Frames:
 
 @pytest.mark.parametrize("pattern", Frames.PATTERNS)
 def test_l4_frames_of_any_length_give_the_same_steps(measured, pattern):
-    """The game's accumulator: fixed steps, at most so many a frame, the rest of a stall dropped."""
+    """FixedStep, the game's accumulator, gives the same world steps for frames of any length.
+
+    It makes a limited number of fixed steps per frame and drops the rest of a stall.
+    """
     from game.run.loop import FixedStep
 
     rng, clock, digests, most, k, now = np.random.default_rng(4), FixedStep(1 / 60), [], 0, 0, 0.0
@@ -367,7 +386,7 @@ def test_l4_frames_of_any_length_give_the_same_steps(measured, pattern):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_l9_support_dragged_from_under_a_sleeper_takes_it_along_or_lets_it_fall(measured, solver):
-    """At 0.15 m/s from the first moment on: it never floats."""
+    """A support that moves away at 0.15 m/s wakes the sleeping box on it, which is carried along or falls."""
     world = metres(solver, effects=pile_effects(sleeping=True))
     shelf = world.add_body(Polygon.box(4, 0.5), position=(0.0, 0.25), kind="kinematic")
     box = world.add_body(Polygon.box(1, 1), position=(0.0, -0.5), material=Material(friction=0.5))
@@ -394,7 +413,7 @@ def test_l9_support_dragged_from_under_a_sleeper_takes_it_along_or_lets_it_fall(
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_l10_woken_bodies_stay_where_they_lay(measured, solver):
-    """Contacts kept through the sleep hold them: they sink by no more than a slop, and sleep again."""
+    """Woken boxes of a column sink by no more than a slop, because their cached contacts hold them, and sleep again."""
     world = metres(solver, effects=pile_effects(sleeping=True))
     floor(world)
     boxes = column(world, 3)
@@ -412,7 +431,10 @@ def test_l10_woken_bodies_stay_where_they_lay(measured, solver):
 
 @pytest.mark.parametrize("share", [0.05, 0.5, 1.0, 1.5, 1.95, 2.1])
 def test_l11_spring_by_forces_swings_as_symplectic_euler_says(measured, share):
-    """v -= w² x h, x += v h: it swings for ever below w h = 2, by at most 1 / sqrt(1 - (w h / 2)²)."""
+    """A spring simulated by forces oscillates as symplectic Euler predicts: v -= w² x h, x += v h.
+
+    For w h < 2 it oscillates forever with an amplitude of at most 1 / sqrt(1 - (w h / 2)²).
+    """
     world = World(Effects(response=True), gravity=(0, 0), dt=1 / 60)
     ball = world.add_body(Circle(1.0), position=(1.0, 0.0))
     stiffness, widest = ball.mass * (share / world.dt) ** 2, 0.0
@@ -430,7 +452,7 @@ def test_l11_spring_by_forces_swings_as_symplectic_euler_says(measured, share):
 
 @pytest.mark.skipif(not JIT, reason="nothing to compare with")
 def test_l12_compiled_and_plain_kernels_give_the_same_bits(measured):
-    """The other kinds of worlds: test_compiled_and_plain.py."""
+    """Compiled and plain kernels give identical digests. Other scenes: test_compiled_and_plain.py."""
     compiled, plain = (run("response", "hash", each) for each in (False, True))
     assert len(compiled) == 40
     measured("L12", "lines that differ", sum(one != two for one, two in zip(compiled, plain, strict=True)))

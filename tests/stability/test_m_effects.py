@@ -1,4 +1,4 @@
-"""Hard cases of effects (section M): what a scene does not call for costs nothing and changes no bit."""
+"""Hard cases of effects (section M): an effect that a scene does not need causes no work and changes no bit."""
 
 import math
 
@@ -26,7 +26,9 @@ UNUSED = (
 
 
 def crowd(effects, steps):
-    """Digests of bodies in which nothing rubs, bounces, turns, flies fast or falls: most effects are unused."""
+    """Return the digests of a crowd with no friction, bounce, rotation, fast motion or gravity, so most effects are
+    unused.
+    """
     world = World(effects, gravity=(0, 0))
     rng, smooth = generator(3), Material(friction=0.0, restitution=0.0)
     for shape, count in ((Circle(6.0), 25), (PixelMask(np.ones((6, 5), bool)), 8), (Polygon.box(7, 9), 8)):
@@ -54,7 +56,7 @@ def test_m1_an_effect_declared_and_not_used_changes_no_bit(measured, base, unuse
 
 @pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse", "projection"])
 def test_m2_no_work_without_a_cause(measured, solver):
-    """All effects are declared; the scene gives no cause for them, and then, one after the other, does."""
+    """Declared effects cause no work in a scene without a cause for them, and cause work once there is one."""
     causeless = ("toi_calls", "tangent_rows", "restitution_rows", "mask_tests", "sensor_tests", "carved_pixels")
     effects = pile_effects(continuous=True, sensors=True, stacking=solver != "projection")
     smooth = Material(friction=0.0, restitution=0.0)
@@ -83,7 +85,7 @@ def test_m2_no_work_without_a_cause(measured, solver):
 
 
 def shooter(effects, gravity=(0, 0)):
-    """Bullets and enemies that fly through one another: pairs, not pushes."""
+    """Return a world of bullets and enemies that overlap without collision response; only pairs are reported."""
     world = World(effects, gravity=gravity)
     rng = generator(3)
     count = 120 if JIT else 30
@@ -95,7 +97,7 @@ def shooter(effects, gravity=(0, 0)):
 
 
 def test_m3_a_shooter_needs_no_solver(measured):
-    """Its pairs are those of collide() on every pair of bodies, and nothing is solved."""
+    """A shooter's pairs equal those of collide() for every pair of bodies, and no solver runs."""
     differ = rows = met = 0
     quick = shooter(Effects())
     for step in range(40):
@@ -172,7 +174,7 @@ CALLED_FOR = ("gravity", "drag", "wind", "rotation", "friction", "restitution", 
 
 
 def play(effects):
-    """Return (poses, events) of a scene that calls for every effect of CALLED_FOR, after 2 s."""
+    """Simulate a scene that uses every effect of CALLED_FOR for 2 s and return (poses, events)."""
     solver = "soft_step" if effects.stacking else None
     world = World(
         effects, solver=solver, drag=0.3 if effects.drag else 0.0, wind=(60.0, 0.0) if effects.wind else (0, 0)

@@ -1,4 +1,4 @@
-"""Piles of pixel masks: they stand as boxes do, heaps come to rest, wedged masks get out (U6)."""
+"""Piles of pixel masks stand as boxes do, heaps come to rest, and wedged masks are pushed out (U6)."""
 
 import math
 
@@ -13,7 +13,7 @@ CRATE = PixelMask(np.ones((32, 32), bool))
 
 
 def column(shape, seconds, solver):
-    """Return the greatest sideways motion [px] of ten on each other while they were kept awake."""
+    """Return the greatest sideways motion [px] in a column of ten bodies that cannot sleep."""
     world = World(AWAKE, solver=solver)
     world.add_body(Polygon.box(800, 40), position=(0.0, 20.0), kind="static")
     bodies = [world.add_body(shape, position=(0.0, -16.0 - 32.0 * k)) for k in range(10)]
@@ -37,7 +37,7 @@ def test_ten_crates_of_pixels_stand_for_a_minute_beside_ten_boxes(solver):
 
 
 def blob(rng):
-    """A round sprite with bumps and bays, 14 to 28 px."""
+    """Return a random round sprite with bumps and bays, 14 to 28 px wide."""
     size = int(rng.integers(14, 29))
     y, x = np.indices((size, size)) - (size - 1) / 2
     around, far = np.arctan2(y, x), np.hypot(x, y)
@@ -46,7 +46,7 @@ def blob(rng):
 
 
 def ragged(rng):
-    """A sprite with spikes and notches all round, 14 to 28 px."""
+    """Return a random sprite with spikes and notches on all sides, 14 to 28 px wide."""
     size = int(rng.integers(14, 29))
     y, x = np.indices((size, size)) - (size - 1) / 2
     radii = size / 2 * rng.uniform(0.45, 1.0, 24)
@@ -55,7 +55,9 @@ def ragged(rng):
 
 
 def heap(count, seed, solver="soft_step", seconds=20.0, sprite=blob):
-    """Drop sprites into a bin. Return (time of the last new contact [s], time at which all slept or None, bodies)."""
+    """Drop sprites into a bin. Return (time of the last new contact [s], time at which all
+    slept [s] or None, bodies).
+    """
     rng = np.random.default_rng(seed)
     world = World(solver=solver)
     world.add_body(PixelMask(np.ones((20, 500), bool)), position=(0.0, 210.0), kind="static")
@@ -94,8 +96,10 @@ def test_sprites_come_to_rest_on_each_other(solver, seed):
 @pytest.mark.parametrize("sprite", [blob, ragged])
 @pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse"])
 def test_two_hundred_sprites_sleep_within_eight_seconds_of_the_last_landing(solver, sprite, seed):
-    """As soon as the last has rolled off the others, or ceased to rock in a hollow, which takes longest; and however
-    some tremble where two parts of an outline meet."""
+    """Two hundred sprites in a bin all sleep within eight seconds of the last new contact.
+
+    The longest time goes to sprites that roll off others, rock in a hollow or tremble where two outline parts meet.
+    """
     landed, asleep, bodies = heap(200, seed, solver, 14.0, sprite)
     assert all(-240.0 < body.position.x < 240.0 and body.position.y < 200.0 for body in bodies), "none got out"
     assert asleep is not None and asleep - landed < 8.0
@@ -104,7 +108,7 @@ def test_two_hundred_sprites_sleep_within_eight_seconds_of_the_last_landing(solv
 @pytest.mark.parametrize("depth", [2.0, 4.0])
 @pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse"])
 def test_what_is_wedged_in_a_notch_comes_to_rest(solver, depth):
-    """A crate that was put into a notch narrower than itself: it is pushed out or stays, and is quiet."""
+    """A crate placed in a notch narrower than itself is pushed out or stays, and comes to rest."""
     fork = np.ones((30, 40), bool)
     fork[:18, 14:26] = False  # a notch of 12 px
     world = World(solver=solver)

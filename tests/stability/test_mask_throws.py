@@ -1,4 +1,4 @@
-"""Masks and others thrown at walls of 1 to 3 pixels: none passes with continuous collision, most do without (D, G)."""
+"""Bodies thrown at walls of 1 to 3 pixels: with continuous collision none passes, without it most do (D, G)."""
 
 import itertools
 import math
@@ -32,7 +32,10 @@ def test_none_passes(way):
 
 @pytest.mark.parametrize("seed, number", [(1, 138), (4, 28), (102, 1848), (103, 1777)])
 def test_those_that_once_passed(seed, number):
-    """Deep in thin parts each left it to the next, or led along them; thin arms were over before half their size."""
+    """Throws that once passed a thin wall now collide and do not pass, under both solvers.
+
+    These bodies were deep in thin parts of an outline, or thin arms passed the wall before half their size did.
+    """
     throw = next(itertools.islice(throws(number + 1, seed), number, None))
     for solver in ("soft_step", "sequential_impulse"):
         assert fly(throw, PILES, solver) == (False, True)
@@ -41,7 +44,7 @@ def test_those_that_once_passed(seed, number):
 @pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse"])
 @pytest.mark.parametrize("thickness, through", [(1, 3.0), (2, 3.0), (2, 5.0), (3, 2.0)])
 def test_who_stands_deep_in_a_rim_is_led_back_out_of_all_of_its_parts(thickness, through, solver):
-    """A square, slow for its size, came to stand with a corner beyond the rim, and flies on."""
+    """A slow square with a corner beyond the rim of a ring is pushed back inside by all of the rim's parts."""
     wall, half = thin_wall("ring", thickness), 13.5
     for place in range(48) if JIT else (6, 14):
         way = math.tau * place / 48 + 0.013
@@ -53,7 +56,7 @@ def test_who_stands_deep_in_a_rim_is_led_back_out_of_all_of_its_parts(thickness,
 
 
 def fast(count, seed):
-    """Return throws that move in a step by more than the thickness of the thrown body and of the wall."""
+    """Yield `count` throws that move in one step by more than the thickness of the body and of the wall."""
     quick = (each for each in throws(50 * count, seed) if np.hypot(*each.velocity) > 60.0 * 44.0)
     return itertools.islice(quick, count)
 
@@ -91,7 +94,10 @@ SQUARE = PixelMask(np.ones((8, 8), bool), snap=False)
 @pytest.mark.parametrize("snap", [True, False])
 @pytest.mark.parametrize("shape", ["mask", "circle", "box"])
 def test_the_point_of_an_event_is_that_of_the_first_shared_area(shape, snap):
-    """3,000 px/s, a wall of 1 px: told on its face, to a fraction of a pixel, with the time's own place along it."""
+    """At 3,000 px/s, the begin event on a wall 1 px thick has the point and time of the first overlap.
+
+    The point is on the wall's face to a fraction of a pixel, at the height that the body has at this time.
+    """
     for start in (60.3, 71.9, 83.04):
         world = World(Effects(continuous=True))
         wall = world.add_body(PixelMask(np.ones((200, 1), bool), snap=snap), position=(100.5, 0.0), kind="static")
@@ -120,7 +126,7 @@ def test_a_graze_that_shares_no_area_is_no_event(depth, told):
 
 
 def test_corners_that_touch_share_no_area():
-    """Diagonally past each other: first the corners touch exactly, then by a hair."""
+    """Two squares that pass diagonally collide only if they share area, not if their corners touch exactly."""
     for by, told in ((0.0, False), (0.01, True)):
         world = World(Effects(continuous=True))
         world.add_body(SQUARE, kind="static")
@@ -130,7 +136,7 @@ def test_corners_that_touch_share_no_area():
 
 
 def test_a_spinning_stick_meets_what_its_end_sweeps_over():
-    """D17, G14: half a turn in a step, past a single pixel that no end pose touches."""
+    """A stick that makes half a turn in a step collides with a pixel that neither end pose touches (D17, G14)."""
     effects = Effects(continuous=True, rotation=True)
     stick, dot = PixelMask(np.ones((1, 40), bool), snap=False), PixelMask(np.ones((1, 1), bool), snap=False)
     for place, told in (((0.0, 15.0), True), ((0.0, 19.0), True), ((0.0, 22.0), False), ((13.0, 13.0), True)):
@@ -142,7 +148,7 @@ def test_a_spinning_stick_meets_what_its_end_sweeps_over():
 
 
 def test_hollow_things_are_met_by_their_pixels():
-    """D10: a ball that moves about within a ring meets nothing until it comes to the rim; a hull would."""
+    """A ball inside a ring collides only with the rim's pixels, not with the ring's convex hull (D10)."""
     at = np.hypot(*np.indices((40, 40)) - 19.5)
     ring = PixelMask((at <= 20.0) & (at > 16.0), snap=False)
     for speed, told in ((300.0, 0), (2000.0, 1)):
@@ -155,7 +161,9 @@ def test_hollow_things_are_met_by_their_pixels():
 
 @pytest.mark.parametrize("ball, wall", [(True, False), (False, True)])
 def test_fast_masks_through_thin_sensors_and_fast_sensors_through_masks(ball, wall):
-    """G16: exactly one begin and one end; what is solid is stopped by nothing of it."""
+    """A fast mask and a thin sensor that cross get one begin and one end event (G16), and a
+    sensor stops no solid body.
+    """
     effects = Effects(response=True, stacking=True, rotation=True, continuous=True, sensors=True)
     for thin in (PixelMask(np.ones((60, 1), bool)), Polygon.box(1, 60)):
         for shape in (PixelMask(np.ones((6, 6), bool)), Circle(3)):

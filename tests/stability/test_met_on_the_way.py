@@ -1,5 +1,6 @@
-"""Pairs that meet within a step get their contact at the point of touching: none is first seen in overlap, and none is
-deflected by a surface that it only passes.
+"""Pairs that meet within a step have their contact at the point of first touch.
+
+None is found only in overlap, and none is deflected by a surface that it merely passes.
 """
 
 import math
@@ -17,8 +18,11 @@ G = 10.0
 @pytest.mark.parametrize("substeps", [4, "auto"])
 @pytest.mark.parametrize("speed", [2.5, 5.0, 12.0])
 def test_elastic_discs_that_meet_obliquely_leave_as_the_line_of_their_centres_says(speed, substeps):
-    """At 24 impact parameters and phases of the step. By the normals of where a step began, or of the overlap in which
-    they were first seen, velocities were off by up to 22 %."""
+    """Elastic discs that meet obliquely leave with the velocities given by the line of their centres.
+
+    The test uses 24 impact parameters and phases. Normals from the start of the step or from the first overlap give
+    errors of up to 22 %.
+    """
     rng = np.random.default_rng(5)
     for b in np.linspace(0.05, 0.85, 24):
         world = metres(gravity=(0, 0), substeps=substeps)
@@ -41,7 +45,7 @@ def test_elastic_discs_that_meet_obliquely_leave_as_the_line_of_their_centres_sa
     ids=["disc", "box", "capsule", "triangle"],
 )
 def test_who_falls_at_ten_metres_a_second_never_overlaps(shape, solver):
-    """A sixth of a metre a step, without a sweep: overlaps used to be seen a step late, an eighth of a metre deep."""
+    """A shape that falls at 10 m/s (a sixth of a metre a step, not swept) overlaps the floor by no more than a slop."""
     for phase in range(5):
         world = metres(solver)
         floor(world)
@@ -52,7 +56,10 @@ def test_who_falls_at_ten_metres_a_second_never_overlaps(shape, solver):
 
 
 def test_bounces_of_nine_tenths_are_theirs_to_a_thousandth():
-    """Sixteen of them: others are at 0.08 to 0.98 of the height by then."""
+    """Fifteen bounces with a restitution of 0.9 have the exact heights to a thousandth.
+
+    Other engines have 0.08 to 0.98 of the height by then.
+    """
     world = metres(substeps="auto")
     floor(world)
     ball = world.add_body(Circle(0.25), position=(0.0, -2.25), material=Material(restitution=0.9, friction=0.0))
@@ -66,7 +73,9 @@ def test_bounces_of_nine_tenths_are_theirs_to_a_thousandth():
 
 
 def test_who_flies_past_a_corner_is_not_turned_aside():
-    """15 mm from it, at 10 m/s, whatever the phase: to the bit."""
+    """Bodies that fly past a corner at 7.5 and 9 m/s and a distance of 15 mm are not deflected, to the bit, at any
+    phase.
+    """
     for phase in range(8):
         ways = []
         for there in (True, False):
@@ -88,7 +97,9 @@ def test_who_flies_past_a_corner_is_not_turned_aside():
 @pytest.mark.parametrize("substeps", [4, "auto"])
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 def test_boxes_slide_over_forty_boxes_side_by_side(friction, substeps):
-    """Thirty boxes of all sizes and speeds: each goes as far as on one long floor, and none hops."""
+    """A box slides as far on forty boxes side by side as on one long floor, and does not hop;
+    thirty boxes and speeds.
+    """
     rng = np.random.default_rng(3)
     for _ in range(30):
         width, speed, tile = rng.uniform(0.3, 2.0), rng.uniform(2.0, 12.0), rng.uniform(0.4, 2.0)
@@ -122,8 +133,11 @@ def test_boxes_slide_over_forty_boxes_side_by_side(friction, substeps):
 
 @needs_speed
 def test_what_tumbles_in_a_turning_drum_overlaps_by_millimetres():
-    """144 discs and boxes of half a metre at 50 degrees a second: median 13 mm, 95 of 100 within 30 mm, none outside.
-    Before, what met faster than 1.2 m/s overlapped by 49 and 150 mm; Box2D's do by 62 and 128."""
+    """144 discs and boxes of half a metre in a drum (50 degrees a second) overlap by 13 mm in the median.
+
+    95 of 100 are within 30 mm, and none is outside. Without contacts at the point of first touch, bodies faster than
+    1.2 m/s overlapped by 49 and 150 mm; in Box2D by 62 and 128 mm.
+    """
     world = World(pile_effects(continuous=True), gravity=(0, G), pixels_per_meter=1.0)
     walls = [Polygon.box(0.5, 10, center=(x, 0)) for x in (5.0, -5.0)]
     walls += [Polygon.box(10, 0.5, center=(0, y)) for y in (5.0, -5.0)]
@@ -145,9 +159,7 @@ def test_what_tumbles_in_a_turning_drum_overlaps_by_millimetres():
 
 
 def test_sweeps_and_their_absence_are_still_seen():
-    """Bodies that move by more than half their size in a step are left to sweeps: a wall stops them, or lets them
-    through.
-    """
+    """A body that moves more than half its size in a step is stopped by a wall only if the world is continuous."""
     for continuous, passes in ((False, True), (True, False)):
         effects = Effects(response=True, stacking=True, continuous=continuous)
         world = World(effects, pixels_per_meter=1.0)

@@ -1,4 +1,4 @@
-"""Pendulums, chains, beams and bridges on joints (section N), against closed forms, energy and the catenary."""
+"""Pendulums, chains, beams and bridges on joints (section N), checked against closed forms, energy and the catenary."""
 
 import math
 
@@ -28,7 +28,7 @@ SHARE = 1.0 if JIT else 0.02  # of the time that is simulated, where only greate
 
 
 def agm(a, b):
-    """The arithmetic-geometric mean."""
+    """Return the arithmetic-geometric mean of two numbers."""
     while abs(a - b) > 1e-15 * a:
         a, b = (a + b) / 2.0, math.sqrt(a * b)
     return a
@@ -37,7 +37,10 @@ def agm(a, b):
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_n1_a_pendulum_keeps_its_period_its_energy_and_its_pin(measured, solver):
-    """A disc 2 m from its pin, for a minute, let go at 1 rad; other phases from 0.25 to 2.5 rad."""
+    """A pendulum of a disc 2 m from its pin keeps its period, energy and pin for a minute.
+
+    It is released at 1 rad; other phases release it at 0.25 to 2.5 rad.
+    """
     amplitude = 0.25 + (0.75 + phase(2.5)) % 2.5
     world = jointed(solver)
     bob = world.add_body(Circle(0.25), position=along(2.0, math.pi / 2.0 - amplitude))
@@ -54,7 +57,10 @@ def test_n1_a_pendulum_keeps_its_period_its_energy_and_its_pin(measured, solver)
 
 
 def double_pendulum(world):
-    """Add two rods of 1 m: one is released level, the other bent by up to 1 rad. Return the energy of the fall."""
+    """Add two rods of 1 m and return the potential energy of their fall [J].
+
+    The first rod is released level, the second bent by up to 1 rad.
+    """
     at, before = (0.0, 0.0), None
     for turn in (0.0, -phase(1.0)):
         end = at[0] + math.cos(turn), at[1] + math.sin(turn)
@@ -65,7 +71,7 @@ def double_pendulum(world):
 
 
 def fall_of_two(measured, world, name):
-    """Let a double pendulum swing for 30 s."""
+    """Let a double pendulum swing for 30 s and check its energy and pins. name: suffix of the figures."""
     fall, start = double_pendulum(world), energy(world)
     worst = worst_in(world, SHARE * 30.0)
     measured("N2", f"change of the energy, of the fall{name}", abs(energy(world) - start) / fall)
@@ -82,7 +88,9 @@ def test_n2_more_substeps_are_not_worse(measured):
 
 
 def chain(world, links, ratio, angle):
-    """A straight chain of links of 1 m at an angle, with a ball of `ratio` links at its end."""
+    """Add a straight chain of 1 m links from the origin at an angle, with a ball of `ratio`
+    times the mass of a link.
+    """
     before = None
     for k in range(links):
         link = rod(world, along(k, angle), along(k + 1.0, angle))
@@ -93,7 +101,10 @@ def chain(world, links, ratio, angle):
 
 
 def swing(measured, row, ratio, solver):
-    """Let a chain of 30 links swing for 20 s; it is level in the first phase, and slopes by up to 0.8 rad."""
+    """Let a chain of 30 links swing for 20 s and check its pins and its energy.
+
+    It is level in the first phase and slopes by up to 0.8 rad in the others.
+    """
     world = jointed(solver)
     chain(world, 30, ratio, phase(0.8))
     start, fall, won = energy(world), 30.0 * GRAVITY * float(world.bodies["mass"].sum()), Worst()
@@ -106,7 +117,7 @@ def swing(measured, row, ratio, solver):
 
 
 def naive_swing(measured, row, ratio):
-    """Let the same chain swing for 12 s under the iterative tier: with four substeps the joints come apart."""
+    """Let the same chain swing for 12 s with the iterative joint solver; with four substeps its joints separate."""
     world = jointed(tier=NAIVE, substeps=4)
     chain(world, 30, ratio, phase(0.8))
     measured(row, "greatest gap, iterative tier", worst_in(world, SHARE * 12.0))
@@ -145,7 +156,9 @@ def test_n5_without_trees_it_parts(measured):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("ratio", [1.0, 100.0, 1e6])
 def test_n6_a_chain_that_is_thrown_over_gains_no_energy(measured, ratio, solver):
-    """Let go upwards, 12 links fall slack and snatch: their pins part for a moment."""
+    """A chain of 12 links released upwards falls slack and snaps tight without a gain of energy; its pins part for a
+    moment.
+    """
     world = jointed(solver)
     chain(world, 12, ratio, -0.2 - phase(1.3))
     start, fall, won = energy(world), 12.0 * GRAVITY * float(world.bodies["mass"].sum()), Worst()
@@ -157,7 +170,7 @@ def test_n6_a_chain_that_is_thrown_over_gains_no_energy(measured, ratio, solver)
 
 
 def cantilever(world, angle):
-    """Weld eight beams of 1 m to the world at an angle. Return the greatest deviation of the tip in 5 s [m]."""
+    """Weld eight beams of 1 m to the world at an angle [rad]. Return the greatest deviation of the tip in 5 s [m]."""
     before = None
     for k in range(8):
         beam = rod(world, along(k, angle), along(k + 1.0, angle), 0.25)
@@ -181,7 +194,7 @@ def test_n7_without_trees_it_sags(measured, solver):
 
 
 def catenary(length, slack):
-    """Return (a, half width / a, sag) of a catenary of a length whose ends are length / slack apart."""
+    """Return (a, half width / a, sag) of a catenary with a given length, whose ends are length / slack apart."""
     low, high = 1e-6, 50.0  # sinh(u) / u = slack
     for _ in range(200):
         u = 0.5 * (low + high)
@@ -191,7 +204,7 @@ def catenary(length, slack):
 
 
 def hung_bridge(world, count, plank, width):
-    """Planks from (-width / 2, 0) to (width / 2, 0), let go as a V; returns (ids, weight, places of the pins)."""
+    """Add `count` planks from (-width / 2, 0) to (width / 2, 0) in the shape of a V. Return (ids, weight [N])."""
     down = math.sqrt((count * plank) ** 2 - width**2) / 2.0
     at = [(width * (k / count - 0.5), down * (1.0 - abs(2.0 * k / count - 1.0))) for k in range(count + 1)]
     ids = [rod(world, one, two).id for one, two in zip(at, at[1:], strict=False)]
@@ -202,8 +215,10 @@ def hung_bridge(world, count, plank, width):
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_n8_a_bridge_of_160_planks_hangs_as_a_catenary(measured, solver):
-    """80 m of it; it comes to rest in air for 12 s, and hangs without it for half a second (drag takes its share of the
-    speed that gravity gives in a substep, before the joints do: forces at rest read less by half of drag times that).
+    """A bridge of 160 planks (80 m) hangs as a catenary.
+
+    It settles with drag for 12 s, then hangs without drag for half a second. Drag reduces the speed that gravity adds
+    in a substep before the joints act, so the resting forces would read too low.
     """
     count, plank = 160, 0.5
     slack = 1.02 + phase(0.3)
@@ -226,7 +241,10 @@ def test_n8_a_bridge_of_160_planks_hangs_as_a_catenary(measured, solver):
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_n15_a_bridge_breaks_at_its_force(measured, solver):
-    """A load in the middle of 20 planks grows; the pull of the ends follows from their poses by statics."""
+    """A bridge of 20 planks breaks at its breaking force under a growing load in the middle.
+
+    The pull of the end joints is computed from the plank poses by statics.
+    """
     count, plank, width = 20, 0.5, 9.5
     world = jointed(solver, effects={"drag": True}, drag=4.0)
     ids, weight = hung_bridge(world, count, plank, width)

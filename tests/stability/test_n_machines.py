@@ -1,4 +1,4 @@
-"""Machines on joints (section N): cranks, gears, lifts, walkers, cars, ragdolls, against closed forms."""
+"""Machines on joints (section N): cranks, gears, lifts, walkers, cars and ragdolls, checked against closed forms."""
 
 import math
 
@@ -15,7 +15,7 @@ APART = Filter(2, 1)  # parts of a machine, which touch the ground alone
 
 
 class Crank:
-    """A crank of 0.3 m, turned from an angle at 2.03 turns/s, moves a piston by a rod of 1 m."""
+    """A crank of 0.3 m, driven at 2.03 turns/s from a start angle, that moves a piston through a rod of 1 m."""
 
     RADIUS, LENGTH = 0.3, 1.0
 
@@ -33,7 +33,7 @@ class Crank:
         self.hinge.motor = Drive(2.0 * math.pi * 2.03, max=1e5)
 
     def place(self):
-        """Return the place of the piston at the angle of the crank: r cos a + sqrt(l² - r² sin² a)."""
+        """Return the exact piston position for the present crank angle: r cos a + sqrt(l² - r² sin² a)."""
         angle = self.turn + (self.hinge.angle if hasattr(self, "piston") else 0.0)
         return self.RADIUS * math.cos(angle) + math.sqrt(self.LENGTH**2 - (self.RADIUS * math.sin(angle)) ** 2)
 
@@ -65,7 +65,10 @@ def test_n9_a_slider_crank_keeps_its_stroke_for_a_thousand_turns(measured):
 
 
 def geared(solver):
-    """Three wheels, B half as fast as A, C two thirds of B; A comes up to ten turns a second in a second."""
+    """Return (world, hinges) of three geared wheels: B turns half as fast as A, C at two thirds of B.
+
+    The motor brings A to ten turns a second within one second.
+    """
     world = jointed(solver)
     wheels = [world.add_body(Circle(0.2 * (k + 1)), position=(k, 0), angle=phase(6), filter=ALONE) for k in range(3)]
     hinges = [world.add_joint(Revolute(None, wheel, at=wheel.position)) for wheel in wheels]
@@ -91,7 +94,9 @@ def test_n10_gears_keep_their_ratio_over_a_thousand_turns(measured, solver):
 
 
 def lift(world, stages, turn):
-    """A scissor lift of arms of 1 m at an angle; its foot slides along the ground. Returns (slide, platform, arms)."""
+    """Add a scissor lift of 1 m arms at an angle `turn` [rad]. Return (slide, platform, arms); the foot slides on the
+    ground.
+    """
     c, s = math.cos(turn), math.sin(turn)
     arms, before, slide = [], None, None
     for k in range(stages):
@@ -122,7 +127,10 @@ def lift(world, stages, turn):
     + [(3, "direct", "sequential_impulse")],
 )
 def test_n11_a_scissor_lift_rises_as_its_foot_moves_in(measured, stages, tier, solver):
-    """The platform is n sqrt(l² - x²) high; the motor's force is that of virtual work, weight of all by dh/dx."""
+    """The platform of an n-stage lift is n sqrt(l² - x²) high for a foot at x.
+
+    The motor force is that of virtual work: the weight of all bodies times dh/dx.
+    """
     world, turn = jointed(solver, tier=tier), 0.5 + phase(0.5)
     slide, top, arms = lift(world, stages, turn)
     start, off, gaps, gap = math.cos(turn), Worst(), Gaps(world), Worst()
@@ -146,7 +154,7 @@ def test_n11_a_scissor_lift_rises_as_its_foot_moves_in(measured, stages, tier, s
 
 
 def slide_force(world, slide):
-    """Return the force of a slider along x."""
+    """Return the x component of a slider's joint force."""
     return float(world.joints["force_x"][world.joints["id"] == slide.id][0])
 
 
@@ -165,12 +173,16 @@ POINTS = {  # of Theo Jansen's leg in Box2D's sample, a quarter of the size, y d
 
 
 def length_of(one, two):
-    """The distance of two points of a leg."""
+    """Return the distance between two named points of a leg."""
     return math.dist(POINTS[one], POINTS[two])
 
 
 def meet(center, radius, other, far, like):
-    """Return the point at two distances from two centres, on the same side of their line as in the leg's plan."""
+    """Return the point at distance `radius` from `center` and `far` from `other`.
+
+    Of the two intersections, it is the one on the same side as in the leg's plan. like: names of the three points in
+    POINTS.
+    """
     (ax, ay), (bx, by), apart = center, other, math.dist(center, other)
     u = (radius**2 - far**2 + apart**2) / (2.0 * apart)
     v = math.sqrt(radius**2 - u**2)
@@ -182,7 +194,7 @@ def meet(center, radius, other, far, like):
 
 
 def linkage(turn):
-    """Return {name: (x, y)} of the right leg's points relative to the axle, with the crank turned by an angle."""
+    """Return {name: (x, y)} of the right leg's points relative to the axle, for a crank angle [rad]."""
     (x, y), pivot = POINTS["hub"], POINTS["pivot"]
     hub = math.cos(turn) * x - math.sin(turn) * y, math.sin(turn) * x + math.cos(turn) * y
     tip = meet(pivot, length_of("pivot", "tip"), hub, length_of("tip", "hub"), ("pivot", "hub", "tip"))
@@ -194,7 +206,10 @@ def linkage(turn):
 
 
 def leg(world, side, turn, chassis, wheel, at):
-    """Add a leg whose crank has turned so far; returns its foot, a body whose origin is the heel."""
+    """Add a leg whose crank is at the angle `turn`, and return its foot, a body with its origin at the heel.
+
+    side: 1 for a right leg, -1 for a left one.
+    """
     points = {name: (at[0] + side * x, at[1] + y) for name, (x, y) in linkage(turn).items()}
 
     def body(names, **more):
@@ -213,7 +228,10 @@ def leg(world, side, turn, chassis, wheel, at):
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_n12_theo_jansens_walker_keeps_its_gait(measured, solver):
-    """Six legs at 2 rad/s for 10 s: each heel stays where the circles of its rods meet."""
+    """Theo Jansen's walker of six legs runs at 2 rad/s for 10 s.
+
+    Each heel stays where the circles of its rods intersect.
+    """
     world = jointed(solver)
     ground, open_to_all = Polygon.box(100.0, 1.0), Filter(1, 2)
     world.add_body(ground, position=(0.0, 0.5), kind="static", filter=open_to_all, material=GRIP)
@@ -240,7 +258,7 @@ def test_n12_theo_jansens_walker_keeps_its_gait(measured, solver):
 
 
 def car(world, place, angle=0.0, hertz=3.0, motor=None):
-    """A car on a slope through the origin; returns (chassis, wheels, axles)."""
+    """Add a car at a distance `place` along a slope through the origin. Return (chassis, wheels, axles)."""
     chassis = world.add_body(Polygon.box(2.4, 0.5), position=on_slope(angle, place, 0.9), angle=angle, filter=APART)
     places = [on_slope(angle, place + x, 0.4) for x in (-0.8, 0.8)]
     wheels = [world.add_body(Circle(0.4), position=at, filter=APART, material=GRIP) for at in places]
@@ -256,7 +274,10 @@ def car(world, place, angle=0.0, hertz=3.0, motor=None):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("hertz", [1.5, 3.0, 5.0])
 def test_n13_a_car_sags_by_its_load(measured, hertz, solver):
-    """The sag of each wheel is m g / 2k, with k = m' (2 pi f)², m' of the chassis at the axle and the wheel."""
+    """Each wheel of a car sags by m g / 2k, with k = m' (2 pi f)².
+
+    m' is the effective mass of the chassis at the axle and the wheel.
+    """
     world = jointed(solver)
     floor(world)
     chassis, wheels, axles = car(world, phase(3.0), hertz=hertz)
@@ -270,7 +291,9 @@ def test_n13_a_car_sags_by_its_load(measured, hertz, solver):
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_n14_a_car_climbs_a_hill_of_30_degrees_and_stands_on_it(measured, solver):
-    """Its wheels turn at 10 rad/s without slip for 3 s; then the motors brake."""
+    """A car climbs a slope of 30 degrees with its wheels at 10 rad/s for 3 s without slip, then brakes and stands
+    still.
+    """
     world, angle = jointed(solver), -math.pi / 6.0
     floor(world, friction=0.9, angle=angle)
     chassis, _, axles = car(world, -20.0 + phase(3.0), angle, motor=Drive(10.0, max=1e4))
@@ -291,7 +314,7 @@ def test_n14_a_car_climbs_a_hill_of_30_degrees_and_stands_on_it(measured, solver
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_n16_ragdolls_fall_down_stairs_and_sleep(measured, solver):
-    """26 of them, thrown at eight steps; how long after the last has stopped falling until all sleep."""
+    """26 ragdolls thrown at eight stairs all fall asleep soon after the last one has stopped."""
     world = jointed(solver, effects={"sleeping": True})
     torsos = stairs(world, 26, phase(6.0))
     over, gaps, gap, moving = Worst(), Gaps(world), Worst(), 0.0

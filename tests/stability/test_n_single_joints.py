@@ -1,4 +1,4 @@
-"""Single joints (section N): doors, sliders, drags, tracks, pulleys, ratchets, against closed forms."""
+"""Single joints (section N): doors, sliders, targets, tracks, pulleys and ratchets, checked against closed forms."""
 
 import math
 
@@ -13,7 +13,10 @@ from tests.stability.settings import phase
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_n17_a_dragged_body_does_not_overshoot_and_sleeps(measured, solver):
-    """Over a table, by its middle; then hung up by the middle of its top."""
+    """A body dragged by a target joint does not overshoot its goal, and sleeps.
+
+    It is dragged over a table by its centre, then hung up by the middle of its top.
+    """
     angle = phase(2.0 * math.pi)
     world = jointed(solver, gravity=(0.0, 0.0), effects={"sleeping": True})
     box = world.add_body(Polygon.box(0.5, 0.5), angle=angle)
@@ -37,7 +40,10 @@ def test_n17_a_dragged_body_does_not_overshoot_and_sleeps(measured, solver):
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_n18_a_tank_keeps_its_circle_and_stops_in_its_way(measured, solver):
-    """Seen from above: a motor to the world with a bounded force, whose target turns with the hull."""
+    """A tank seen from above keeps its circle, and stops within its braking distance.
+
+    A motor joint to the world with a bounded force drives it; the target velocity turns with the hull.
+    """
     world = jointed(solver, gravity=(0.0, 0.0))
     tank = world.add_body(Polygon.box(3.0, 2.0), angle=phase(2.0 * math.pi))
     speed, spin, brake, points = 4.0, 0.8, 6.0, []
@@ -65,7 +71,7 @@ def test_n18_a_tank_keeps_its_circle_and_stops_in_its_way(measured, solver):
 
 
 def door(solver, hertz, damping, opened):
-    """Return (world, hinge) of a door of 1 m in a world without gravity, opened by an angle."""
+    """Return (world, hinge) of a 1 m door with a spring hinge, opened by an angle [rad]; the world has no gravity."""
     world = jointed(solver, gravity=(0.0, 0.0))
     leaf = rod(world, (0.0, 0.0), (math.cos(opened), math.sin(opened)), 0.1)
     return world, world.add_joint(Revolute(None, leaf, at=(0.0, 0.0), spring=Spring(hertz, damping, target=-opened)))
@@ -101,7 +107,7 @@ def test_n19_a_damped_door_does_not_overshoot(measured, damping, hertz, solver):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("load", [0.0, 10.0])
 def test_n20_a_slider_stops_at_its_limit(measured, load, solver):
-    """It falls 1.5 m down an axis on its stop, alone, and with a load welded on 1 m beside it."""
+    """A slider that falls 1.5 m along its axis stops at its limit, alone or with a load welded 1 m to one side."""
     world, angle = jointed(solver), 0.3 + phase(1.2)
     box = world.add_body(Polygon.box(0.4, 0.2), filter=ALONE)
     along = math.cos(angle), math.sin(angle)
@@ -129,7 +135,10 @@ def test_n20_a_slider_stops_at_its_limit(measured, load, solver):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 3.0])
 def test_n21_a_pulley_falls_and_pulls_as_atwoods(measured, ratio, solver):
-    """B falls by g (m - ratio) / (m + ratio²), with m = mass of B over A; ropes from 0 to 5 m longer."""
+    """A pulley accelerates as Atwood's machine: B falls by g (m - ratio) / (m + ratio²).
+
+    m is the mass of B over that of A. The ropes are 0 to 5 m longer in the other phases.
+    """
     for masses in (0.1, 0.5, 2.0, 30.0):
         world = jointed(solver)
         a = world.add_body(Circle(0.2), position=(0.0, 15.0), mass=0.1)
@@ -146,7 +155,9 @@ def test_n21_a_pulley_falls_and_pulls_as_atwoods(measured, ratio, solver):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("teeth", [-7, 24, 200])
 def test_n22_a_ratchet_turns_one_way(measured, teeth, solver):
-    """It turns freely by 2 rad, and holds 20 times its inertia on the last tooth."""
+    """A ratchet turns freely by 2 rad one way, and its last tooth holds 20 times its inertia as
+    torque the other way.
+    """
     world, tooth, way = jointed(solver, gravity=(0.0, 0.0)), 2.0 * math.pi / teeth, math.copysign(1.0, teeth)
     disc, start = world.add_body(Circle(0.5)), phase(tooth)
     world.add_joint(Revolute(None, disc, at=(0.0, 0.0)))

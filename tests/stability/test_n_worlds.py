@@ -1,4 +1,4 @@
-"""Worlds with joints (section N): masks, islands, broad phases, snapshots, time steps, units, sleep."""
+"""Worlds with joints (section N): masks, islands, broad phases, snapshots, time steps, units and sleep."""
 
 import itertools
 import math
@@ -44,7 +44,7 @@ PLANK = PixelMask(np.ones((6, 30), bool), snap=False)
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_n23_a_sprite_swings_as_its_pixels_weigh(measured, solver):
-    """A hollow sprite on a pin near its edge, at 32 px to the metre: the period of that pendulum of squares."""
+    """A hollow sprite on a pin swings with the period of its pixel squares as a rigid pendulum (32 px to the metre)."""
     solid = np.ones((24, 40), bool)
     solid[5:20, 6:30] = False
     world, amplitude = jointed(solver, gravity=(0.0, 32.0 * GRAVITY), pixels_per_meter=32.0), 0.3 + phase(1.2)
@@ -65,7 +65,10 @@ def test_n23_a_sprite_swings_as_its_pixels_weigh(measured, solver):
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_n23_sprites_on_joints_fall_on_a_sprite_and_sleep(measured, solver):
-    """A chain of eight sprites with friction in its hinges, each touching all but its neighbours."""
+    """A chain of eight sprites with friction in its hinges falls on a sprite and sleeps.
+
+    Each sprite collides with all others except its neighbours.
+    """
     changes = {"sleeping": True}
     world = jointed(solver, gravity=(0.0, 32.0 * GRAVITY), pixels_per_meter=32.0, effects=changes)
     world.add_body(PixelMask(np.ones((20, 400), bool), snap=False), position=(0.0, 110.0), kind="static")
@@ -84,7 +87,7 @@ def test_n23_sprites_on_joints_fall_on_a_sprite_and_sleep(measured, solver):
 
 
 def machine(solver, **more):
-    """Every kind of joint, bodies that touch, and a chain that swings."""
+    """Return a world with every kind of joint, bodies in contact, and a swinging chain."""
     world = jointed(solver, effects={"sleeping": True}, **more)
     world.add_body(Polygon.box(60.0, 1.0), position=(0.0, 4.5), kind="static")
     box, turn = Polygon.box(0.6, 0.6), phase(1.0)
@@ -151,7 +154,9 @@ def test_n25_four_broad_phases_give_one_digest(measured, solver):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("tier", ["iterative", "direct", "auto"])
 def test_n26_a_snapshot_in_mid_swing_goes_on_alike(measured, tier, solver, tmp_path):
-    """In the same world, in new ones, from a file, and pickled."""
+    """A snapshot taken in mid-swing gives equal digests in the same world, in new worlds, from a file and after
+    pickling.
+    """
     world = machine(solver, tier=tier)
     run(world, 0.7)
     taken, copied = world.snapshot(), pickle.loads(pickle.dumps(world))
@@ -169,7 +174,10 @@ def test_n26_a_snapshot_in_mid_swing_goes_on_alike(measured, tier, solver, tmp_p
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_n27_steps_of_all_lengths(measured, solver):
-    """Rods of 1 m with a ball of ten times their mass; each step lasts 1/240 to 1/30 s, 10 s in all."""
+    """Rods of 1 m with a ball of ten times their mass swing for 10 s with random steps of 1/240 to 1/30 s.
+
+    Their joints hold, and no energy is gained.
+    """
     world, random, before = jointed(solver), generator(27), None
     for k in range(8):
         link = rod(world, along(k, 0.0), along(k + 1.0, 0.0))
@@ -190,7 +198,7 @@ def test_n27_steps_of_all_lengths(measured, solver):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("scale", [1.0, 128.0])
 def test_n28_a_world_in_other_units_moves_alike(measured, scale, solver):
-    """The factors are powers of two."""
+    """A chain of rods moves identically in other units of length; the scale factors are powers of two."""
 
     def places(scale):
         world = jointed(solver, gravity=(0.0, GRAVITY * scale), pixels_per_meter=scale)
@@ -210,7 +218,10 @@ def test_n28_a_world_in_other_units_moves_alike(measured, scale, solver):
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_n29_a_net_swings_and_sleeps_and_costs_nothing(measured, solver):
-    """12 by 12 balls on 266 joints, hung up by two corners in air; then a ball is thrown into it."""
+    """A net of 12 by 12 balls on 266 joints, hung on two corners in air, swings, sleeps, and then causes no work.
+
+    A ball thrown into the net wakes it.
+    """
     world = jointed(solver, effects={"sleeping": True, "drag": True}, drag=1.5)
     wide, step = 12, 0.5
     net = [

@@ -1,4 +1,6 @@
-"""A scene without masks, scaled by a power of two, gives the same result to the bit: no tolerance is a bare number."""
+"""A scene without masks gives bit-identical results when scaled by a power of two, so no tolerance is an absolute
+number.
+"""
 
 import numpy as np
 import pytest
@@ -32,7 +34,7 @@ LENGTHS = ("x", "y", "vx", "vy", "center_x", "center_y")
 
 
 def run(scale, solver, broadphase, narrowphase=True):
-    """Poses, velocities, contacts and events of a busy scene at a scale, scaled back."""
+    """Return poses, velocities, contacts and events of a scaled scene of many bodies, divided by the scale."""
     rng = np.random.default_rng(11)
     world = World(ALL.with_(narrowphase=narrowphase), broadphase(), solver, pixels_per_meter=32.0 * scale, drag=0.1)
     heights = np.zeros((3, 20, 2))

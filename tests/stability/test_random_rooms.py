@@ -1,4 +1,4 @@
-"""Random rooms come to rest with nothing lost, and passive scenes never gain energy, all under the default settings."""
+"""Random rooms come to rest without a lost body, and passive scenes gain no energy, all under the default settings."""
 
 import pytest
 

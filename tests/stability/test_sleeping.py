@@ -1,4 +1,4 @@
-"""Islands that fall asleep, and everything that wakes them."""
+"""Conditions under which islands fall asleep, and all events that wake them."""
 
 import math
 
@@ -13,7 +13,10 @@ SLEEPY = pile_effects(sleeping=True, sensors=True)
 
 
 def bedroom(solver="soft_step", rows=3, ground=None, **changes):
-    """A small stack that has gone to sleep on a floor. Returns world, floor, boxes."""
+    """Build a small stack that is asleep on a floor. Return (world, floor, boxes).
+
+    ground: function that adds the floor to the world; None for the default floor.
+    """
     world = metres(solver, effects=SLEEPY.with_(**changes))
     ground = floor(world) if ground is None else ground(world)
     boxes = [world.add_body(Polygon.box(1, 1), position=(0.0, -0.5 - k)) for k in range(rows)]
@@ -63,7 +66,7 @@ def test_two_piles_are_two_islands_and_sleep_apart():
 
 @pytest.mark.parametrize("share", [0.9, 1.1])
 def test_a_body_that_rolls_below_the_sleeping_speed_falls_asleep(share):
-    """0.05 m/s of the furthest point, as the way of half a second; and not before half a second."""
+    """A rolling disc falls asleep if its fastest point is below 0.05 m/s, and not before half a second."""
     world = metres(effects=SLEEPY)
     floor(world)
     speed = 0.5 * 0.05 * share  # of the centre; the rim moves twice as fast
@@ -77,7 +80,7 @@ def test_a_body_that_rolls_below_the_sleeping_speed_falls_asleep(share):
 
 
 def kept_awake(seconds=3.0):
-    """Return (world, plank, crate): both are at rest, but awake, because a box slides along the smooth plank."""
+    """Return (world, plank, crate): both rest but stay awake, because a box slides along the frictionless plank."""
     world = metres(effects=SLEEPY)
     floor(world)
     plank = world.add_body(Polygon.box(40, 1), position=(0.0, -0.5), material=Material(friction=0.0))
@@ -91,7 +94,7 @@ def kept_awake(seconds=3.0):
 
 @pytest.mark.parametrize("speed", [0.08, 1.0])
 def test_who_lay_long_and_is_shoved_goes_on(speed):
-    """Its clock begins again with the shove, whatever it had lain before, and be all others about to fall asleep."""
+    """A shoved crate restarts its sleep timer and moves on, although the rest of its island is about to sleep."""
     world, plank, crate = kept_awake()
     for body in map(world.body, movers(world)["id"].tolist()):
         body.velocity = (0.0, 0.0)
@@ -301,7 +304,10 @@ def test_character_that_stands_on_a_sleeping_stack_stands_still():
 
 @needs_speed
 def test_all_asleep_is_no_work():
-    """The time is a benchmark (python -m tests.bench solvers); that nothing is done is asserted here."""
+    """A world in which all bodies sleep does no work, by its counters.
+
+    The benchmark `python -m tests.bench solvers` measures the time.
+    """
     world = metres(effects=SLEEPY)
     floor(world, width=400.0)
     world.add_bodies(Polygon.box(1, 1), [(1.5 * k - 150.0, -0.5) for k in range(200)])

@@ -1,6 +1,6 @@
-"""The study's own measures: overlap against shapely, falling against scripted motions and closed forms.
+"""Tests of the study's own measures: overlap against shapely, falling against scripted motions and closed forms.
 
-Every row of the table is also played for a few steps. `python -m tests.bench stability` prints the engines' figures.
+Every row of the table also runs for a few steps. `python -m tests.bench stability` prints the figures of the engines.
 """
 
 import json
@@ -46,9 +46,10 @@ def corners(part, x, y, angle):
 
 
 def depth_by_shapely(a, b):
-    """Return the depth of two parts at their poses, found with shapely.
+    """Return the overlap depth of two parts at their poses, computed with shapely.
 
-    It is the depth of the origin in the hull of all differences of corners, plus both radii.
+    It is the depth of the origin inside the convex hull of all corner differences (Minkowski difference), plus both
+    radii. a, b: arguments of `corners`; a[0] and b[0] are the parts.
     """
     differences = [(bx - ax, by - ay) for ax, ay in corners(*a) for bx, by in corners(*b)]
     hull, origin = shapely.MultiPoint(differences).convex_hull, shapely.Point(0, 0)
@@ -102,7 +103,7 @@ def test_overlap_at_the_end_is_that_of_the_last_tenth_in_millimetres():
 
 
 class Scripted:
-    """Engine that plays a script, {step: {(body, column): change of its value at the start}}."""
+    """Engine whose poses follow a script {step: {(body, column): change of the value at the start}}."""
 
     def __init__(self, scene, script):
         self.start, self.script, self.steps, self.removed = poses_of(scene), script, 0, []
@@ -163,7 +164,9 @@ def test_removals_sway_rise_sleep_and_milliseconds():
 @pytest.mark.parametrize("count", [2, 5, 10, 40])
 @pytest.mark.parametrize("places", [stacks.offset_places, stacks.harmonic_places])
 def test_towers_stand_up_to_their_limit_and_not_beyond(places, count):
-    """Mirrored they are the same; beyond it they turn, the sooner the farther beyond."""
+    """A tower stands up to its limit and falls beyond it, sooner the farther beyond; the
+    mirrored tower does the same.
+    """
     for side in (1.0, -1.0):
         inside, outside = ([side * x for x in places(count, share)] for share in (1 - 1e-9, 1 + 1e-9))
         assert stands(inside) and fall_time(inside) == math.inf and not stands(outside)
@@ -179,7 +182,10 @@ def test_harmonic_tower_reaches_half_a_harmonic_number_and_is_at_its_limit_every
 
 
 def test_rigid_part_turns_as_its_energy_says():
-    """Time = integral of d angle / speed, the speed from the height that was lost; angle = u² takes the pole away."""
+    """The fall time of a rigid part equals the integral of d angle / speed, with the speed from the height lost.
+
+    The substitution angle = u² removes the singularity.
+    """
     arm, height, inertia, turn = 0.025, 4.5, 27.5, 0.1
     u = np.linspace(1e-9, math.sqrt(turn), 200_001)
     angle = u * u
@@ -193,7 +199,10 @@ def test_rigid_part_turns_as_its_energy_says():
 @pytest.mark.parametrize("places, count, slower", [(stacks.offset_places, 5, 10.0), (stacks.harmonic_places, 4, 10.0),
                                                    (stacks.harmonic_places, 8, 20.0)])  # fmt: skip
 def test_where_contacts_hardly_give_way_towers_keep_to_the_analytic_limit(places, count, slower):
-    """A hundredth of gravity: a tenth as fast, and springs that give way by a hundredth; and so on."""
+    """With reduced gravity, where contacts are almost rigid, towers fall at the analytic limit and time.
+
+    A hundredth of gravity makes the motion ten times slower and the contact deflection a hundred times smaller.
+    """
     slow = 10.0 / slower**2
     inside = replace(stacks.standing(places(count, 0.95)), gravity=slow, seconds=5.0 * slower)
     assert record(Hitbox(inside, substeps=8), inside).fell is None
@@ -207,7 +216,7 @@ def test_where_contacts_hardly_give_way_towers_keep_to_the_analytic_limit(places
 
 
 def bouncing(restitution, seconds):
-    """Heights of a ball's lowest point in every step, exactly."""
+    """Return the exact heights of a bouncing ball's lowest point in every step, in metres."""
     heights, fall = [], math.sqrt(2 * motions.DROP / 10.0)
     for step in range(round(seconds / STEP) + 1):
         since, speed = step * STEP + fall, 10.0 * fall
@@ -312,7 +321,7 @@ def test_limits_are_two_sided_unless_said():
 @needs_speed
 @pytest.mark.parametrize("name", engines())
 def test_every_row_can_be_played(name):
-    """Three steps of each; what ought to stand is where it was put."""
+    """Every row runs for three steps, and a scene that should stand stays in its start pose."""
     make = engines()[name]
     for row in table().values():
         scene = row.scene(0)
@@ -363,7 +372,7 @@ def test_what_is_taken_away_is_gone_in_every_engine(name):
 
 
 def played_as(script):
-    """Return an engine that plays a script."""
+    """Return an engine (`Played`) whose bodies follow a script, see `Scripted`."""
     return Played(lambda scene: Scripted(scene, script))
 
 

@@ -1,4 +1,4 @@
-"""The rows of the study with the substeps that follow from the loads: each within its limit, all seeds."""
+"""Every row of the study is within its limit for all seeds, with substeps that follow the load."""
 
 from functools import partial
 

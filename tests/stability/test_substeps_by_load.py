@@ -1,5 +1,7 @@
-"""Substeps that follow from the load, island by island: no contact sinks further than the accuracy, and nothing that an
-island does depends on what else there is."""
+"""Substeps that follow the load of each island ("auto"): no contact sinks by more than the accuracy.
+
+The result of an island does not depend on other islands.
+"""
 
 import math
 
@@ -15,7 +17,9 @@ MILLIMETRE = 0.001
 
 
 def heap(world, boxes, x=0.0, density=1.0, top=None):
-    """Add a column of unit boxes on the floor at x. top: density of the highest box."""
+    """Add a column of unit boxes on the floor at x and return the bodies. top: density of the highest box (None: as the
+    others).
+    """
     return [
         world.add_body(
             Polygon.box(1, 1),
@@ -27,13 +31,13 @@ def heap(world, boxes, x=0.0, density=1.0, top=None):
 
 
 def asked(world, *bodies):
-    """Return the greatest number of substeps that some bodies need."""
+    """Return the greatest number of substeps among some bodies."""
     return max(int(world.bodies["substeps"][world.rows(each.id)]) for each in bodies)
 
 
 @pytest.mark.parametrize("boxes", [1, 5, 12])
 def test_no_contact_of_a_column_sinks_further_than_a_millimetre(boxes):
-    """With three substeps it does: that is what they cost."""
+    """No contact of a column sinks by more than a millimetre; with a fixed number of three substeps contacts do."""
     world = metres(substeps="auto")
     floor(world)
     heap(world, boxes)
@@ -61,7 +65,10 @@ def test_a_pyramid_of_twenty_rows_and_the_accuracy_that_is_asked_for():
 
 
 def test_who_bears_little_takes_few_once_that_is_known():
-    """From the most, by half after a quarter of a second each: so much is forgotten of an impact."""
+    """A lightly loaded box starts with 32 substeps and halves them every quarter of a second, down to four.
+
+    The quarter of a second lets the load of an impact decay.
+    """
     world = metres(substeps="auto")
     floor(world)
     box = heap(world, 1)[0]
@@ -78,7 +85,10 @@ def test_who_bears_little_takes_few_once_that_is_known():
 
 @needs_speed
 def test_a_column_takes_the_most_until_its_load_has_come_down():
-    """Bodies beside it do not; and after that the column takes as few as its load needs."""
+    """A column takes the most substeps (128) until its load has reached the ground, then as few as the load needs.
+
+    Bodies beside it are not affected.
+    """
     world = metres(substeps="auto")
     floor(world)
     column, box = heap(world, 8), heap(world, 1, x=10.0)
@@ -111,7 +121,10 @@ def test_what_leans_near_its_edge_takes_more_than_a_load_may(share):
 
 
 def test_what_lands_on_something_light_is_expected():
-    """With the momentum of what is heavy: or the first step of an impact would be the worst."""
+    """A heavy box that lands on a light sleeping one raises the substeps in the first step of the impact.
+
+    The estimate includes the momentum of the heavy box.
+    """
     world = metres(substeps="auto")
     floor(world)
     light = heap(world, 1)[0]
@@ -127,7 +140,7 @@ def test_what_lands_on_something_light_is_expected():
 
 @pytest.mark.parametrize("first", ["column", "box"])
 def test_no_island_feels_another(first):
-    """To the bit, in whichever order they were made."""
+    """The motion of an island does not depend on other islands, to the bit, in either order of creation."""
 
     def alone(which):
         world = metres(substeps="auto")
@@ -158,7 +171,10 @@ def test_no_island_feels_another(first):
 
 
 def test_islands_share_what_moves_by_hand():
-    """A turning plate bears a column and, metres away, a light box: where it is follows from the time alone."""
+    """A rotating kinematic plate that supports two islands moves as a function of time only.
+
+    It carries a column and, metres away, a light box.
+    """
     world = metres(substeps="auto")
     plate = world.add_body(
         Polygon.box(40, 1), position=(0.0, 0.5), kind="kinematic", velocity=(0.5, 0.0), angular_velocity=0.05
@@ -175,7 +191,9 @@ def test_islands_share_what_moves_by_hand():
 
 @needs_speed
 def test_what_32_cannot_reach_is_counted():
-    """A thousand to one: while it lies there, and not the impact of a ball."""
+    """A resting load of a thousand to one, too much for 32 substeps, is counted in `cap_hits`;
+    a ball's impact is not.
+    """
     world = metres(substeps="auto")
     floor(world)
     heap(world, 2, top=1000.0)
@@ -192,7 +210,7 @@ def test_what_32_cannot_reach_is_counted():
 @pytest.mark.parametrize("solver", STACKING)
 @pytest.mark.parametrize("top, least, most", [(0.01, 4, 4), (1.0, 4, 4), (100.0, 16, 64), (1000.0, 32, 64)])
 def test_substeps_and_passes_follow_the_load(top, least, most, solver):
-    """Those of sequential impulses are passes in place of substeps."""
+    """The substeps of bodies in a column follow the load; for sequential impulses they are solver passes instead."""
     world = metres(solver, substeps="auto")
     floor(world)
     heap(world, 3, top=top)
@@ -203,7 +221,7 @@ def test_substeps_and_passes_follow_the_load(top, least, most, solver):
 
 @needs_speed
 def test_snapshots_go_on_to_the_bit():
-    """600 steps, back, and 600 again, with faces that stick and islands at 32."""
+    """A restored snapshot repeats 600 steps to the bit, with face contacts and with islands at 32 substeps."""
 
     def made():
         world = World(pile_effects(sleeping=True), gravity=(0, 10), pixels_per_meter=1.0)

@@ -1,7 +1,7 @@
-"""Ground that is one-sided or partly covered, swept at random: no centre gets into what the ground encloses.
+"""Random sweeps at ground that is one-sided or partly covered: no centre of mass enters the enclosed area.
 
-The oracle is the closed area of the same outline (shapely): of 3 x 3 tiles the union of their solid, of a chain the
-polygon inside it. Every solver, one substep and four, every way of sweeping.
+The oracle is the closed area of the same outline (shapely): the union of 3 x 3 tiles, or the polygon inside a chain.
+Every solver, one and four substeps, and every mode of continuous collision are tested.
 """
 
 import itertools
@@ -35,7 +35,7 @@ ROUNDS = 60 if JIT else 3  # of each case: 1,440 in all
 
 
 def any_mover(rng):
-    """A convex shape, and how far it reaches from its origin [px]."""
+    """Return (random convex shape, greatest distance of its points from the origin [px])."""
     r, other = rng.uniform(2.0, 8.0), rng.uniform(2.0, 8.0)
     turns = np.linspace(0.0, math.tau, 5, endpoint=False)
     made = (
@@ -49,7 +49,7 @@ def any_mover(rng):
 
 
 def any_ground(rng, kind):
-    """Return (shape, enclosed area, whether the bodies are inside this area, the middle at which they are shot)."""
+    """Return (shape, enclosed area, whether bodies start inside this area, centre of the target region)."""
     if kind == "tiles":
         cells = rng.choice([EMPTY, EMPTY, FULL, FULL, RISES, FALLS, HALF_RISES, HALF_FALLS], (3, 3))
         cells[1, 1] = cells[1, 1] or FULL
@@ -60,7 +60,10 @@ def any_ground(rng, kind):
 
 
 def place_for(rng, reach, area, free, middle):
-    """A place at which the mover is clear of the ground, or None."""
+    """Return a random position at which the mover does not touch the ground, or None after 200 attempts.
+
+    reach: size of the mover [px]. free: True for a position inside the area.
+    """
     for _ in range(200):
         place = np.array(middle) + rng.uniform(-90.0, 90.0, 2)
         point = shapely.Point(place)
@@ -70,7 +73,9 @@ def place_for(rng, reach, area, free, middle):
 
 
 def shoot(rng, kind, solver, substeps):
-    """Step one world. Return how deep [px] a centre of mass was beyond the outline at most; None without a shot."""
+    """Simulate one random shot. Return how far [px] its centre of mass got beyond the outline; None if there was no
+    start position.
+    """
     stacking = solver in STACKING
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, restitution=True, continuous=True)
     world = World(effects.with_(stacking=stacking), solver=solver, substeps=substeps)
@@ -124,7 +129,11 @@ def all_grids(kinds):
 
 @pytest.mark.parametrize("part", range(8))
 def test_time_of_impact_with_tiles_is_that_with_the_union_of_their_solid(part):
-    """Every 3 x 3 grid of empty and full tiles, and as many of slopes: a straight shot each, from far away."""
+    """The time of impact with a tile grid equals the earliest one with its solid pieces, for straight shots from far
+    away.
+
+    It covers every 3 x 3 grid of empty and full tiles, and as many with slopes.
+    """
     rng = np.random.default_rng(part)
     flat = itertools.islice(all_grids((EMPTY, FULL)), part, None, 8 if JIT else 128)
     mixed = (rng.integers(0, 6, (3, 3)) for _ in range(64 if JIT else 4))

@@ -1,4 +1,4 @@
-"""The table, the tests and the page of the stability suite agree."""
+"""The table of rows, the tests and the page docs/stability.md agree."""
 
 import ast
 import math

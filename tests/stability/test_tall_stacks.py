@@ -1,4 +1,4 @@
-"""Columns that no builder set straight, with eight substeps: they stand as high as their contacts are stiff."""
+"""Crooked columns with eight substeps stand, up to the height that the stiffness of their contacts allows."""
 
 import numpy as np
 import pytest
@@ -11,17 +11,19 @@ SEEDS = range(5)
 
 
 def crooked(count, seed):
-    """Places [m] of boxes above one another, each 2 cm off at most."""
+    """Return `count` random x positions [m] for a column of boxes, each at most 2 cm from 0."""
     return np.random.default_rng(seed).uniform(-0.02, 0.02, count).tolist()
 
 
 def leaning(count, by):
-    """Return the places [m] of boxes, each `by` further to the right than the one below."""
+    """Return the x positions [m] of a column of boxes, each `by` further to the right than the box below."""
     return [by * k for k in range(count)]
 
 
 def column_at(places, seconds=20, substeps=8, **options):
-    """Step a column of unit boxes at these x. Return (world, whether no box left its place by a quarter)."""
+    """Simulate a column of unit boxes at these x positions. Return (world, whether each box stayed within 0.25 m of its
+    x).
+    """
     world = metres(substeps=substeps, **options)
     floor(world)
     boxes = [
@@ -42,14 +44,20 @@ def test_crooked_columns_stand(count, seed):
 @needs_speed
 @pytest.mark.parametrize("seed", SEEDS)
 def test_with_four_substeps_a_crooked_column_of_forty_stands_and_with_two_it_falls(seed):
-    """Contacts are springs of 30 and 15 Hz then, and give way four and sixteen times as far as with eight."""
+    """A crooked column of forty boxes stands with four substeps and falls with two.
+
+    The contacts are springs of 30 and 15 Hz then, with four and sixteen times the deflection that they have with eight.
+    """
     assert column_at(crooked(40, seed), substeps=4)[1]
     assert not column_at(crooked(40, seed), substeps=2)[1]
 
 
 @needs_speed
 def test_ten_boxes_each_further_than_the_last_stand_as_far_as_their_weight_lies_over_the_lowest():
-    """By 0.1 of a width each they would stand on the edge; at 0.08 they stand, with four substeps they do not."""
+    """Ten boxes, each shifted by 0.08 of a width, stand with eight substeps and fall with four.
+
+    Shifted by 0.1 they would be exactly at the limit; at 0.105 they fall.
+    """
     world, stands = column_at(leaning(10, 0.08))
     assert stands and deepest(world) < 0.005
     assert not column_at(leaning(10, 0.08), substeps=4)[1] and not column_at(leaning(10, 0.105))[1]

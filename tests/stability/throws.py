@@ -1,6 +1,6 @@
-"""Throws at thin walls of pixels: masks and others, straight on, at staircases and at rings, turning on their way.
+"""Random throws of masks and other shapes at thin pixel walls: straight, rotated, staircases and rings.
 
-What was thrown has passed when its centre of mass has come to the far side of the wall, though nothing let it round.
+A body has passed if its centre of mass reaches the far side of the wall, although there is no way around it.
 """
 
 import math
@@ -17,7 +17,7 @@ REACH = 150.0  # [px] from the middle of a wall to its ends
 
 
 class Throw(NamedTuple):
-    """One throw, at a wall that goes through the origin, or around it."""
+    """One throw at a wall; the wall passes through the origin, or is a ring around it."""
 
     wall: PixelMask
     wall_kind: str
@@ -30,7 +30,7 @@ class Throw(NamedTuple):
 
 
 def thrown_shape(kind, rng):
-    """A shape of 4 to 32 px."""
+    """Return a random shape of a kind, 4 to 32 px large."""
     size = int(rng.integers(4, 33))
     if kind == "circle":
         return Circle(size / 2)
@@ -56,7 +56,7 @@ def thrown_shape(kind, rng):
 
 
 def thin_wall(kind, thickness):
-    """A wall of pixels, 1 to 3 px thick, with its origin in its middle."""
+    """Return a pixel wall of a kind, 1 to 3 px thick, with its origin in the middle."""
     if kind == "ring":
         at = np.hypot(*np.indices((300, 300)) - 149.5)
         # The 8-connected circle is closed to bodies tested by outline; a 1 px ring is 1.5 px thick at its staircases.
@@ -68,7 +68,7 @@ def thin_wall(kind, thickness):
 
 
 def throws(count, seed):
-    """Seeded throws at 100 to 3,000 px/s, at up to 20 rad/s."""
+    """Yield `count` random throws at 100 to 3,000 px/s, with up to 20 rad/s."""
     rng = np.random.default_rng(seed)
     walls = {(kind, thickness): thin_wall(kind, thickness) for kind in WALLS for thickness in (1, 2, 3)}
     for _ in range(count):
@@ -103,7 +103,7 @@ def throws(count, seed):
 
 
 def side_of(throw, x, y):
-    """Return how far [px] a point is beyond the middle of a wall."""
+    """Return how far [px] a point is beyond the centre line of a throw's wall."""
     if throw.wall_kind == "ring":
         return math.hypot(x, y) - 148.0
     normal = -math.pi / 4 if throw.wall_kind == "stairs" else throw.wall_angle
@@ -111,7 +111,7 @@ def side_of(throw, x, y):
 
 
 def fly(throw, effects, solver=None, mode="auto"):
-    """Make a throw in a world without gravity. Return (whether it has passed the wall, whether any contact began)."""
+    """Simulate a throw without gravity. Return (whether the body passed the wall, whether a contact began)."""
     world = World(effects, solver=solver, gravity=(0.0, 0.0))
     wall = world.add_body(throw.wall, angle=throw.wall_angle, kind="static")
     body = world.add_body(

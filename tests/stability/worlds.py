@@ -1,4 +1,4 @@
-"""Worlds that the tests of several sections play: a heap that falls, far away, mirrored, weighed anew."""
+"""Worlds used by the tests of several sections: a falling heap, also far away, mirrored and with another density."""
 
 import numpy as np
 
@@ -8,7 +8,12 @@ from tests.stability.piles import floor, metres
 
 
 def heap(x=0.0, y=0.0, mirror=1.0, density=1.0, order=None, solver="soft_step", steps=60, round_only=False):
-    """Drop a heap of boxes, balls and capsules. Return poses in the plan's order, unmirrored, at the origin."""
+    """Drop a heap of boxes, balls and capsules. Return poses relative to (x, y), unmirrored, in the order of creation
+    plans.
+
+    mirror: -1 mirrors the scene in x. order: order of creation, a permutation (None: as planned). round_only: True for
+    discs only.
+    """
     world = metres(solver, gravity=(0, 10))
     floor(world, x=x, y=y)
     rng = np.random.default_rng(8)
