@@ -1,1 +1,1 @@
-"""Deliberate faults and their results: see table.py."""
+"""Tests that inject faults, and their expected results; table.py lists them."""

@@ -1,4 +1,4 @@
-"""A busy scene, and every number of every table that a step reads, found from the dtypes themselves."""
+"""A scene with every kind of table, and the list of all float columns that a step reads, derived from the dtypes."""
 
 import math
 from typing import NamedTuple
@@ -11,7 +11,7 @@ from physics.tables.shape import PROXY
 
 
 def floats_of(dtype):
-    """Names of the float columns of a table."""
+    """Return the names of the float columns of a table's dtype."""
     return [name for name in dtype.names if dtype[name].kind == "f"]
 
 
@@ -46,7 +46,7 @@ MASK = PixelMask(np.ones((8, 10), bool))
 
 
 class Field(NamedTuple):
-    """A float column of a table that lives from step to step."""
+    """One float column of a table that persists between steps."""
 
     table: str
     name: str
@@ -56,7 +56,7 @@ class Field(NamedTuple):
 
 
 def table_of(world, name):
-    """The rows of a table that outlives a step, as a step finds them."""
+    """Return the rows of a persistent table in the form that the next step reads."""
     return {
         "bodies": world.bodies,
         "shapes": world.shapes,
@@ -67,10 +67,10 @@ def table_of(world, name):
 
 
 class Scene:
-    """Three heaps of four bodies, 400 px from each other, over ground of every kind, and a character beside each.
+    """Three heaps of four bodies, 400 px apart, over ground of every kind, with a character beside each.
 
-    Nothing of one heap is near another: what is wrong in the first must not be noticed in the others. `sick` is a body
-    in the middle of the first.
+    The heaps do not affect each other, so a fault in the first must not change the others. `sick` is the id of a body
+    in the middle of the first heap, which gets the wrong values.
     """
 
     def __init__(self, kind):
@@ -99,22 +99,22 @@ class Scene:
         return heap
 
     def steps(self, count):
-        """Make `count` steps, in each of which the characters walk a little."""
+        """Make `count` steps; in each of them every character walks a little."""
         for _ in range(count):
             for hero in self.heroes:
                 hero.move(0.5, 1.0)
             self.world.step()
 
     def target(self, field):
-        """Return [id] of the body to which a field belongs."""
+        """Return [id] of the body whose data a field contains: the sick body, or that of the first character."""
         return [self.heroes[0].body.id if field.table == "characters" else self.sick]
 
     def others(self):
-        """Return the rows of the bodies that are not near the sick body."""
+        """Return the rows of the bodies in the other heaps (x above 250)."""
         return np.flatnonzero(self.world.bodies["x"] > 250.0)
 
     def row_of(self, table):
-        """Return the row of a table that belongs to the sick body."""
+        """Return the index of the row in a table that belongs to the sick body, or to the first character."""
         world, sick = self.world, self.sick
         if table == "bodies":
             return int(world.rows([sick])[0])
@@ -128,7 +128,7 @@ class Scene:
         return int(found[0])
 
     def poison(self, field, value):
-        """Write a value into a field of the sick one, or of the first character."""
+        """Write a value into a field of the sick body or of the first character."""
         body = self.world.body(self.sick)
         if body.kind == "dynamic":
             body.wake()  # what sleeps is looked at when it is touched
@@ -138,22 +138,22 @@ class Scene:
 
 
 def fields_of(world, table):
-    """Every float field of a table that outlives a step of this world."""
+    """Return the `Field` of every float column of a persistent table; an empty list if the table has no rows."""
     rows = table_of(world, table)
     return [Field(table, each) for each in floats_of(rows.dtype)] if len(rows) else []
 
 
 def same(found, wanted, rows):
-    """Return whether bodies of these rows are at the same places with the same velocities, to the bit."""
+    """Return whether poses and velocities of these rows are equal in two body tables, to the bit."""
     names = ("x", "y", "angle", "vx", "vy", "angular_velocity")
     return all(np.array_equal(found[name][rows], wanted[name][rows]) for name in names)
 
 
 def columns_of(value, fill, depth=3):
-    """Fill every float of every array in an object's attributes, and in those of its parts. Returns the number of
-    arrays.
+    """Fill all float arrays in an object's attributes, and in their attributes down to `depth` levels. Return their
+    number.
 
-    The attribute `tables` is left out: it holds the contacts, which are poisoned by name.
+    The attribute `tables` is skipped: it contains the contacts, which the tests overwrite by column name.
     """
     if isinstance(value, np.ndarray):
         if value.dtype.names:

@@ -1,4 +1,6 @@
-"""Every fault, what it gets, and the test that says so. `section()` is the part "Faults" of docs/stability.md."""
+"""Table of all injected faults, with the result and the test of each. `section()` is the part "Faults" of
+docs/stability.md.
+"""
 
 from pathlib import Path
 from typing import NamedTuple
@@ -14,7 +16,7 @@ changed.
 
 
 class Fault(NamedTuple):
-    """A row: what is done, what it gets, and `file::function` of the test."""
+    """One injected fault: what is done, its result, and its test as `file::function`."""
 
     fault: str
     gets: str
@@ -284,7 +286,7 @@ FAULTS: dict[str, tuple[Fault, ...]] = {
 
 
 def section() -> str:
-    """The Markdown of the section: a table for each kind of fault, with a link to each test from docs/."""
+    """Return the section as Markdown: a table for each kind of fault, with a link to each test relative to docs/."""
     lines = ["## Faults", "", INTRODUCTION]
     for kind, faults in FAULTS.items():
         lines += [f"### {kind}", "", "| fault | result | test |", "|---|---|---|"]

@@ -1,4 +1,4 @@
-"""A device that goes away while the game plays: the sound, the window, the display."""
+"""The sound device, the window or the display fails or disappears while the game runs."""
 
 import pygame as K
 import pytest
@@ -12,7 +12,7 @@ from game.run.replay_shelf import shelf
 
 
 class Report(list):
-    """List of the reported lines."""
+    """List that collects the reported lines."""
 
     def __call__(self, line):
         self.append(line)
@@ -25,7 +25,7 @@ def sounds():
 
 
 def everything(sounds):
-    """Make all calls by which a game uses its sounds in a few pictures."""
+    """Make all sound calls that a game makes in a few frames."""
     sounds.play("laser", 100.0)
     sounds.play_cues([("hit", 10.0, 1.0), ("coin", None, 0.5)])
     sounds.tune("title")
@@ -80,7 +80,7 @@ def test_a_game_goes_on_when_its_sound_is_lost(drive, capsys):
 @pytest.mark.parametrize("size", [(1, 1), (2, 700), (700, 2), (33, 21)])
 @pytest.mark.parametrize("overlays", ["", "all"])
 def test_a_window_of_a_few_pixels_is_drawn_into(drive, size, overlays):
-    """It shows nothing, and nothing breaks; at the old size, everything is drawn again."""
+    """A window of a few pixels causes no error, and after a return to the old size everything is drawn again."""
     arguments = ("--overlay", overlays) if overlays else ()
     d = drive("--scene", "race", *arguments, settings=Settings(hint_seen=True))
     d.turns(3)

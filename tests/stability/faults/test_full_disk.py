@@ -1,4 +1,4 @@
-"""A full disk: what was kept before stays whole, one line names the file and why, and the game goes on."""
+"""On a full disk existing files stay intact, one line names the file and the reason, and the game continues."""
 
 import builtins
 import errno
@@ -26,7 +26,7 @@ FULL = os.strerror(errno.ENOSPC)
 
 
 class FullFile:
-    """A file that takes half of what is written to it."""
+    """File object that writes only half of the data it is given."""
 
     def __init__(self, file):
         self.file = file
@@ -47,7 +47,7 @@ class FullFile:
 
 @pytest.fixture
 def full_disk(monkeypatch):
-    """full_disk() fills the disk: files can be made and read, and hold no more than half of what they should."""
+    """Return a function full_disk(), after whose call files can be opened but take only half of the data written."""
     opened = builtins.open
 
     def limited(path, mode="r", *more, **named):
@@ -58,7 +58,7 @@ def full_disk(monkeypatch):
 
 
 def files():
-    """Return the names and contents of the player's files."""
+    """Return {path: content} of all files in the player's data folder."""
     return {path: path.read_bytes() for path in sorted(data_folder().rglob("*")) if path.is_file()}
 
 
@@ -141,7 +141,7 @@ def test_an_output_that_does_not_fit_is_one_line_and_exit_2(full_disk, tmp_path,
 
 @pytest.mark.skipif(not physics.JIT, reason="nothing is compiled")
 def test_kernels_that_cannot_be_kept_run_all_the_same(monkeypatch):
-    """Compiled, used, and one line that says that the next start compiles again."""
+    """Kernels whose files cannot be stored still compile and run, and one warning says so."""
 
     def doubled(values):
         return values[0] + values[0]

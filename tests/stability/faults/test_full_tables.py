@@ -1,4 +1,6 @@
-"""Every table across the sizes it is made with, and every limit that there is: an error that names it, or a count."""
+"""Tables that grow beyond their initial size, and every fixed limit: an error names the limit,
+or a counter counts it.
+"""
 
 import numpy as np
 import pytest
@@ -34,7 +36,11 @@ WORLDS = {
 
 
 def landed(kind, count, strategy, at_once):
-    """`count` boxes on a floor, each with two points, and as many discs on a sensor; after ten steps."""
+    """Return the world after ten steps: `count` boxes on a floor, two contact points each, and as many discs on a
+    sensor.
+
+    at_once: True adds the bodies in one call.
+    """
     effects, solver = WORLDS[kind]
     world = World(effects, strategy(), solver=solver)
     world.add_body(Polygon.box(4000, 20), position=(0, 10), kind="static")
@@ -59,7 +65,10 @@ def landed(kind, count, strategy, at_once):
 @pytest.mark.parametrize("count", SIZES if JIT else (0, 1, TABLE + 1))
 @pytest.mark.parametrize("kind", WORLDS)
 def test_no_row_is_lost_where_a_table_grows(kind, count):
-    """Bodies, shapes, slots, pairs, manifolds, anchors, constraints, contacts, events: one by one and all at once."""
+    """No row is lost when a table grows, whether bodies are added one by one or all at once.
+
+    The tables hold bodies, shapes, slots, pairs, manifolds, cached contacts, constraints, contacts and events.
+    """
     digests = set()
     for strategy in (
         (BruteForce, SpatialHashGrid) if not JIT else (BruteForce, SweepAndPrune, SpatialHashGrid, DynamicTree)
@@ -101,7 +110,10 @@ def test_polygons_have_as_many_corners_as_their_row(corners):
 @needs_speed
 @pytest.mark.parametrize("count", [COLORS - 1, COLORS, COLORS + 1, 2 * COLORS + 1])
 def test_a_plank_on_more_boxes_than_there_are_colors_lies(count):
-    """Contacts without a colour are solved first, in order: the plank rests as on fewer."""
+    """A plank on more boxes than there are graph colours rests as it does on fewer.
+
+    Contacts without a colour are solved first, in order.
+    """
     world = metres(effects=Effects.rigid_bodies().with_(sleeping=False), gravity=(0, 10))
     floor(world, width=4.0 * count)
     world.add_bodies(Polygon.box(0.5, 0.5), [(1.0 * (k - count / 2), -0.25) for k in range(count)])
@@ -114,7 +126,9 @@ def test_a_plank_on_more_boxes_than_there_are_colors_lies(count):
 
 
 def test_positions_and_speeds_that_a_double_does_not_resolve():
-    """Refused where they are given, put aside where they come about."""
+    """Positions and speeds beyond double resolution raise an error as arguments; if they occur in a step, the body is
+    quarantined.
+    """
     world = World(gravity=(0, 0))
     with pytest.raises(ValueError, match="position must lie within 4.5036e"):
         world.add_body(Circle(5), position=(POSITION_LIMIT, 0))
@@ -131,7 +145,10 @@ def test_filters_of_more_than_32_bits_are_refused(bits):
 
 @needs_speed
 def test_impacts_that_go_on_and_on_are_counted():
-    """A row of fast bullets of which each stops the next: more of them than rounds are looked at."""
+    """Chains of impacts that need more rounds than IMPACT_ROUNDS are counted in `cap_hits`.
+
+    The scene is a row of fast bullets in which each stops the next.
+    """
     world = World(Effects.rigid_bodies(), gravity=(0, 0))
     count = 2 * IMPACT_ROUNDS
     for k in range(count):
@@ -159,7 +176,9 @@ def test_loads_that_need_more_substeps_than_there_are_are_counted(solver):
 
 
 def large_shapes():
-    """Return {name: (shape, place)}: a shape with more rows than its table has at first; a place above the last row."""
+    """Return {name: (shape, point)}: a shape with more rows than its table has initially, and a point above its last
+    row.
+    """
     return {
         "cells": (TileGrid(np.ones((1, 300), bool), 4.0), (1198.0, -10.0)),
         "links": (Chain([(10.0 * k, 0.1 * (k % 2)) for k in range(301)]), (2995.0, -10.0)),

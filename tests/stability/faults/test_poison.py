@@ -1,6 +1,6 @@
-"""NaN, infinity and 1e308 in any number of any table that a step reads, between two steps.
+"""NaN, infinity or 1e308 written into any float of any table that a step reads, between two steps.
 
-The fields come from the dtypes: a new one must be covered, or named in poison.WRITTEN_ANEW.
+The fields are derived from the dtypes. A new field must be covered or listed in poison.WRITTEN_ANEW.
 """
 
 import copy
@@ -37,7 +37,9 @@ FEW = {  # without a compiler: one of each way in
 
 @pytest.fixture(scope="module")
 def scenes():
-    """scenes(kind): a copy of a scene after its first steps, and its bodies some steps later, untouched."""
+    """Return a function scenes(kind) -> (copy of a scene after its first steps, its bodies STEPS steps later without a
+    fault).
+    """
     made = {}
 
     def find(kind):
@@ -52,7 +54,7 @@ def scenes():
 
 
 def poisoned(scene, field, value):
-    """Write a value into a field, and step. Return the ids of the bodies that were reported as quarantined.
+    """Write a value into a field and step. Return the ids of the bodies reported as quarantined.
 
     After every step, all numbers of the other bodies and of the contacts must be finite.
     """
@@ -73,7 +75,9 @@ def poisoned(scene, field, value):
 @pytest.mark.parametrize("table", TABLES)
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_poisoned_body_alone_is_put_aside(scenes, kind, table):
-    """Told by its id, once; the heaps beside it are where they would have been, to the bit."""
+    """Only the body with the wrong value is quarantined, and reported once; the other heaps
+    move unchanged, to the bit.
+    """
     for field in fields_of(scenes(kind)[0].world, table):
         if not JIT and (field.name not in FEW[table] or kind != "soft_step"):
             continue
@@ -88,7 +92,10 @@ def test_the_poisoned_body_alone_is_put_aside(scenes, kind, table):
 @needs_speed
 @pytest.mark.parametrize("kind", KINDS)
 def test_neighbours_of_the_poisoned_go_on_as_if_it_had_been_removed(scenes, kind):
-    """Every number that disables a body does so before it affects any other."""
+    """The neighbours of a quarantined body move as if it had been removed.
+
+    Every wrong number disables its body before it affects any other.
+    """
     removed, _ = scenes(kind)
     removed.world.remove_body(removed.sick)
     removed.steps(STEPS)
@@ -105,7 +112,10 @@ def test_neighbours_of_the_poisoned_go_on_as_if_it_had_been_removed(scenes, kind
 @pytest.mark.parametrize("target", ["ground", "chain", "disc", "mask", "lift"])
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_kind_of_body_can_be_poisoned(scenes, kind, target, steps):
-    """Also what others stand on: they fall, and nothing that is not finite is ever told."""
+    """Wrong values in every kind of body quarantine only this body, also if others stand on it.
+
+    The others fall, and no number that is not finite is reported.
+    """
     for table in ("bodies", "shapes"):
         for field in fields_of(scenes(kind)[0].world, table):
             for value in VALUES.values():
@@ -120,7 +130,7 @@ def test_every_kind_of_body_can_be_poisoned(scenes, kind, target, steps):
 
 @pytest.mark.parametrize("kind", KINDS if JIT else ["projection"])
 def test_what_stages_share_is_written_before_it_is_read(scenes, kind):
-    """The workspace outlives no stage: full of NaN between steps, it changes nothing."""
+    """The workspace shared by stages is always written before it is read: NaN in it between steps changes nothing."""
     scene, _ = scenes(kind)
     plain, _ = scenes(kind)
     for _ in range(3):
@@ -131,7 +141,7 @@ def test_what_stages_share_is_written_before_it_is_read(scenes, kind):
 
 @pytest.mark.parametrize("kind", KINDS if JIT else ["projection"])
 def test_questions_before_the_next_step_pass_over_it(scenes, kind):
-    """Between the write and the step that reports it, queries skip bodies without a pose."""
+    """Between the wrong value and the step that reports it, queries skip the bodies without a finite pose."""
     for name in ("x", "y", "angle"):
         for value in (np.nan, np.inf):
             scene, _ = scenes(kind)
@@ -160,9 +170,7 @@ def test_questions_before_the_next_step_pass_over_it(scenes, kind):
 )
 @pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse"] if JIT else ["soft_step"])
 def test_numbers_that_are_finite_and_of_no_use_reach_nobody(solver, given):
-    """A value that a constructor accepts may still overflow in a product: the body is disabled first, and the body
-    under it stays.
-    """
+    """Accepted values that overflow in a product disable their body first, and the body below it stays in place."""
     world = World(Effects.rigid_bodies(), solver=solver)
     world.add_body(Polygon.box(400, 20), position=(0, 10), kind="static")
     below = world.add_body(Polygon.box(10, 10), position=(0, -5))

@@ -1,6 +1,6 @@
-"""A recording cut off, or with one wrong byte: refused with file, place and reason, or played as far as it is equal.
+"""A recording that is cut off or has a wrong byte is refused with file, position and reason, or plays until it differs.
 
-What its entries may be: tests/game/test_replay.py; how long: tests/regress/test_recordings_beyond_reason.py.
+tests/game/test_replay.py covers invalid entries; tests/regress/test_recordings_beyond_reason.py covers lengths.
 """
 
 import random
@@ -19,14 +19,14 @@ FRAMES = 40
 
 @pytest.fixture
 def recording(tmp_path):
-    """(path, its bytes) of a run of forty frames."""
+    """Return (path, its bytes) of a recording of forty frames."""
     path = tmp_path / "run.json"
     record(path, FRAMES)
     return path, path.read_bytes()
 
 
 def places(content):
-    """Return {name: length of the remaining file} of each kind of place at which a recording can be cut off."""
+    """Return {name of the position: length in bytes} of the points at which the tests cut off a recording."""
     inputs, digests = content.index(b'"inputs"'), content.index(b'"digests"')
     return {
         "nothing": 0,
@@ -67,7 +67,7 @@ def test_every_length_is_refused_but_the_whole(recording):
 
 
 def spoilt(content, seed):
-    """Return the content with one random bit changed."""
+    """Return the content with one random bit inverted."""
     rng, wrong = random.Random(seed), bytearray(content)
     wrong[rng.randrange(len(wrong))] ^= 1 << rng.randrange(8)
     return bytes(wrong)
@@ -75,7 +75,10 @@ def spoilt(content, seed):
 
 @pytest.mark.parametrize("first", range(0, 400, 100))
 def test_a_turned_bit_is_refused_diverges_or_says_nothing_of_the_run(recording, first):
-    """Never a traceback of another kind, and never another run that passes for this one."""
+    """A recording with one inverted bit is refused, diverges, or plays as before if the bit does not affect the run.
+
+    No other kind of error occurs, and no different run is accepted.
+    """
     path, content = recording
     told = {"refused": 0, "diverged": 0, "the same": 0}
     for seed in range(first, first + 100):

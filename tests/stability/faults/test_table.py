@@ -1,4 +1,4 @@
-"""The table of faults names tests that are there, and every test beside it is named."""
+"""The table of faults names only existing tests, and every test in this folder is in the table."""
 
 import ast
 from pathlib import Path
@@ -11,7 +11,7 @@ ROWS = [each for faults in FAULTS.values() for each in faults]
 
 
 def functions(path):
-    """Names of a file's tests."""
+    """Return the names of the test functions in a file."""
     tree = ast.parse((ROOT / path).read_text())
     return {node.name for node in tree.body if isinstance(node, ast.FunctionDef) and node.name.startswith("test_")}
 

@@ -1,4 +1,4 @@
-"""A body put into another between two steps: out again, no faster than the push-out speed."""
+"""A body moved into another one between two steps is pushed out no faster than the push-out speed."""
 
 import numpy as np
 import pytest
@@ -30,7 +30,7 @@ PUSH = 2 * 96.0  # [px/s] twice the speed of a push-out
 
 
 def scene(solver, case):
-    """Return a world after its first second, and the body that is to be placed into another one."""
+    """Return (world after its first second, body that the test will move into another one)."""
     world = World(Effects.rigid_bodies().with_(sleeping=False), solver=solver, substeps=4)
     world.add_body(Polygon.box(2000, 40), position=(0, 20), kind="static")
     shape, there, _ = CASES[case]
@@ -59,7 +59,10 @@ def test_it_comes_out_gently(solver, case):
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_in_the_middle_of_solid_tiles_it_stays_or_leaves_and_is_finite(solver):
-    """Tiles push to the nearest open side, and in the middle of many there is none: it stays inside, and calm."""
+    """A box moved into the middle of solid tiles stays inside or gets out, at a low speed.
+
+    Tiles push to the nearest open side; in the middle of many tiles there is none.
+    """
     world, body = scene(solver, "a mask into tiles")
     box = world.add_body(BOX, position=(500, -16))
     box.move_to((0, -48))
@@ -70,7 +73,10 @@ def test_in_the_middle_of_solid_tiles_it_stays_or_leaves_and_is_finite(solver):
 
 @pytest.mark.parametrize("solver", ["projection", "blocking"])
 def test_without_stacking_it_is_out_or_stuck_at_once(solver):
-    """Pushed out it is apart after a second; blocked, it stays where it was put, and its speed is that of gravity."""
+    """Without stacking, a body moved into another one is separated after a second, or stays where it was put.
+
+    If it is blocked, gravity alone determines its speed.
+    """
     for case in ("half into a box", "half into a wall"):
         world, body = scene(solver, case)
         body.move_to(CASES[case][2])
@@ -86,7 +92,9 @@ def test_without_stacking_it_is_out_or_stuck_at_once(solver):
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_put_in_and_out_again_within_a_step_nothing_happened(solver):
-    """Only where it is at the step counts."""
+    """A body that is moved into another one and back before the step is unaffected, because only its pose at the step
+    counts.
+    """
     moved, plain = (scene(solver, "a box into a pile") for _ in range(2))
     where, angle = moved[1].position, moved[1].angle
     moved[1].move_to((0, -80))

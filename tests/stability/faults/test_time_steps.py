@@ -1,4 +1,4 @@
-"""Steps of unintended lengths: 0, negative, NaN, 1 s, and another one every time."""
+"""Steps of unintended lengths: 0, negative, NaN, one second, or a new length every time."""
 
 import math
 
@@ -30,14 +30,14 @@ ALTERNATING = {
 
 
 def pile(solver, **options):
-    """Five boxes on each other on a wide floor."""
+    """Return (world, boxes) of a stack of five boxes on a wide floor."""
     world = World(Effects.rigid_bodies().with_(sleeping=False), solver=solver, **options)
     world.add_body(Polygon.box(2000, 40), position=(0, 20), kind="static")
     return world, [world.add_body(Polygon.box(SIZE, SIZE), position=(0, -SIZE * (k + 0.5))) for k in range(COUNT)]
 
 
 def stands(world, boxes):
-    """Return whether the pile is unchanged: each box within a tenth of its size, at rest, upright."""
+    """Return whether the stack is unchanged: each box is upright and within a tenth of its size of its start."""
     places = [abs(box.position.y + SIZE * (k + 0.5)) + abs(box.position.x) for k, box in enumerate(boxes)]
     return max(places) < 0.1 * SIZE and max(abs(box.angle) for box in boxes) < 0.01
 
@@ -69,9 +69,10 @@ def test_a_pile_stands_where_long_and_short_steps_alternate(solver, dts):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_steps_of_a_second_are_finite_and_stay_above_the_floor(solver):
-    """Piles are not guaranteed: a pile sinks into itself, cap_hits counts it, and bodies on the floor stay on it.
+    """In steps of one second, bodies on the floor stay on it and all numbers stay finite.
 
-    Projection sweeps boxes against boxes: one that rattles between two others in such a step is counted, too.
+    A pile may sink into itself, which cap_hits counts. Projection also counts a box that rattles between two others,
+    because it sweeps boxes against boxes.
     """
     world, boxes = pile(solver)
     watch, capped = Watch(world, capped=True, without=("U5", "U6")), 0
@@ -95,7 +96,7 @@ def test_after_steps_of_a_second_ordinary_ones_bring_it_apart(solver):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_a_ball_falls_as_far_in_steps_of_any_length(solver):
-    """Semi-implicit Euler: y = g (t^2 + sum dt^2) / 2, whatever the steps are."""
+    """A falling body follows y = g (t^2 + sum dt^2) / 2 (semi-implicit Euler) for steps of any lengths."""
     world = World(Effects.rigid_bodies(), solver=solver, gravity=(0, 100))
     ball = world.add_body(Polygon.box(4, 4))
     steps = [1 / 60, 1e-9, 0.5, 1 / 240, 1.0, 0.0, 1 / 60, 5e-324]
@@ -109,7 +110,10 @@ def test_a_ball_falls_as_far_in_steps_of_any_length(solver):
 @pytest.mark.parametrize("dt", [-1e-9, -1.0, math.nan, math.inf, -math.inf, 10**400, "1", None])
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_what_is_no_length_is_refused_and_changes_nothing(solver, dt):
-    """None is world.dt in a step, and refused as world.dt itself."""
+    """An invalid step length raises an error and changes nothing.
+
+    In world.step(None) means world.dt; as the value of world.dt itself None is refused.
+    """
     world, _ = pile(solver)
     hero = Character(world, Polygon.box(8, 16), (200, -8))
     hero.move(1, 1)

@@ -1,4 +1,6 @@
-"""Every hard case of the catalogue with its limits and sources, by section: tests read them, and docs/stability.md."""
+"""All hard cases of the stability suite by section, with limits and sources; used by the tests
+and docs/stability.md.
+"""
 
 from tests.stability.rows.a_broad_phase import BROAD_PHASE
 from tests.stability.rows.b_primitives import PRIMITIVES

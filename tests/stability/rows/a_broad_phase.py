@@ -1,4 +1,4 @@
-"""Section A: which boxes may touch."""
+"""Section A: the broad phase, which finds the boxes that may touch."""
 
 from tests.stability.rows.row import Row, Section, at_least, at_most, exactly
 

@@ -1,4 +1,4 @@
-"""Section B: two simple shapes and where they touch."""
+"""Section B: contacts of two simple shapes."""
 
 from tests.stability.rows.row import Row, Section, at_least, at_most, exactly
 

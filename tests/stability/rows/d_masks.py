@@ -1,4 +1,4 @@
-"""Section D: pixels."""
+"""Section D: pixel masks."""
 
 from tests.stability.rows.row import Row, Section, at_least, at_most, exactly
 

@@ -1,4 +1,4 @@
-"""Section F: what a solver makes of contacts."""
+"""Section F: contacts in the solver."""
 
 from tests.stability.rows.row import Row, Section, at_least, at_most, exactly
 

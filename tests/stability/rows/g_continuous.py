@@ -1,4 +1,4 @@
-"""Section G: what is fast."""
+"""Section G: fast bodies and continuous collision."""
 
 from tests.stability.rows.row import Row, Section, at_least, at_most, exactly
 

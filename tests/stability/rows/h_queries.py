@@ -1,4 +1,4 @@
-"""Section H: questions, sensors and events."""
+"""Section H: queries, sensors and events."""
 
 from tests.stability.rows.row import Row, Section, at_most, exactly
 

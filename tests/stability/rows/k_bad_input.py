@@ -1,4 +1,4 @@
-"""Section K: what is handed in wrong."""
+"""Section K: bad input."""
 
 from tests.stability.rows.row import Row, Section, at_most, exactly
 

@@ -1,4 +1,4 @@
-"""Section L: time, repetition, sleep, long runs."""
+"""Section L: time, repetition, sleep and long runs."""
 
 from tests.stability.rows.row import Row, Section, at_least, at_most, exactly
 

@@ -1,4 +1,4 @@
-"""Section M: only the effects a scene calls for."""
+"""Section M: effects do work only if a scene needs them."""
 
 from tests.stability.rows.row import Row, Section, at_least, at_most, exactly
 

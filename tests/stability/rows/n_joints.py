@@ -1,4 +1,4 @@
-"""Section N: bodies on joints. Where a goal is not reached, the limit is within twice the measured value."""
+"""Section N: bodies on joints. If a goal is not reached, the limit is within twice the measured value."""
 
 from tests.stability.rows.row import Row, Section, at_least, at_most, exactly
 

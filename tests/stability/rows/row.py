@@ -1,4 +1,4 @@
-"""One row of the stability suite: a hard case, what is measured of it, and how far that may go."""
+"""Rows of the stability suite: a row is a hard case with its measured figures and their limits."""
 
 import math
 from dataclasses import dataclass, replace
@@ -10,7 +10,7 @@ NOTHING = 1e-3  # share of a limit below which a value counts as none
 
 @dataclass(frozen=True)
 class Limit:
-    """A figure by name, and what it has to be."""
+    """Limit of a named figure: `sense` is "<=", ">=" or "==", and the figure is compared with `value`."""
 
     figure: str
     sense: str
@@ -18,13 +18,13 @@ class Limit:
     unit: str = ""
 
     def met(self, measured):
-        """Return whether a measured value is within the limit; nan never is."""
+        """Return whether a measured value is within the limit; NaN never is."""
         if self.sense == "<=":
             return measured <= self.value
         return measured >= self.value if self.sense == ">=" else measured == self.value
 
     def worse(self, one, two):
-        """The worse of two measured values."""
+        """Return the worse of two measured values; NaN is the worst."""
         if math.isnan(one) or math.isnan(two):
             return math.nan
         if self.sense == "==":
@@ -32,9 +32,9 @@ class Limit:
         return max(one, two) if self.sense == "<=" else min(one, two)
 
     def near(self, recorded):
-        """Return a limit at twice a recorded value, or this limit if it is nearer.
+        """Return a limit at twice a recorded value, or this limit if it is tighter.
 
-        Values of up to a thousandth of the limit do not count: most of them are rounding.
+        A recorded value below a thousandth of the limit counts as that thousandth: such values are mostly rounding.
         """
         if not recorded > 0.0 or self.sense == "==":
             return self
@@ -43,7 +43,10 @@ class Limit:
         return replace(self, value=max(self.value, recorded / TWICE))
 
     def margin(self, measured):
-        """Return the factor by which the value could grow before the limit; None if only one value is right."""
+        """Return the factor by which the value could worsen before it reaches the limit, as text such as "2.5×".
+
+        If only one value is allowed the text is "exact". A value outside the limit gives "outside".
+        """
         if self.sense == "==" or self.value == 0.0:
             return "exact" if measured == self.value else "–" if self.met(measured) else "outside"
         if not self.met(measured):
@@ -55,17 +58,17 @@ class Limit:
 
 
 def at_most(figure, value, unit=""):
-    """The limit of a figure that may be no greater."""
+    """Return the limit of a figure that must be at most `value`."""
     return Limit(figure, "<=", value, unit)
 
 
 def at_least(figure, value, unit=""):
-    """The limit of a figure that may be no less."""
+    """Return the limit of a figure that must be at least `value`."""
     return Limit(figure, ">=", value, unit)
 
 
 def exactly(figure, value, unit=""):
-    """The limit of a figure of which one value is right."""
+    """Return the limit of a figure that must equal `value`."""
     return Limit(figure, "==", value, unit)
 
 
@@ -73,9 +76,9 @@ def exactly(figure, value, unit=""):
 class Row:
     """A hard case.
 
-    limits: limits of the measured figures; none if `absent` gives the reason why the case does not apply to this
-    engine. defaults: other limits of figures under the default settings. fault: a known figure outside its limit, and
-    the reason; its test is expected to fail. peer: the best figure of another engine that a source quotes.
+    limits: limits of the measured figures; empty if the case does not apply, for the reason given in `absent`.
+    defaults: limits that differ under the default settings. fault: a figure known to be outside its limit, with the
+    reason; its test is expected to fail. peer: best figure of another engine, as quoted in a source.
     """
 
     id: str
@@ -88,7 +91,7 @@ class Row:
     defaults: tuple[Limit, ...] = ()
 
     def limit(self, figure, by_default=False):
-        """The limit of a figure by its name, with 4 substeps or under the default settings."""
+        """Return the limit of a named figure, with 4 substeps or (by_default=True) under the default settings."""
         for each in (*(self.defaults if by_default else ()), *self.limits):
             if each.figure == figure:
                 return each
@@ -97,7 +100,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Section:
-    """The rows of one letter, whose tests are in one file. numbers: numbers of its rows in the catalogue, in order."""
+    """The rows of one letter, tested in one file. numbers: numbers of its rows in the catalogue, in order."""
 
     letter: str
     title: str
@@ -106,5 +109,5 @@ class Section:
 
     @property
     def ids(self):
-        """Ids of the catalogue's rows in this section."""
+        """Return the ids of this section's rows, such as "A1"."""
         return [f"{self.letter}{number}" for number in self.numbers]

@@ -1,6 +1,6 @@
-"""The stability study: scenes, engines, measures and limits, a table that a benchmark prints and tests can read.
+"""The stability study: scenes, engines, measures and limits, in a table that a benchmark prints and tests check.
 
-scene.py says what a scene is; stacks.py, structures.py and motions.py build them; engines.py plays one in Hitbox or
-in pymunk; recording.py keeps its poses; overlap.py, measures.py and toppling.py read figures off them; rows.py is the
-table, verdict.py what an engine makes of a row. `python -m tests.bench stability` prints it all.
+scene.py defines a scene; stacks.py, structures.py and motions.py build scenes; engines.py simulates one in Hitbox or
+pymunk; recording.py stores its poses; overlap.py, measures.py and toppling.py compute figures; rows.py is the table;
+verdict.py compares an engine with a row. `python -m tests.bench stability` prints the results.
 """

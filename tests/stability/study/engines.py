@@ -1,6 +1,6 @@
-"""A scene played by an engine, behind one small door: step() -> seconds, poses(), awake(), remove(index).
+"""Engines that simulate a scene, with the methods step() -> seconds, poses(), awake() and remove(index).
 
-A pose is x, y, angle, vx, vy, spin; that of a body that is gone is NaN. ENGINES lists those that can be had here.
+A pose is x, y, angle, vx, vy, spin; NaN for a removed body. `engines()` returns the engines that are installed.
 """
 
 import importlib.util
@@ -18,7 +18,7 @@ EFFECTS = Effects.rigid_bodies().with_(sensors=False)
 
 
 class Hitbox:
-    """A world in metres."""
+    """A Hitbox world in metres."""
 
     def __init__(self, scene, solver="soft_step", substeps: int | str = 4):
         self.world = World(
@@ -67,9 +67,9 @@ class Hitbox:
 
 
 class Pymunk:
-    """A space of 32 px/m with four steps of 10 iterations in each of ours.
+    """A pymunk space of 32 px/m that makes four steps of 10 iterations for each step of the study.
 
-    It multiplies friction and restitution of two bodies: each is given the root.
+    pymunk multiplies friction and restitution of two bodies, so each body gets the square root.
     """
 
     SCALE, PARTS, ITERATIONS = 32.0, 4, 10
@@ -124,7 +124,7 @@ class Pymunk:
 
 
 def takes_auto():
-    """Return whether a world chooses its substeps itself."""
+    """Return whether this version of World accepts substeps="auto"."""
     try:
         World(substeps="auto")
     except (TypeError, ValueError):
@@ -133,7 +133,7 @@ def takes_auto():
 
 
 def engines():
-    """Return {name: scene -> engine} of the engines that are available here."""
+    """Return {name: function scene -> engine} of the available engines."""
     found = {"hb4": partial(Hitbox, substeps=4), "hb8": partial(Hitbox, substeps=8)}
     if takes_auto():
         found["auto"] = partial(Hitbox, substeps="auto")

@@ -1,4 +1,6 @@
-"""One figure read off a run. Lengths in mm, angles in degrees, shares in %; nan: the run does not show it."""
+"""Functions that compute one figure of a run: lengths in mm, angles in degrees, shares in %; NaN if the run is too
+short.
+"""
 
 import math
 
@@ -25,27 +27,29 @@ def overlap_at_end(run):
 
 
 def overlap_share(run, share):
-    """Return the percentile `share` of the deepest overlaps of the steps [mm]."""
+    """Return the percentile `share` (0 to 100) of the deepest overlap per step [mm]."""
     return MM * np.percentile(depths(run), share)
 
 
 def sway(run):
-    """Return the farthest horizontal distance of a body from its start, at any time [mm]."""
+    """Return the greatest horizontal distance of any dynamic body from its start position during the run [mm]."""
     return MM * np.nanmax(np.abs(run.moving[:, :, 0] - run.moving[0, :, 0]))
 
 
 def lean(run):
-    """Return the farthest horizontal distance of a body from its start, at the end [mm]."""
+    """Return the greatest horizontal distance of any dynamic body from its start position at the end [mm]."""
     return MM * np.nanmax(np.abs(run.moving[-1, :, 0] - run.moving[0, :, 0]))
 
 
 def fall_over_theory(run, theory):
-    """Return the time until a body has turned by 0.1 rad, divided by that of the rigid upper part; inf if none has."""
+    """Return the time until a body has turned by 0.1 rad, divided by `theory`, the time of a rigid upper part; inf if
+    none has.
+    """
     return math.inf if run.fell is None else run.fell / theory
 
 
 def rise(run, index):
-    """Return the greatest height of a body above its start after the other one is removed [mm]."""
+    """Return how far body `index` rises above its start height after the scene's first removal [mm]."""
     gone = run.scene.removals[0][0]
     return MM * -(run.poses[gone:, index, 1] - run.poses[0, index, 1]).min() if len(run.poses) > gone else math.nan
 
@@ -57,43 +61,49 @@ def asleep_after(run):
 
 
 def milliseconds(run):
-    """Return the median time of a step in the later half of the run [ms]."""
+    """Return the median computing time of a step in the second half of the run [ms]."""
     return 1e3 * float(np.median(run.times[len(run.times) // 2 :]))
 
 
 def _on_plate(run):
-    """Return (place along the plate [m], rotation relative to the plate [rad]) of the box, per step."""
+    """Return (position along the plate [m], angle relative to the plate [rad]) of the box, one value per step."""
     plate, box = run.poses[:, 0], run.poses[:, 1]
     dx, dy = box[:, 0] - plate[:, 0], box[:, 1] - plate[:, 1]
     return dx * np.cos(plate[:, 2]) + dy * np.sin(plate[:, 2]), box[:, 2] - plate[:, 2]
 
 
 def _angle_when(changed):
-    """Return the plate's angle [degrees] at the first step of a change, minus the theory's, atan(1/2); or inf."""
+    """Return the plate's angle at the first step marked True, minus atan(1/2) [degrees]; inf if no step is marked."""
     when = np.flatnonzero(changed)
     theory = math.degrees(math.atan(0.5))
     return math.degrees(PLATE_SPIN) * when[0] * STEP - theory if len(when) else math.inf
 
 
 def slips_late(run):
-    """Return by how much later than atan(friction) the box begins to slide [degrees]."""
+    """Return how many degrees beyond atan(friction) the plate turns before the box slides."""
     along, _ = _on_plate(run)
     return _angle_when(np.abs(along - along[min(SETTLED, len(along) - 1)]) > SLIPPED)
 
 
 def tips_late(run):
-    """Return by how much later than atan(width / height) the box begins to tip [degrees]."""
+    """Return how many degrees beyond atan(width / height) the plate turns before the box tips."""
     _, turn = _on_plate(run)
     return _angle_when(np.abs(turn - turn[min(SETTLED, len(turn) - 1)]) > TIPPED)
 
 
 def _down(run, first):
-    """Return the component of body 1 down the slope, per step. first: column of x or vx; y or vy follows it."""
+    """Return the component of body 1's position or velocity down the slope, one value per step.
+
+    first: pose column of x or vx; that of y or vy follows it.
+    """
     return run.poses[:, 1, first] * math.cos(SLOPE) + run.poses[:, 1, first + 1] * math.sin(SLOPE)
 
 
 def slide_error(run, share):
-    """Return the error of the acceleration down the slope against g (sin - friction cos), after two seconds [%]."""
+    """Return the error of the acceleration down the slope against g (sin - friction cos), after two seconds [%].
+
+    share: friction over the least friction that holds the box.
+    """
     speed, start = _down(run, 3), 120
     if len(speed) <= start + 1:
         return math.nan
@@ -108,7 +118,7 @@ def creep(run):
 
 
 def apexes(heights):
-    """Heights of the tops of a flight: the vertex of the parabola through the three samples about each."""
+    """Return the apex heights of a flight: the vertex of the parabola through the three samples around each maximum."""
     found = []
     for before, top, after in zip(heights, heights[1:], heights[2:], strict=False):
         if top > before and top >= after:
@@ -118,9 +128,9 @@ def apexes(heights):
 
 
 def bounce_error(run, restitution, count=17):
-    """Return the worst error of the first `count` apexes against theory, drop e^(2 k) [%].
+    """Return the worst error of the first `count` apexes against the theory: drop height times e^(2 k) [%].
 
-    Only the apexes that theory places within the run count.
+    Only apexes that the theory places within the run count.
     """
     found = apexes((-run.poses[:, 1, 1] - BALL).tolist())
     fall, time, errors = math.sqrt(2.0 * DROP / GRAVITY), 0.0, []
@@ -133,10 +143,9 @@ def bounce_error(run, restitution, count=17):
 
 
 def oblique_errors(run):
-    """Return the error of each flying disc's velocity after its blow, as a share of its speed.
+    """Return an array with the velocity error of each moving disc after its impact, divided by its speed.
 
-    The normal at the touch is (sqrt(1 - b²), b) for an offset of b diameters; equal masses exchange the velocity along
-    it.
+    The contact normal is (sqrt(1 - b²), b) for an offset of b diameters; equal masses exchange the velocity along it.
     """
     errors = []
     for k, (offset, speed, _) in enumerate(oblique_pairs()):
@@ -155,18 +164,18 @@ def oblique_mean(run):
 
 
 def stop_error(run):
-    """Return the error of the distance at which the last body stops, against v² / (2 friction g) [%]."""
+    """Return the error of the last body's stopping distance against v² / (2 friction g) [%]."""
     found = run.poses[-1, -1, 0] - run.poses[0, -1, 0]
     return 100.0 * (found * 2.0 * SEAM_FRICTION * GRAVITY / run.poses[0, -1, 3] ** 2 - 1.0)
 
 
 def hop(run):
-    """Return the greatest height of the last body above its start [mm]."""
+    """Return the greatest height of the last body above its start height [mm]."""
     return MM * max(0.0, -(run.poses[:, -1, 1] - run.poses[0, -1, 1]).min())
 
 
 def out_of_room(run):
-    """Return how many bodies are outside the tumbler at the end."""
+    """Return the number of bodies outside the drum of the tumbler at the end."""
     (x, y, angle), others = run.poses[-1, 0, :3], run.moving[-1]
     dx, dy = others[:, 0] - x, others[:, 1] - y
     across = np.abs(dx * math.cos(angle) + dy * math.sin(angle))
@@ -175,6 +184,6 @@ def out_of_room(run):
 
 
 def spin_error(run):
-    """Return the error of the rotation of a free body against spin times time [%]."""
+    """Return the error of a free body's rotation angle against spin times time [%]."""
     time = (len(run.poses) - 1) * STEP
     return 100.0 * (run.poses[-1, 0, 2] / (SPIN * time) - 1.0)

@@ -1,5 +1,7 @@
-"""Single bodies whose motion is known in closed form, and a drum whose is not: slopes, a turning plate, bounces, blows,
-seams, a tumbler, free spin."""
+"""Scenes of single bodies with a known closed-form motion, and a drum without one.
+
+Slopes, a rotating plate, bounces, impacts, seams, a tumbler and free rotation.
+"""
 
 import math
 
@@ -19,28 +21,33 @@ ROOM, WALL = 10.0, 0.5  # [m] of the tumbler: between the middles of opposite wa
 
 
 def slope(share, seconds):
-    """Return a scene with a box on a slope of 30 degrees. share: its friction over the least that holds it."""
+    """Return a scene with a box on a slope of 30 degrees. share: its friction divided by the least friction that holds
+    it.
+    """
     friction = share * math.tan(SLOPE)
     x, y = 0.5 * math.sin(SLOPE), -0.5 * math.cos(SLOPE)
     return Scene((floor(friction, angle=SLOPE), Solid(UNIT, x, y, angle=SLOPE, friction=friction)), seconds)
 
 
 def plate(height, friction):
-    """A plate that turns by 5 degrees a second, on its middle a box 1 m wide and this high."""
+    """Return a scene with a plate that turns at 5 degrees a second, and a box 1 m wide and `height` m high on its
+    centre.
+    """
     turning = Solid((box(40.0, 1.0),), 0.0, 0.5, spin=PLATE_SPIN, kind="kinematic", friction=friction)
     return Scene((turning, Solid((box(1.0, height),), 0.0, -0.5 * height, friction=friction)), 8.0)
 
 
 def bounce(restitution, seconds):
-    """A ball of 1 m falls two metres."""
+    """Return a scene in which a ball with a radius of BALL falls from a height of two metres."""
     ball = Solid((disc(BALL),), 0.0, -BALL - DROP, restitution=restitution)
     return Scene((floor(restitution=restitution), ball), seconds)
 
 
 def oblique_pairs():
-    """Return (offset in diameters, speed [m/s], extra distance at the start [m]) of 24 glancing blows.
+    """Return (offset in diameters, speed [m/s], extra distance at the start [m]) of 24 oblique impacts.
 
-    Eight offsets at each of three speeds. The extra distance is random, so that they meet at different times in a step.
+    There are eight offsets at each of three speeds. The random extra distance varies the phase of the impact within a
+    step.
     """
     chance = np.random.default_rng(5)
     return [
@@ -49,7 +56,10 @@ def oblique_pairs():
 
 
 def oblique():
-    """Pairs of equal discs of 1 m without friction, one of each flying past the middle of the other. No gravity."""
+    """Return a scene of pairs of equal frictionless discs, 1 m wide, without gravity.
+
+    One disc of each pair flies towards the other, offset from its centre.
+    """
     solids = []
     for k, (offset, speed, further) in enumerate(oblique_pairs()):
         y = 100.0 * k
@@ -59,9 +69,9 @@ def oblique():
 
 
 def seams(seed):
-    """A box slides over a floor of single boxes and ought to stop after forty of them. It is the last body.
+    """Return a scene in which a box slides over a floor of single boxes and should stop after forty of them.
 
-    Each seed has boxes of another width, and starts elsewhere on one.
+    The sliding box is the last body. Each seed has another box width and another start position.
     """
     width, start = TILES[seed % len(TILES)], float(np.random.default_rng(seed).uniform())
     speed = math.sqrt(2 * SEAM_FRICTION * GRAVITY * SEAMS * width)
@@ -74,13 +84,16 @@ def seams(seed):
 
 
 def slide():
-    """The same on a floor in one piece."""
+    """Return a scene in which a box slides on a floor in one piece, without seams."""
     box_ = Solid(UNIT, 0.0, -0.5, vx=SLIDE_SPEED, friction=SEAM_FRICTION)
     return Scene((floor(SEAM_FRICTION), box_), 5.0)
 
 
 def tumbler():
-    """144 discs and boxes of half a metre in a square drum that turns by 50 degrees a second. The drum is body 0."""
+    """Return a scene of 144 discs and boxes of half a metre in a square drum that turns at 50 degrees a second.
+
+    The drum is body 0.
+    """
     half, across = 0.5 * ROOM, ROOM
     walls = (
         box(WALL, across, half, 0.0),
@@ -97,5 +110,5 @@ def tumbler():
 
 
 def free_spin():
-    """A rod spins in free flight."""
+    """Return a scene with a rod that rotates in free flight."""
     return Scene((Solid((box(2.0, 0.2),), 0.0, 0.0, spin=SPIN),), 10.0, gravity=0.0)

@@ -1,16 +1,16 @@
-"""Overlap of the bodies of a scene, by the separating-axis theorem on their poses: the same for every engine.
+"""Overlap of the bodies of a scene by the separating-axis theorem on their poses, computed alike for every engine.
 
-Axes are the normals of both polygons' edges and, if one of the two is a disc, the line from its centre to the nearest
-corner of the other. For polygons, the greatest separation over the edges' normals is minus the least move that
-separates them when they overlap (Gottschalk 1996; Ericson 2005, section 5.2.1), and likewise with a disc whose centre
-is outside or inside. It imports no engine.
+The axes are the edge normals of both polygons. If one part is a disc, the line from its centre to the nearest corner of
+the other is an axis, too. For overlapping polygons, the least move that separates them is minus the greatest separation
+over these axes (Gottschalk 1996; Ericson 2005, section 5.2.1). The same holds for a disc with its centre outside or
+inside a polygon. This module imports no engine.
 """
 
 import numpy as np
 
 
 class Overlaps:
-    """The parts of a scene laid out for the test of all pairs at once."""
+    """The parts of a scene in arrays, for an overlap test of all pairs at once."""
 
     def __init__(self, scene):
         listed = [(k, part) for k, solid in enumerate(scene.solids) for part in solid.parts]
@@ -28,7 +28,9 @@ class Overlaps:
         self.meet = np.triu(meet, 1)
 
     def deepest(self, poses):
-        """Return the deepest overlap [m]; 0 without one. poses: (bodies, 3 or more), NaN for removed bodies."""
+        """Return the deepest overlap of any two bodies [m]; 0 if none overlap. poses: (bodies, 3 or more), NaN for
+        removed bodies.
+        """
         x, y, angle = (poses[self.body, k, None] for k in range(3))
         cosine, sine = np.cos(angle), np.sin(angle)
         px, py = self.points[:, :, 0], self.points[:, :, 1]
@@ -46,7 +48,7 @@ class Overlaps:
         return max(0.0, -float(separation.min()))
 
     def _along_edges(self, corners, a, b):
-        """Greatest separation along the outward normals of a's edges."""
+        """Return, for each pair of parts (a, b), the greatest separation along the outward normals of a's edges."""
         first = corners[a]
         edge = np.take_along_axis(first, self.following[a][:, :, None], axis=1) - first
         length = np.hypot(edge[:, :, 0], edge[:, :, 1])
@@ -59,7 +61,10 @@ class Overlaps:
         return np.where(real, found, -np.inf).max(axis=1)
 
     def _from_centre(self, corners, a, b):
-        """Separation along the line from the nearest corner of b to the centre of the disc a; -inf for no disc."""
+        """Return, for each pair, the separation along the line from the nearest corner of b to the centre of disc a.
+
+        The value is -inf if a is no disc.
+        """
         centre = corners[a][:, 0]
         way = centre[:, None, :] - corners[b]
         distance = np.hypot(way[:, :, 0], way[:, :, 1])

@@ -1,4 +1,4 @@
-"""A scene played and kept: its poses after every step, until it ends or something falls."""
+"""Simulation of a scene that stores the poses after every step, until the scene ends or a body falls."""
 
 from dataclasses import dataclass
 
@@ -9,7 +9,7 @@ from tests.stability.study.scene import STEP, Scene
 
 @dataclass(frozen=True)
 class Run:
-    """States of a run. Row 0 is its start, row k the state after k steps."""
+    """Recorded states of a run: row 0 is the start, row k the state after k steps."""
 
     scene: Scene
     poses: np.ndarray  # (steps + 1, bodies, 6): x, y, angle, vx, vy, spin
@@ -19,12 +19,12 @@ class Run:
 
     @property
     def moving(self):
-        """Poses of the dynamic bodies."""
+        """Return the poses of the dynamic bodies, an array (steps + 1, dynamic bodies, 6)."""
         return self.poses[:, self.scene.dynamic]
 
 
 class Watch:
-    """Check whether any of a scene's dynamic bodies has fallen since its start (bodies, 6)."""
+    """Detects whether a dynamic body of a scene has fallen since the start poses, an array (bodies, 6)."""
 
     def __init__(self, scene, start):
         self.fall, self.rows, self.start = scene.fall, scene.dynamic, start[scene.dynamic]
@@ -40,7 +40,9 @@ class Watch:
 
 
 def record(engine, scene, steps=None):
-    """Play a scene with an engine made for it, at most so many steps (None: all of it)."""
+    """Simulate a scene in an engine made for it, for at most `steps` steps (None: the whole
+    scene), and return the Run.
+    """
     poses, awake, times, fell = [engine.poses()], [engine.awake()], [], None
     watch = Watch(scene, poses[0])
     for step in range(scene.steps if steps is None else min(steps, scene.steps)):

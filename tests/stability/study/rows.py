@@ -1,9 +1,9 @@
-"""The table of the study: for each row the scene, the figure that is read from it, and the limit for Hitbox.
+"""Table of the study: each row has a scene, the figure computed from it, and the limit for Hitbox.
 
-The limits have two sources. ISSUE: limits that the work on stability set itself. BEST: where the issue names none, the
-figure of the best peer, which is AVBD's quoted figure or that of pymunk here. quoted: Box2D 3.2 (native C, 4 substeps),
-Rapier 0.21 and AVBD (10 iterations) as the study of 2026-11-22 measured them on scenes of the same kind; a dash where
-it did not.
+Sources of the limits: ISSUE is a goal of the work on stability. BEST is the figure of the best peer, where ISSUE gives
+no goal: AVBD's quoted figure or that of pymunk measured here. quoted: figures of Box2D 3.2 (native C, 4 substeps),
+Rapier 0.21 and AVBD (10 iterations) from the study of 2026-11-22, measured on scenes of the same kind; a dash if not
+measured.
 """
 
 import math
@@ -26,7 +26,7 @@ EXACT = 1e-9  # [%] of the turn, that showed rounding alone
 
 @dataclass(frozen=True)
 class Row:
-    """One line. The figure is the worst of its seeds: the one whose size, above or below 0, is greatest."""
+    """One row of the table. Its figure is the worst of all seeds: the one with the greatest absolute value."""
 
     name: str
     scene: Callable[[int], Scene]  # of a seed
@@ -40,7 +40,7 @@ class Row:
     low: float | None = None  # and at least this; None: its size is at most the limit
 
     def met(self, value):
-        """Return whether a figure is within the limits; nan is not."""
+        """Return whether a figure is within the limits; NaN is not. Without a limit, every figure is."""
         if self.limit is None:
             return True
         return (-self.limit if self.low is None else self.low) <= value <= self.limit
@@ -244,6 +244,6 @@ def _tumbler():
 
 @cache
 def table():
-    """Return {name: row}, in the order of the study."""
+    """Return {name: row} in the order of the study."""
     groups = (_crooked, _towers, _ratios, _piles, _friction, _bounces, _tumbler)
     return {row.name: row for group in groups for row in group()}

@@ -1,4 +1,4 @@
-"""Scene of the study: values independent of any engine. Metres, seconds, radians; x right, y down."""
+"""Description of a scene, independent of any engine: metres, seconds and radians; x right, y down."""
 
 import math
 from dataclasses import dataclass
@@ -10,14 +10,16 @@ FRICTION = 0.6  # between all bodies unless said
 
 @dataclass(frozen=True)
 class Part:
-    """A disc (one point, a radius) or a convex polygon, its corners clockwise on the screen [m], body space."""
+    """A disc (one point and a radius) or a convex polygon with its corners clockwise on the
+    screen, in body space [m].
+    """
 
     points: tuple[tuple[float, float], ...]
     radius: float = 0.0
 
 
 def box(width, height, x=0.0, y=0.0):
-    """A box with its middle at (x, y)."""
+    """Return a box as a `Part` with its centre at (x, y)."""
     w, h = 0.5 * width, 0.5 * height
     return Part(((x - w, y - h), (x + w, y - h), (x + w, y + h), (x - w, y + h)))
 
@@ -27,7 +29,9 @@ def disc(radius):
 
 
 def polygon(points):
-    """Return (x, y) of a polygon's centroid, and the polygon relative to it. points: corners in either order."""
+    """Return (x, y, part): the centroid of a polygon, and the polygon relative to it. points:
+    corners in either order.
+    """
     area = x = y = 0.0
     for (ax, ay), (bx, by) in zip(points, (*points[1:], points[0]), strict=True):
         cross = ax * by - bx * ay
@@ -39,9 +43,9 @@ def polygon(points):
 
 @dataclass(frozen=True)
 class Solid:
-    """A body. Its parts lie about its centre of mass, which is its origin.
+    """A body whose parts are given relative to its centre of mass, which is its origin.
 
-    friction, restitution: those of a pair of two bodies with equal values.
+    friction, restitution: values of the contact between two bodies with equal values.
     """
 
     parts: tuple[Part, ...]
@@ -58,7 +62,7 @@ class Solid:
 
     @property
     def least(self):
-        """The least of its first part's extents along the axes [m]."""
+        """Return the smaller of the first part's extents along x and y [m]."""
         part = self.parts[0]
         extents = (max(each) - min(each) for each in zip(*part.points, strict=True))
         return min(extents) + 2.0 * part.radius
@@ -66,9 +70,10 @@ class Solid:
 
 @dataclass(frozen=True)
 class Fall:
-    """Limits beyond which a dynamic body counts as fallen. A scene ends when one falls.
+    """Limits beyond which a dynamic body counts as fallen; the scene ends when one falls.
 
-    It has fallen if it moved sideways by `share` of its least extent and by `shift` [m], or turned by `turn` [rad].
+    A body has fallen if it moved sideways by more than both `share` of its smallest extent and `shift` [m], or turned
+    by more than `turn` [rad].
     """
 
     share: float = 0.5
@@ -81,7 +86,9 @@ TURNS = Fall(share=math.inf, shift=math.inf, turn=0.1)
 
 @dataclass(frozen=True)
 class Scene:
-    """The bodies, the duration, and the removals. removals: (step before which, index of the body that is removed)."""
+    """The bodies, duration and settings of a scene. removals: (step before which to remove,
+    index of the removed body).
+    """
 
     solids: tuple[Solid, ...]
     seconds: float
@@ -96,12 +103,12 @@ class Scene:
 
     @property
     def dynamic(self):
-        """Indices of the dynamic bodies."""
+        """Return the indices of the dynamic bodies."""
         return [k for k, solid in enumerate(self.solids) if solid.kind == "dynamic"]
 
 
 def floor(friction=FRICTION, restitution=0.0, angle=0.0):
-    """A thick floor whose surface passes through the origin; a positive angle falls to the right."""
+    """Return a thick floor whose surface passes through the origin; a positive angle slopes it down to the right."""
     return Solid(
         (box(400.0, 2.0),),
         x=-math.sin(angle),

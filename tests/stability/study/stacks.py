@@ -1,4 +1,4 @@
-"""Columns, towers, mass ratios and pyramids of boxes, 1 m each, on a floor at y = 0."""
+"""Scenes of columns, towers, heavy loads and pyramids, made of boxes of 1 m on a floor at y = 0."""
 
 import numpy as np
 
@@ -9,39 +9,42 @@ BOX = (box(1.0, 1.0),)
 
 
 def tower(places, densities=None, **options):
-    """Boxes above one another at these x [m], the lowest first."""
+    """Return a scene with boxes above one another at these x [m], the lowest first. options: further arguments of
+    Scene.
+    """
     densities = [1.0] * len(places) if densities is None else densities
     boxes = [Solid(BOX, x, -0.5 - k, density=d) for k, (x, d) in enumerate(zip(places, densities, strict=True))]
     return Scene((floor(), *boxes), **options)
 
 
 def aligned(count):
-    """A column of boxes exactly above one another."""
+    """Return a scene with a column of boxes exactly above one another."""
     return tower([0.0] * count, seconds=30.0, fall=Fall())
 
 
 def crooked(count, seed):
-    """A column of boxes, each off by up to 2 cm."""
+    """Return a scene with a column of boxes, each at a random x of up to 2 cm from 0."""
     places = np.random.default_rng(seed).uniform(-CROOKED, CROOKED, count).tolist()
     return tower(places, seconds=20.0, fall=Fall())
 
 
 def offset_places(count, share):
-    """x of boxes [m] that are each further than the one below, by this share of the limit of such a tower.
+    """Return the x [m] of the boxes of a tower in which each is shifted by the same offset from the one below.
 
-    What lies above the lowest, count - 1 boxes, has its centre of mass count / 2 offsets from the lowest box's middle
-    (their mean place is (1 + … + (count - 1)) / (count - 1)); it stands while that is within half a width: the limit
-    is 1 / count. What lies above the others is less far out, and the whole tower by half an offset less over its foot.
+    share: the offset divided by the largest one at which such a tower stands, 1 / count. The count - 1 boxes above the
+    lowest have their centre of mass count / 2 offsets from its centre. They stand while this is at most half a width.
+    The boxes above any other box overhang less.
     """
     return [share / count * k for k in range(count)]
 
 
 def harmonic_places(count, share):
-    """x of boxes [m] whose k-th from the top is this share of 1 / 2k further in than the one above it.
+    """Return the x [m] of the boxes of a tower in which the k-th from the top is shifted by share / 2k from the one
+    above it.
 
-    With a share of 1 the centre of mass of the upper k lies over the edge of the box below, for every k: they reach as
-    far as any tower of single boxes (the sum is half a harmonic number; Paterson and Zwick 2009, section 1). It is
-    share / 2 from that box's middle, for every k: both the limit and how far it is missed are the same at all heights.
+    With a share of 1 the centre of mass of the upper k boxes is above the edge of the box below, for every k. No tower
+    of single boxes reaches farther (half a harmonic number; Paterson and Zwick 2009, section 1). With any share, this
+    centre is share / 2 from the middle of the box below, so all heights reach the limit together.
     """
     places = [0.0]
     for k in range(1, count):
@@ -65,12 +68,14 @@ def heavy_on(count, ratio, seconds):
 
 
 def heavy_taken_away():
-    """Two boxes with one of a hundred times their mass on them, which is gone after three seconds."""
+    """Return a scene of two boxes under a box with a hundred times their mass, which is removed after three seconds."""
     return tower([0.0] * 3, [1.0, 1.0, 100.0], seconds=6.0, removals=((180, 3),))
 
 
 def pyramid_solids(rows, spread=1.1):
-    """Return boxes in rows, each one box shorter than the row below. spread: distance of neighbours [m]."""
+    """Return the boxes of a pyramid; each row has one box fewer than the row below. spread:
+    distance of neighbours [m].
+    """
     return [
         Solid(BOX, (column - 0.5 * (rows - 1 - row)) * spread, -0.5 - row)
         for row in range(rows)
@@ -83,6 +88,8 @@ def pyramid(rows, seconds=10.0, sleeping=False):
 
 
 def dropped_on_pyramid(ratio):
-    """Return a pyramid of ten rows without its top, and a box of `ratio` times the mass that falls two metres."""
+    """Return a scene with a pyramid of ten rows without its top box, onto which a box of `ratio` times the mass falls
+    two metres.
+    """
     solids = pyramid_solids(10, spread=1.01)
     return Scene((floor(), *solids[:-1], Solid(BOX, 0.0, -11.5, density=float(ratio))), 10.0, fall=Fall())

@@ -1,4 +1,4 @@
-"""A house of cards and an arch: what stands by leaning on each other."""
+"""Scenes of a house of cards and an arch, whose parts hold each other up."""
 
 import math
 
@@ -22,7 +22,10 @@ SCALE = 0.25
 
 
 def card_house(levels, half_thickness=0.02, half_height=1.0):
-    """Return pairs of cards that lean on each other at 25 degrees from upright, with a card across every two pairs."""
+    """Return a scene of a card house: pairs of cards lean on each other at 25 degrees from the vertical.
+
+    A flat card is placed across every two neighbouring pairs. levels: number of storeys.
+    """
     reach, rise = (
         half_thickness * math.cos(LEAN) + half_height * math.sin(LEAN),
         half_height * math.cos(LEAN) + half_thickness * math.sin(LEAN),
@@ -47,7 +50,7 @@ def card_house(levels, half_thickness=0.02, half_height=1.0):
 
 
 def arch():
-    """Seventeen blocks, and four slabs on the keystone."""
+    """Return a scene of an arch of seventeen blocks, with four slabs on the keystone."""
     inner, outer = ([(SCALE * x, -SCALE * y) for x, y in edge] for edge in (INNER, OUTER))
     blocks = []
     for side in (1.0, -1.0):

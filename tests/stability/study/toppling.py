@@ -1,9 +1,10 @@
-"""When a tower of unit boxes must fall, and how long its rigid upper part takes to turn about its edge.
+"""Analytic limit at which a tower of unit boxes falls, and the time that its rigid upper part takes to turn about its
+edge.
 
-The part above each interface stands while its centre of mass lies over its support. The support is the stretch that the
-two boxes of the interface share; at the floor it is the foot of the lowest box. Beyond it, the part turns about the end
-of the stretch as a rigid body. No engine and no small angles are used. If several parts cannot stand, the first one to
-turn counts. With contacts a hundred times as stiff for their load, soft_step falls within 2 % of that time.
+The part above an interface stands while its centre of mass is above its support. The support is the overlap of the two
+boxes at the interface; at the floor it is the base of the lowest box. Otherwise the part turns as a rigid body about
+the end of the support. No engine and no small-angle approximation is used. If several parts cannot stand, the first one
+to turn counts. With contacts a hundred times as stiff for their load, soft_step falls within 2 % of this time.
 """
 
 import math
@@ -14,10 +15,10 @@ FINE = 1e-4  # [s] step of the integration
 
 
 def overhangs(places, size=1.0):
-    """Return (number of its boxes, distance, x of the edge) of each upper part, the whole tower first.
+    """Return (number of boxes, overhang, x of the edge) for each upper part of a tower, the whole tower first.
 
-    places: x of the boxes [m], the lowest first. distance: distance of the part's centre of mass beyond the edge [m];
-    below 0 the part stands.
+    places: x of the boxes [m], the lowest first. overhang: distance of the part's centre of mass beyond the edge [m];
+    the part stands if it is not positive.
     """
     found = []
     for k in range(len(places)):
@@ -35,10 +36,10 @@ def stands(places):
 
 
 def pendulum(arm, height, inertia, turn, gravity=GRAVITY):
-    """Return the seconds that a rigid body takes from rest to turn by `turn` [rad] about an edge; inf if it does not
-    turn.
+    """Return the time [s] in which a rigid body turns from rest by `turn` [rad] about an edge; inf if it does not turn.
 
-    arm, height: place of its centre of mass beyond and above the edge [m]; inertia: about the edge, per mass [m2].
+    arm, height: horizontal distance of its centre of mass beyond the edge, and its height above the edge [m]. inertia:
+    moment of inertia about the edge, per mass [m2].
     """
     angle = speed = time = 0.0
     if arm <= 0.0:
@@ -52,7 +53,7 @@ def pendulum(arm, height, inertia, turn, gravity=GRAVITY):
 
 
 def fall_time(places, turn=0.1, size=1.0):
-    """Return the seconds until an upper part that cannot stand has turned by `turn` [rad]; inf if all stand."""
+    """Return the time [s] until an upper part that cannot stand has turned by `turn` [rad]; inf if all parts stand."""
     least = math.inf
     for count, beyond, edge in overhangs(places, size):
         upper = places[len(places) - count :]

@@ -1,8 +1,8 @@
-"""Verdict on an engine for a row: its scenes played, the worst of their figures, and whether that is within the limit.
+"""Comparison of an engine with a row: all its scenes are simulated, and the worst figure is compared with the limit.
 
-A test that holds an engine to a row of the table reads
+A test of one row is
 
-    assert judge(table()["crooked_20"], Played(partial(Hitbox, substeps=8))).met
+assert judge(table()["crooked_20"], Played(partial(Hitbox, substeps=8))).met
 """
 
 import math
@@ -12,7 +12,9 @@ from tests.stability.study.recording import record
 
 
 class Played:
-    """Runs of one engine by scene, each played once however many rows look at it. make: scene -> engine."""
+    """Cache of the runs of one engine: each scene is simulated once, although several rows use it. make: scene ->
+    engine.
+    """
 
     def __init__(self, make):
         self.make, self.runs = make, {}
@@ -23,13 +25,13 @@ class Played:
         return self.runs[scene]
 
     def forget(self, scenes):
-        """Drop all but these scenes' runs: poses of long runs are large."""
+        """Remove the cached runs of all scenes except these, because the poses of long runs need much memory."""
         self.runs = {scene: run for scene, run in self.runs.items() if scene in scenes}
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """A row's worst figure, and what became of its seeds."""
+    """Worst figure of a row, and how many of its seeds stood or fell."""
 
     figure: float  # nan: something falls that ought to stand, or the run does not show it
     met: bool
@@ -39,7 +41,7 @@ class Verdict:
 
 
 def worst(values):
-    """Return the value with the greatest size; nan if any value is nan, or without values."""
+    """Return the value with the greatest absolute value; NaN if any value is NaN or there are no values."""
     values = list(values)
     if not values or any(math.isnan(each) for each in values):
         return math.nan
@@ -52,7 +54,7 @@ def scenes_of(row, seeds=None):
 
 
 def judge(row, played, seeds=None):
-    """Return the Verdict on a row, by its first `seeds` seeds; None: all seeds."""
+    """Return the Verdict on a row from its first `seeds` seeds (None: all). played: the `Played` of the engine."""
     runs = [played.run(scene) for scene in scenes_of(row, seeds)]
     fell = [run.fell for run in runs if row.stands and run.fell is not None]
     figure = math.nan if fell else worst(float(row.measure(run)) for run in runs)
