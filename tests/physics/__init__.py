@@ -1,1 +1,1 @@
-"""The physics from outside: public names only."""
+"""Tests of the physics package through its public interface."""

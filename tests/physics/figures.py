@@ -1,4 +1,4 @@
-"""Shapes of physics as shapely figures: a second opinion on what they cover."""
+"""Shapes of physics converted to shapely figures, as an independent reference for the area that they cover."""
 
 from shapely import LineString, Point
 from shapely import Polygon as Figure
@@ -7,7 +7,7 @@ from physics import Capsule, Circle
 
 
 def figure(shape):
-    """Round sides as polygons of 1024 corners."""
+    """Return the shapely figure of a shape; its round parts are polygons with 1024 corners per circle."""
     if isinstance(shape, Circle):
         return Point(shape.center).buffer(shape.radius, quad_segs=256)
     if isinstance(shape, Capsule):

@@ -1,4 +1,4 @@
-"""Straight slopes of every kind of ground, and characters of every kind of shape, for the tests of characters."""
+"""Straight slopes of every kind of ground, and shapes for characters, for the tests of characters."""
 
 import math
 
@@ -21,7 +21,10 @@ GROUNDS = ("polygon", "turned box", "segment", "chain", "capsule")
 
 
 def add_ground(world, form, slope, **options):
-    """A body with a straight slope through its position (0, 0), which rises by `slope` per px to the right."""
+    """Add a body with a straight slope through the origin that rises by `slope` per px to the right, and return it.
+
+    form: kind of ground. options: further arguments of add_body; the default kind is static.
+    """
     a, b = (-HALF, HALF * slope), (HALF, -HALF * slope)
     below = max(a[1], b[1]) + 50.0
     angle = math.atan(slope)
@@ -45,7 +48,7 @@ def add_ground(world, form, slope, **options):
 
 
 def ramp_mask(slope, width=240):
-    """Pixels below a line through the middle of the mask."""
+    """Return a mask whose solid pixels are below a slope through its middle. width: in pixels."""
     height = math.ceil(abs(slope) * width) + 40
     columns = np.arange(width) + 0.5 - width / 2
     surface = np.floor(height / 2 - columns * slope + 0.5)
@@ -53,7 +56,7 @@ def ramp_mask(slope, width=240):
 
 
 def ramp_tiles(slope, count=32, size=16):
-    """Tiles below a line through the middle of the grid; slope: a power of two, at most 1."""
+    """Return a TileGrid that is solid below a slope through its middle. slope: a power of two, at most 1."""
     slopes, solid = np.zeros((count, count, 2)), np.zeros((count, count), bool)
     for column in range(count):
         left, right = ((column + k - count / 2) * slope + count / 2 for k in (0, 1))

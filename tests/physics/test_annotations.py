@@ -1,4 +1,4 @@
-"""Every public callable of physics/ says what it takes and what it gives; kernels, plain loops over tables, do not."""
+"""Every public callable of physics/ annotates its parameters and its result; kernels are excepted."""
 
 import ast
 from pathlib import Path
@@ -12,12 +12,12 @@ FILES = sorted(PHYSICS.rglob("*.py"))
 
 
 def is_kernel(function):
-    """Return whether numba compiles the function: it is decorated as one of the kinds of kernels."""
+    """Return whether numba compiles the function, i.e. whether it has a decorator of a kernel."""
     return any(isinstance(each, ast.Name) and each.id in DECORATORS for each in function.decorator_list)
 
 
 def public_callables(node, owner=""):
-    """Yield (name, FunctionDef) of the public functions, methods, setters and constructors that are no kernels."""
+    """Yield (name, FunctionDef) of the public functions, methods, setters and constructors that are not kernels."""
     for child in ast.iter_child_nodes(node):
         if isinstance(child, ast.ClassDef) and not child.name.startswith("_"):
             yield from public_callables(child, f"{child.name}.")
@@ -29,7 +29,7 @@ def public_callables(node, owner=""):
 
 
 def unannotated(function):
-    """Names of the parameters without a type, and "return" where that is missing."""
+    """Return the names of the parameters without a type, and "return" if the result has none."""
     given = function.args
     parameters = [*given.posonlyargs, *given.args, *given.kwonlyargs, given.vararg, given.kwarg]
     names = [each.arg for each in parameters if each is not None and each.annotation is None]

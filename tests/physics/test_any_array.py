@@ -1,4 +1,4 @@
-"""Whatever array of numbers is handed in, lists too, the world is the same."""
+"""Arrays of any number type or memory layout, and lists, give the same world."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Sleeping bodies are in no loop, are still reported, and wake when they are changed."""
+"""Sleeping bodies are skipped by all loops, are still reported, and wake when they are changed."""
 
 import numpy as np
 import pytest
@@ -219,7 +219,10 @@ def test_many_islands_fall_asleep_in_one_step():
 
 
 def test_what_was_in_an_island_and_now_stands_is_ground():
-    """Its island's number stood on in its row: what slept on it was taken for its own, and waking looked for more."""
+    """A body of a sleeping island that becomes static counts as ground of the other bodies.
+
+    The island number in its row must be cleared; otherwise the bodies on it seem to belong to its island.
+    """
     world, _, boxes = pile()
     boxes[2].wake()
     world.step()
@@ -235,7 +238,10 @@ def test_what_was_in_an_island_and_now_stands_is_ground():
 
 @pytest.mark.parametrize("strategy", BROADPHASES)
 def test_falling_asleep_leaves_each_pair_once(strategy):
-    """Only the set of awake bodies changed: sweep and prune was queried again, by the previous changes."""
+    """Each pair is reported once when the bodies fall asleep, with every broad phase.
+
+    Only the set of awake bodies changes in this step, not the boxes of the broad phase.
+    """
     world = World(broadphase=BROADPHASES[strategy]())
     floor(world)
     boxes = [world.add_body(BOX, position=(40.0 * k - 60, -8 - 16 * j)) for k in range(3) for j in range(2)]

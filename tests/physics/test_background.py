@@ -1,4 +1,6 @@
-"""compile_in_background(): nothing waits for the compiler, whatever becomes of the processes; bits stay the same."""
+"""compile_in_background(): the program never waits for the compiler, whatever happens to its processes; digests stay
+equal.
+"""
 
 import json
 import os
@@ -38,7 +40,7 @@ for line in sys.stdin:
 
 @pytest.fixture
 def pool(tmp_path, monkeypatch):
-    """Return a function that starts Workers of a module whose tasks answer, die or hang."""
+    """Yield a function make(count, module) that starts Workers of a module whose tasks answer, die or hang."""
     (tmp_path / "answering.py").write_text(ANSWERS.replace("ROOT", repr(str(ROOT))))
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     made = []
@@ -143,7 +145,7 @@ def test_a_wrong_number_of_workers_is_refused(given):
 
 
 class Asked:
-    """Pool that stores its tasks. The test chooses which of them a process would take."""
+    """Replacement of a process pool that stores its tasks; the test chooses which task a process would take."""
 
     count, alive, left = 1, True, 0
 
@@ -183,7 +185,7 @@ def calling(called):
 
 @pytest.fixture
 def ordered(monkeypatch):
-    """Return order(seconds, function), which orders a kernel of a Background without threads and processes."""
+    """Return order(seconds, function), which orders a kernel from a Background without threads or processes."""
     monkeypatch.setattr(physics.background, "JIT", False)
     monkeypatch.setattr(physics.background, "Workers", lambda *given: Asked())
     background = physics.background.Background(1)
@@ -278,7 +280,10 @@ def compiled_digests():
 @jitted
 @pytest.mark.parametrize("given", ["[]", "[2]"])
 def test_a_script_without_a_guard_goes_on_plain_and_is_compiled(tmp_path, compiled_digests, given):
-    """From an empty folder; after the first 200 steps it waits until kernels arrive."""
+    """A script without a main guard runs in plain Python from an empty folder and is compiled in the background.
+
+    After the first 200 steps the test waits until kernels arrive.
+    """
     digests, compiled, taken, _ = program(tmp_path / "kernels", given, 15)
     assert digests == compiled_digests and compiled == 0 and taken < 1.0
     again, compiled, taken, share = program(tmp_path / "kernels", given, 0)
@@ -322,7 +327,7 @@ def test_workers_of_a_killed_program_end(tmp_path):
 
 
 def alive(number):
-    """Return whether a process runs; a zombie does not."""
+    """Return whether the process with this id runs; a zombie does not. Linux only."""
     try:
         return Path(f"/proc/{number}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
     except OSError:
@@ -331,7 +336,10 @@ def alive(number):
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no sessions")
 def test_a_process_beside_the_program_lies_in_its_session_and_is_deaf_to_its_terminal():
-    """In a session of its own Linux would give it as much as the program, whatever its priority."""
+    """A worker process is in the program's session but in its own process group, so it gets no signals of the terminal.
+
+    In a session of its own, Linux would give it as much CPU time as the program, whatever its priority.
+    """
     process = workers.start_module("physics.compile_worker")
     try:
         assert os.getsid(process.pid) == os.getsid(0) and os.getpgid(process.pid) == process.pid != os.getpgid(0)
@@ -341,7 +349,9 @@ def test_a_process_beside_the_program_lies_in_its_session_and_is_deaf_to_its_ter
 
 @jitted
 def test_what_was_compiled_and_cannot_be_loaded_is_told_and_no_longer_waited_for(ordered, monkeypatch):
-    """As where the disk is full: the line that says how far it is goes away."""
+    """A compiled kernel that cannot be loaded, for instance on a full disk, is reported as failed and no longer
+    awaited.
+    """
     kernel = ordered(0.1, small)
     monkeypatch.setattr(tiers, "wanted", {(kernel, ()): None})
     monkeypatch.setattr(tiers, "load", id)

@@ -1,6 +1,6 @@
-"""Every argument of every public function, with a wrong kind, a wrong value, NaN and infinity.
+"""Every argument of every public function, given a wrong type, a wrong value, NaN and infinity.
 
-The error names the argument and the value; the world is unchanged, down to its tables.
+The error names the argument and the value, and the world is unchanged, including its tables.
 """
 
 import math
@@ -56,7 +56,7 @@ ARRAY = ["ab", None, [[1, 2, 3]], [[NAN, 0]], [[0, INF]], [1, 2], [["a", "b"]], 
 
 
 def world_of_three():
-    """A world with something in it."""
+    """Return a world with three bodies, after one step."""
     world = World(ALL)
     world.add_body(BALL, velocity=(5.0, 3.0))
     world.add_body(BOX, position=(2.0, 1.0), kind="static")
@@ -66,7 +66,7 @@ def world_of_three():
 
 
 def state(world):
-    """Return all state that a refused argument must not change."""
+    """Return a tuple of all state that a refused argument must not change."""
     return (
         world.digest(),
         world.bodies.tobytes(),
@@ -91,7 +91,7 @@ def state(world):
 
 
 def refused(name, value, call):
-    """Assert that the call raises ValueError or TypeError with the argument's name and the value."""
+    """Assert that call(value) raises ValueError or TypeError with the argument's name and the value in its message."""
     with pytest.raises((ValueError, TypeError)) as caught:
         call(value)
     assert not isinstance(caught.value, UnicodeError)
@@ -499,7 +499,9 @@ def test_missing_snapshot_file_is_the_plain_error():
 
 @pytest.mark.parametrize("ids", [1.7, [1.2], np.array([0.5]), [10**300], [True], None, "0", object(), [np.inf]])
 def test_rows_are_looked_up_by_whole_numbers(ids):
-    """A fraction is no id: it was cut off, and the row of another body returned."""
+    """World.rows() refuses ids that are not integers, because a truncated fraction would give
+    the row of another body.
+    """
     world = World(ALL)
     bodies = [world.add_body(BALL, position=(30 * k, 0)) for k in range(3)]
     with pytest.raises(TypeError, match="ids must be Bodies or ids"):

@@ -177,7 +177,10 @@ def test_what_was_not_declared_is_refused_naming_the_effect(effect, call):
 
 
 def test_undeclared_material_values_are_inert():
-    """Rolling resistance without friction, a surface speed without conveyor: as if they were 0."""
+    """Material values have no effect if the world does not declare the effect that uses them.
+
+    Rolling resistance needs friction; a surface speed needs conveyor.
+    """
     digests = []
     for material in (Material(), Material(rolling_resistance=0.5, surface_speed=90.0, friction=0.9, restitution=0.9)):
         world = World(Effects(response=True, gravity=True, rotation=True, stacking=True))
@@ -258,7 +261,7 @@ THIN = {
 
 @pytest.mark.parametrize("name", THIN)
 def test_extreme_shapes_are_weighed_met_and_dropped(name):
-    """No NaN, no exception; masses are positive; they fall on a floor and stay above it."""
+    """Extreme shapes have positive finite masses, collide without an error, fall on a floor and stay above it."""
     shape = THIN[name]
     mass = mass_of(shape, 1.0)
     assert mass.mass > 0 and mass.inertia > 0 and all(map(math.isfinite, (*mass.center, mass.inertia)))
@@ -283,7 +286,7 @@ def test_extreme_shapes_are_weighed_met_and_dropped(name):
 
 
 def test_coincident_and_touching_shapes_have_a_unit_normal():
-    """Concentric circles, capsules, boxes: some way out, the analytic depth (B5, B6)."""
+    """Concentric and touching shapes have a unit normal and the analytic depth (B5, B6)."""
     for shape, depth in (
         (Circle(2.0), 4.0),
         (Capsule((-3, 0), (3, 0), 1.0), 2.0),
@@ -304,7 +307,7 @@ def test_coincident_and_touching_shapes_have_a_unit_normal():
 
 
 def test_no_contact_is_dropped_where_there_are_many():
-    """128 discs at one point: 8,128 contacts, and room for more than any table began with."""
+    """128 discs at one point get all 8,128 contacts, more than the initial size of any table."""
     world = World(Effects(response=True, stacking=True), gravity=(0, 0))
     world.add_bodies(Circle(4.0), np.zeros((128, 2)))
     world.step(0.0)

@@ -1,5 +1,5 @@
-"""Values of a body that can be read and set: a change applies from the next step on, exactly as if it had been added
-so.
+"""Body values that can be read and set: a change acts from the next step on, as if the body had been added with the
+value.
 """
 
 import math

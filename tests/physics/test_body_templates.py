@@ -1,4 +1,4 @@
-"""A body with the shapes and values of an earlier one takes copies of its rows: those that would be computed."""
+"""A body with the shapes and values of an earlier one gets copies of its table rows, equal to computed rows."""
 
 import copy
 
@@ -14,7 +14,7 @@ BOX, GRID = Polygon.box(8, 6), TileGrid(np.ones((2, 2), bool), 8.0)
 
 
 def random_body(rng, effects):
-    """Return arguments of add_body, few enough that they repeat."""
+    """Return random (shapes, keyword arguments) for add_body; there are so few choices that they repeat."""
     kind = ("dynamic", "kinematic", "static")[rng.integers(3)]
     shapes = [(BOX,), (Circle(4.0),), (MASK,), (BOX, Circle(3.0, (5, 0))), (BOX.with_(filter=Filter(2, 2)), MASK), ()]
     if kind != "dynamic":
@@ -37,7 +37,7 @@ def random_body(rng, effects):
 
 
 def tables(world):
-    """Return all rows of a world and what the broad phase has of them, apart from boxes that are not in use."""
+    """Return all rows of a world, and the used proxies of its broad phase."""
     slots = world.shapes["proxy"]
     proxies = world.pairs.proxies[slots[slots >= 0]]
     return (
@@ -53,7 +53,7 @@ def tables(world):
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("effects", WORLDS)
 def test_the_same_rows_as_computed(effects, seed):
-    """With removals, carving and steps between, which reuse slots and move rows."""
+    """Copied rows equal computed ones, also when removals, carving and steps reuse slots and move rows."""
     rng = np.random.default_rng(seed)
     one, other = World(WORLDS[effects]), World(WORLDS[effects])
     known = 0
@@ -82,7 +82,9 @@ def test_the_same_rows_as_computed(effects, seed):
 
 
 def test_wrong_values_are_refused_though_their_equals_are_known():
-    """True is 1 and 1.0: only values of the right type take the short way."""
+    """A wrong value is refused even if it equals a known one, as True equals 1.0: only values of the right type use a
+    template.
+    """
     world = World(RIGID)
     for _ in range(3):
         world.add_body(BOX)

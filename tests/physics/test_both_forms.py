@@ -1,4 +1,6 @@
-"""The plain twin and the compiled form of a kernel are the same, in every call, in worlds with numbers no body has."""
+"""The plain and the compiled form of every kernel give equal results in every call, even for
+invalid numbers in bodies.
+"""
 
 import math
 import random
@@ -25,7 +27,10 @@ FAR = 2.0**20  # [px] a character is carried by so many pixels one by one: more 
 
 
 def write_wrong(world, rng, walkers):
-    """Write some of NUMBERS into some columns of random bodies, and wake most of these bodies."""
+    """Write random values of NUMBERS into random columns of random bodies, and wake most of these bodies.
+
+    walkers: True if the world has characters; then very large finite numbers are left out.
+    """
     columns = rng.sample(COLUMNS, rng.choice((1, 3)))
     numbers = [each for each in NUMBERS if not (walkers and FAR < abs(each) < math.inf)]
     share = rng.choice((0.1, 0.5))
@@ -37,7 +42,7 @@ def write_wrong(world, rng, walkers):
 
 
 def play_wrong(kind, solver, strategy, seed):
-    """Step a world whose numbers are made wrong between steps, with queries before and after."""
+    """Step a world and run queries while invalid numbers are written into its bodies between steps."""
     rng = random.Random(seed)
     walkers = seed % 2 == 0
     world = crowded(kind, strategy, solver, seed, walkers)
@@ -93,7 +98,10 @@ def test_forms_are_the_same_in_sound_worlds(kind, solver, strategy):
     ],
 )
 def test_one_wrong_number_of_a_turned_mask(column, value, kind, touched):
-    """On which a box lies: its pixels have no column, its angle no bucket, its time asleep no whole number."""
+    """A rotated mask with one invalid number, under a resting box, gives equal results in both forms.
+
+    With such a number its pixels have no column, its angle no bucket, and its sleep time no whole number.
+    """
     effects, _ = KINDS["stacked"]
     with compared():
         world = World(effects, gravity=(0.0, 300.0))
@@ -112,7 +120,7 @@ def test_one_wrong_number_of_a_turned_mask(column, value, kind, touched):
 @pytest.mark.parametrize("column", ["inverse_mass", "inverse_inertia"])
 @pytest.mark.parametrize("value", [-1e-3, -1e300, -math.inf])
 def test_a_negative_inverse_mass_is_quarantined(column, value):
-    """It was let through, and gave a contact no effective mass."""
+    """A body with a negative inverse mass or inertia is quarantined; its contacts would have no effective mass."""
     world = World(Effects.rigid_bodies())
     world.add_body(Circle(5.0))
     world.bodies[column][0] = value
@@ -123,7 +131,7 @@ def test_a_negative_inverse_mass_is_quarantined(column, value):
 @pytest.mark.parametrize("column", ["x", "y", "angle", "extent"])
 @pytest.mark.parametrize("value", [math.nan, math.inf, 1e300])
 def test_closest_ends_where_no_body_is_anywhere(column, value):
-    """It searched for ever in a box that had grown to NaN."""
+    """World.closest() returns although a body has no finite box; it must not search a box grown to NaN for ever."""
     world = World(Effects())
     world.add_body(PixelMask(np.ones((4, 4), bool)), position=(300.0, 0.0))
     world.bodies[column][0] = value
@@ -134,7 +142,7 @@ def test_closest_ends_where_no_body_is_anywhere(column, value):
 
 @kernel
 def columns_of(values, origin, buckets, columns_out, buckets_out):
-    """Write the column of each value's drawing, and its bucket as an angle."""
+    """Write, for each value, the pixel column at which a mask would be drawn, and its bucket as an angle."""
     for k in range(len(values)):
         columns_out[k] = snapped(values[k], origin)
         buckets_out[k] = bucket_at(values[k], buckets)
@@ -152,7 +160,9 @@ def test_what_has_no_pixel_is_nowhere_in_both_forms():
 
 @kernel
 def ranges_of(values, set_low, set_high, ranges_out):
-    """The range of pixels from each value to each."""
+    """Write the range (first, last) of pixels between every two of the values; set_low, set_high: range of solid
+    pixels.
+    """
     found = 0
     for low in range(len(values)):
         for high in range(len(values)):
@@ -162,7 +172,9 @@ def ranges_of(values, set_low, set_high, ranges_out):
 
 @pytest.mark.parametrize("set_low, set_high", [(0, 9), (2, 3), (0, 0)])
 def test_ranges_of_pixels_stay_within_the_solid_ones(set_low, set_high):
-    """Compared with every pixel by itself, where both ends are numbers."""
+    """The range of pixels between two positions lies within the solid ones, and is correct pixel by pixel for finite
+    ends.
+    """
     values = np.array([*NUMBERS, 2.5, 3.0, 4.0, 5.25, 9.0, 30.0])
     ranges = np.zeros((len(values) ** 2, 2), np.int64)
     with compared():
@@ -180,13 +192,13 @@ def test_ranges_of_pixels_stay_within_the_solid_ones(set_low, set_high):
 
 @subkernel
 def root_of_it(x):
-    """The square root."""
+    """Return the square root of x."""
     return math.sqrt(x)
 
 
 @kernel
 def roots(values, roots_out):
-    """Write roots; return the last."""
+    """Write the square roots of the values and return the last one."""
     for k in range(len(values)):
         roots_out[k] = root_of_it(values[k])
     return roots_out[-1]
@@ -194,7 +206,7 @@ def roots(values, roots_out):
 
 @generic
 def doubled(values_inout):
-    """Double them."""
+    """Double the values in place."""
     for k in range(len(values_inout)):
         values_inout[k] = 2.0 * values_inout[k]
 
@@ -227,7 +239,10 @@ def test_what_differs_is_seen(wrong, words):
 
 
 def test_views_of_one_buffer_stay_views_of_one():
-    """As read and written ones of a kernel are: the twin sees what it has written."""
+    """Arguments that are views of one buffer also share a buffer in the copies for the plain form.
+
+    Otherwise the plain form would not read what it has written through another argument.
+    """
     buffer = np.ones(8)
     with compared() as seen:
         roots(buffer[:4], buffer[2:6])

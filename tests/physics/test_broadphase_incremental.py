@@ -1,4 +1,4 @@
-"""Data that a broad phase keeps from step to step: by the counters still bodies cost nothing, and few changes cost
+"""Data that a broad phase keeps between steps: by the counters, resting bodies cost nothing and few changes cost
 little.
 """
 
@@ -31,7 +31,9 @@ every_strategy = pytest.mark.parametrize("make", STRATEGIES.values(), ids=STRATE
 
 
 def field(make, n, spacing=20.0, radius=8.0, **options):
-    """n circles on a square grid that do not touch."""
+    """Return (world, ids) of n circles on a square grid that do not touch, after two steps. make: function for the
+    broad phase.
+    """
     world = World(Effects(), make())
     side = math.ceil(math.sqrt(n))
     at = np.array([(spacing * (i % side), spacing * (i // side)) for i in range(n)], float)

@@ -1,4 +1,4 @@
-"""find_pairs of every strategy against the double loop."""
+"""find_pairs of every broad phase, compared with a double loop over all bodies."""
 
 import numpy as np
 import pytest

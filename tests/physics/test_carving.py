@@ -1,4 +1,6 @@
-"""Carving: which pixels go, what comes loose, and what that does to bodies, contacts, snapshots and digests."""
+"""Carving: which pixels are removed, which fragments form, and the effect on bodies, contacts,
+snapshots and digests.
+"""
 
 import math
 
@@ -24,7 +26,7 @@ def pixels_of(body):
 
 
 def centers(mask, pose):
-    """World places of the centres of all pixels of a mask's raster, (rows, columns, 2)."""
+    """Return the world positions of the centres of all pixels of a mask, an array (rows, columns, 2)."""
     rows, columns = np.indices(mask.solid.shape)
     u, v = columns + 0.5 - mask.origin[0], rows + 0.5 - mask.origin[1]
     c, s = math.cos(pose[2]), math.sin(pose[2])
@@ -32,7 +34,7 @@ def centers(mask, pose):
 
 
 def pieces(solid):
-    """The 8-connected pieces of solid, by flooding: sets of (row, column), in the order of their first pixels."""
+    """Return the 8-connected pieces of solid pixels by flood fill: sets of (row, column), ordered by first pixel."""
     left, found = set(zip(*(each.tolist() for each in np.nonzero(solid)), strict=True)), []
     for start in sorted(left):
         if start not in left:
@@ -197,7 +199,7 @@ def test_diagonal_pixels_hang_together():
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("kind", ("static", "kinematic", "dynamic"))
 def test_nothing_is_lost_against_flooding(seed, kind):
-    """Every pixel is kept, in a fragment where it was, a crumb, or under the tool."""
+    """After carving, every pixel is in a fragment at its old position, in a dropped crumb, or under the tool."""
     rng = np.random.default_rng(seed)
     solid = rng.random((70, 90)) < (0.55, 0.45)[seed % 2]
     if kind == "dynamic":
@@ -352,7 +354,7 @@ def test_what_slept_on_it_wakes_and_falls():
 
 
 def test_a_crater_is_felt_where_it_was_dug():
-    """A disc rolls into the hole and out of the way of the pixels that are gone."""
+    """A disc rolls into a carved crater, and passes where pixels are gone."""
     world = World(CARVING)
     floor = world.add_body(PixelMask(np.ones((40, 200), bool)), position=(100, 120), kind="static")
     floor.carve(Circle(12), (100, 100))

@@ -1,4 +1,6 @@
-"""Characters: whole pixels, never inside the ground, carried, squeezed, on slopes, pushing."""
+"""Characters move by whole pixels, are never inside the ground, are carried and squeezed, walk
+slopes and push bodies.
+"""
 
 import math
 
@@ -26,7 +28,9 @@ BOX = Polygon.box(10, 20)
 
 
 def ground(rows, size=16, legend=None):
-    """A world with tiles: # solid, = one-way, / and \\ 45 degrees, 1 2 the halves of a 1:2 slope up, 3 4 down."""
+    """Return a world with tiles: # solid, = one-way, / and \\ slopes of 45 degrees, 1 2 the halves of a 1:2 slope up, 3
+    4 down.
+    """
     heights = {"/": (0, 1), "\\": (1, 0), "1": (0, 0.5), "2": (0.5, 1), "3": (1, 0.5), "4": (0.5, 0)}
     grid = np.array([list(row) for row in rows])
     slopes = np.zeros((*grid.shape, 2))
@@ -38,7 +42,7 @@ def ground(rows, size=16, legend=None):
 
 
 def standing(world, x, floor, **options):
-    """A character whose feet are on `floor`."""
+    """Return a character at x whose feet are at the height `floor`."""
     hero = Character(world, BOX, (x, floor - 10), **options)
     hero.move(0, 0)
     return hero

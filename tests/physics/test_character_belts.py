@@ -1,4 +1,4 @@
-"""Surfaces that run carry characters as they carry bodies: at their speed, to the right where it is positive."""
+"""Conveyor surfaces carry characters as they carry bodies: at the surface speed, to the right if it is positive."""
 
 import pytest
 
@@ -9,7 +9,7 @@ STACKS = CARRIES.with_(stacking=True, rotation=True)
 
 
 def stand(world, floor, x=100.0, top=200.0, material=None, **settings):
-    """A character on a floor that lies at the height `top`."""
+    """Return a character that stands on a floor shape whose surface is at y = `top`."""
     world.add_body(floor, kind="static", position=settings.pop("position", (0.0, 0.0)), material=material or Material())
     one = Character(world, Polygon.box(10, 20), (x, top - 10.0), **settings)
     assert one.move(0.0, 0.0).grounded

@@ -1,4 +1,4 @@
-"""Characters among the bodies of worlds that stack: they stand on them, are carried, push, weigh, are squeezed."""
+"""Characters in stacking worlds: they stand on bodies, are carried, push, load what they stand on, and are squeezed."""
 
 import math
 
@@ -13,7 +13,7 @@ G = 640.0
 
 
 def place(effects=EFFECTS, gravity=(0, G), **options):
-    """A world with a floor whose top is y = 0."""
+    """Return a world with a floor whose top is y = 0."""
     world = World(effects, gravity=gravity, **options)
     world.add_body(Polygon.box(1600, 40), position=(0, 20), kind="static")
     return world
@@ -26,7 +26,7 @@ def standing(world, x, floor, **options):
 
 
 def play(world, steps, hero, dx=0.0, dy=2.0):
-    """Move the hero and step the world, `steps` times. Return the results of the moves."""
+    """Move the hero by (dx, dy) and step the world, `steps` times. Return the list of results of hero.move."""
     told = []
     for _ in range(steps):
         told.append(hero.move(dx, dy))

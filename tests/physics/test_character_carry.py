@@ -1,4 +1,4 @@
-"""Characters on what moves, on each other, and on one-way ground: the rarer meetings."""
+"""Rarer cases of characters on moving bodies, on each other, and on one-way ground."""
 
 import math
 

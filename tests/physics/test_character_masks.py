@@ -1,4 +1,6 @@
-"""Characters on masks: by the outline, as on a polygon or a chain of the same corners; no seam of it is felt."""
+"""Characters on masks use the outline: they move as on a polygon or chain of the same corners, and feel no seam of
+parts.
+"""
 
 import math
 
@@ -15,7 +17,7 @@ BOX, CAPSULE = SHAPES["box"][0], SHAPES["capsule"][0]
 
 
 def hill(width=360, height=70):
-    """Ground with a hump, a hollow and a ledge."""
+    """Return a ground mask with a hump, a hollow and a ledge."""
     x = np.arange(width)
     top = 40.0 - 22.0 * np.sin(x / 40.0) + np.where(x > 300, 6.0, 0.0)
     return PixelMask(np.arange(height)[:, None] >= np.floor(top)[None, :], origin=(0, 0))
@@ -72,7 +74,7 @@ def test_a_hill_of_pixels_is_walked_as_polygons_of_its_corners_are(shape, off):
 
 
 def floor_with_seams():
-    """A flat floor over caves, which cut it into many parts."""
+    """Return a mask with a flat floor over caves, which split its outline into many parts."""
     rng = np.random.default_rng(8)
     floor = np.ones((60, 400), bool)
     for _ in range(40):
@@ -154,7 +156,7 @@ def test_carried_by_a_platform_of_pixels_as_by_a_box(shape, turns, effects):
 
 @pytest.mark.parametrize("effects", [PLAIN, STACKS], ids=["plain", "stacking"])
 def test_carried_by_what_is_no_box(effects):
-    """A hull of pixels with a flat deck: it carries its rider by the point under the feet."""
+    """A kinematic pixel hull with a flat deck carries the character on it by the point under its feet."""
     at = np.arange(90) - 44.5
     boat = np.arange(24)[:, None] < 24.0 - (at / 12.0)[None, :] ** 2
     world = World(effects, gravity=(0, 0) if effects.gravity else None)

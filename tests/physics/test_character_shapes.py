@@ -1,4 +1,6 @@
-"""Characters of every convex shape: never in a solid, what stops them, what they cost, the same compiled and plain."""
+"""Characters of every convex shape: never inside a solid, reported obstacles, cost, and equal compiled and plain
+results.
+"""
 
 import os
 import subprocess
@@ -19,7 +21,9 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def random_solids(rng, count=14):
-    """Return (shape, pose) of turned, round and thin things about the origin, none of them where a character starts."""
+    """Return a list of (shape, pose) of rotated, round and thin shapes about the origin, none
+    at a character's start.
+    """
     found = []
     while len(found) < count:
         pick = rng.integers(6)

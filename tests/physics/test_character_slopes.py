@@ -1,4 +1,6 @@
-"""One rule for every ground: flatter than max_slope is walked, steeper is slid down, and the slope is reported."""
+"""The same rule for every ground: a slope flatter than max_slope is walked, a steeper one is slid down; slopes are
+reported.
+"""
 
 import math
 
@@ -17,7 +19,7 @@ SLOP = 0.16  # [px] of a world with 32 px per metre
 
 
 def land(world, shape, slope, x=-40.0, dy=2.0, **options):
-    """A character that was put down on a slope through the origin."""
+    """Return a character after it has moved down onto a slope through the origin; it starts 9 px above it."""
     form, points, radius = SHAPES[shape]
     hero = Character(world, form, (x, math.floor(resting_y(points, radius, x, slope)) - 9.0), **options)
     for _ in range(40):
@@ -28,7 +30,7 @@ def land(world, shape, slope, x=-40.0, dy=2.0, **options):
 
 
 def above(hero, shape, slope, ground=(0.0, 0.0)):
-    """Return the distance [px] of a character above its contact with the slope, downwards."""
+    """Return how far [px] a character is above its contact position on a slope, measured vertically."""
     form, points, radius = SHAPES[shape]
     x, y = hero.position
     return resting_y(points, radius, x, slope, ground) - y
@@ -75,7 +77,7 @@ def test_tiles_and_masks_are_walked_like_them(shape):
 
 @pytest.mark.parametrize("width", [4, 10, 14])
 def test_slope_of_tiles_is_told_by_the_middle_of_the_feet_and_by_a_foot_at_their_ends(width):
-    """A hill of two sloped tiles: every place of its width, told by the columns that the feet are over."""
+    """The slope reported on a hill of two sloped tiles follows from the columns under the feet, at every position."""
     solid = np.zeros((3, 7), bool)
     solid[2] = solid[1, 3] = True
     world = World(PLAIN)
@@ -95,7 +97,10 @@ def test_slope_of_tiles_is_told_by_the_middle_of_the_feet_and_by_a_foot_at_their
 
 
 def test_any_angle_of_a_mask_is_told_within_two_degrees():
-    """But for a pixel or two where tiles meet: a side of a pixel or two there is off by less than five."""
+    """The slope reported on a mask is right within two degrees, at any angle.
+
+    On the one or two pixels where tiles of the outline meet it may be off by up to five degrees.
+    """
     for degrees in range(-70, 71, 7):
         slope = math.tan(math.radians(degrees))
         world = World(PLAIN)

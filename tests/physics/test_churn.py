@@ -1,6 +1,7 @@
-"""Random adding, removing, moving, filtering: candidates and events against our own brute force, after every step.
+"""Random changes of worlds: candidates and events equal those of an independent brute-force model after every step.
 
-Five worlds live through the same history, one per broad phase: their digests must agree as well.
+Bodies are added, removed, moved and filtered. Five worlds, one per broad phase, get the same changes, and their digests
+must be equal.
 """
 
 import math
@@ -26,7 +27,7 @@ MAKERS = (BruteForce, SweepAndPrune, lambda: SweepAndPrune(axes="both"), Spatial
 
 
 class Twin:
-    """The expected state of a world, in plain lists."""
+    """Independent model of the expected state of a world, in plain lists."""
 
     def __init__(self):
         self.bodies = {}  # id -> [x, y, vx, vy, radius, kind, filter]
@@ -43,7 +44,9 @@ class Twin:
         )
 
     def candidates(self, reach=0.0):
-        """Return the pairs whose rectangles meet. reach [radii]: enlargement of moving ones for later motion."""
+        """Return the pairs whose swept boxes overlap. reach [radii]: enlargement of moving bodies' boxes for later
+        motion.
+        """
         found, items = [], [(i, b, self.rectangle(b, reach)) for i, b in sorted(self.bodies.items())]
         for at, (i, b, p) in enumerate(items):
             for j, c, q in items[at + 1 :]:
@@ -75,7 +78,7 @@ class Twin:
 
 
 def change(rng, twin, worlds, most):
-    """One random change to the twin and to every world."""
+    """Apply one random change to the model and to every world. most: greatest number of bodies."""
     choice, ids = rng.random(), sorted(twin.bodies)
     if (choice < 0.3 and len(ids) < most) or len(ids) < most // 2:
         kind = ("static", "kinematic", "dynamic")[rng.integers(3)]

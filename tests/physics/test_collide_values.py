@@ -1,4 +1,4 @@
-"""collide() in cases whose answer can be written down; mass_of and Polygon likewise."""
+"""collide(), mass_of and Polygon in cases whose exact result is known."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Colours of contacts are kept while the graph is the same, and are always those of a new colouring."""
+"""Contact colours are reused while the contact graph is unchanged, and always equal those of a new colouring."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,10 @@ SUBSTEPS = [1, 4, "auto", "both"]
 
 
 def pile(substeps, seed):
-    """Return a world with 30 boxes and discs that fall on ground and on a slow kinematic body."""
+    """Return a world with 30 boxes and discs that fall on ground and on a slow kinematic body.
+
+    substeps: "both" stands for 4.
+    """
     world, rng = World(EFFECTS, substeps=4 if substeps == "both" else substeps), np.random.default_rng(seed)
     world.add_body(Polygon.box(600, 20), position=(0, 200), kind="static")
     world.add_body(Polygon.box(60, 10), position=(0, 160), kind="kinematic", velocity=(8, 0))
@@ -23,7 +26,7 @@ def pile(substeps, seed):
 
 
 def edit(world, rng):
-    """Remove or add a body, or change the velocity of one, in some steps."""
+    """Make one random change to a world in about a quarter of the calls: remove or add a body, or change a velocity."""
     action = rng.integers(12)
     ids = world.bodies["id"][world.bodies["kind"] == 2] if action < 3 else ()
     if action == 0 and len(ids):
@@ -63,7 +66,7 @@ def test_a_world_that_keeps_colors_is_one_that_colors_anew_in_each_step(substeps
 @pytest.mark.parametrize("field", ["rank", "has_finite_mass"])
 @pytest.mark.parametrize("seed", range(10))
 def test_colors_follow_the_rank_and_the_mass_of_each_body(field, seed):
-    """The edges are the same, but a body is of another rank, or has got infinite mass."""
+    """Colours are recomputed when a body gets another rank or infinite mass, although the contact graph is the same."""
     world, rng = pile(4, seed), np.random.default_rng(seed)
     for _ in range(40):
         world.step()

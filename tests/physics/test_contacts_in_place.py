@@ -1,5 +1,7 @@
-"""Contacts stay where they stand in their table while the same shapes touch, and are copied when one begins or ends:
-what a pile does has nothing to do with it."""
+"""Contacts keep their row in the table while the same shapes touch, and are copied when another contact begins or ends.
+
+The motion of a pile must not depend on it.
+"""
 
 import numpy as np
 import pytest
@@ -21,7 +23,7 @@ STACKING = Effects.rigid_bodies().with_(sleeping=False)
 
 
 def pile(solver, shapes):
-    """A heap on a floor, and far away a box over a floor of its own. Returns (world, rows of the heap, that box)."""
+    """Return (world, rows of a heap on a floor, a box far away above a floor of its own)."""
     world = World(STACKING, solver=solver, substeps=4)
     world.add_body(Polygon.box(800, 40), kind="static", position=(0, 20))
     random = np.random.default_rng(5)

@@ -24,7 +24,7 @@ SHAPES = (
 
 
 def heap(effects, solver="soft_step", shapes=SHAPES, **arguments):
-    """Return (world, floor, the bodies of a heap that stands on it)."""
+    """Return (world, floor, bodies of a heap on the floor)."""
     world = World(effects, solver=solver, **arguments)
     floor = world.add_body(Polygon.box(400, 40), kind="static", position=(0, 20))
     bodies = [
@@ -64,7 +64,7 @@ def follow(make, edit):
 
 
 def leave(world, step, memory):
-    """Leave the world unchanged."""
+    """Edit that leaves the world unchanged."""
 
 
 def move_floor(world, step, memory):
@@ -84,7 +84,7 @@ def turn_one_in_the_table(world, step, memory):
 
 
 def put_in_its_place(world, step, memory):
-    """Remove a body, and move the next one in the table to its pose, so that this one has its row and its pose."""
+    """Remove a body and move the next one in the table to its pose, so that the latter gets its row and its pose."""
     _, _, bodies = memory["made"]
     if step in (STEPS // 3, STEPS // 2):
         first, second = bodies.pop(4), bodies[4]
@@ -94,7 +94,7 @@ def put_in_its_place(world, step, memory):
 
 
 def restore(world, step, memory):
-    """Move the floor by hand before a snapshot, and restore this snapshot later. The floor stays there in between."""
+    """Move the floor before taking a snapshot, and restore this snapshot in two later steps."""
     _, floor, _ = memory["made"]
     if step == STEPS // 4:
         floor.position = (0.0, 20.75)
@@ -118,7 +118,7 @@ def test_a_heap_that_is_left_alone(solver):
 
 
 def spoil_contacts(world, step, memory):
-    """Write NaN into contact values: the next step must find the contacts from the contact cache as before."""
+    """Write NaN into values of some contacts; the next step must still match these contacts to the contact cache."""
     if step % 8 == 6:
         for name in ("normal_x", "y_1", "separation_1"):
             world.contact_rows[name][step % 3 :: 4] = math.nan
@@ -134,7 +134,9 @@ def test_a_heap_that_hands_move(edit, effects):
 
 
 def test_contacts_that_sleep_are_asked_when_they_wake():
-    """The places of the other side in the last step say nothing about a body that was asleep in it."""
+    """Sleeping contacts cannot be recycled when they wake, because the last step's poses do not apply to sleeping
+    bodies.
+    """
     world, _, bodies = heap(Effects.rigid_bodies(), shapes=(Polygon.box(24, 24),))
     for _ in range(120):
         world.step()
@@ -145,7 +147,10 @@ def test_contacts_that_sleep_are_asked_when_they_wake():
 
 
 def test_contacts_sleep_exactly_where_they_stand():
-    """Those that wake are solved as they are: to the bit as if the last step had carried every point along its edge."""
+    """Contacts are stored at the final poses when an island sleeps, so they are solved as they are when it wakes.
+
+    They equal, to the bit, those of a step that evaluates every point anew.
+    """
     world, _, bodies = heap(Effects.rigid_bodies(), shapes=(Polygon.box(30, 16), Polygon.box(18, 24)))
     for k, body in enumerate(bodies):
         body.move_to((26.0 * (k % 4) - 39.0 + 7.0 * (k // 4), -20.0 - 30.0 * (k // 4)), 0.4 * math.sin(5.0 * k))

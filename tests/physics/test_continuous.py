@@ -1,4 +1,4 @@
-"""Fast bodies: time of impact in closed form, tunnelling shown both ways, no speed lost."""
+"""Fast bodies: time of impact in closed form, tunnelling with and without sweeps, and no loss of speed."""
 
 import math
 
@@ -15,7 +15,10 @@ def still_world(effects=FAST, **options):
 
 
 def test_disc_meets_disc_at_the_closed_form_time():
-    """Relative start (-3, 0.3), velocity (200, 0), radii 0.6 together: fraction 0.012401923788647 of a second."""
+    """A disc hits another at the closed-form time and keeps its tangential velocity.
+
+    Relative start (-3, 0.3), velocity (200, 0), sum of radii 0.6: the impact is after 0.012401923788647 of a second.
+    """
     world = still_world(pixels_per_meter=1.0)
     world.add_body(Circle(0.5), kind="static")
     mover = world.add_body(Circle(0.1), position=(-3.0, 0.3), velocity=(200.0, 0.0), continuous="swept")
@@ -64,7 +67,9 @@ def test_box_stops_at_a_wall_where_it_touches(angle, wall):
 
 
 def random_shots(mode, seed, kind, effects=FAST, count=1000):
-    """Return how many of `count` fast bodies pass a thin wall without a contact."""
+    """Shoot `count` fast bodies at a thin wall and return how many pass it without a contact. mode: value of
+    `continuous`.
+    """
     rng = np.random.default_rng(seed)
     world = still_world(effects)
     if kind == "tiles":
@@ -113,7 +118,10 @@ def test_undeclared_continuous_lets_all_through_as_off_does():
 
 
 def test_discrete_miss_rate_is_one_minus_reach_over_step():
-    """Discs r, walls w, v dt per step at random phases: misses 1 - (w + 2r)/(v dt); with the sweep none."""
+    """Without sweeps, discs of radius r miss walls of width w at a rate of 1 - (w + 2r)/(v dt); with sweeps none does.
+
+    The phases of the steps are random.
+    """
     count = 4000 if JIT else 300
     rng = np.random.default_rng(8)
     for mode in ("off", "swept"):
@@ -235,7 +243,9 @@ def test_no_fast_body_means_no_sweep():
 
 
 def test_masks_are_not_swept_silently():
-    """A fast mask either stops at a thin wall or is refused; it does not fly through unsaid."""
+    """A fast mask with continuous collision stops at a thin wall, or adding it raises an error; it never passes
+    unnoticed.
+    """
     world = still_world()
     world.add_body(Polygon.box(2, 40), position=(30.0, 0.0), kind="static")
     try:

@@ -50,14 +50,14 @@ def wheel(world, x, y=0.0):
 
 
 def geared(ratio=2.0, **more):
-    """A world with two wheels that a gear couples: (world, the hinges, the gear)."""
+    """Return (world, hinges, gear) of two wheels coupled by a gear."""
     world = World(EFFECTS, **more)
     hinges = [wheel(world, 50.0 * k)[1] for k in range(2)]
     return world, hinges, world.add_joint(Gear(*hinges, ratio=ratio))
 
 
 def hung(masses=(1.0, 1.0), **more):
-    """A world with two bodies on a rope over two pulleys: (world, the bodies, the pulley)."""
+    """Return (world, bodies, pulley) of two bodies that hang on a rope over two wheels."""
     world = World(EFFECTS)
     a, b = (world.add_body(Circle(6.0), position=(80.0 * k, 100.0), mass=mass) for k, mass in enumerate(masses))
     rope = Pulley(a, b, at_a=(0, 100), at_b=(80, 100), ground_a=(0, 0), ground_b=(80, 0), **more)
@@ -65,7 +65,7 @@ def hung(masses=(1.0, 1.0), **more):
 
 
 def machine(**more):
-    """Gears that close a loop, a rack, a ratchet against a weight, pulleys over a pile, and a chain."""
+    """Return a world with gears that close a loop, a rack, a ratchet under a load, pulleys over a pile, and a chain."""
     world = World(EFFECTS, **more)
     world.add_body(Polygon.box(800, 20), position=(0, 200), kind="static")
     (_, first), (_, second), (_, third) = (wheel(world, 60.0 * k, -100.0) for k in range(3))
@@ -346,7 +346,7 @@ def test_an_arm_on_a_ratchet_sleeps(solver):
 
 
 def test_a_gear_links_the_islands_of_four_bodies():
-    """Two carts in flight whose wheels are geared: what wakes one body wakes all of them."""
+    """A gear between the wheels of two flying carts links all four bodies in one island, so waking one wakes all."""
     world = World(EFFECTS.with_(gravity=False))
     carts = [world.add_body(BOX, position=(100.0 * k, 0.0)) for k in range(2)]
     wheels = [world.add_body(Circle(8.0), position=(100.0 * k, 20.0)) for k in range(2)]

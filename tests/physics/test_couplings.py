@@ -37,7 +37,7 @@ def run(world, seconds):
 
 
 def wheel(world, x, y=0.0, radius=20.0, **more):
-    """A wheel on a hinge of the world: (body, joint)."""
+    """Add a wheel on a hinge fixed to the world, and return (body, hinge)."""
     body = world.add_body(Circle(radius), position=(x, y), **more)
     return body, world.add_joint(Revolute(None, body, at=(x, y)))
 
@@ -54,7 +54,7 @@ def energy(world):
 @pytest.mark.parametrize("setting", SETTINGS)
 @pytest.mark.parametrize("ratio", [-4.0, -1.0, 0.25, 1.0, 3.0])
 def test_a_pair_of_gears_keeps_its_ratio(ratio, setting):
-    """Ten turns a second for a minute and more: a thousand turns of the faster side."""
+    """A pair of gears keeps its ratio for a thousand turns of the faster wheel, at ten turns a second."""
     world = world_of(setting)
     (_, hinge_a), (b, hinge_b) = wheel(world, 0.0), wheel(world, 100.0, radius=30.0, angle=0.7)
     gear = world.add_joint(Gear(hinge_a, hinge_b, ratio=ratio))
@@ -72,7 +72,9 @@ def test_a_pair_of_gears_keeps_its_ratio(ratio, setting):
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 2.0, 10.0])
 @pytest.mark.parametrize("side", ["a", "b"])
 def test_a_torque_on_one_gear_speeds_up_both(side, ratio, setting):
-    """The inertia felt by A is I_a + I_b / ratio²; the gear's torque on B is what speeds B up."""
+    """A torque on one gear accelerates both: the inertia at A is I_a + I_b / ratio², and the gear's torque accelerates
+    B.
+    """
     world = world_of(setting, FLOATING)
     (a, hinge_a), (b, hinge_b) = wheel(world, 0.0), wheel(world, 100.0, radius=25.0)
     gear = world.add_joint(Gear(hinge_a, hinge_b, ratio=ratio))
@@ -93,7 +95,10 @@ def test_a_torque_on_one_gear_speeds_up_both(side, ratio, setting):
 @pytest.mark.parametrize("angle", [0.0, 0.6, math.pi / 2, 2.0])
 @pytest.mark.parametrize("radius", [10.0, 40.0])
 def test_a_rack_falls_against_its_pinion(radius, angle, setting):
-    """Acceleration g sin / (1 + I / (m r²)); the rack's weight beyond is borne by the gear."""
+    """A rack falls against its pinion with an acceleration of g sin / (1 + I / (m r²)).
+
+    The gear carries the rest of the rack's weight.
+    """
     world = world_of(setting)
     pinion, hinge = wheel(world, 0.0, radius=20.0)
     axis = math.cos(angle), math.sin(angle)
@@ -112,7 +117,10 @@ def test_a_rack_falls_against_its_pinion(radius, angle, setting):
 @pytest.mark.parametrize("setting", SETTINGS)
 @pytest.mark.parametrize("tier", ["iterative", "direct", "auto"])
 def test_a_planetary_gear_turns_by_willis(tier, setting):
-    """Sun held, the carrier driven: the planet turns by sun / planet relative to the carrier. One body is on both."""
+    """In a planetary gear with a fixed sun, the planet turns by sun / planet relative to the driven carrier (Willis).
+
+    The carrier is connected to both joints of the gear.
+    """
     world = world_of(setting, FLOATING)
     world.joint_solver = tier
     sun, _ = wheel(world, 0.0)
@@ -158,7 +166,7 @@ def test_a_kinematic_body_drives_a_gear(driver, setting):
 @pytest.mark.parametrize("setting", SETTINGS)
 @pytest.mark.parametrize("ratio", [-2.0, 0.5, 1.0])
 def test_a_gear_of_bodies_couples_their_angles(ratio, setting):
-    """Two bodies in flight; the pair keeps its linear momentum, and the sum of its angles."""
+    """A gear between two free bodies couples their angles and keeps the linear momentum of the pair."""
     world = world_of(setting, FLOATING)
     a = world.add_body(Polygon.box(30, 10), angular_velocity=4.0, velocity=(10.0, 0.0))
     b = world.add_body(Circle(12.0), position=(80.0, 0.0), velocity=(0.0, -5.0))
@@ -172,7 +180,7 @@ def test_a_gear_of_bodies_couples_their_angles(ratio, setting):
 
 
 def test_a_gear_takes_the_angle_of_a_wheel_and_a_groove_may_roll():
-    """A body that slides and turns is on both sides of its gear: it rolls without slip."""
+    """A gear accepts an Angle joint and a slider of the same body, which then rolls in its groove without slip."""
     world = World(EFFECTS)
     ball = world.add_body(Circle(10.0))
     slope = math.cos(0.5), math.sin(0.5)
@@ -213,7 +221,10 @@ def test_a_geared_arm_that_swings_gains_no_energy(tier, mass, setting):
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 3.0])
 @pytest.mark.parametrize("rigid", [False, True])
 def test_an_atwood_machine_has_its_acceleration_and_its_tension(rigid, ratio, masses, setting):
-    """B falls by g (m - ratio) / (m + ratio²) with m = mass of B over A; the rope pulls B with ratio times T."""
+    """In an Atwood machine B falls by g (m - ratio) / (m + ratio²), where m is the mass of B over that of A.
+
+    The rope pulls B with ratio times its tension T.
+    """
     world = world_of(setting)
     a = world.add_body(Circle(6.0), position=(0.0, 500.0), mass=10.0)
     b = world.add_body(Circle(6.0), position=(80.0, 400.0), mass=10.0 * masses)
@@ -253,7 +264,7 @@ def test_a_rope_over_pulleys_is_slack_until_it_is_taut_unless_it_is_rigid(rigid,
 @pytest.mark.parametrize("setting", SETTINGS)
 @pytest.mark.parametrize("angle", [0.2, 0.5, 1.0])
 def test_a_body_on_a_rope_over_pulleys_swings_as_a_pendulum(angle, setting):
-    """The other side is very heavy and rests on the ground."""
+    """A body on a rope over pulleys swings as a pendulum if the body at the other end is very heavy and rests."""
     world = world_of(setting)
     world.add_body(Polygon.box(60, 20), position=(-100.0, 220.0), kind="static")
     a = world.add_body(Circle(10.0), position=(-100.0, 200.0), mass=1e5)
@@ -344,7 +355,7 @@ def test_a_ratchet_turns_one_way_and_holds_at_its_teeth(phase, ratchet, setting)
 @pytest.mark.parametrize("setting", SETTINGS)
 @pytest.mark.parametrize("teeth", [7, 24, 200])
 def test_a_ratchet_holds_the_lift_of_a_crank(teeth, setting):
-    """An arm that is pushed up now and then stays on the tooth that it has passed."""
+    """A ratchet holds an arm, pushed up at intervals, on the last tooth that it has passed."""
     world = world_of(setting)
     arm = world.add_body(Polygon.box(60, 6), position=(30.0, 0.0))
     hinge = world.add_joint(Revolute(None, arm, at=(0.0, 0.0)))

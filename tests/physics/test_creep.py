@@ -1,4 +1,4 @@
-"""Bodies at rest do not wander: light planks under heavy loads, over a minute and more."""
+"""Resting bodies do not creep: light planks under heavy loads stay in place for over a minute."""
 
 import pytest
 
@@ -11,7 +11,10 @@ EFFECTS = Effects.rigid_bodies().with_(sleeping=False)
 
 
 def plank(density, x, **settings):
-    """A plank on two posts, with a heavy box on it: 10 m by 0.1 m, and 1 m."""
+    """Return a world with a plank (10 m by 0.1 m) on two posts and a box of 1 m on it.
+
+    density, x: of the box; x in metres from the middle.
+    """
     world = World(EFFECTS, **settings)
     world.add_body(Polygon.box(8000, 40), position=(0, 20), kind="static")
     for post in (-4.8, 4.8):
@@ -56,7 +59,7 @@ def test_a_pyramid_comes_to_rest_with_as_many_passes_as_its_load_needs(rows, sol
 
 @pytest.mark.parametrize("speed", [5.0, 40.0, 150.0])
 def test_what_slides_to_a_stop_is_not_drawn_back(speed):
-    """A contact holds the place where it stopped, not the one where it was found."""
+    """A box that slides to a stop is not pulled back: its contact anchors the position where it stopped."""
     world = World(EFFECTS)
     world.add_body(Polygon.box(4000, 40), position=(0, 20), kind="static", material=Material(friction=0.4))
     box = world.add_body(Polygon.box(32, 16), position=(0, -8), velocity=(speed, 0), material=Material(friction=0.4))

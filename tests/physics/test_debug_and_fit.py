@@ -1,4 +1,4 @@
-"""Data of the overlays, sources of the tiers, and the warm-up: against naive loops and geometry."""
+"""Debug overlays, tier shapes and the warm-up, compared with simple loops and geometry."""
 
 import math
 

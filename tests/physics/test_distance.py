@@ -1,4 +1,4 @@
-"""Distance and depth: certificates instead of golden values, and agreement with collide (U10)."""
+"""Distance and depth, checked by certificates instead of golden values, and for agreement with collide (U10)."""
 
 import math
 from itertools import pairwise
@@ -34,7 +34,10 @@ def room_for(points):
 
 
 def gap_of(a, b, room=None, start=(0, 0)):
-    """Return (separation, normal, point on A, point on B) of two outlines, by the kernel."""
+    """Return (separation, normal, point on A, point on B) of two outlines, computed by the kernel.
+
+    room: workspace of the kernel, None for a new one. start: first corners of the search.
+    """
     room = new_gap_workspace() if room is None else room
     found = shape_separation(room_for(a), len(a), 0.0, room_for(b), len(b), 0.0, start, room)
     gap = room.gap
@@ -45,8 +48,8 @@ def gap_of(a, b, room=None, start=(0, 0)):
 def check_certificates(a, b, room):
     """Assert bounds on the distance and depth of two outlines. Return whether they overlap.
 
-    The distance lies between the gap along the normal and the distance of the witness points; the depth is at most the
-    overlap of the AABBs.
+    The distance lies between the gap along the normal and the distance of the two reported points. The depth is at most
+    the overlap of the AABBs.
     """
     size = max(np.ptp(a, axis=0).max(), np.ptp(b, axis=0).max(), 1e-300)
     found, normal, on_a, on_b = gap_of(a, b, room)
@@ -66,7 +69,7 @@ def check_certificates(a, b, room):
 
 
 def fuzz(seed, pairs, slimmest):
-    """Check random pairs (C13). Return (share of hits, number of rounds for each pair without a hit)."""
+    """Check random pairs (C13). Return (share of overlaps, numbers of rounds of the pairs that do not overlap)."""
     rng, room, hits, rounds = np.random.default_rng(seed), new_gap_workspace(), 0, []
     for _ in range(pairs):
         a, b = (
@@ -96,7 +99,7 @@ def test_a_hundred_thousand_random_hulls_keep_their_certificates():
 
 @pytest.mark.parametrize("half", [1.6e-3, 2e-4, 1e-5])
 def test_point_beyond_the_short_edge_of_a_plank(half):
-    """C1: no squared length with an absolute epsilon reports an overlap."""
+    """A point beyond the short edge of a plank is not an overlap: no squared length has an absolute tolerance (C1)."""
     plank = np.array([(-0.5, -half), (0.5, -half), (0.5, half), (-0.5, half)])
     found, normal, _, _ = gap_of(plank, np.array([(0.505, 0.0)]))
     assert found == pytest.approx(0.005, abs=1e-15) and normal.tolist() == [1.0, 0.0]
@@ -105,7 +108,7 @@ def test_point_beyond_the_short_edge_of_a_plank(half):
 @pytest.mark.parametrize("exponent", range(-15, 0))
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
 def test_small_gaps_and_overlaps_keep_sign_and_normal(exponent, sign):
-    """C3, C9: a gap down to 1e-15 has a unit normal, its face's, and is exact to 1e-12 of the size."""
+    """Gaps and overlaps down to 1e-15 have the face's unit normal and are exact to 1e-12 of the size (C3, C9)."""
     gap = sign * 10.0**exponent
     box, disc = Polygon.box(2, 2), Circle(1.0)
     for a, pose_a, b, pose_b, normal in (
@@ -132,7 +135,9 @@ def test_signed_distance_is_monotone_through_touching():
 
 
 def test_squares_overlap_alike_from_every_start():
-    """C4: depth 0.1, normal (0, 1), wherever the walk begins and whichever corner is listed first."""
+    """Two overlapping squares have depth 0.1 and normal (0, 1) from every start corner and
+    every order of corners (C4).
+    """
     square = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
     for roll in range(4):
         for i in range(4):
@@ -153,7 +158,7 @@ def test_squares_overlap_alike_from_every_start():
     ],
 )
 def test_identical_shapes_at_one_place(shape, depth):
-    """C7, B6: the depth is the least width, with a unit normal."""
+    """Two identical shapes at one pose have their least width as depth, and a unit normal (C7, B6)."""
     for pose in (ORIGIN, (3.0, -7.0, 0.7)):
         found = distance(shape, pose, shape, pose)
         assert found.distance == pytest.approx(-depth, abs=1e-12) and abs(math.hypot(*found.normal) - 1.0) < 1e-12
@@ -161,7 +166,7 @@ def test_identical_shapes_at_one_place(shape, depth):
 
 
 def test_hulls_on_one_line_and_points():
-    """Minkowski differences without area."""
+    """distance() handles collinear hulls and points, whose Minkowski difference has no area."""
     line, point = np.array([(-1.0, 0.0), (1.0, 0.0)]), np.zeros((1, 2))
     for a, b, gap in (
         (line, line + (3.0, 0.0), 1.0),
@@ -178,7 +183,7 @@ def test_hulls_on_one_line_and_points():
 
 
 def test_boxes_that_share_an_edge():
-    """C8: distance 0, the edge's normal, both points on it."""
+    """Boxes that share an edge have distance 0, the edge's normal, and both points on the edge (C8)."""
     box = Polygon.box(1, 1)
     found = distance(box, (0.5, 0.5, 0.0), box, (1.5, 0.5, 0.0))
     assert abs(found.distance) <= 1e-12 and found.normal == (1.0, 0.0)
@@ -187,7 +192,7 @@ def test_boxes_that_share_an_edge():
 
 @pytest.mark.parametrize("edge", [84.0, 500.0])
 def test_witnesses_of_long_edges_stay_on_the_shapes(edge):
-    """C10: edge 84 against depth 0.05, and 1e4 : 1."""
+    """The two reported points stay on long shapes: an edge of 84 at a depth of 0.05, and a ratio of 1e4 : 1 (C10)."""
     slab, box = Polygon.box(edge, 1.0), Polygon.box(2.0, 2.0)
     for x in np.linspace(-0.45 * edge, 0.45 * edge, 13):
         found = distance(slab, ORIGIN, box, (float(x), -1.45, 0.0))
@@ -197,7 +202,7 @@ def test_witnesses_of_long_edges_stay_on_the_shapes(edge):
 
 
 def test_near_parallel_planes_end_soon():
-    """C12: no endless loop, no cap."""
+    """The search on nearly parallel edges ends without reaching its cap (C12)."""
     room, rounds = new_gap_workspace(), []
     for k in range(400):
         tilt = 10.0 ** -(k % 17) * (1 if k % 2 else -1)
@@ -213,7 +218,7 @@ def test_near_parallel_planes_end_soon():
 
 @pytest.mark.parametrize("angle", [0.0, 0.3, 2.0])
 def test_disc_and_box_in_closed_form(angle):
-    """C14: deep, edge and corner, just touching, under turns: 1e-9 on all counts."""
+    """A disc and a rotated box match the closed form to 1e-9: deep, at an edge, at a corner, or just touching (C14)."""
     box, disc, radius = Polygon.box(6.0, 4.0), Circle(1.5), 1.5
     c, s = math.cos(angle), math.sin(angle)
     for u, v, gap, normal in (
@@ -233,7 +238,7 @@ def test_disc_and_box_in_closed_form(angle):
 
 
 def test_unit_box_in_a_big_one_leaves_by_the_least_translation():
-    """C15."""
+    """The depth of a unit box inside a big one is the least translation that separates them (C15)."""
     rng = np.random.default_rng(4)
     big, small = Polygon.box(100, 100), Polygon.box(1, 1)
     assert distance(big, ORIGIN, small, ORIGIN).distance == pytest.approx(-50.5, abs=1e-9)
@@ -244,7 +249,7 @@ def test_unit_box_in_a_big_one_leaves_by_the_least_translation():
 
 
 def shape_of(kind, rng):
-    """A random shape of a kind, some 10 px large."""
+    """Return a random shape of a kind, about 10 px large."""
     if kind == "circle":
         return Circle(rng.uniform(1, 8), tuple(rng.uniform(-3, 3, 2)))
     if kind == "capsule":
@@ -278,7 +283,11 @@ def pose_of(kind, rng, reach, whole):
 @pytest.mark.parametrize("kind_a", KINDS)
 @pytest.mark.parametrize("kind_b", KINDS)
 def test_distance_is_not_positive_exactly_where_collide_finds_a_contact(kind_a, kind_b):
-    """U10 and U7 for every pair of kinds, on whole coordinates where touching is common, and the depth is collide's."""
+    """The distance is at most 0 exactly where collide finds a contact, and then equals its depth, for all kinds (U10,
+    U7).
+
+    Coordinates are integers, where touching is common.
+    """
     rng = np.random.default_rng([KINDS.index(kind_a), KINDS.index(kind_b)])
     for k in range(20 if JIT else 4):
         a, b = shape_of(kind_a, rng), shape_of(kind_b, rng)

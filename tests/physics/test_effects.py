@@ -1,4 +1,4 @@
-"""Only declared effects exist: stages, counters, tables, compiled kernels."""
+"""Only declared effects have stages, counters, tables and compiled kernels."""
 
 import json
 import os
@@ -39,7 +39,9 @@ def test_a_stage_that_no_effect_needs_is_absent():
 
 
 def crowd(effects, steps=30, **options):
-    """Bodies in which nothing rubs, bounces, turns, flies fast or falls, so that most effects are unused."""
+    """Return a world of bodies without friction, bounce, rotation, fast motion or gravity, so
+    most effects are unused.
+    """
     world = World(effects, gravity=(0, 0), **options)
     rng = np.random.default_rng(3)
     smooth = Material(friction=0.0, restitution=0.0)

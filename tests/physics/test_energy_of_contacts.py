@@ -1,4 +1,6 @@
-"""A passive scene never gains energy: eccentric discs, bowls of links, springs of contacts, and what slides on ice."""
+"""A passive scene never gains energy: eccentric discs, bowls of links, soft contacts, and bodies sliding without
+friction.
+"""
 
 import math
 
@@ -14,9 +16,9 @@ SUBSTEPS = (4, 16, 32, "auto")
 
 
 def energies(world, body, height, steps):
-    """Return (steps,) kinetic plus potential energy of a body, as shares of that at the start.
+    """Step a world and return (steps,) kinetic plus potential energy of a body, as shares of that at the start.
 
-    height(): height of the centre of mass over its lowest place [px].
+    height(): function that returns the height of its centre of mass over the lowest possible one [px].
     """
     start, found = body.mass * world.gravity[1] * height() + body.kinetic_energy, []
     for _ in range(steps):
@@ -26,9 +28,9 @@ def energies(world, body, height, steps):
 
 
 def eccentric(offset, weight, tilt, **settings):
-    """Return (world, body, height) of a disc with a heavy one in it, on level ground.
+    """Return (world, body, height) of an eccentric disc, which contains a heavy small disc, on level ground.
 
-    height(): height of its centre of mass over the lowest place [px].
+    height(): function that returns the height of its centre of mass over the lowest possible one [px].
     """
     world = World(EFFECTS, **settings)
     rough = Material(friction=4.0)  # it rolls without slip
@@ -42,7 +44,7 @@ def eccentric(offset, weight, tilt, **settings):
 def bowl(links, radius, start, **settings):
     """Return (world, body, height) of a disc in a half circle of links without friction.
 
-    height(): height of the disc's centre over its lowest place [px].
+    height(): function that returns the height of the disc's centre over the lowest possible one [px].
     """
     world = World(EFFECTS, **settings)
     rim = [(400 * math.cos(a), 400 * math.sin(a)) for a in np.linspace(math.pi, 0, links + 1)]
@@ -65,7 +67,10 @@ def test_an_eccentric_disc_keeps_its_energy_for_a_minute_and_never_gains(offset,
 @pytest.mark.parametrize("substeps", [4, "auto"])
 @pytest.mark.parametrize("links, radius, start", [(240, 20, 0.7), (480, 20, 0.7), (60, 20, 0.8), (240, 5, 0.9)])
 def test_a_disc_in_a_bowl_of_links_never_gains(links, radius, start, substeps):
-    """It loses what inelastic corners take: sin²δ of the kinetic energy at each, and 5 % of the start."""
+    """A disc in a bowl of links gains no energy.
+
+    It loses what inelastic corners take, sin²δ of the kinetic energy at each, and at most 5 % of the start.
+    """
     world, body, height = bowl(links, radius, start, substeps=substeps)
     found = energies(world, body, height, 3600)
     assert found.max() <= 1.005
@@ -90,7 +95,10 @@ def rocking(half_height, tilt, effects=EFFECTS, **settings):
 @pytest.mark.parametrize("substeps", SUBSTEPS)
 @pytest.mark.parametrize("half_height", [2, 3, 6, 9])
 def test_a_plank_that_rocks_on_a_round_body_swings_no_further(half_height, substeps):
-    """Its normal, and the point that it is pressed at, turn with it: held for a step, they would lag and add energy."""
+    """A plank that rocks on a round body never swings wider.
+
+    The contact normal and its point must rotate with the plank; fixed for a step, they would lag and add energy.
+    """
     for tilt in (0.005, 0.02, 0.06, 0.15, 0.3, 0.45):
         world, plank = rocking(half_height, tilt, substeps=substeps)
         swings = []
@@ -154,7 +162,7 @@ def test_discs_planks_and_capsules_that_roll_on_each_other_never_gain(settings):
 @pytest.mark.parametrize("ground", ["box", "chain"])
 @pytest.mark.parametrize("speed", [0.0, 300.0, 447.0, 700.0, 1500.0, 4000.0])
 def test_elastic_balls_that_are_swept_keep_their_energy(speed, ground):
-    """Where a fast ball is stopped within a step, gravity has acted until then, not for the whole step."""
+    """Swept elastic balls keep their energy: gravity acts until the impact within the step, not for the whole step."""
     elastic = Material(friction=0.0, restitution=1.0)
     for phase in range(10):
         world = World(EFFECTS)
@@ -193,7 +201,10 @@ def test_none_of_them_gains_in_ten_minutes(scene, substeps):
 @pytest.mark.parametrize("shape", [Polygon.box(16, 16), Circle(8), Capsule((-4, 0), (4, 0), 8)])
 @pytest.mark.parametrize("height", [0.0, 0.05, 20.0])
 def test_what_slides_on_ice_keeps_its_speed_while_it_lands(shape, height, settings):
-    """Energy that a contact adds is taken from the direction in which it acts."""
+    """A body that slides without friction keeps its speed to 1e-9 while it lands.
+
+    The energy that a contact adds is taken from the direction in which it acts.
+    """
     for speed in (0.5, 30.0, 300.0):
         world = World(EFFECTS, **settings)
         world.add_body(Polygon.box(8000, 40), position=(0, 20), kind="static", material=ICE)
@@ -204,7 +215,7 @@ def test_what_slides_on_ice_keeps_its_speed_while_it_lands(shape, height, settin
 
 
 def mechanical_energy(world):
-    """The kinetic energy of all bodies, and the potential energy of the dynamic ones over y = 200."""
+    """Return the kinetic energy of all bodies plus the potential energy of the dynamic ones above y = 200."""
     b = world.bodies[1:]
     b = b[b["inverse_mass"] > 0.0]
     kinetic = b["mass"] * (b["vx"] ** 2 + b["vy"] ** 2) + b["inertia"] * b["angular_velocity"] ** 2
@@ -214,7 +225,7 @@ def mechanical_energy(world):
 @needs_speed
 @pytest.mark.parametrize("settings", [{}, {"substeps": 4}], ids=["auto", "4"])
 def test_random_heaps_gain_no_energy_in_a_step(settings):
-    """Not beyond a thousandth of the energy at first: a heap without overlaps that falls together."""
+    """A random collapsing heap without overlaps gains at most a thousandth of its start energy in any step."""
     rng = np.random.default_rng(7)
     for _ in range(6):
         world = World(EFFECTS, **settings)

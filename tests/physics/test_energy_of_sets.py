@@ -1,4 +1,4 @@
-"""The energy bound looks at all contacts only where a set of bodies gained; otherwise it keeps the same reserves."""
+"""The energy limit visits all contacts only if a set of bodies gained energy; otherwise it keeps the same reserves."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ LONG = ("vx", "vy", "angular_velocity")
 
 
 def collapse(seed, substeps):
-    """Return a world in which a heap of boxes and discs of several densities falls, some of it into free discs."""
+    """Return a world with a falling heap of boxes and discs of several densities; some of them fall onto free discs."""
     world, rng = World(EFFECTS, substeps=substeps), np.random.default_rng(seed)
     world.add_body(Polygon.box(500, 20), position=(0, 200), kind="static")
     for k in range(50):
@@ -29,7 +29,9 @@ def test_both_ways_leave_the_same_velocities_and_reserves(monkeypatch, seed, sub
     limit, calls = soft_step.limit_energy, []
 
     def both(blocks, count, group, links, moving, context, plan, balance, motions):
-        """Run the full way on copies, as it is taken beside moving kinematic bodies, then the way under test."""
+        """Run the full computation on copies, as beside moving kinematic bodies, then the one under test, and compare
+        both.
+        """
         assert moving == 0
         full = balance.copy(), motions.copy()
         limit(blocks, count, group, links, 1, context, plan, *full)

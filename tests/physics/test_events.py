@@ -1,4 +1,4 @@
-"""Begin, persist, end, hits, sensors: each begin has exactly one end, whatever happens in between."""
+"""Begin, persist, end, hit and sensor events: each begin has exactly one end, whatever happens between them."""
 
 import numpy as np
 import pytest

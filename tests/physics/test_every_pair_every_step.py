@@ -1,4 +1,4 @@
-"""BruteForce(incremental=False) tests every pair in every step, and finds what the others find."""
+"""BruteForce(incremental=False) tests every pair in every step and finds the same pairs as the other broad phases."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""A body that no friction holds sleeps only if it would stay in place for a minute; `allow_sleep`."""
+"""A body without friction sleeps only if it would stay in place for a minute; `allow_sleep`."""
 
 import math
 
@@ -19,7 +19,7 @@ def run(world, seconds=2.0):
 
 
 def slope(world, angle, material=ICE):
-    """Add a floor that falls to the right, and return its normal."""
+    """Add a floor that slopes down to the right by an angle, and return its normal."""
     world.add_body(FLOOR, kind="static", angle=angle, material=material)
     return math.sin(angle), -math.cos(angle)
 
@@ -157,7 +157,7 @@ def test_a_stack_of_ice_sleeps():
 
 @pytest.mark.parametrize("velocity", [0.0, 1.0])
 def test_what_lies_on_a_raft_goes_where_the_raft_goes(velocity):
-    """Crates are borne with friction, by a raft that is not: they move as one."""
+    """Crates with friction on a raft without friction move and sleep together with the raft."""
     world = World()
     slope(world, 0.0)
     raft = world.add_body(Polygon.box(200, 10), position=(0, -5), velocity=(velocity, 0), material=ICE)
@@ -184,7 +184,10 @@ def test_with_friction_the_threshold_decides(solver, angle):
 
 @pytest.mark.parametrize("speed, awake", [(0.7, False), (1.2, True)])
 def test_a_disc_that_rolls_slowly_on_ground_with_friction_sleeps(speed, awake):
-    """The furthest point of a rolling disc moves at twice the speed of its centre; 1.6 px/s sleep."""
+    """A slowly rolling disc on ground with friction sleeps below the sleeping speed.
+
+    The fastest point of the disc moves at twice the speed of its centre; 1.6 px/s is slow enough to sleep.
+    """
     world = World()
     slope(world, 0.0, Material())
     disc = world.add_body(DISC, position=(0, -8), velocity=(speed, 0), angular_velocity=speed / 8)

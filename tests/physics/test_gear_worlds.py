@@ -1,4 +1,4 @@
-"""Random worlds of gears, pulleys, motors and limits stay finite, at speeds that their motors and gravity can give."""
+"""Random worlds of gears, pulleys, motors and limits stay finite, at speeds that their motors and gravity can cause."""
 
 import math
 
@@ -13,7 +13,7 @@ REACH = 60.0  # [px] greatest distance of a point of a body from its pin
 
 
 def random_world(seed):
-    """Two to six bodies on hinges and sliders, one to three gears, and in half of the worlds a pulley."""
+    """Return a random world: two to six bodies on hinges and sliders, one to three gears, in half of them a pulley."""
     rng = np.random.default_rng(seed)
     world = World(EFFECTS, substeps=4 if seed % 2 else "auto")
     bodies, joints = [], []

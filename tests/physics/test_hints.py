@@ -1,7 +1,7 @@
-"""Every public callable with typical wrong arguments: the message names the argument and the right expression.
+"""Errors of every public callable for typical mistakes: the message names the argument and the correct expression.
 
-A pygame object, a value of another argument, a number in place of a Material or Filter, a word with a slip, a class in
-place of an instance, a keyword of another engine. The world is unchanged after each error.
+The mistakes: a pygame object, a value of another argument, a number instead of a Material or Filter, a misspelt word, a
+class instead of an instance, a keyword of another engine. The world is unchanged after each error.
 """
 
 import dataclasses
@@ -335,7 +335,7 @@ CALLS = [
 
 
 def state(world):
-    """Return all that an error must not change."""
+    """Return all state that an error must not change."""
     return world.digest(), world.bodies.tobytes(), world.shapes.tobytes(), len(world.joints), len(world.characters.rows)
 
 
@@ -369,7 +369,9 @@ NAMED = [
 
 
 def slips(name):
-    """Return misspellings of a keyword: a letter left out, two exchanged, another case."""
+    """Return three misspellings of a keyword: one letter missing, two exchanged, another case;
+    [] for short keywords.
+    """
     if len(name) < 4:
         return []
     return [name[:2] + name[3:], name[:-2] + name[-1] + name[-2], name.title()]
@@ -492,7 +494,10 @@ def test_the_hints_know_every_effect():
     (Effects(response=True, gravity=True), lambda w, b: w.add_body(MASK, sensor=True), "gravity=True, sensors=True)"),
 ])  # fmt: skip
 def test_a_missing_effect_comes_with_the_expression_that_declares_it(effects, call, expression):
-    """The expression keeps the effects of the world, and adds those that the missing one needs."""
+    """The error for a missing effect contains the expression that declares it.
+
+    The expression keeps the effects of the world and adds those that the missing one needs.
+    """
     world = World(effects)
     body = world.add_body(BALL)
     with pytest.raises(ValueError, match="needs the effect (carving|joints|sensors): declare it in Effects") as caught:
@@ -737,7 +742,10 @@ def test_steps_of_seconds_run_without_a_warning(dt):
     (1 / 60, 1000 / 60, True), (1 / 60, 16.0, True), (1 / 60, 3.9, False), (1.0, 16.0, False), (3600.0, 7200.0, False),
 ])  # fmt: skip
 def test_a_float_that_looks_like_milliseconds_runs_with_a_warning(usual, dt, warns, recwarn):
-    """A float may be a real pause of the program, which must not stop a game."""
+    """A float time step that looks like milliseconds causes a warning, not an error.
+
+    It may be a real pause of the program, which must not stop a game.
+    """
     world = World(Effects.detection(), dt=usual)
     world.step(dt)
     assert world.time == dt and len(recwarn) == warns
@@ -754,7 +762,7 @@ def test_a_float_that_looks_like_milliseconds_runs_with_a_warning(usual, dt, war
     (None, [None] * 3),
 ])  # fmt: skip
 def test_a_list_of_users_has_one_for_each(user, users):
-    """Any other value, a tuple too, is that of all bodies or joints."""
+    """A list of `user` values gives one value to each body or joint; any other value, a tuple too, goes to all."""
     world = World(Effects.rigid_bodies().with_(joints=True))
     ids = world.add_bodies(BALL, [(0, 0), (20, 0), (40, 0)], user=user)
     assert [world.body(k).user for k in ids] == users

@@ -1,5 +1,6 @@
-"""Every pair of rounded hulls against an independent truth: the origin's distance from their Minkowski difference (U2,
-U7, U8, U10).
+"""Manifolds of every pair of rounded hulls (U2, U7, U8, U10).
+
+The reference is the origin's distance from the Minkowski difference of the hulls, computed by shapely.
 """
 
 import itertools
@@ -33,7 +34,7 @@ def random_shape(kind, rng):
 
 
 def hull_of(shape, pose):
-    """Return (world corners of the core (n, 2), radius)."""
+    """Return (corners of the shape's core in world space (n, 2), radius)."""
     x, y, angle = pose
     if isinstance(shape, Bounds):
         core, radius = hull_of(shape.shape, pose)
@@ -56,7 +57,7 @@ def gap_of(a, b):
 
 
 def surface_gap(hull, x, y):
-    """Signed distance of a point from a rounded hull's surface."""
+    """Return the signed distance of the point (x, y) from the surface of a rounded hull, negative inside."""
     core = shapely.MultiPoint([tuple(p) for p in hull[0]]).convex_hull
     point = shapely.Point(x, y)
     inside = core.geom_type == "Polygon" and core.contains(point)
@@ -64,7 +65,7 @@ def surface_gap(hull, x, y):
 
 
 def mirrored(a, pose_a, b, pose_b, margin=0.0):
-    """Return the manifold of A and B, after a check that that of B and A is the same with the opposite normal."""
+    """Return the manifold of A and B, after a check that the manifold of B and A equals it with the opposite normal."""
     one, two = collide(a, pose_a, b, pose_b, margin), collide(b, pose_b, a, pose_a, margin)
     assert len(one) == len(two) <= 2
     assert one.points.tolist() == two.points.tolist() and one.separations.tolist() == two.separations.tolist()
@@ -125,7 +126,7 @@ def test_quarter_turns_turn_the_manifold(kinds, turns):
 
 
 def test_boxes_far_away_have_the_same_manifold():
-    """B1: 2 points, -0.1, also at 1e7."""
+    """Two overlapping boxes have two points of separation -0.1, also at 1e7 from the origin (B1)."""
     box = Polygon.box(1, 1)
     for at in (0.0, 1e7):
         found = collide(box, (at, at, 0), box, (at + 0.9, at, 0))
@@ -143,7 +144,9 @@ def test_boxes_far_away_have_the_same_manifold():
 )
 @pytest.mark.parametrize("sign", [-1, 1])
 def test_nearly_parallel_sides_keep_two_points_and_their_features(shape, sign):
-    """B2, over all orders of magnitude, lying on each other with the overhang on either side."""
+    """Nearly parallel sides keep two points and constant features, for tilts of 1e-12 to 1e-3 and an overhang on either
+    side (B2).
+    """
     thick = 2 * shape.min_half_extent
     for shift in (0.0, 3.0, -3.0):
         features = set()
@@ -167,7 +170,7 @@ def test_features_persist_while_a_body_slides():
 
 
 def test_centres_on_cores_have_their_documented_way_out():
-    """B5, B6."""
+    """Shapes whose centre lies on the other's core get their documented depth and a unit normal (B5, B6)."""
     pill = Capsule((-5, 0), (5, 0), 2)
     for at, depth in (((0, 0), -3), ((5, 0), -3), ((-5, 0), -3), ((7, 0), -1)):
         found = collide(pill, (0, 0, 0), Circle(1), (*at, 0))
@@ -184,7 +187,9 @@ def test_centres_on_cores_have_their_documented_way_out():
 
 
 def test_lines_end_to_end_touch_only_where_they_meet():
-    """B9, B11: no axis of collinear lines parts them along their line."""
+    """Collinear segments touch only where they meet, because no axis across them separates
+    along their line (B9, B11).
+    """
     line = Segment((0, 0), (10, 0))
     for angle in (0.0, 0.3, 1.0, math.pi / 2):
         along = np.array([math.cos(angle), math.sin(angle)])
@@ -200,7 +205,9 @@ def test_lines_end_to_end_touch_only_where_they_meet():
 
 
 def test_needles_never_miss_each_other():
-    """B10: thin shapes at small angles, against exact arithmetic over their corners."""
+    """Crossing needles always collide: thin shapes at small angles, compared with exact
+    arithmetic over corners (B10).
+    """
     from fractions import Fraction
 
     rng = np.random.default_rng(4)
@@ -221,7 +228,10 @@ def test_needles_never_miss_each_other():
 
 
 def test_corner_to_corner_is_classified_by_the_sign_alone():
-    """B9: touching corners and edges; what is 1e-12 nearer still touches, what is 1e-9 apart does not."""
+    """Whether corners and edges touch depends on the sign of the gap alone (B9).
+
+    Shapes 1e-12 closer than touching still touch; shapes 1e-9 apart do not.
+    """
     for shape in (Polygon.box(2, 2), Polygon(Polygon.box(1, 1).points, 0.5), Capsule((-0.5, 0), (0.5, 0), 0.5)):
         for nudge in (0.0, -1e-12, -1e-9):
             assert len(collide(shape, (0, 0, 0), shape, (2 + nudge, 0, 0))) > 0, (shape, nudge)

@@ -1,7 +1,6 @@
-"""`world.ignored_effects` names the declared effects that the solver does not honour. Each effect is removed to find
-out.
+"""`world.ignored_effects` names the declared effects that the solver ignores; each effect is removed to find out.
 
-Without an honoured effect its scene takes another course; without an ignored one every scene is the same to the bit.
+Removing an effect that the solver uses changes its scene; removing an ignored one changes no bit of any scene.
 """
 
 from dataclasses import fields
@@ -127,7 +126,7 @@ EVENTS = ("begin", "persist", "end", "hits", "sensor_begin", "sensor_end")
 
 
 def outcome(effects, solver, scene, much):
-    """Return (poses and velocities, flags and events) of every step."""
+    """Simulate a scene and return a list of (poses and velocities, flags and events), one for every step."""
     world = World(
         effects,
         solver=solver,
@@ -217,7 +216,10 @@ def test_names_that_are_ignored_are_effects():
 
 @pytest.mark.parametrize("solver", ["blocking", "projection"])
 def test_what_ignored_effects_leaves_to_others(solver):
-    """Under blocking a body turns by its own spin; where stacking is declared a Character stands on dynamic bodies."""
+    """Features that `ignored_effects` does not cover: the blocking solver rotates bodies by their own spin.
+
+    If stacking is declared, a Character stands on dynamic bodies.
+    """
     world = World(solver=solver)
     floor(world)
     body = world.add_body(Circle(5), angular_velocity=1.0)

@@ -213,7 +213,7 @@ def test_a_joint_is_idle_while_no_side_is_dynamic():
 
 
 def test_teleported_bodies_are_drawn_together_slowly():
-    """No faster than overlaps are separated: 3 m/s."""
+    """Jointed bodies that were moved apart are pulled together no faster than overlaps are separated, at 3 m/s."""
     world, a, b = two(gravity=(0, 0))
     world.add_joint(Weld(a, b, at=(15, 0)))
     b.position = 400.0, 0.0

@@ -1,4 +1,4 @@
-"""Joints without friction keep the energy of a swing, and close behind arms that rotate fast."""
+"""Joints without friction keep the energy of a swing, and joints of fast rotating arms stay closed."""
 
 import math
 
@@ -20,7 +20,7 @@ def rod(world, start, end, mass=1.0):
 
 
 def chain(links, angle, ratio, substeps):
-    """A chain of rods of 1 m that is let go straight; its last rod is `ratio` times as heavy."""
+    """Return a world with a straight chain of 1 m rods at rest at an angle; its last rod is `ratio` times as heavy."""
     world = World(EFFECTS, gravity=(0.0, GRAVITY), pixels_per_meter=1, substeps=substeps)
     before = None
     for k in range(links):
@@ -56,7 +56,9 @@ def test_a_double_pendulum_keeps_its_energy_and_its_pins(angle, ratio, substeps)
 
 
 def hung(kind, hertz, damping, substeps, solver: SolverName = "soft_step", drop=0.3):
-    """A body on a spring that is let go `drop` above its rest; returns (world, function of its distance from rest)."""
+    """Return (world, function of its distance from rest) of a body on a spring, released `drop`
+    from its rest position.
+    """
     world = World(EFFECTS, gravity=(0.0, 0.0), pixels_per_meter=1, substeps=substeps, solver=solver)
     spring = Spring(hertz, damping)
     body = world.add_body(Polygon.box(0.4, 0.4), position=(0.0, 2.0), filter=Filter(1, 0))
@@ -103,7 +105,7 @@ def test_a_stiff_undamped_spring_stays_bounded(kind, hertz, substeps):
 @pytest.mark.parametrize("hertz", [0.5, 2.0])
 @pytest.mark.parametrize("kind", ["distance", "slider", "door"])
 def test_a_damped_swing_fades_by_its_damping_ratio(kind, hertz, damping):
-    """By exp(-2 pi z / sqrt(1 - z²)) a period."""
+    """The amplitude of a damped swing falls by exp(-2 pi z / sqrt(1 - z²)) in each period, for a damping ratio z."""
     world, away = hung(kind, hertz, damping, 4)
     values = []
     for _ in range(round(2.2 / hertz / world.dt)):
@@ -117,7 +119,7 @@ def test_a_damped_swing_fades_by_its_damping_ratio(kind, hertz, damping):
 @pytest.mark.parametrize("hertz", [1.0, 8.0, 60.0])
 @pytest.mark.parametrize("ratio", [1.0, 1e3])
 def test_a_chain_of_undamped_springs_gains_no_energy(ratio, hertz):
-    """Several springs act on each body; the chain is let go bent, without gravity, and swings about itself."""
+    """A bent chain of undamped springs swings without gravity and gains no energy; several springs act on each body."""
     world, before = World(EFFECTS, gravity=(0.0, 0.0), pixels_per_meter=1, substeps=4), None
     for k in range(6):
         at, to = (k, 0.2 * (k % 2)), (k + 1.0, 0.2 * ((k + 1) % 2))

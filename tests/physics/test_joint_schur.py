@@ -37,7 +37,9 @@ def gap(world):
 
 
 def ring(world, links, ratio, radius=1.0):
-    """A closed ring of links that hangs on the world by its first corner; its lowest link is `ratio` times as heavy."""
+    """Add a closed ring of links that hangs on the world by its top corner; its lowest link is
+    `ratio` times as heavy.
+    """
     at = [
         (radius * math.sin(2 * math.pi * k / links), radius * (1 - math.cos(2 * math.pi * k / links)))
         for k in range(links)
@@ -65,7 +67,7 @@ def test_a_ring_of_links_is_held_as_a_chain_is(links, ratio, substeps):
 
 
 def lattice(world, cells, direction):
-    """A truss of square cells with both diagonals, welded at one end to the world: more bars than it needs."""
+    """Add a truss of square cells with both diagonals, welded to the world at one end; it has redundant bars."""
 
     def place(i, j):
         return i * direction[0] - j * direction[1], i * direction[1] + j * direction[0]
@@ -100,7 +102,10 @@ def test_a_truss_with_redundant_bars_stands_still(cells, angle, solver):
 @pytest.mark.parametrize("substeps", [1, 4, 8])
 @pytest.mark.parametrize("phase", np.linspace(0.0, 0.9, 4))
 def test_a_parallelogram_passes_through_its_singular_pose(phase, substeps):
-    """Its four bars lie on a line twice a turn, where they may fold either way: forces stay bounded, pins closed."""
+    """A parallelogram passes through its singular poses with bounded forces and closed pins.
+
+    Twice a turn its four bars lie on one line, where it could fold either way.
+    """
     world = space(substeps, gravity=(0.0, 0.0))
     c, s = math.cos(2 + phase), math.sin(2 + phase)
     left, right = rod(world, (0, 0), (c, s)), rod(world, (2, 0), (2 + c, s))
@@ -134,7 +139,7 @@ def test_a_net_stays_iterative():
 @pytest.mark.parametrize("ratio", [1.0, 30.0, 1e3])
 @pytest.mark.parametrize("links", [2, 5, 12])
 def test_a_chain_with_limits_stops_at_them(links, ratio, substeps, solver):
-    """A chain with a heavy end falls from level until each hinge is at its limit; it then swings as a stiff arc."""
+    """A chain with a heavy end falls from level until each hinge is at its limit, then swings as a stiff arc."""
     world, before = space(substeps, solver=solver), None
     joints = []
     for k in range(links):
@@ -180,7 +185,7 @@ def test_a_loaded_slider_stops_on_its_limit(ratio, offset, solver):
 @pytest.mark.parametrize("ratio", [1.0, 1e2, 1e4])
 @pytest.mark.parametrize("share", [0.5, 0.99, 1.01, 5.0])
 def test_a_motor_lifts_the_load_that_its_force_can_lift(share, ratio, substeps):
-    """A light carriage with a heavy load: a motor of more than their weight keeps its speed, a weaker one slips."""
+    """A motor stronger than the weight of a light carriage and its heavy load keeps its speed; a weaker one slips."""
     world = space(substeps)
     carriage = world.add_body(Circle(0.1), position=(0, 0), mass=1.0, filter=ALONE)
     load = world.add_body(Circle(0.1), position=(1, 0), mass=ratio, filter=ALONE)
@@ -218,7 +223,7 @@ def test_a_motor_drives_against_a_limit_with_its_greatest_torque(speed, most):
 
 
 def tangle(seed):
-    """A random tree of rods with limits and motors, and some joints that close loops."""
+    """Return a world with a random tree of rods with limits and motors, and some joints that close loops."""
     rng = np.random.default_rng(seed)
     world = space(int(rng.integers(1, 5)), gravity=tuple(rng.normal(size=2) * 5.0))
     rods, ends = [], [(0.0, 0.0)]
@@ -243,7 +248,7 @@ def tangle(seed):
 
 @pytest.mark.parametrize("seed", range(24))
 def test_impulses_of_limits_and_motors_are_complementary(seed):
-    """After each step a limit only pushes, and no motor exceeds its maximum. Limits and pins hold."""
+    """After each step a limit only pushes, no motor exceeds its maximum, and limits and pins hold."""
     world = tangle(seed)
     driven = world.joints["motor_max"] > 0.0
     for _ in range(90):

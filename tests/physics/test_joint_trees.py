@@ -1,4 +1,4 @@
-"""Trees of joints are solved exactly: against dense and rational solutions, with masses over six decades."""
+"""Trees of joints are solved exactly, compared with dense and rational solutions for masses over six decades."""
 
 from fractions import Fraction
 
@@ -28,7 +28,7 @@ SIDE_A, SIDE_B = ("ax", "ay", "aw"), ("bx", "by", "bw")
 
 
 class Joints:
-    """Joints between bodies, as they are built up, and their solution."""
+    """A system of joints between bodies, which a test builds and solves."""
 
     def __init__(self, bodies):
         self.motions = zeros_in_lines(bodies + 1, MOTION)
@@ -43,7 +43,11 @@ class Joints:
                 self.motions[name][body] = value
 
     def add(self, a, b, rows, identity=None):
-        """Add a joint. rows: (Jacobian of A, of B, right-hand side, compliance) of each of its rows."""
+        """Add a joint between bodies a and b.
+
+        rows: (Jacobian of A, Jacobian of B, right-hand side, compliance) of each of its rows. identity: id of the
+        joint, None for the next number.
+        """
         self.ids.append(len(self.ids) if identity is None else identity)
         self.a.append(a)
         self.b.append(b)
@@ -58,7 +62,7 @@ class Joints:
         self.add(a, b, [*pin_rows(arm_a, arm_b, rhs, soft), ((0.0, 0.0, -1.0), (0.0, 0.0, 1.0), rhs[2], soft)])
 
     def shuffled(self, order):
-        """The same joints with the same ids, in another order."""
+        """Return a copy of the system with the same joints and ids in another order."""
         other = Joints(len(self.motions) - 1)
         other.motions[:] = self.motions
         for name in ("ids", "a", "b", "counts"):
@@ -67,7 +71,11 @@ class Joints:
         return other
 
     def solve(self, forest=None):
-        """Solve; sets `taken`, `redundant`, `impulses` (joints, MOST_ROWS) and `after`, the MOTION rows."""
+        """Solve the system and return it.
+
+        Sets `taken`, `redundant`, `impulses` (joints, MOST_ROWS) and `after`, the MOTION rows. forest: workspace, None
+        for a new one.
+        """
         self.joint_rows = np.array(self.rows, JOINT_ROW) if self.rows else np.zeros(0, JOINT_ROW)
         a, b = np.array(self.a, np.int32), np.array(self.b, np.int32)
         self.after = zeros_in_lines(len(self.motions), MOTION)
@@ -83,7 +91,7 @@ class Joints:
         return self
 
     def bits(self):
-        """Every number of the solution, in the order of ids."""
+        """Return the bytes of every number of the solution, in the order of ids."""
         order = np.argsort(self.ids)
         return [self.after[name].tobytes() for name in VELOCITY + FREE] + [self.impulses[order].tobytes()]
 
@@ -94,7 +102,9 @@ def pin_rows(arm_a, arm_b, rhs, soft):
 
 
 def chain(links, ratio=1.0, weld=False, ends=1, backwards=False, bend=0.3, seed=0):
-    """Links of 20 px, joined to the world at one end or both; the last one is `ratio` times as heavy."""
+    """Return a system of links of 20 px, joined to the world at one end or at both; the last is
+    `ratio` times as heavy.
+    """
     rng = np.random.default_rng(seed)
     joints = Joints(links)
     bodies = list(range(1, links + 1))[:: -1 if backwards else 1]
@@ -116,7 +126,9 @@ def chain(links, ratio=1.0, weld=False, ends=1, backwards=False, bend=0.3, seed=
 
 
 def random_forest(seed, decades=0.0, soft=0.0):
-    """Bodies in random trees, with joints of 1 to 3 rows to one another, to the world and to a kinematic body."""
+    """Return a system of random trees of bodies, with joints of 1 to 3 rows to each other, the world and a kinematic
+    body.
+    """
     rng = np.random.default_rng(seed)
     bodies = int(rng.integers(1, 61))
     joints = Joints(bodies + 1)
@@ -171,7 +183,7 @@ def system(joints):
 
 
 def dense_solution(joints):
-    """Impulses and velocities by NumPy."""
+    """Return (impulses, velocities, row positions) of the taken joints, solved by NumPy."""
     jacobian, rhs, soft, inverse, before, places = system(joints)
     matrix = (jacobian * inverse) @ jacobian.T + np.diag(soft)
     scale = 1.0 / np.sqrt(np.diag(matrix))
@@ -180,7 +192,7 @@ def dense_solution(joints):
 
 
 def exact_solution(joints):
-    """Impulses and velocities in rational numbers, by Gaussian elimination."""
+    """Return (impulses, velocities, row positions) in rational numbers, solved by Gaussian elimination."""
     jacobian, rhs, soft, inverse, before, places = system(joints)
     lines = [{k: Fraction(x) for k, x in enumerate(line.tolist()) if x} for line in jacobian]
     masses, start = [Fraction(x) for x in inverse.tolist()], [Fraction(x) for x in before.tolist()]
@@ -282,7 +294,10 @@ def test_a_bridge_is_one_tree_with_joints_to_the_world_at_both_ends(links, ratio
 
 @pytest.mark.parametrize("bend", [1e-2, 1e-4, 1e-6])
 def test_a_bridge_that_is_almost_straight(bend):
-    """It can hardly give way along its length: impulses grow with the inverse square of the bend."""
+    """An almost straight bridge is solved, although it is nearly rigid along its length.
+
+    Its impulses grow with the inverse square of the bend.
+    """
     joints = chain(6, ends=2, bend=bend).solve()
     assert joints.redundant == 0
     impulses, after, places = exact_solution(joints)
@@ -291,7 +306,9 @@ def test_a_bridge_that_is_almost_straight(bend):
 
 
 def test_rotation_and_places_may_be_fixed():
-    """A wheel on a fixed axle, a slider that does not rotate, a rod between them."""
+    """Bodies with infinite mass or inertia are solved: a wheel on a fixed axle, a slider that
+    cannot rotate, and a rod.
+    """
     joints = Joints(3)
     joints.mass(1, 0.0, 0.5)
     joints.mass(2, 2.0, 0.0)

@@ -46,7 +46,7 @@ def arithmetic_geometric_mean(a, b):
 
 
 def pendulum_period(length, amplitude):
-    """Period [s] of a point mass on a rod under gravity, for any amplitude [rad]."""
+    """Return the period [s] of a point mass on a rod under gravity, for any amplitude [rad]."""
     return 2.0 * math.pi * math.sqrt(length / G) / arithmetic_geometric_mean(1.0, math.cos(amplitude / 2.0))
 
 
@@ -132,7 +132,10 @@ def test_a_spring_has_its_period_and_a_critical_one_does_not_overshoot(hertz, su
 )
 @pytest.mark.parametrize("held", ["world", "free body"])
 def test_a_sprung_door_has_its_period_and_a_critical_one_does_not_overshoot(held, place, hertz, tier, setting):
-    """Wherever its hinge is, on the leaf or beyond, and if the frame gives way as well."""
+    """A spring door has its natural period, and does not overshoot if it is critically damped.
+
+    This holds for a hinge on the leaf or beyond it, and for a frame that can move.
+    """
     for damping in (0.0, 1.0):
         world = world_of(setting, FLOATING)
         world.joint_solver = tier
@@ -233,7 +236,7 @@ def test_welded_bodies_move_as_one(angle, setting):
 @pytest.mark.parametrize("setting", SETTINGS)
 @pytest.mark.parametrize("hertz", [1.0, 2.0, 3.0, 5.0])
 def test_a_suspension_sags_by_its_load(hertz, setting):
-    """A wheel on the ground carries a chassis on two springs: the sag is m g / k."""
+    """A wheel on the ground carries a chassis on a spring, which sags by m g / k."""
     world = world_of(setting)
     world.add_body(Polygon.box(400, 20), position=(0, 40), kind="static")
     wheel = world.add_body(Circle(10.0), position=(0, 20), mass=1e6)

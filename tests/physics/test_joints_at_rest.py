@@ -137,7 +137,10 @@ def test_a_car_and_a_welded_heap_sleep():
 @pytest.mark.parametrize("broken", [False, True])
 @pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse"])
 def test_the_column_awake_is_what_the_joints_say(solver, broken):
-    """Of a welded pair on the floor that falls asleep, is knocked and falls asleep again, beside one that swings."""
+    """The column `awake` of world.joints equals the property of each joint in every step.
+
+    A welded pair falls asleep, is pushed and sleeps again, beside a swinging pendulum.
+    """
     world = World(EFFECTS, solver=solver)
     world.add_body(Polygon.box(400, 20), position=(0, 10), kind="static")
     pair = [world.add_body(Polygon.box(20, 20), position=(20.0 * k, -10)) for k in range(2)]

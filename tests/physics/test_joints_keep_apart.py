@@ -1,4 +1,4 @@
-"""Pairs of bodies that a joint keeps apart: after every way in which joints and the broad phase change."""
+"""Jointed bodies do not collide with each other, after every kind of change of joints and of the broad phase."""
 
 import pytest
 
@@ -9,7 +9,7 @@ JOINTED = Effects.rigid_bodies().with_(joints=True)
 
 
 def overlapping(broadphase="hash", count=6):
-    """A row of overlapping discs, without gravity, each pinned to the next."""
+    """Return (world, discs, joints) of a row of overlapping discs without gravity, each pinned to the next."""
     world = World(JOINTED, broadphase, gravity=(0, 0))
     discs = [world.add_body(Circle(8.0), position=(10.0 * k, 0.0)) for k in range(count)]
     pairs = zip(discs, discs[1:], strict=False)

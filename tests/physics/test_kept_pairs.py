@@ -1,4 +1,4 @@
-"""collide() and distance() keep the tables of the last pairs: the answers are those of tables made anew."""
+"""collide() and distance() cache the tables of recent pairs; the results equal those of new tables."""
 
 import gc
 import math
@@ -22,7 +22,7 @@ def shapes():
 
 
 def asked(seed, count):
-    """Return random pairs of shapes at random poses, in which each pair of shapes occurs several times."""
+    """Return random (shape A, pose A, shape B, pose B) tuples in which each pair of shapes occurs several times."""
     known, rng = shapes(), np.random.default_rng(seed)
     found = []
     for _ in range(count):

@@ -1,4 +1,4 @@
-"""Compiled kernels are kept by what they depend on, and linked by symbols that follow from the same."""
+"""Compiled kernels are cached under a key of all that they depend on, and linked by symbols made from the same key."""
 
 import json
 import os
@@ -51,9 +51,9 @@ ONES = [make_one(part) for part in PARTS]
 
 
 def run(code, folder, cache, *arguments, **environment):
-    """Run code in a new process. Return the last line that it prints, read as JSON.
+    """Run code in a new Python process. Return the last line that it prints, parsed as JSON.
 
-    The process writes no bytecode, because Python takes a changed source of the same length and second for the old one.
+    The process writes no bytecode: Python would take a changed source of equal length and time for the old one.
     """
     path = os.pathsep.join((str(folder), str(ROOT)))
     done = subprocess.run(
@@ -85,7 +85,10 @@ def toy(tmp_path):
 
 @pytest.mark.parametrize("order", ["012", "210", "102"])
 def test_parts_of_several_processes_are_linked_to_the_right_code(toy, order):
-    """numba's own symbols hold a counter: the first part of each process had the same one, and one code won."""
+    """Kernel parts compiled in different processes are linked to the right code.
+
+    numba's own symbols contain a counter, so the first part of each process would have the same symbol.
+    """
     cache = toy / "cache"
     for number in order:
         run(ONE, toy, cache, number)
@@ -242,7 +245,7 @@ def test_every_kernel_of_the_package_has_a_content_of_its_own():
 
 
 def test_plain_twins_call_plain_twins_alone():
-    """A plain kernel contains no Kernel, at any depth."""
+    """A plain kernel calls only plain kernels: it refers to no Kernel, at any depth."""
     from physics.jit.kernels import Kernel
     from physics.jit.plain import Builtin, globals_of
 

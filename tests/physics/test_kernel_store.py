@@ -1,4 +1,4 @@
-"""The folder of compiled kernels: only its user can write it, it stays small, and its faults are survived."""
+"""The folder of compiled kernels: only its user can write to it, its size is limited, and its errors are handled."""
 
 import errno
 import json
@@ -58,8 +58,9 @@ EXPOSED = {
 @posix
 @pytest.mark.parametrize("kind", EXPOSED)
 def test_an_exposed_folder_is_not_used_and_not_changed(tmp_path, monkeypatch, capsys, kind):
-    """Its files are neither read nor changed; a folder beside it is used, in this start and in the next, with a
-    reported reason.
+    """An exposed folder's files are neither read nor changed; another folder is used in this and in later starts.
+
+    The reason is reported.
     """
     make, reason = EXPOSED[kind]
     (tmp_path / "elsewhere").mkdir(mode=0o700)
@@ -208,7 +209,10 @@ def test_what_was_not_used_for_two_weeks_goes(kept, days, stays):
 
 @pytest.mark.parametrize("used", range(4))
 def test_what_was_used_last_stays_when_the_folder_outgrows_its_limit(kept, monkeypatch, used):
-    """The file at place `used` is read, which counts as use; of four files two fit."""
+    """The most recently used files stay when the folder exceeds its limit; of four files two fit.
+
+    Reading counts as use: the file number `used` is read.
+    """
     monkeypatch.setattr(module, "LIMIT", 2 * 1016)
     for number in range(4):
         kept.write(f"k{number}", b"x" * 1000)

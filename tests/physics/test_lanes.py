@@ -1,4 +1,4 @@
-"""Constraints that are solved side by side: what a pile does has nothing to do with the lanes its contacts are in."""
+"""Constraints solved side by side in SIMD lanes: the motion of a pile does not depend on the lanes of its contacts."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ EFFECTS = Effects(response=True, gravity=True, rotation=True, friction=True, res
 @pytest.mark.parametrize("solver", ("soft_step", "sequential_impulse"))
 @pytest.mark.parametrize("lean", (0.0, 0.3, 0.7))
 def test_every_lane_does_what_the_first_does(solver, lean):
-    """Columns of boxes, all alike, on ground that leans: some rest, some slide and tip, all of them alike."""
+    """Equal columns of boxes on tilted ground move equally in every lane, whether they rest, slide or tip."""
     world = World(EFFECTS, solver=solver, gravity=(320.0 * np.sin(lean), 320.0 * np.cos(lean)), substeps=4)
     rough = Material(friction=0.5, restitution=0.3)
     for column in range(COLUMNS):

@@ -1,4 +1,4 @@
-"""ray_casts and query_points: the single query of each ray and point, closed forms, and what every query admits."""
+"""ray_casts and query_points: equal to single queries and closed forms, with the arguments that every query accepts."""
 
 import math
 
@@ -42,7 +42,7 @@ RAYS = 200 if JIT else 25
 
 
 def crowd(effects, broadphase, seed, count=60):
-    """A world of all kinds of shapes, some of them sensors, with random filters, after a step."""
+    """Return a world of all kinds of shapes, some of them sensors, with random filters, after one step."""
     rng = np.random.default_rng(seed)
     world = World(effects, broadphase=broadphase, gravity=(0, 0)) if effects.gravity else World(effects, broadphase)
     for number in range(count):
@@ -61,7 +61,7 @@ def crowd(effects, broadphase, seed, count=60):
 
 
 def rays(seed, count=RAYS):
-    """Origins and translations: short, long, along an axis, and of no length."""
+    """Return (origins, translations) of random rays: short, long, parallel to an axis, and of length 0."""
     rng = np.random.default_rng(seed)
     origins, ways = rng.uniform(-250, 250, (count, 2)), rng.uniform(-400, 400, (count, 2))
     ways[::7] *= 20.0
@@ -71,7 +71,7 @@ def rays(seed, count=RAYS):
 
 
 def row_of(hit, origin, way):
-    """Return the row of ray_casts that is equal to a RayHit, or to None."""
+    """Return the row of ray_casts that corresponds to a RayHit, or to None for a miss. way: translation of the ray."""
     if hit is None:
         return (-1, -1, origin[0] + way[0], origin[1] + way[1], 0.0, 0.0, 1.0)
     return (hit.body.id, hit.shape, *hit.point, *hit.normal, hit.fraction)
@@ -96,7 +96,10 @@ def test_many_rays_are_each_of_them(broadphase, effects, sensors):
 @pytest.mark.parametrize("effects", [DETECTS, PUSHES], ids=["detects", "pushes"])
 @pytest.mark.parametrize("broadphase", BROADPHASES)
 def test_the_work_of_a_call_is_that_of_its_rays_and_points(broadphase, effects):
-    """Counters and searched boxes: nothing is lost where rays and points are mixed."""
+    """A call with many rays does the same work as single calls, by the counters and the visited boxes.
+
+    The call mixes rays and points (rays of length 0).
+    """
     world = crowd(effects, broadphase, 11)
     origins, ways = rays(12)
     assert ways.any(axis=1).any() and not ways.any(axis=1).all()
@@ -163,7 +166,7 @@ def test_many_points_are_each_of_them(effects, sensors):
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("broadphase", BROADPHASES)
 def test_discs_in_closed_form(broadphase, seed):
-    """The least root of |o + f d - c|² = r² over all discs, and 0 inside one of them."""
+    """Rays at discs return the least root of |o + f d - c|² = r² over all discs, and 0 if they start inside one."""
     rng = np.random.default_rng(seed)
     centers, radii = rng.uniform(-500, 500, (400, 2)), 4.0
     world = World(Effects.detection(), broadphase)

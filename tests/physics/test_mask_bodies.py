@@ -1,6 +1,6 @@
-"""Masks as bodies: their outline rests, slides, rolls and is met by everything, as any polygon is.
+"""Masks as bodies: their outline rests, slides, rolls and collides as a polygon does.
 
-Oracles: the same polygon in the mask's place, closed forms of rolling and sliding, what was thrown where.
+References: the same polygon in place of the mask, closed forms of rolling and sliding, and the paths of thrown bodies.
 """
 
 import itertools
@@ -17,7 +17,7 @@ CRATE = PixelMask(np.ones((32, 32), bool))
 
 
 def disc_of(radius):
-    """A pixel disc: the squares whose centres are in it."""
+    """Return a pixel disc: the pixels whose centres are within the radius."""
     at = np.arange(2 * radius) + 0.5 - radius
     return PixelMask(at[:, None] ** 2 + at[None, :] ** 2 <= radius * radius)
 
@@ -75,7 +75,7 @@ def test_a_disc_lands_once_and_sleeps_within_a_second(floor, solver):
 
 @pytest.mark.parametrize("floor", FLOORS)
 def test_a_disc_that_slips_comes_to_roll(floor):
-    """Uniform discs end at two thirds of the speed with which they began to slide."""
+    """A slipping disc starts to roll, at two thirds of the speed with which it began to slide."""
     world = World(Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True, continuous=True))
     add_floor(world, floor, half=1600)
     body = world.add_body(disc_of(16), position=(-1500.0, 34.0), velocity=(240.0, 0.0), material=Material(friction=0.3))

@@ -1,4 +1,4 @@
-"""PixelMask.outline and smooth: the documented contract, checked on results by shapely."""
+"""PixelMask.outline and its argument `smooth`: the documented guarantees, checked on results with shapely."""
 
 import math
 
@@ -16,7 +16,7 @@ SMOOTH = (0.0, 0.25, 0.5, 1.0)
 
 
 def slope(run, rise, size=48):
-    """Ground that rises by `rise` px for every `run`."""
+    """Return the pixels of ground that rises by `rise` px for every `run` px."""
     y, x = np.mgrid[:size, :size]
     return (size - 1 - y) * run < x * rise + 0.5
 
@@ -49,7 +49,7 @@ def drawings():
 
 
 def check(solid, smooth, origin=(0.0, 0.0)):
-    """Return a mask's outline, after a check of all that its documentation promises."""
+    """Return the outline of a mask, after a check of all that its documentation guarantees."""
     mask = PixelMask.from_array(solid, origin, smooth=smooth)
     parts = [figure(each) for each in mask.outline]
     together = shapely.transform(shapely.union_all(parts), lambda points: points + np.array(origin))

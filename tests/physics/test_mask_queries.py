@@ -1,7 +1,7 @@
-"""Masks asked without a step: time of impact, casts, rays and the nearest point go by the outline at the exact pose.
+"""Queries of masks without a step: time of impact, casts, rays and nearest points use the outline at the exact pose.
 
-Oracles: shapely's union of the outline's parts, dense sampling, the polygon of the same outline; with and without
-response, as drawn or not, the answer is the same.
+References: shapely's union of the outline's parts, dense sampling, and the polygon of the same outline. The result is
+the same with and without response, and for snapped and exact masks.
 """
 
 import math

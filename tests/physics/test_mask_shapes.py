@@ -1,4 +1,6 @@
-"""Masks against circles, polygons and tiles: the union of pixel squares, open, against shapely."""
+"""Contacts of masks with circles, polygons and tiles: a mask is the open union of its pixel squares (reference:
+shapely).
+"""
 
 import math
 
@@ -14,7 +16,7 @@ COUNT = 150 if JIT else 25
 
 
 def blob(rng):
-    """A mask with a hole or two, drawn at whole pixels."""
+    """Return (mask, pose at whole pixels, its squares as a shapely figure); the random mask may have holes."""
     solid = rng.random((int(rng.integers(1, 9)), int(rng.integers(1, 12)))) < rng.choice([0.3, 0.7, 1.0])
     solid[0, 0] = True
     left, top = (int(v) for v in rng.integers(-6, 7, 2))
@@ -23,7 +25,7 @@ def blob(rng):
 
 
 def solid_squares(mask, pose):
-    """Left top corners of the solid pixels as drawn."""
+    """Return the top left corners of the solid pixels of a mask at an unrotated pose."""
     rows, columns = np.nonzero(mask.solid)
     return list(zip(columns + pose[0] - mask.origin[0], rows + pose[1] - mask.origin[1], strict=True))
 

@@ -8,7 +8,7 @@ from physics import PixelMask, mass_of
 
 
 def surface(alphas, **colours):
-    """A one-row surface with these alphas."""
+    """Return a pygame surface of one row with these alphas. colours: at0=(r, g, b) sets the colour of pixel 0."""
     made = pygame.Surface((len(alphas), 1), pygame.SRCALPHA)
     for x, alpha in enumerate(alphas):
         made.set_at((x, 0), (*colours.get(f"at{x}", (9, 9, 9)), alpha))

@@ -1,4 +1,4 @@
-"""Pixel masks by AND of words, against the naive double loop."""
+"""Collisions of pixel masks by bitwise AND of words, compared with a simple double loop."""
 
 import math
 
@@ -12,12 +12,12 @@ WIDTHS = (1, 2, 31, 32, 33, 63, 64, 65, 127, 128, 129)
 
 
 def at(mask, left, top):
-    """The pose at which a mask's top left corner is drawn at (left, top)."""
+    """Return the pose at which the top left corner of a mask is drawn at (left, top)."""
     return (left + mask.origin[0], top + mask.origin[1], 0.0)
 
 
 def check_pair(a, a_left, a_top, b, b_left, b_top):
-    """Compare all results of a manifold of two bitmaps with the double loop. Returns whether they hit."""
+    """Compare all results of collide() for two bitmaps with a double loop. Returns whether they overlap."""
     mask_a, mask_b = PixelMask(a), PixelMask(b)
     shared = shared_pixels(a.tolist(), a_left, a_top, b.tolist(), b_left, b_top)
     found = collide(mask_a, at(mask_a, a_left, a_top), mask_b, at(mask_b, b_left, b_top))
@@ -120,8 +120,10 @@ def test_touching_masks_share_no_pixel_and_do_not_hit():
 
 
 def test_whole_pixel_tier_misses_its_known_share_of_true_overlaps():
-    """Squares of 32 px: of the overlaps in real numbers 1 - (63/64)^2 = 3.10 % share no whole pixel;
-    none is invented."""
+    """Snapped masks of 32 px miss 1 - (63/64)^2 = 3.10 % of the overlaps at real positions, and report no false one.
+
+    These overlaps share less than a whole pixel.
+    """
     rng = np.random.default_rng(0)
     square = PixelMask(np.ones((32, 32), bool))
     n = 40_000 if JIT else 3_000

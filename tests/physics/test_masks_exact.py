@@ -1,4 +1,6 @@
-"""Masks that are not snapped, against shapely: whether the unions of their squares share area, how much, how deep."""
+"""Masks at exact poses (snap=False), compared with shapely: whether their pixel squares overlap, the area and the
+depth.
+"""
 
 import math
 
@@ -21,7 +23,7 @@ QUARTERS = [k * math.pi / 2 for k in range(-4, 8)]
 
 
 def plane(width, height):
-    """A body, wings and a tail."""
+    """Return the pixels of an airplane: a body, wings and a tail."""
     solid = np.zeros((height, width), bool)
     solid[:, width * 3 // 8 : width * 5 // 8] = True
     solid[height // 2 : height * 5 // 8] = True
@@ -59,7 +61,10 @@ def masks_of(name, snap=False):
 
 
 def drawn(mask, pose):
-    """Return the union of a mask's squares at a pose: as drawn if the mask is snapped, otherwise at the exact pose."""
+    """Return the union of a mask's pixel squares at a pose, as a shapely figure.
+
+    A snapped mask is rotated and rounded to whole pixels; another one is at its exact pose.
+    """
     if not mask.snap:
         return at(union_of(mask.solid.tolist(), mask.origin), pose)
     turned = mask.turned(pose[2])
@@ -68,7 +73,9 @@ def drawn(mask, pose):
 
 
 def verdicts(a, pose_a, b, poses, full=False):
-    """Return (hits (n,) bool, areas (n,)) of a at one pose against b at each of `poses`, by the passes of a world."""
+    """Return (hits (n,) bool, areas (n,)) of mask a at one pose against mask b at each of `poses`, by a world's narrow
+    phase.
+    """
     library, bodies, shapes = Library(), np.zeros(1 + len(poses), BODY), np.zeros(1 + len(poses), SHAPE)
     for row, (mask, pose) in enumerate([(a, pose_a), *((b, pose) for pose in poses)]):
         place(library, mask, bodies, shapes, row, pose)
@@ -82,7 +89,7 @@ def verdicts(a, pose_a, b, poses, full=False):
 
 
 def check_verdicts(name, snap, seed, count):
-    """Check random poses, half of them near touching. Return (hits, misses within 2 px)."""
+    """Check random poses, half of them near touching. Return (number of hits, number of misses within 2 px)."""
     rng = np.random.default_rng(seed)
     a, b = masks_of(name, snap)
     pose_a = (*rng.uniform(-50.0, 50.0, 2), float(rng.choice([0.0, 1.0, QUARTERS[int(rng.integers(12))]])))
@@ -132,7 +139,10 @@ def both_ways(a, pose_a, b, pose_b):
 @pytest.mark.parametrize("turn_a", range(4))
 @pytest.mark.parametrize("turn_b", range(4))
 def test_squares_that_touch_share_nothing_at_any_quarter_turn(turn_a, turn_b):
-    """4 x 4 pixels about their centre, so that they fill the same box at every quarter turn."""
+    """Squares of 4 x 4 pixels that touch side by side share no area at any quarter turn.
+
+    Their origin is the centre, so they fill the same box at every quarter turn.
+    """
     a, b = PixelMask(np.ones((4, 4), bool), snap=False), PixelMask(np.ones((4, 4), bool), snap=False)
     for angle in (turn_b * math.pi / 2, (turn_b + 400) * math.pi / 2, math.radians(90.0 * (turn_b - 4))):
         for dx, dy in ((4.0, 0.0), (0.0, -4.0), (4.0, 2.5), (-4.0, 4.0), (4.0, 0.25), (-1.125, 4.0)):
@@ -148,7 +158,7 @@ def test_squares_that_touch_share_nothing_at_any_quarter_turn(turn_a, turn_b):
 
 @pytest.mark.parametrize("quarter", [0, 1])
 def test_squares_side_by_side_share_nothing_at_any_angle_that_both_have(quarter):
-    """Their places are rounded: with that error no area is shared, and with a thousand times as much some is."""
+    """Two squares side by side at a common angle share no area; a thousand times the rounding error closer they do."""
     a, b = PixelMask(np.ones((5, 5), bool), snap=False), PixelMask(np.ones((5, 5), bool), snap=False)
     for angle in np.linspace(0.05, 3.1, 40).tolist():
         c, s = math.cos(angle), math.sin(angle)
@@ -160,7 +170,9 @@ def test_squares_side_by_side_share_nothing_at_any_angle_that_both_have(quarter)
 
 @pytest.mark.parametrize("column", [1, 62, 63, 64, 65, 66, 127, 128, 129])
 def test_every_pixel_of_a_long_row_is_looked_at(column):
-    """Two pixels far apart in a row: the first is in a gap of the other mask, and the second alone meets it."""
+    """Every pixel of a long row is tested: the first is in a gap of the other mask, and only
+    the second one overlaps.
+    """
     row = np.zeros((1, 130), bool)
     row[0, [0, column]] = True
     wall = np.ones((12, 133), bool)
@@ -175,7 +187,10 @@ def test_every_pixel_of_a_long_row_is_looked_at(column):
 
 @pytest.mark.parametrize("name", ["ragged", "planes"])
 def test_quarter_turns_on_halves_of_pixels_count_quarters_of_pixels(name):
-    """Both drawn twice as large fall on whole pixels: a double loop is the truth, to the last touching corner."""
+    """At quarter turns and half-pixel positions the area is an exact count of quarter pixels.
+
+    At twice the size all pixels are whole, so a double loop gives the exact result, including touching corners.
+    """
     rng, (one, two) = np.random.default_rng(8), SPRITES[name]
     a, b = PixelMask(one, (0, 0), snap=False), PixelMask(two, (0, 0), snap=False)
     fixed = np.kron(one, np.ones((2, 2), bool))

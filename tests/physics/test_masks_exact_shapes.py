@@ -1,4 +1,6 @@
-"""A mask that is not snapped against every other shape: the union of its squares, open, against shapely."""
+"""Masks at exact poses (snap=False) against every other shape: the open union of pixel squares,
+compared with shapely.
+"""
 
 import math
 

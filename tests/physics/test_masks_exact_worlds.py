@@ -1,4 +1,6 @@
-"""Masks that are not snapped in worlds: contacts, sensors, questions, one-way tiles, snapshots; compiled and plain."""
+"""Masks at exact poses (snap=False) in worlds: contacts, sensors, queries, one-way tiles and snapshots, compiled and
+plain.
+"""
 
 import math
 import os
@@ -57,7 +59,7 @@ def test_a_world_without_response_tells_who_shares_area_at_exact_poses(broadphas
 
 
 def test_a_turning_mask_comes_and_goes_between_the_angles_of_the_buckets():
-    """The tip of a bar sweeps over a dot: as drawn it would jump by a bucket, exactly it comes at its angle."""
+    """A rotating bar touches a dot at its exact angle, between the angles of the drawing buckets."""
     world = World(Effects(rotation=True))
     bar = world.add_body(BAR, angular_velocity=0.3, kind="kinematic")
     angle = 0.35
@@ -167,7 +169,7 @@ def test_flipped_scaled_and_values_of_its_own_keep_it_unsnapped():
 
 @pytest.mark.parametrize("response", [False, True])
 def test_a_mask_that_turns_is_drawn_for_pictures_only(response):
-    """Tests read it as it was added; drawing it at every angle would be a cost."""
+    """A rotating exact mask is rasterised for drawing only; collision tests read its original pixels."""
     world = World(Effects(rotation=True, sensors=True, response=response))
     world.add_body(Chain([(-40.0, 0.0), (40.0, 0.0)]), kind="static", position=(0.0, 6.0))
     bar = world.add_body(BAR, angular_velocity=1.5, kind="kinematic")

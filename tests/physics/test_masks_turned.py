@@ -1,4 +1,4 @@
-"""Rotated masks: always from the source, with the area of the source."""
+"""Rotated masks: always computed from the source, with the area of the source."""
 
 import math
 
@@ -9,7 +9,7 @@ from physics import JIT, Effects, PixelMask, World, collide
 
 
 def drawn(mask, angle, size=120):
-    """The turned mask on a canvas, with the origin in its middle."""
+    """Return a square pixel array with the rotated mask, its origin in the middle."""
     turned = mask.turned(angle)
     canvas = np.zeros((size, size), bool)
     left, top = size // 2 - round(turned.origin[0]), size // 2 - round(turned.origin[1])
@@ -65,7 +65,7 @@ def test_full_turn_in_small_steps_ends_at_the_source():
 
 
 def test_turned_mask_stays_over_the_turned_outline():
-    """The centre of a kept pixel, turned back, lies in a solid source pixel or less than 0.8 px from one."""
+    """The centre of each pixel of a rotated mask, rotated back, is less than 0.8 px from a solid source pixel."""
     mask = PixelMask(np.ones((9, 30), bool))
     for degrees in (0, 11.25, 30.9375, 45, 61.875, 90, 135):
         turned = mask.turned(math.radians(degrees))
@@ -96,7 +96,7 @@ def test_turning_twice_gives_the_very_same_turned_mask():
 
 
 def test_thin_line_lets_no_pixel_ball_through_at_any_angle():
-    """A 1 x 32 line cut from side to side: its turned pixels stay connected by edge or corner."""
+    """A rotated line of 1 x 32 pixels stays connected by edges or corners at any angle, so no pixel ball passes."""
     line = PixelMask(np.ones((1, 32), bool))
     for degrees in range(0, 91, 3):
         todo = set(zip(*map(np.ndarray.tolist, np.nonzero(line.turned(math.radians(degrees)).solid)), strict=True))

@@ -55,7 +55,7 @@ def test_capsule_in_closed_form_and_between_its_bounds(length, radius):
 
 @pytest.mark.parametrize("seed", range(5))
 def test_polygons_equal_the_fan_of_their_triangles(seed):
-    """Area and inertia of triangles about the common centroid, summed by hand."""
+    """The mass properties of a polygon equal the sums over the triangles about its centroid."""
     rng = np.random.default_rng(seed)
     angles = np.sort(rng.uniform(0, math.tau, 3 + 2 * seed))
     points = [(50 + 9 * math.cos(a), -20 + 4 * math.sin(a)) for a in angles]
@@ -105,7 +105,7 @@ def test_parts_of_one_body_add_up_about_their_common_centre():
 
 @pytest.mark.parametrize("width, height", [(1, 1), (2, 2), (8, 8), (5, 13)])
 def test_rectangle_of_pixels_weighs_as_a_box(width, height):
-    """Pixels are squares, not points: each adds a^4 / 6."""
+    """A rectangle of pixels has the mass and inertia of a box: pixels are squares, not points."""
     found = mass_of((PixelMask(np.ones((height, width), bool)),), 2.0)
     close(found, 2.0 * width * height, (0.0, 0.0), 2.0 * width * height * (width**2 + height**2) / 12)
 
@@ -154,7 +154,7 @@ def test_locked_rotation_keeps_impulses_finite(solver):
 
 
 def test_density_cancels_from_what_is_seen():
-    """The same drop, light and heavy."""
+    """The density does not change the motion of a falling box, from 1e-6 to 1e6."""
     ends = []
     for density in (1e-6, 1.0, 1e6):
         world = World(pile_effects(), solver="soft_step", gravity=(0, 10), pixels_per_meter=1.0)

@@ -1,4 +1,4 @@
-"""measure against shapely: areas, distances and moments of what stands for a mask."""
+"""measure() compared with shapely: areas, distances and moments of the shapes that replace a mask."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Changes of a body while it sleeps or is disabled, and two circles about one point."""
+"""Changes of a body while it sleeps or is disabled, and two circles with the same centre."""
 
 import numpy as np
 

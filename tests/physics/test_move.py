@@ -1,4 +1,4 @@
-"""World.move: the same as the setters of each body, one after the other; wrong arguments change nothing."""
+"""World.move equals setting each body's properties one after the other; wrong arguments change nothing."""
 
 import math
 
@@ -23,7 +23,7 @@ KINDS = ("dynamic", "dynamic", "dynamic", "kinematic", "static")
 
 
 def crowded(effects, broadphase, seed, steps):
-    """Return a world of 40 bodies of all kinds on a floor and in a heap, after some steps."""
+    """Return a world of 40 random bodies of all kinds on a floor and in a heap, after some steps."""
     rng = np.random.default_rng(seed)
     world = World(effects, BROADPHASES[broadphase](), seed=seed)
     world.add_body(Polygon.box(900, 20), kind="static", position=(0, 100))
@@ -47,7 +47,7 @@ def crowded(effects, broadphase, seed, steps):
 
 
 def wanted(world, rng, with_angles, with_velocities):
-    """Return arguments of move for some bodies of a world, in any order."""
+    """Return random arguments (ids, positions, angles, velocities) of World.move for some bodies, in any order."""
     ids = rng.permutation(world.bodies["id"])[: rng.integers(1, len(world))]
     bodies = world.bodies[world.rows(ids)]
     near = rng.random(len(ids)) < 0.6  # others go far away
@@ -60,7 +60,7 @@ def wanted(world, rng, with_angles, with_velocities):
 
 
 def move_one_by_one(world, ids, positions, angles, velocities):
-    """Set what move sets by the properties of each body."""
+    """Set the values that World.move would set, by the properties of each body."""
     for k, identity in enumerate(ids.tolist()):
         body = world.body(identity)
         body.position = positions[k]
@@ -71,7 +71,7 @@ def move_one_by_one(world, ids, positions, angles, velocities):
 
 
 def kept(world):
-    """Return all of a world that later steps read, and what they reported."""
+    """Return all state of a world that later steps read, and its events."""
     return (
         world.digest(),
         world.bodies.tobytes(),
@@ -86,7 +86,7 @@ def kept(world):
 @pytest.mark.parametrize("broadphase", ["hash", "tree", "sweep", "brute"])
 @pytest.mark.parametrize("effects", WORLDS)
 def test_the_same_as_the_setters(effects, broadphase, seed):
-    """Awake and asleep, near and far, with and without angles and velocities: to the bit, for ten steps."""
+    """World.move gives the same bits as the setters for ten steps: awake or asleep, near or far, with any arguments."""
     rng = np.random.default_rng(seed)
     steps = (3, 300)[seed % 2] if effects == "sleeping" else 12
     one, many = (crowded(WORLDS[effects], broadphase, seed, steps) for _ in range(2))
@@ -106,7 +106,7 @@ def test_the_same_as_the_setters(effects, broadphase, seed):
 
 @pytest.mark.parametrize("seed", range(6))
 def test_heavy_loads_are_released_in_turn(seed):
-    """Stacks of light boxes under heavy ones, of which some are asleep: forces are forgotten as one by one."""
+    """Moving heavy loads off light boxes, some asleep, clears the same cached forces as moving them one by one."""
     rng, worlds = np.random.default_rng(seed), [World(RIGID), World(RIGID)]
     for world in worlds:
         world.add_body(Polygon.box(900, 20), kind="static", position=(0, 10))

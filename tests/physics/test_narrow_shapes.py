@@ -1,4 +1,4 @@
-"""Circles, boxes, polygons, bounds and tiles against an exact outline (U2, U7, U8, U10)."""
+"""Contacts of circles, boxes, polygons, bounds and tiles, compared with an exact outline (U2, U7, U8, U10)."""
 
 import math
 
@@ -14,7 +14,7 @@ COUNT = 300 if JIT else 60
 
 
 def random_convex(rng, most=9):
-    """Corners of a convex polygon on an ellipse."""
+    """Return the corners of a random convex polygon on an ellipse."""
     angles = np.sort(rng.uniform(0, math.tau, int(rng.integers(3, most))))
     while np.diff(np.append(angles, angles[0] + math.tau)).min() < 0.1:
         angles = np.sort(rng.uniform(0, math.tau, len(angles)))
@@ -27,7 +27,10 @@ def random_pose(rng, reach=14.0):
 
 
 def both_ways(a, pose_a, b, pose_b, tied=False):
-    """The manifold of A and B, checked against the one of B and A."""
+    """Return the manifold of A and B, after a check against that of B and A.
+
+    tied: True if several normals are equally good, so that the normals may differ.
+    """
     one, two = collide(a, pose_a, b, pose_b), collide(b, pose_b, a, pose_a)
     assert (len(one) > 0) == (len(two) > 0)
     if len(one):
@@ -135,7 +138,7 @@ def test_tiles_hit_what_overlaps_their_union(seed):
 
 
 def turned_quarter(pose, turns):
-    """The pose turned about the world's origin by quarter turns."""
+    """Return the pose rotated about the world's origin by a number of quarter turns."""
     x, y, angle = pose
     for _ in range(turns):
         x, y = -y, x

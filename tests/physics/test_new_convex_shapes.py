@@ -1,4 +1,6 @@
-"""A new convex shape with one corner is a circle, with two a capsule or a segment: to the bit, everywhere."""
+"""A new convex shape type equals, to the bit, the built-in one: with one corner a circle, with two a capsule or
+segment.
+"""
 
 from dataclasses import dataclass
 
@@ -31,7 +33,7 @@ FLOOR = Polygon.box(200.0, 10.0)
 
 @dataclass(frozen=True)
 class Coin(Convex):
-    """A disc by its diameter."""
+    """A disc given by its diameter."""
 
     diameter: float
     center: tuple = (0.0, 0.0)
@@ -50,7 +52,7 @@ class Coin(Convex):
 
 @dataclass(frozen=True)
 class Pill(Convex):
-    """A capsule by its length."""
+    """A capsule given by its length."""
 
     length: float
     radius: float
@@ -62,7 +64,7 @@ class Pill(Convex):
 
 @dataclass(frozen=True)
 class Wire(Convex):
-    """A segment by its length."""
+    """A segment given by its length."""
 
     length: float
     _has_mass = False
@@ -82,7 +84,7 @@ TWINS = {
 
 @pytest.fixture(params=TWINS)
 def twins(request, monkeypatch):
-    """(a shape of a new type, an equal one of an old type), with the new types in the list."""
+    """Yield (a shape of a new type, an equal one of a built-in type) while the new types are in the list SHAPES."""
     SHAPES.extend((Coin, Pill, Wire))
     yield TWINS[request.param]
     del SHAPES[-3:]

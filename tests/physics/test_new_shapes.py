@@ -1,4 +1,6 @@
-"""Capsules, rounded polygons, segments, chains: bad input, masses, boxes, snapshots, rays, characters, axes, masks."""
+"""Capsules, rounded polygons, segments and chains: bad input, masses, boxes, snapshots, rays, characters, axes and
+masks.
+"""
 
 import math
 
@@ -87,9 +89,9 @@ def test_shapes_compare_by_value_and_stand_once_in_the_library():
 
 
 def by_slices(distance_inside, box, count=20000):
-    """Return (area, centre, second moment about it) of a convex region, by slices along x.
+    """Return (area, centre, second moment about the centre) of a convex region, integrated in slices along x.
 
-    distance_inside(x) returns the (low, high) y of the slice at x.
+    distance_inside(x) returns the (low, high) y of the slices at an array x. box: least and greatest x.
     """
     left, right = box
     nodes, weights = np.polynomial.legendre.leggauss(40)
@@ -121,8 +123,11 @@ def test_the_mass_of_a_capsule_in_closed_form_and_by_slices():
 
 
 def test_the_mass_of_a_rounded_polygon_is_that_of_its_parts():
-    """A rounded box in closed form; a short capsule and a rounded polygon that is nearly one;
-    many corners, nearly a disc."""
+    """The mass of rounded polygons equals the sum of their parts.
+
+    A rounded box in closed form, a short capsule against a nearly equal rounded polygon, and many corners against a
+    disc.
+    """
     w, h, r = 8.0, 4.0, 1.5
     found = mass_of(Polygon(Polygon.box(w, h).points, r), 3.0)
     area = w * h + 2 * r * (w + h) + math.pi * r * r

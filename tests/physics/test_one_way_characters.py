@@ -1,4 +1,4 @@
-"""Characters on masks that are open from below: they walk their curve, jump through them, drop, and are carried."""
+"""Characters on one-way masks: they walk the curve, jump up through the mask, drop through it, and are carried."""
 
 import numpy as np
 import pytest
@@ -63,7 +63,9 @@ def test_a_character_jumps_through_it_stands_and_drops(name):
 
 @pytest.mark.parametrize("name", HEROES)
 def test_a_character_comes_in_from_a_side(name):
-    """Its feet are lower than the plank: the end is no wall."""
+    """A character that walks into the end of a one-way plank from the side is not stopped; its feet are below the
+    surface.
+    """
     world, _ = world_with(plank(), HERO)
     hero = Character(world, HEROES[name], (-20, TOP - 5))
     for _ in range(60):

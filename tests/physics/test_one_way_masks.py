@@ -1,4 +1,4 @@
-"""Masks open from below: their upper side is stood on, whatever comes from elsewhere passes; pixels answer as ever."""
+"""One-way masks: bodies stand on their upper side and pass from all other sides; pixel queries are unchanged."""
 
 import math
 
@@ -28,7 +28,7 @@ def plank(width=64, height=8, **values):
 
 
 def arched(width=160, height=40, **values):
-    """A bridge that sags: solid from a curve on, 6 px thick, ends at the sides."""
+    """Return a one-way mask of a sagging bridge, 6 px thick, whose ends are at the left and right side."""
     x = np.arange(width)
     top = np.round(4.0 + 14.0 * np.sin(np.pi * (x + 0.5) / width)).astype(int)
     rows = np.arange(height)[:, None]
@@ -36,7 +36,7 @@ def arched(width=160, height=40, **values):
 
 
 def surface_y(mask, x):
-    """Height of the upper side of a mask of one stretch at x, both in its own space."""
+    """Return the y of a mask's upper surface at x, both in the mask's own space; the mask has one stretch."""
     (stretch,) = surfaces_of(mask)
     points = np.array(stretch.shape.points)
     return float(np.interp(x, points[:, 0], points[:, 1]))
@@ -137,7 +137,10 @@ def test_what_falls_rests(name, effects):
 @pytest.mark.parametrize("name", FALLERS)
 @pytest.mark.parametrize("apex", [-8.0, 3.0])
 def test_a_jump_from_below_ends_on_it_or_falls_back(name, apex):
-    """apex: of its feet, above the plank. What gets only half through falls as if nothing was there."""
+    """A body that jumps up through the plank lands on it if it gets through completely.
+
+    If it gets only half through, it falls as in an empty world. apex: greatest height of its feet above the plank.
+    """
     shape, half = FALLERS[name]
     world, _ = world_with(plank(), FULL.with_(sleeping=False))
     start, low = 140.0, TOP - apex - half
@@ -160,7 +163,7 @@ def test_a_jump_from_below_ends_on_it_or_falls_back(name, apex):
 
 @pytest.mark.parametrize("name", FALLERS)
 def test_from_a_side_it_is_not_there(name):
-    """Its centre is above the plank's line, its feet are below, and it flies into the end."""
+    """A body that flies into the end of a one-way plank passes: its centre is above the surface, its feet are below."""
     shape, _ = FALLERS[name]
     world, _ = world_with(plank(), FULL.with_(gravity=False))
     body = world.add_body(shape, position=(-30, TOP - 3.0), velocity=(120, 0))
@@ -179,7 +182,7 @@ def test_who_stands_inside_passes():
 
 
 def test_a_peak_is_landed_on():
-    """The centre of what falls on a steep ridge lies behind neither side, and across none of them."""
+    """A body that falls on a steep ridge lands, although its centre is behind neither side of the peak."""
     height = np.abs(np.arange(80) - 39.5).astype(int)
     world, _ = world_with(PixelMask(np.arange(60)[:, None] >= height, origin=(40, 0), one_way=True))
     for x, shape in ((0.0, Circle(8)), (0.0, Polygon([(-2, -2), (2, -2), (2, 2), (-2, 2)], 6.0))):
@@ -194,7 +197,7 @@ def test_a_peak_is_landed_on():
 
 
 def test_it_slides_by_the_slope_of_the_outline():
-    """A staircase of 2:1 is a line: a = g sin, as on a chain of the same points."""
+    """A body slides on a staircase of 2:1 as on a line, with a = g sin, as on a chain of the same points."""
     rows, columns = np.mgrid[:100, :200]
     mask = PixelMask(rows >= columns // 2, origin=(0, 0), one_way=True)
     (stretch,) = surfaces_of(mask)
@@ -346,7 +349,7 @@ def test_a_sensor_feels_its_pixels():
 
 @pytest.mark.parametrize("effects", [FULL, FULL.with_(one_way=False)], ids=["on", "off"])
 def test_rays_and_casts_meet_it_from_above(effects):
-    """As they meet tiles open from below, whether the effect is declared or not."""
+    """Rays and casts hit a one-way mask from above only, whether the effect is declared or not."""
     world, body = world_with(arched(), FULL)
     world.set_effects(effects)
     y = TOP + surface_y(arched(), 60.0)
@@ -394,7 +397,10 @@ def test_what_breaks_off_lies_as_any_other():
 
 
 def test_another_frame_keeps_ids_and_who_stands_on_it():
-    """Two stretches, of which one stays; the other rises by 2 px, farther than what touches may lie across it."""
+    """A changed mask keeps its shape ids and the bodies on it.
+
+    Of its two stretches, one is the same and the other is 2 px higher, more than a touching body may overlap it.
+    """
     solid = np.zeros((40, 120), bool)
     solid[10:20, :50] = True
     solid[10:20, 70:] = True

@@ -1,4 +1,4 @@
-"""Contacts that oppose one another: bodies between a kinematic body and a static one, and inside others."""
+"""Opposed contacts: bodies between a kinematic and a static body, and bodies inside others."""
 
 import math
 
@@ -27,7 +27,9 @@ OUTLIERS = {("rounded", "door", 60, 3): 4}
 
 
 def peak_of(world, bodies, steps, before_step):
-    """The greatest speed of the bodies [px/s] over so many steps."""
+    """Step a world and return the greatest speed of the bodies [px/s]; before_step(frame) is
+    called before each step.
+    """
     peak = 0.0
     for frame in range(steps):
         before_step(frame)
@@ -37,7 +39,7 @@ def peak_of(world, bodies, steps, before_step):
 
 
 def door(shape, speed, count, **settings):
-    """Return a case in which a leaf comes down on a pile, and stops in the floor."""
+    """Return (world, bodies, steps, before_step, fall speed) of a door that closes on a pile and stops in the floor."""
     world = World(**settings)
     world.add_body(FLOOR, position=(0, 120), kind="static")
     leaf = world.add_body(Polygon.box(16, 100), position=(0, -60 - 20 * count), kind="kinematic", velocity=(0, speed))
@@ -51,7 +53,7 @@ def door(shape, speed, count, **settings):
 
 
 def block(shape, speed, count, **settings):
-    """Return a case in which a block pushes a row against a wall, and continues into the wall."""
+    """Return (world, bodies, steps, before_step, fall speed) of a block that pushes a row into a wall."""
     world = World(**settings)
     world.add_body(FLOOR, position=(0, 120), kind="static")
     world.add_body(Polygon.box(32, 96, (0, -48)), position=(200, 100), kind="static")
@@ -65,7 +67,7 @@ def block(shape, speed, count, **settings):
 
 
 def press(shape, speed, count, **settings):
-    """Return a case in which two jaws close on a row, without gravity."""
+    """Return (world, bodies, steps, before_step, fall speed) of two jaws that close on a row, without gravity."""
     world = World(gravity=(0, 0), **settings)
     jaws = [
         world.add_body(Polygon.box(40, 200), position=(-100 * way, 0), kind="kinematic", velocity=(way * speed, 0))
@@ -85,7 +87,10 @@ def press(shape, speed, count, **settings):
 @pytest.mark.parametrize("settings", SETTINGS, ids=["auto", "4"])
 @pytest.mark.parametrize("scene", [door, block, press])
 def test_a_crate_between_parallel_faces_is_no_faster_than_they_are(scene, settings):
-    """The pusher's speed, the push-out and a fall: at 20 to 1,000 px/s, one to five crates."""
+    """Crates between parallel faces are no faster than the faces plus the push-out speed and a fall.
+
+    The faces move at 20 to 1,000 px/s; one to five crates are between them.
+    """
     for k, speed in enumerate(SPEEDS):
         for count in (1 + k % 5, 1 + (k + 3) % 5):
             world, crates, steps, move, fall = scene(SHAPES["box"], speed, count, **settings)
@@ -98,7 +103,10 @@ def test_a_crate_between_parallel_faces_is_no_faster_than_they_are(scene, settin
 @pytest.mark.parametrize("scene", [door, block, press])
 @pytest.mark.parametrize("name", ["disc", "mask", "wedge", "rounded"])
 def test_other_shapes_in_a_press_get_no_more_energy_than_it_does_work(name, scene, settings):
-    """A body that slips out between two faces may be faster than they are, but not by an order of magnitude."""
+    """Other shapes in a press reach at most three times the speed of the faces plus the push-out speed and a fall.
+
+    A body that slips out between two faces may be faster than they are.
+    """
     for speed in (60, 240, 700):
         for count in (1, 2, 3):
             world, bodies, steps, move, fall = scene(SHAPES[name], speed, count, **settings)
@@ -112,7 +120,7 @@ def test_other_shapes_in_a_press_get_no_more_energy_than_it_does_work(name, scen
 @pytest.mark.parametrize("settings", SETTINGS, ids=["auto", "4"])
 @pytest.mark.parametrize("name", SHAPES)
 def test_a_row_without_room_gains_nothing_from_a_block_that_stands_still(name, settings, solver):
-    """Forces between two sides that cannot give way are not released as speed when the block has stopped."""
+    """A row without room gains no speed when the block that compresses it has stopped."""
     for speed in (20, 90, 200, 450):
         for count in (2, 3, 5):
             world = World(solver=solver, **settings)
@@ -136,7 +144,7 @@ def test_a_row_without_room_gains_nothing_from_a_block_that_stands_still(name, s
 @pytest.mark.parametrize("settings", SETTINGS, ids=["auto", "4"])
 @pytest.mark.parametrize("name", ["box", "mask"])
 def test_without_room_a_body_stays_on_its_side_and_leaves_slowly(name, settings):
-    """A platform presses a body into the floor and goes back up."""
+    """A body that a platform presses into the floor stays above the floor and leaves slowly when the platform rises."""
     for speed in (30, 120, 300):
         world = World(**settings)
         world.add_body(FLOOR, position=(0, 120), kind="static")
@@ -171,7 +179,7 @@ def test_bodies_made_inside_one_another_come_out_slowly(name, overlap, settings)
 
 @needs_speed
 def test_a_character_gives_way_between_a_piston_and_a_crate():
-    """He is kinematic, and no wall: the crate goes on with the piston."""
+    """A character between a piston and a crate does not block the crate, although characters are kinematic."""
     from physics import Character
 
     world = World(Effects.rigid_bodies())

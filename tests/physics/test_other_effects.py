@@ -1,4 +1,4 @@
-"""A world is put under other effects between two steps: from then on it is as one that was made with them."""
+"""A world whose effects are replaced between two steps continues as a world that was created with them."""
 
 from dataclasses import fields
 
@@ -14,7 +14,7 @@ STEPS = 40 if JIT else 15
 
 
 def yard(effects):
-    """Bodies of many kinds over a running floor; nothing turns yet."""
+    """Return a world of bodies of many kinds over a conveyor floor; no body rotates yet."""
     wind = (60, 0) if effects.wind else (0, 0)
     world = World(effects, drag=0.4, wind=wind)
     floor = Material(friction=0.5, surface_speed=40)
@@ -29,7 +29,7 @@ def yard(effects):
 
 
 def poses(world):
-    """x, y, angle of all bodies."""
+    """Return an array (3, n) with x, y and angle of all bodies."""
     return np.stack([world.bodies[name] for name in ("x", "y", "angle")])
 
 

@@ -1,4 +1,6 @@
-"""Shared area of two masks at any pose from the outline of one: area, centroid, change by a move, against Shapely."""
+"""Area shared by two masks at any pose, computed from one outline: area, centroid and derivative, compared with
+Shapely.
+"""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Large masks' outlines tile by tile: carved ones are what they would be anew, and their seams are covered."""
+"""Outlines of large masks, computed tile by tile: carved ones equal new ones, and seams between tiles are covered."""
 
 import math
 
@@ -15,7 +15,7 @@ from tests.outline.tiled import parts_of
 
 
 def ground(width=300, height=200):
-    """Hills with caves."""
+    """Return the pixels of hills with caves."""
     x, y = np.arange(width), np.arange(height)[:, None]
     solid = y > 70 + 30 * np.sin(x / 40) + 9 * np.sin(x / 11 + 1)
     for column, row, radius in ((60, 140, 22), (150, 150, 30), (230, 120, 17)):
@@ -48,7 +48,7 @@ def test_an_outline_is_that_of_its_tiles_row_by_row():
 
 @pytest.mark.parametrize("seed", range(3))
 def test_seams_are_covered_as_if_all_parts_were_of_one_piece(seed):
-    """Against corner_turns, which looks at all parts at once."""
+    """Seams between outline parts are covered as by corner_turns, which processes all parts at once."""
     solid = carved(ground(), *np.random.default_rng(seed).uniform((60, 60), (240, 140)), 20.0)
     mask = PixelMask.from_array(solid, origin=(0, 0))
     parts = [Part(corners, inner, 0.0) for _, _, corners, inner in parts_of(solid)]

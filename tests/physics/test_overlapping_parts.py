@@ -1,4 +1,4 @@
-"""Overlapping parts of one body are weighed once: against closed forms, and shapely's unions of polygons."""
+"""Overlapping parts of one body count once in its mass, compared with closed forms and shapely's unions of polygons."""
 
 import math
 
@@ -49,7 +49,7 @@ def test_two_discs_share_a_lens():
 
 
 def test_where_densities_differ_the_densest_counts():
-    """A core of lead in a box of wood, whichever is told first."""
+    """Where parts overlap, the greatest density counts, in either order: a core of lead in a box of wood."""
     wood, lead = box(10, 6).with_(Material(density=1.0)), Circle(2.0, (1, 0)).with_(Material(density=11.0))
     expected = together([box(10, 6).mass_of(1.0), Circle(2.0, (1, 0)).mass_of(10.0)])
     same(mass_of([wood, lead], 3.0), expected)
@@ -75,7 +75,10 @@ def test_a_mask_is_weighed_once_with_what_overlaps_it():
 
 
 def test_masks_whose_boxes_meet_and_pixels_do_not_keep_their_sums_to_the_bit():
-    """A ball in a ring, combs in each other's gaps, masks side by side."""
+    """Masks whose boxes overlap but not their pixels keep the exact sums, to the bit.
+
+    A ball in a ring, combs in each other's gaps, and masks side by side.
+    """
     ring, comb = np.ones((9, 9), bool), np.zeros((6, 7), bool)
     ring[1:8, 1:8] = False
     comb[0], comb[:, ::2] = True, True
@@ -92,7 +95,7 @@ def test_masks_whose_boxes_meet_and_pixels_do_not_keep_their_sums_to_the_bit():
 
 @pytest.mark.parametrize("seed", range(20))
 def test_masks_with_masks_and_polygons_against_shapely(seed):
-    """Of several densities, between pixels, far from the body's origin or not."""
+    """The mass of overlapping masks and polygons of several densities equals shapely's, at any offset and distance."""
     rng = np.random.default_rng(seed)
     shapes, figures = [], []
     for _ in range(int(rng.integers(1, 4))):
@@ -130,7 +133,7 @@ def test_masks_with_masks_and_polygons_against_shapely(seed):
 
 
 def test_masks_with_round_shapes():
-    """A disc over the corner of a square of pixels, in closed form: three quarters of it lie outside."""
+    """A disc over the corner of a pixel square has the mass of the union: three quarters of the disc lie outside."""
     square = PixelMask.from_array(np.ones((8, 8), bool), origin=(0.0, 0.0))
     found = mass_of([square, Circle(3.0)], 2.0)
     assert found.mass == pytest.approx(2.0 * (64.0 + 0.75 * math.pi * 9.0), rel=1e-13)
@@ -169,7 +172,9 @@ def test_polygons_against_shapely(seed):
 
 
 def test_a_body_of_overlapping_parts_falls_and_turns_as_its_outline_does():
-    """A hammer: handle through the head. What a torque gives it is what the outline's inertia says."""
+    """A hammer, whose handle passes through its head, has the mass and inertia of its outline,
+    and turns accordingly.
+    """
     world = World(Effects(rotation=True, response=True))
     body = world.add_body(box(20, 2), box(4, 8, 8, 0), position=(50, 50))
     outline = together([box(16, 2, -2, 0).mass_of(1.0), box(4, 8, 8, 0).mass_of(1.0)])

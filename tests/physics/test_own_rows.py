@@ -1,4 +1,4 @@
-"""Values of a body reach all its SHAPE rows and no other ones, wherever its rows stand in the table."""
+"""Values of a body are written to all its SHAPE rows and to no others, wherever the rows are in the table."""
 
 import numpy as np
 import pytest
@@ -25,7 +25,7 @@ PLACES = ("as added", "after removals", "scattered", "before the drop")
 
 
 def crowd(shapes, place):
-    """A world of nine bodies with these shapes; return (world, the body to change)."""
+    """Return (world, body to change) of nine bodies with these shapes. place: index of the body to change."""
     world = World(Effects.rigid_bodies())
     bodies = [
         world.add_body(*(shapes or (Circle(5.0),)), position=(60.0 * k, 7.0 * k), mass=None if shapes else 1.0)

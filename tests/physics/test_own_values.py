@@ -1,4 +1,4 @@
-"""Shapes with values of their own: material, filter and sensor that stay whatever their body says."""
+"""Shapes with their own material, filter and sensor flag keep them when the values of their body change."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Two shapes in all queries: overlap, depth, distance, contact and time of impact agree (U7, U8, U10)."""
+"""All queries of two shapes agree: overlap, depth, distance, contact and time of impact (U7, U8, U10)."""
 
 import math
 
@@ -42,7 +42,7 @@ STILL = (0.0, 0.0, 0.0)
 
 
 def poses(seed, count, spread=9.0):
-    """Pairs of poses of which about half overlap."""
+    """Yield random poses of pairs of which about half overlap: (pose of A, offset of B (2,), angle of B)."""
     rng = np.random.default_rng(seed)
     for _ in range(count):
         yield (
@@ -59,7 +59,7 @@ def pair_poses(seed, count):
 
 @pytest.mark.parametrize("a, b", PAIRS)
 def test_all_answers_agree_whether_two_shapes_overlap(a, b):
-    """A contact, a depth, a distance of zero or less and a body found by overlap are one and the same thing."""
+    """collide, distance, depth and World.overlap agree on whether two shapes overlap."""
     world, hits = World(Effects(rotation=True)), 0
     one, two = (world.add_body(CONVEX[name], kind="kinematic") for name in (a, b))
     for pose_a, pose_b in pair_poses(1, 60):
@@ -83,7 +83,7 @@ def test_all_answers_agree_whether_two_shapes_overlap(a, b):
 
 @pytest.mark.parametrize("a, b", [(a, b) for a in CONVEX for b in [*CONVEX, *GROUNDS]])
 def test_swapped_pair_is_mirrored(a, b):
-    """Normal negated, depths and points equal; for ground too."""
+    """Exchanging two shapes, ground included, negates the normal and keeps depths and points."""
     shapes = {**CONVEX, **GROUNDS}
     for pose_a, pose_b in pair_poses(2, 25):
         pose_b = pose_b[:2] + ((0.0,) if b in ("tiles",) else pose_b[2:])
@@ -99,7 +99,7 @@ def test_swapped_pair_is_mirrored(a, b):
 
 
 def turned_by_quarters(pose, quarters):
-    """A pose turned about the origin by quarters, and moved by (8, -16)."""
+    """Return a pose rotated about the origin by quarter turns, then moved by (8, -16)."""
     x, y = pose[:2]
     for _ in range(quarters):
         x, y = -y, x
@@ -108,7 +108,7 @@ def turned_by_quarters(pose, quarters):
 
 @pytest.mark.parametrize("a, b", PAIRS)
 def test_pair_turned_by_quarters_and_moved_is_the_same(a, b):
-    """Turned by 90, 180, 270 degrees about the origin: the same gap, the normal turned along."""
+    """A pair rotated about the origin by 90, 180 or 270 degrees has the same gap, and its normal rotated likewise."""
     if "bounds" in (a, b):
         pytest.skip("the box of a turned shape is another box")
     for pose_a, pose_b in pair_poses(3, 12):
@@ -126,7 +126,10 @@ def test_pair_turned_by_quarters_and_moved_is_the_same(a, b):
 
 @pytest.mark.parametrize("a, b", PAIRS)
 def test_time_of_impact_is_the_first_touch(a, b):
-    """At the fraction they touch, to 1e-9 of the size; before it they are apart; without a hit they stay apart."""
+    """At the time of impact two shapes touch, to 1e-9 of their size; before it they are separate.
+
+    Without a hit they stay separate.
+    """
     rng, hits = np.random.default_rng(4), 0
     for pose_a, pose_b in pair_poses(5, 40):
         turn = (0.0, 0.0) if "bounds" in (a, b) else rng.uniform(-2, 2, 2)
@@ -176,7 +179,7 @@ def test_impact_of_touching_shapes_is_now_when_they_approach_and_later_when_they
 @pytest.mark.parametrize("exponent", range(-15, 0))
 @pytest.mark.parametrize("shapes", [("box", "box"), ("box", "circle"), ("sixteen", "triangle"), ("capsule", "rounded")])
 def test_gap_is_told_to_the_last_digits_on_both_sides_of_touching(shapes, exponent):
-    """10^-15 to 10^-1 apart and inside: within 1e-12 of the size, and overlap told accordingly (C9)."""
+    """Gaps and overlaps of 10^-15 to 10^-1 are exact within 1e-12 of the size, with the correct sign (C9)."""
     a, b = (CONVEX[name] for name in shapes)
     start = time_of_impact(a, STILL, STILL, b, (40.0, 0.3, 0.4), (-40.0, 0.3, 0.4))
     touch = 40.0 - 80.0 * start.fraction

@@ -1,6 +1,7 @@
-"""Symmetries of two shapes: order, mirroring, place, unit of length.
+"""Symmetries of two shapes: order, mirroring, translation, unit of length.
 
-test_pair_agreement rotates and swaps; these tests cover the rest, for collide, distance and time_of_impact.
+test_pair_agreement.py covers rotation and exchange; these tests cover the rest, for collide, distance and
+time_of_impact.
 """
 
 import math
@@ -22,9 +23,9 @@ pairs = pytest.mark.parametrize("a, b", [(a, b) for a in KINDS for b in KINDS])
 
 
 def poses(seed, count=15):
-    """Yield (start of A, end of A, start of B, end of B). About half overlap at the start.
+    """Yield lists [start of A, end of A, start of B, end of B] of poses. About half of the pairs overlap at the start.
 
-    Places are multiples of 2^-20 px.
+    Positions are multiples of 2^-20 px.
     """
     rng = np.random.default_rng(seed)
     for _ in range(count):
@@ -63,7 +64,10 @@ def test_another_unit_changes_no_bit(a, b, exponent):
 
 @pairs
 def test_moved_by_whole_numbers_far_out_all_is_the_same(a, b):
-    """2^23 px away places keep their 2^-20 px: the question is the same, the answer to the digits left out there."""
+    """A pair moved 2^23 px away gives the same results, up to the digits lost there.
+
+    Positions there still resolve 2^-20 px, so the moved pair is exactly the same.
+    """
     x, y, left = 2.0**23, -(2.0**22), 2.0**-26
     for at in poses(2):
         one = ask(KINDS[a](1.0, 1), KINDS[b](1.0, 1), at)
@@ -96,7 +100,7 @@ def test_mirrored_pairs_have_mirrored_answers(a, b):
 
 @pairs
 def test_contacts_turn_by_quarters_with_their_pair(a, b):
-    """About the origin, where nothing but the turn itself is rounded."""
+    """Contacts rotate with their pair by a quarter turn about the origin, where only the rotation itself is rounded."""
     for at in poses(4):
         one = ask(KINDS[a](1.0, 1), KINDS[b](1.0, 1), at)
         two = ask(KINDS[a](1.0, 1), KINDS[b](1.0, 1), [(-y, x, angle + math.pi / 2) for x, y, angle in at])
@@ -120,7 +124,7 @@ def test_whoever_is_named_first_distance_is_the_same_to_the_bit(a, b):
 
 @pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "segment"])
 def test_masses_mirror_and_scale(kind):
-    """A length of 2^5 is an area of 2^10, and an inertia of 2^20: to the bit."""
+    """Scaling lengths by 2^5 scales mass by 2^10 and inertia by 2^20, to the bit; mirroring keeps both."""
     one, far, mirrored = (mass_of(KINDS[kind](s, m), 0.7) for s, m in ((1.0, 1), (32.0, 1), (1.0, -1)))
     assert (far.mass, far.center, far.inertia) == (one.mass * 2**10, one.center * 32.0, one.inertia * 2**20)
     assert (mirrored.mass, mirrored.inertia) == pytest.approx((one.mass, one.inertia), rel=1e-14)

@@ -1,4 +1,4 @@
-"""A sprite made of parts that lies on a face touches it at the same points as the polygon of its outline."""
+"""A sprite of several parts on a flat face touches it at the same points as the polygon of its outline."""
 
 import math
 
@@ -19,9 +19,9 @@ EASE = 0.15  # [px]
 
 
 def touched(shape, width, height, tilt, depth, turn):
-    """Return the places along the face at which a shape touches it, sorted and without repetition.
+    """Return the positions along the face at which a shape touches it, sorted and without duplicates.
 
-    tilt: angle of the shape's base against the face [rad]; depth: depth of its lowest corner in the face [px]; turn:
+    tilt: angle of the shape's base against the face [rad]. depth: depth of its lowest corner in the face [px]. turn:
     angle of the face [rad].
     """
     world = World(gravity=(0, 0))

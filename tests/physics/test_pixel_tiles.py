@@ -7,7 +7,7 @@ from physics.raster.pixel_tiles import TILE, PixelTiles
 
 
 def figures_of(solid):
-    """Return the contents of the NODE rows, found from the pixels: one row for each set of connected pixels of a tile.
+    """Return the expected NODE rows, found from the pixels: one row for each set of connected pixels of a tile.
 
     Pixels that share only a corner are connected.
     """
@@ -43,7 +43,7 @@ def figures_of(solid):
 
 
 def rasters(random):
-    """Yield (name, solid): full and empty tiles beside mixed ones, sizes that end within a tile."""
+    """Yield (name, pixels) of test masks: full, empty and mixed tiles, and sizes that end within a tile."""
     for height, width in ((64, 64), (128, 192), (65, 63), (130, 200)):
         yield "full", np.ones((height, width), bool)
         yield "empty", np.zeros((height, width), bool)

@@ -1,4 +1,4 @@
-"""Hulls that a narrow-phase pass places once and keeps for further pairs: the number kept changes no bit."""
+"""The narrow phase caches transformed hulls for further pairs; the size of the cache changes no bit."""
 
 import numpy as np
 import pytest
@@ -17,7 +17,7 @@ def ring(count, radius):
 
 
 def crowd(substeps, seed):
-    """Return a world of 60 turned shapes that fall onto a floor and a step of boxes side by side."""
+    """Return a world of 60 rotated shapes that fall onto a floor and a step of boxes side by side."""
     rng = np.random.default_rng(seed)
     world = World(Effects.rigid_bodies(), gravity=(0, 640), substeps=substeps)
     world.add_body(Polygon.box(800, 40), position=(0, 300), kind="static")

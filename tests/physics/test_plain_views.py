@@ -1,4 +1,4 @@
-"""Views of tables, as plain kernels get them: in the same memory, with the same numbers, keeping nothing alive."""
+"""Views of tables, as plain kernels get them, share memory and numbers with the table and keep nothing alive."""
 
 import gc
 import importlib
@@ -13,7 +13,7 @@ from physics.jit.plain import view_of
 
 
 def _tables():
-    """Return {name: dtype} of every row type in the modules of physics whose columns are all numbers."""
+    """Return {name: dtype} of every row type in the modules of physics whose columns are all numeric."""
     found = {}
     for module in pkgutil.walk_packages(physics.__path__, f"{physics.__name__}."):
         if module.name.startswith(f"{physics.__name__}.jit"):
@@ -28,7 +28,7 @@ TABLES = _tables()
 
 
 def _any_rows(dtype, count):
-    """Return rows with different values in each column: extremes of integers, fractions, infinity and NaN."""
+    """Return rows with various values in each column: integer extremes, fractions, infinity and NaN."""
     rows = np.zeros(count, dtype)
     random = np.random.default_rng(3)
     for name in dtype.names:
@@ -84,7 +84,7 @@ def test_a_view_keeps_no_table_alive(owns):
 
 
 def test_another_table_in_its_place_is_not_mistaken_for_it():
-    """Arrays that come and go often lie where the one before did."""
+    """A view of a new array is correct although the array may have the address of a freed one."""
     whole = np.zeros(1000, [("x", np.float64)])
     whole["x"] = np.arange(1000)
     for start in range(900):

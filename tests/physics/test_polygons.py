@@ -1,4 +1,4 @@
-"""hull and decompose: convex polygons from points, against shapely."""
+"""hull() and decompose(): convex polygons from points, compared with shapely."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Queries through each broad phase against a look at every shape, casts, closest points, what a query leaves behind."""
+"""Queries by each broad phase, compared with a test of every shape; casts, closest points, and state after a query."""
 
 import math
 
@@ -39,7 +39,7 @@ GROUND = (
 
 
 class EveryShape:
-    """Replacement of world.queries that tests every shape, in order. It is the reference for the strategies."""
+    """Replacement of world.queries that tests every shape in order; the reference for the broad phases."""
 
     def __init__(self, world):
         self.work, self.index = np.zeros_like(world.queries.work), world.queries
@@ -221,7 +221,10 @@ def test_shape_cast_is_the_time_of_impact_of_a_translation(probe, other):
 
 
 def test_shape_cast_in_contact_at_the_start():
-    """C16: approaching 0, parting and sliding look on, no translation asks for the overlap."""
+    """A shape cast that starts in contact hits at 0 if it approaches, ignores separating and sliding contacts (C16).
+
+    A cast without translation tests for overlap.
+    """
     world = World(Effects())
     world.add_body(Polygon.box(10, 10), kind="static")
     world.add_body(Polygon.box(10, 10), position=(-40, 0), kind="static")
@@ -236,7 +239,7 @@ def test_shape_cast_in_contact_at_the_start():
 
 
 def test_ties_go_to_the_smaller_shape_id_and_filters_and_sensors_count():
-    """H8 and A9 for casts."""
+    """Equal hits go to the smaller shape id, and casts respect filters and sensors (H8, A9)."""
     world = World(Effects(sensors=True))
     world.add_body(Circle(3.0), position=(20, 0), sensor=True)
     world.add_body(Circle(3.0), position=(20, 0), filter=Filter(2, 2))
@@ -284,7 +287,7 @@ def test_closest_point_of_every_kind(shape, point, nearest, gap):
 
 
 def test_ray_along_a_segment_and_beside_it():
-    """H2: on it from its end on, below and above none, parallel none, no length none."""
+    """A ray along a segment hits it from its end on; parallel, separate or zero-length rays do not (H2)."""
     world = World(Effects())
     world.add_body(Segment((0, 0), (10, 0)), kind="static")
     along = world.ray_cast((-5, 0), (10, 0))
@@ -297,7 +300,7 @@ def test_ray_along_a_segment_and_beside_it():
 
 
 def test_a_point_on_a_shared_border_is_of_one_tile_grid_once():
-    """H3."""
+    """A point on the border of two tiles belongs to their grid once (H3)."""
     world = World(Effects())
     world.add_body(TileGrid(np.ones((2, 2), bool), 16.0), kind="static")
     assert [each.id for each in world.query_point((16, 16))] == [0]
@@ -305,7 +308,7 @@ def test_a_point_on_a_shared_border_is_of_one_tile_grid_once():
 
 
 def test_far_from_the_origin_queries_answer_alike():
-    """H4."""
+    """Queries give the same results far from the origin (H4)."""
     near, far = World(Effects()), World(Effects())
     for world, base in ((near, 0.0), (far, 1e7)):
         for k in range(30):
@@ -350,7 +353,7 @@ def test_a_quarantined_body_is_not_found_and_queries_change_nothing():
     ],
 )
 def test_wrong_arguments_are_named(call, error, words):
-    """H7."""
+    """The error for a wrong argument names it (H7)."""
     world = World(Effects())
     world.add_body(Circle(1.0))
     with pytest.raises(error, match=words):

@@ -1,4 +1,4 @@
-"""Rays and the other queries: boundaries, insides, zero length, ties, against exact outlines."""
+"""Rays and other queries at boundaries, inside shapes, with length 0 and with ties, compared with exact outlines."""
 
 import math
 
@@ -237,7 +237,9 @@ def test_queries_of_an_empty_world_find_nothing():
 
 
 def enters(left, top, right, bottom, x, y, dx, dy):
-    """The fraction at which a ray enters a closed box, or infinity. Source: Kay and Kajiya's slabs, 1986."""
+    """Return the fraction at which a ray enters a closed box, or infinity for a miss. Source: Kay and Kajiya's slabs,
+    1986.
+    """
     first, last = 0.0, 1.0
     for low, high, at, way in ((left, right, x, dx), (top, bottom, y, dy)):
         if way == 0.0:

@@ -1,4 +1,4 @@
-"""Without stacking, swept AABBs extend ahead along the motion: fewer searches, and no missed pair."""
+"""Without stacking, swept AABBs extend ahead along the motion: there are fewer searches and no missed pair."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ STEPS, COUNT, RADIUS, FIELD = 60, 120, 6.0, 260.0
 
 
 def flock(strategy, rng, speed=90.0):
-    """Discs of one size anywhere in a field, on their ways."""
+    """Return a world of discs of one size at random positions in a field, with random velocities."""
     world = World(Effects(), BROADPHASES[strategy]())
     world.add_bodies(Circle(RADIUS), rng.uniform(0.0, FIELD, (COUNT, 2)), rng.uniform(-speed, speed, (COUNT, 2)))
     return world
@@ -46,7 +46,10 @@ def test_who_flies_stops_and_turns_meets_whom_it_meets(strategy):
 
 
 def test_who_flies_on_is_looked_for_once_in_some_steps():
-    """Brute force tests who is looked for against everyone. Not all of them in the same step."""
+    """Bodies in steady motion are searched for once in about sixteen steps, and not all in the same step.
+
+    The brute-force broad phase tests each searched body against all others.
+    """
     world = flock("brute", np.random.default_rng(4), speed=10.0)
     world.step()
     tested = []
@@ -61,7 +64,7 @@ def test_who_flies_on_is_looked_for_once_in_some_steps():
 @pytest.mark.parametrize("kind", ["dynamic", "kinematic"])
 @pytest.mark.parametrize("strategy", sorted(BROADPHASES))
 def test_bodies_moved_by_the_caller_meet_whom_they_meet(strategy, kind, one_by_one):
-    """They walk, stand, turn and jump; the pairs are those of a test of every pair."""
+    """Bodies that the caller moves have the pairs of a test of every pair, whether they walk, stop, turn or jump."""
     rng = np.random.default_rng(5)
     world = World(Effects(), BROADPHASES[strategy]())
     places = rng.uniform(0.0, FIELD, (COUNT, 2))
@@ -84,7 +87,9 @@ def test_bodies_moved_by_the_caller_meet_whom_they_meet(strategy, kind, one_by_o
 
 @pytest.mark.parametrize("often", [1, 2, 3])
 def test_who_is_moved_on_is_looked_for_once_in_some_steps(often):
-    """A sprite that moves by whole pixels stands still in some of the steps, which changes nothing."""
+    """A sprite that the caller moves by whole pixels is searched for once in some steps, though it stops in some of
+    them.
+    """
     rng = np.random.default_rng(4)
     world = World(Effects(), BROADPHASES["brute"]())
     places, paces = rng.uniform(0.0, FIELD, (COUNT, 2)), rng.uniform(-0.3, 0.3, (COUNT, 2))
@@ -100,7 +105,10 @@ def test_who_is_moved_on_is_looked_for_once_in_some_steps(often):
 
 @pytest.mark.parametrize("way", ["velocity", "move"])
 def test_no_rectangle_is_left_behind_by_who_has_stopped(way):
-    """Sixteen steps later: until then the stop may be one of those of a motion by whole pixels."""
+    """The box of a stopped body no longer extends ahead after sixteen steps.
+
+    Until then the stop may belong to a motion by whole pixels.
+    """
     world = flock("hash", np.random.default_rng(4), speed=900.0)
     world.step()
     if way == "move":

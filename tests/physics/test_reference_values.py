@@ -1,7 +1,7 @@
-"""Motion of bodies against closed forms and their own recurrences: motion, impacts, friction.
+"""Motion of bodies, impacts and friction, compared with closed forms and with the recurrences of the solver.
 
-Metres: pixels_per_meter=1, y down. The discrete solution comes first, to the bit or nearly; then the continuum,
-loosely.
+In metres: pixels_per_meter=1, y down. Tests compare first with the discrete solution, nearly to the bit, then loosely
+with the continuous one.
 """
 
 import math
@@ -24,7 +24,7 @@ STACKING = ("soft_step", "sequential_impulse")
     "solver, substeps", [("soft_step", 1), ("soft_step", 4), ("soft_step", 7), ("sequential_impulse", 4)]
 )
 def test_free_fall_is_a_parabola(solver, substeps):
-    """With stacking, flight is exact up to rounding, whatever the length of a substep."""
+    """With stacking, free flight is a parabola up to rounding, for any length of substeps."""
     world = metres(solver, substeps=substeps)
     ball = world.add_body(Circle(0.1), position=(2.0, -7.0), velocity=(1.5, -3.0))
     wheel = world.add_body(Circle(0.5), position=(9.0, -90.0), angular_velocity=0.5)
@@ -40,8 +40,10 @@ def test_free_fall_is_a_parabola(solver, substeps):
 
 @pytest.mark.parametrize("solver", ["projection", "blocking"])
 def test_free_fall_without_stacking_is_its_own_recurrence(solver):
-    """y_n = y0 + v0 n h + g h2 n (n + 1) / 2: it moves by the speed that it ends the step with; 1 s ends g h t / 2
-    below the parabola."""
+    """Without stacking, free fall follows y_n = y0 + v0 n h + g h2 n (n + 1) / 2.
+
+    A body moves by the speed at the end of the step; after 1 s it is g h t / 2 below the parabola.
+    """
     world = metres(solver)
     ball = world.add_body(Circle(0.1), position=(2.0, -7.0), velocity=(1.5, -3.0))
     h = world.dt
@@ -56,7 +58,10 @@ def test_free_fall_without_stacking_is_its_own_recurrence(solver):
 
 @pytest.mark.parametrize("rate", [0.1, 1.0, 40.0])
 def test_drag_is_implicit(rate):
-    """v / (1 + c h) per step: falls short of v exp(-c t) by O(h), and is stable for any c."""
+    """Drag divides the speed by 1 + c h in each step, which is stable for any c.
+
+    It differs from v exp(-c t) by O(h).
+    """
     for solver, parts in (("soft_step", 4), ("projection", 1)):
         world = metres(solver, effects=pile_effects(drag=True, gravity=False), gravity=(0, 0), drag=rate)
         ball = world.add_body(Circle(0.1), velocity=(8.0, -2.0), angular_velocity=3.0)
@@ -93,8 +98,11 @@ def apexes(world, ball, start, count, steps=1200):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("restitution", [0.5, 0.8, 0.95])
 def test_bounces_rise_by_the_square_of_restitution(solver, restitution):
-    """Apex k is h e^2k: within 0.5 % and the slop of what stacks, twice where it may lie in it before and after; else
-    within g dt t, what a step of time costs."""
+    """The k-th bounce has a height of h e^2k.
+
+    Stacking solvers are right within 0.5 % and one slop (two where two slops can add); others within g dt t, the error
+    of one step.
+    """
     world = metres(solver)
     floor(world)
     ball = world.add_body(Circle(0.1), position=(0.0, -2.1), material=Material(restitution=restitution))
@@ -116,8 +124,11 @@ def test_bounces_rise_by_the_square_of_restitution(solver, restitution):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_bounces_end_in_the_time_of_the_series(solver):
-    """sqrt(2 h / g) (1 + e) / (1 - e) = 5.6921 s: within 0.5 % of what stacks; else what is missing shrinks with dt.
-    Tolerances of 1/50, so that small ones count."""
+    """Bounces end after sqrt(2 h / g) (1 + e) / (1 - e) = 5.6921 s, the sum of the series.
+
+    Stacking solvers are right within 0.5 %; the error of others shrinks with dt. The tolerances are 1/50 of the usual
+    ones, so that small bounces count.
+    """
     short = []
     for dt in (1 / 240, 1 / 960):
         world = metres(solver, pixels_per_meter=0.02, dt=dt)
@@ -157,7 +168,10 @@ def test_head_on_in_closed_form(solver, restitution, density):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("offset", [0.0, 0.3, 0.7])
 def test_oblique_equal_discs_leave_at_right_angles(solver, offset):
-    """v 5, r 0.5, e 1, impact parameter b: v1' = 5 (b2, -b sqrt(1 - b2)), v2' the rest: directions 90 degrees apart."""
+    """After an oblique impact, equal elastic discs leave at right angles, for v = 5, r = 0.5 and impact parameter b.
+
+    v1' = 5 (b2, -b sqrt(1 - b2)); v2' has the rest of the momentum.
+    """
     world = metres(solver, gravity=(0, 0), effects=pile_effects(friction=False))
     elastic = Material(restitution=1.0)
     a = world.add_body(
@@ -174,7 +188,10 @@ def test_oblique_equal_discs_leave_at_right_angles(solver, offset):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("dt", [1 / 60, 1e-4])
 def test_off_centre_hit_spins_in_closed_form(solver, dt):
-    """Box 2 x 0.2 at 30 degrees, v 3, e 0.5, m 1: J 1.511125, v' -1.488875, spin 3.662723."""
+    """An off-centre hit of a box spins it as in closed form: J 1.511125, v' -1.488875, spin 3.662723.
+
+    The box is 2 x 0.2 at 30 degrees, with v 3, e 0.5, m 1.
+    """
     world = metres(solver, gravity=(0, 0), effects=pile_effects(friction=False), dt=dt)
     floor(world)
     angle = math.radians(30)
@@ -202,7 +219,7 @@ def test_off_centre_hit_spins_in_closed_form(solver, dt):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("gap", [0.3, 0.0])
 def test_cradle_hands_on_the_velocity(solver, gap):
-    """The last ball alone leaves, also from a row that touches: each contact hands the blow on."""
+    """In Newton's cradle only the last ball leaves, also in a row of touching balls."""
     world = metres(solver, gravity=(0, 0))
     balls = [
         world.add_body(
@@ -223,9 +240,9 @@ def test_cradle_hands_on_the_velocity(solver, gap):
 
 
 def slide_down(solver, angle, shape, height, friction, inertia=None, seconds=1.0):
-    """Release a shape on a slope. Return (acceleration along the slope, spin, speed) after it has settled for 12 steps.
+    """Release a shape on a slope. Return (acceleration along the slope, spin, speed), measured after 12 steps.
 
-    seconds: time over which the acceleration is measured.
+    seconds: time over which the acceleration is measured. inertia: replaces the inertia of the shape.
     """
     world = metres(solver)
     floor(world, friction=friction, angle=angle)
@@ -268,7 +285,10 @@ def test_box_on_a_slope_tips_beyond_width_over_height(solver):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_box_on_a_plate_that_turns_tips_at_width_over_height(solver):
-    """A degree a second: at 26.57, and a degree later for the time that falling takes. What sticks may not hold it."""
+    """A box on a plate that turns by a degree a second tips at atan(width / height) = 26.57 degrees.
+
+    It may tip up to a degree later, the time that falling takes; sticking friction must not hold it.
+    """
     world = metres(solver)
     plate = world.add_body(Polygon.box(20, 1, center=(0.0, 0.5)), kind="kinematic", material=Material(friction=5.0))
     box = world.add_body(Polygon.box(1, 2), position=(0.0, -1.0), material=Material(friction=5.0))
@@ -281,7 +301,9 @@ def test_box_on_a_plate_that_turns_tips_at_width_over_height(solver):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("hoop", [False, True])
 def test_disc_and_hoop_roll_down_by_their_share_of_inertia(solver, hoop):
-    """a = 2/3 g sin for a disc, no slip while mu >= tan / 3; a hoop 1/2, tan / 2. Below that they slip."""
+    """A disc rolls down with a = 2/3 g sin if mu >= tan / 3, a hoop with 1/2 g sin if mu >= tan / 2; otherwise they
+    slip.
+    """
     angle, radius = 0.4, 0.5
     mass, share = math.pi * radius**2, 2.0 if hoop else 3.0
     for friction in (1.1 * math.tan(angle) / share, 0.8 * math.tan(angle) / share):
@@ -298,7 +320,7 @@ def test_disc_and_hoop_roll_down_by_their_share_of_inertia(solver, hoop):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_sliding_disc_rolls_after_two_thirds(solver):
-    """mu 0.3, v0 5: rolls after 0.5556 s at 3.3333, 2.3148 on."""
+    """A disc that slides at 5 m/s with mu 0.3 rolls after 0.5556 s and 2.3148 m, at 3.3333 m/s."""
     world = metres(solver)
     floor(world, friction=0.3)
     disc = world.add_body(Circle(0.5), position=(0.0, -0.5), velocity=(5.0, 0.0), material=Material(friction=0.3))
@@ -316,7 +338,7 @@ def test_sliding_disc_rolls_after_two_thirds(solver):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("speed", [2.0, 5.0, -5.0])
 def test_stopping_distance(solver, speed):
-    """v2 / (2 mu g) in v / (mu g)."""
+    """A sliding box stops after a distance of v2 / (2 mu g) and a time of v / (mu g)."""
     world = metres(solver)
     floor(world, friction=0.4)
     box = world.add_body(
@@ -337,7 +359,10 @@ def test_stopping_distance(solver, speed):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_board_drawn_from_under_discs(solver):
-    """M 10, five discs of 1, F 100, mu 0.4, g 9.81: discs 1.17543, board 3.52629 = 3 x as much."""
+    """A board pulled from under discs accelerates at 3.52629, three times as much as the discs at 1.17543.
+
+    The board has a mass of 10, each of the five discs of 1; F 100, mu 0.4, g 9.81.
+    """
     g, force = 9.81, 100.0
     world = metres(solver, gravity=(0, g))
     floor(world, friction=0.4)
@@ -386,7 +411,7 @@ def test_contacts_of_a_column_carry_what_is_above(solver, count):
 
 @needs_speed
 def test_leaning_cards_need_half_the_tangent():
-    """Two cards at 25 degrees from upright stand from mu = tan(25) / 2 = 0.2332 on: 10 % either side."""
+    """Two cards that lean at 25 degrees from the vertical stand if mu is above tan(25) / 2 = 0.2332, within 10 %."""
     lean, stands = math.radians(25), {}
     limit = math.tan(lean) / 2
     for friction in (0.9 * limit, 1.1 * limit):
@@ -406,8 +431,10 @@ def test_leaning_cards_need_half_the_tangent():
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_domino_tips_beyond_its_diagonal(solver):
-    """Let go on its edge at atan(t / h) less and more 1 degree;
-    struck with 0.9 and 1.1 of m g (sqrt(h2 + t2) - h) / 2."""
+    """A domino released on its edge tips beyond atan(t / h), within 1 degree.
+
+    A struck one tips beyond an impulse of m g (sqrt(h2 + t2) - h) / 2 by energy; 0.9 and 1.1 of it are tested.
+    """
     wide, high = 0.25, 1.0
     limit, reach = math.atan(wide / high), math.hypot(wide, high) / 2
     for sign in (-1, 1):

@@ -1,4 +1,4 @@
-"""Refusals that nothing else comes by: each names the thing, its value and what is allowed."""
+"""Errors for rejected input that no other test covers: each names the argument, its value and the allowed values."""
 
 import numpy as np
 import pytest

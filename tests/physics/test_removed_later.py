@@ -1,4 +1,4 @@
-"""Bodies removed one by one: their rows leave the tables when these are read, and no later step is another one."""
+"""Removed bodies leave the tables only when these are read, which changes no later step."""
 
 import copy
 
@@ -11,14 +11,17 @@ from tests.physics.test_move import RIGID, WORLDS, crowded, kept
 
 
 def read(world):
-    """Read the tables, which drops the rows of removed bodies."""
+    """Read the body table, which drops the rows of removed bodies."""
     assert len(world.bodies) == len(world)
 
 
 @pytest.mark.parametrize("seed", range(6))
 @pytest.mark.parametrize("effects", WORLDS)
 def test_the_same_as_if_rows_were_dropped_at_once(effects, seed):
-    """With setters, additions, reads and steps between; a heap sleeps in every other run."""
+    """Worlds with immediately and lazily dropped rows stay equal through setters, additions, reads and steps.
+
+    In every other run the heap sleeps.
+    """
     steps = (3, 300)[seed % 2] if effects == "sleeping" else 12
     lazy, eager = (crowded(WORLDS[effects], "hash", seed, steps) for _ in range(2))
     rng = np.random.default_rng(seed)
@@ -56,7 +59,7 @@ def test_the_same_as_if_rows_were_dropped_at_once(effects, seed):
 @pytest.mark.parametrize("size", [1, 2, 5])
 @pytest.mark.parametrize("seed", range(8))
 def test_the_loads_of_bodies_are_released_as_by_a_search(seed, size):
-    """The lists of contacts find what a search among all contacts finds, for bodies that go together."""
+    """Removing several bodies at once clears the cached forces that a search among all contacts finds."""
     rng, world = np.random.default_rng(seed), World(RIGID)
     world.add_body(Polygon.box(900, 20), kind="static", position=(0, 10))
     for stack in range(5):
@@ -77,7 +80,7 @@ def test_the_loads_of_bodies_are_released_as_by_a_search(seed, size):
 
 
 def test_everything_that_reads_a_world_misses_the_removed():
-    """Each reader first, on a world of its own."""
+    """Every reader of a world ignores removed bodies, even as the first reader after the removal."""
     readers = [
         lambda w: [body.id for body in w],
         lambda w: w.bodies["id"].tolist(),

@@ -1,4 +1,4 @@
-"""Reprs of what a user prints while looking for a mistake: one line with numbers, which never raises an error."""
+"""Reprs of objects that a user prints while debugging: one line with numbers, which never raises an error."""
 
 import copy
 import pickle
@@ -43,7 +43,7 @@ def falling():
 
 
 def line(value):
-    """Return the repr of a value, which must be one line, and equal to its str in an f-string."""
+    """Return the repr of a value, after a check that it is one line and that the value can be formatted."""
     text = repr(value)
     assert text and "\n" not in text and len(text) < 500, text
     assert f"{value}"

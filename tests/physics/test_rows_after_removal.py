@@ -1,4 +1,4 @@
-"""Contacts keep the right row numbers, and the rest of their values, when bodies are removed between steps."""
+"""Contacts keep correct row numbers and unchanged other values when bodies are removed between steps."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ RING = np.hypot(*(np.indices((24, 24)) - 11.5)) < 12
 
 
 def heap(seed, count=40):
-    """Return a world with a heap of boxes, discs, masks and bodies of two shapes, and the ids of the heap."""
+    """Return (world, ids of a heap) with boxes, discs, masks and bodies of two shapes."""
     effects = Effects.rigid_bodies().with_(sleeping=False)  # an island that wakes up would bring contacts back
     world, rng = World(effects), np.random.default_rng(seed)
     world.add_body(Polygon.box(400, 20), position=(0, 100), kind="static")

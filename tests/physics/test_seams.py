@@ -62,7 +62,7 @@ def test_a_body_falls_along_a_wall_as_if_it_were_not_there(name, solver):
 
 @pytest.mark.parametrize("name", ["box", "circle", "capsule", "rounded"])
 def test_a_driven_body_never_goes_back_on_a_bumpless_chain(name):
-    """E1: driven at 2 m/s along a chain of unit links: x never falls, y stays, the way is right within 5 %."""
+    """A body driven at 2 m/s along a chain of unit links never moves back or up; its path is right within 5 % (E1)."""
     shape, half = SLIDERS[name]
     world = World()
     world.add_body(Chain([(32.0 * k, 0.0) for k in range(-2, 39)]), kind="static", material=ICE)
@@ -77,7 +77,7 @@ def test_a_driven_body_never_goes_back_on_a_bumpless_chain(name):
 
 
 def test_a_ball_rolls_through_a_smooth_valley():
-    """A round valley of many short links: what it loses is what the bends take, and no more."""
+    """A ball in a round valley of many short links loses only the energy that the bends take."""
     count, radius = 60, 300.0
     angles = np.linspace(math.pi, 0.0, count + 1)
     valley = Chain(np.stack([radius * np.cos(angles), radius * np.sin(angles)], axis=1).tolist())

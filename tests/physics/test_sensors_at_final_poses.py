@@ -1,7 +1,7 @@
-"""Sensors report what overlaps at the final poses of every step: each solver x kind of shape x snapped or not x role.
+"""Sensors report the overlaps at the final poses of each step, for each solver, kind of shape, snapping and role.
 
-The oracle is `collide`, which knows no world, no step and no broad phase; `world.overlap` is held to it as well. A pair
-that a sweep met on the way may be reported too: then the shapes meet on one of the ways that the sweep looked at.
+The reference is `collide`, which needs no world, step or broad phase; `world.overlap` is compared with it, too. A pair
+met by a sweep may be reported as well, if the shapes meet on one of the swept paths.
 """
 
 import itertools
@@ -17,7 +17,7 @@ WAY = 65  # places on a way that are looked at
 
 
 def blob(seed, width=22, height=18):
-    """Pixels of a ring with a rough edge, hollow inside."""
+    """Return the pixels of a hollow ring with a rough edge."""
     y, x = np.mgrid[:height, :width]
     round_ = ((x - width / 2) / (width / 2)) ** 2 + ((y - height / 2) / (height / 2)) ** 2
     rough = np.random.default_rng(seed).random((height, width)) < 0.2
@@ -63,12 +63,15 @@ DAILY = ("no response, swept", "blocking", "projection, swept", "soft_step", "de
 
 
 def roles_of(kind):
-    """The kinds of bodies that may have such a shape."""
+    """Return the kinds of bodies (static, kinematic, dynamic) that may have such a shape."""
     return ("static", "kinematic") if kind in STANDING else ("static", "kinematic", "dynamic")
 
 
 def crowd(effects, solver, sensors, seed):
-    """Return a room with sensors, (kind, role) each, and a moving solid of every kind, kinematic and dynamic."""
+    """Return a room with sensors and moving solid bodies of every kind of shape, kinematic and dynamic.
+
+    sensors: list of (kind of shape, role).
+    """
     rng = np.random.default_rng(seed)
     world = World(effects, solver=solver, gravity=(0.0, 300.0))
 
@@ -129,7 +132,7 @@ def overlapping(world):
 
 
 def pairs_of(events):
-    """Pairs of shape ids of event rows."""
+    """Return the set of pairs of shape ids in event rows."""
     return set(zip(events["shape_a"].tolist(), events["shape_b"].tolist(), strict=True))
 
 
@@ -145,7 +148,7 @@ def asked_of_the_world(world):
 
 
 class Ways:
-    """Paths of the bodies in the next step: to their final poses, and to those that free motion would reach."""
+    """Paths of the bodies in the next step: to their final poses, and to the poses that free motion would reach."""
 
     def __init__(self, world):
         self.world = world
@@ -160,7 +163,7 @@ class Ways:
         }
 
     def meet(self, a, b):
-        """Return whether two shapes, each (body, shape), meet on one of the paths, within the slop."""
+        """Return whether two shapes, each given as (body, shape), meet on one of the paths, within the slop."""
         ends = {body.id: (body.center, body.angle) for body, _ in (a, b)}
         slop = self.world.tolerances.slop
         return any(
@@ -170,9 +173,9 @@ class Ways:
         )
 
     def placed(self, side, ends, share):
-        """Return (shape, pose) of a side after a share 0..1 of its path.
+        """Return (shape, pose) of a (body, shape) pair after a share 0..1 of its path.
 
-        A mask is placed at the exact pose, as sweeps do. A Bounds does not rotate on its way.
+        A mask is placed at the exact pose, as in sweeps. A Bounds does not rotate on its path.
         """
         body, shape = side
         (start, angle), (end, turned) = self.starts[body.id], ends[body.id]
@@ -228,7 +231,7 @@ def test_sensors_of_each_kind_tell_what_overlaps_at_the_final_poses(name, kind, 
 
 
 def test_sweeps_tell_of_what_was_passed():
-    """The oracle of the ways is asked, and what is fast is told."""
+    """A fast body that passes a sensor within a step is reported, and the check of its path confirms it."""
     world = World(Effects.rigid_bodies(), gravity=(0.0, 0.0))
     world.add_body(KINDS["pixels"][0], kind="static", sensor=True, user="pixels")
     world.add_body(Circle(3), position=(-100, 0), velocity=(9000.0, 0.0), user="circle")
@@ -249,7 +252,9 @@ PUSHES = [
 @pytest.mark.parametrize("gap", [0.05, 0.5, 1.0, 1.5])
 @pytest.mark.parametrize(("solver", "effects"), PUSHES, ids=lambda each: getattr(each, "names", lambda: [each])()[-1])
 def test_what_is_pushed_into_a_sensor_is_told_in_that_step(solver, effects, gap):
-    """It had no motion that its rectangle could have foreseen."""
+    """A resting body that is pushed into a sensor is reported in the same step, although its swept box did not include
+    it.
+    """
     world = World(effects, solver=solver)
     for x in (-8.0, 8.0):  # in each other by 24 px
         world.add_body(Polygon.box(40, 40), position=(x, 0.0), user="wall")
@@ -268,7 +273,9 @@ def test_what_is_pushed_into_a_sensor_is_told_in_that_step(solver, effects, gap)
 @pytest.mark.parametrize("speed", [300.0, 2000.0, 9000.0])
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_what_is_struck_into_a_sensor_is_told_in_that_step(solver, speed, continuous):
-    """It stood, and its rectangle did not foresee how far it flies."""
+    """A resting body that is hit into a sensor is reported in the same step, although its swept
+    box did not include it.
+    """
     world = World(Effects.rigid_bodies().with_(continuous=continuous), solver=solver, gravity=(0.0, 0.0))
     world.add_body(Circle(6), position=(-12.1, 0.0), velocity=(speed, 0.0), user="circle")
     world.add_body(Circle(6), position=(0.0, 0.0), user="circle")
@@ -299,7 +306,7 @@ def test_a_sensor_sees_what_falls_asleep_in_it_and_what_is_woken(snap):
 
 @pytest.mark.parametrize("seed", range(2))
 def test_sensors_go_on_when_the_solver_changes(seed):
-    """A contact under one solver neither ends nor begins again under the next."""
+    """An overlap with a sensor neither ends nor begins again when the solver changes."""
     rng = np.random.default_rng(seed)
     sensors = [(kind, "static") for kind in KINDS]
     world = crowd(Effects.rigid_bodies().with_(continuous=False), None, sensors, seed)

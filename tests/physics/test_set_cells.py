@@ -1,4 +1,4 @@
-"""Body.set_cells: cells of a TileGrid change in place."""
+"""Body.set_cells changes the cells of a TileGrid in place."""
 
 import numpy as np
 import pytest
@@ -69,7 +69,10 @@ def test_a_wall_that_grows_into_a_sleeper_wakes_it():
     lambda ground: ground.set_kind("kinematic"),
 ], ids=["added", "moved", "filter", "material", "cells", "kind"])  # fmt: skip
 def test_the_next_bodies_meet_a_grid_that_was_edited_a_step_before(edit, broadphase):
-    """The last step visited the grid because it was edited. The next one does not, but its pairs are searched."""
+    """A body that arrives one step after an edit of a tile grid still collides with the grid.
+
+    The step of the edit searches the pairs of the grid; the next step searches those of the new body.
+    """
     world = World(broadphase=broadphase)
     ground = world.add_body(TileGrid(np.ones((1, 8), bool), 16), position=(0, 100), kind="static")
     old = world.add_body(Circle(5), position=(20, -300))
@@ -105,7 +108,7 @@ def test_awake_bodies_feel_it_at_once(solver):
 
 
 def test_contacts_keep_their_impulses():
-    """A neighbour's cell that changes moves nothing."""
+    """A change of a neighbouring cell keeps the impulses of resting contacts."""
     world, ground, boxes = yard(3, effects=Effects.rigid_bodies().with_(sleeping=False))
     weight = boxes[1].mass * 9.8 * 32 / 60
     ground.set_cells([(5, 0)], False)  # its left edge is that of the cell under the box

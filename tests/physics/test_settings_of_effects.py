@@ -1,4 +1,4 @@
-"""Settings without their effect are refused, unknown attributes too; `restitution_speed`."""
+"""Settings without their effect and unknown attributes raise errors; `restitution_speed`."""
 
 import math
 
@@ -167,7 +167,10 @@ PRESSES = {  # gravity, wind, force on the ball, whether it presses the ball to 
 @pytest.mark.parametrize("name", PRESSES)
 @pytest.mark.parametrize("angle", [0.0, 0.4, 2.0])
 def test_a_new_contact_bounces_at_any_speed_where_no_acceleration_presses_it(solver, name, angle):
-    """All of the scene is turned by an angle: a part of gravity along the normal that is rounding presses nothing."""
+    """A new contact bounces at any speed if no acceleration presses it.
+
+    The whole scene is rotated by an angle: a component of gravity that is only rounding does not count as pressing.
+    """
     gravity, wind, force, presses = PRESSES[name]
 
     def turned(x, y):
@@ -191,7 +194,10 @@ def test_a_new_contact_bounces_at_any_speed_where_no_acceleration_presses_it(sol
 
 @pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse"])
 def test_a_contact_that_touched_bounces_only_beyond_the_threshold(solver):
-    """A kinematic block that starts to push at 20 px/s takes its crate along, and hits it away at 100 px/s."""
+    """An existing contact bounces only above the threshold.
+
+    A kinematic block that starts at 20 px/s moves its crate along; at 100 px/s it hits the crate away.
+    """
     for speed, bounces in ((20.0, False), (100.0, True)):
         world = World(gravity=(0, 0), solver=solver)
         elastic = Material(restitution=1.0)

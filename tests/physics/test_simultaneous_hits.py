@@ -1,4 +1,4 @@
-"""Several contacts of one body that hit at once; contacts that only touch; landings on ground made of pieces."""
+"""Several simultaneous impacts of one body, contacts that only touch, and landings on ground made of pieces."""
 
 import math
 
@@ -61,7 +61,10 @@ def test_a_flat_drop_bounces_on_every_ground_as_on_one_box(name, settings):
 @pytest.mark.parametrize("settings", [{}, {"substeps": 4}], ids=["auto", "4"])
 @pytest.mark.parametrize("name", GROUNDS)
 def test_a_body_lands_without_an_overlap_at_every_phase(name, settings):
-    """Pieces of ground are met within the step, like other shapes: a fall of 350 px/s is 6 px a step."""
+    """A body that falls at 350 px/s (6 px a step) on ground in pieces lands without an overlap at every phase.
+
+    Pieces of ground are met within the step, like other shapes.
+    """
     bodies = {**BODIES, "disc": (Circle(10), 10.0), "capsule": (Capsule((-6, 0), (6, 0), 10), 10.0)}
     for k, (shapes, half) in enumerate(bodies.values()):
         for phase in range(k % 2, 10, 2):
@@ -98,7 +101,7 @@ def test_as_many_balls_leave_a_cradle_as_came(solver, gap):
 @needs_speed
 @pytest.mark.parametrize("restitution", [0.3, 0.8, 1.0])
 def test_a_break_is_symmetric_and_keeps_momentum(restitution):
-    """One ball between two that touch: both leave alike, and no energy is gained."""
+    """A ball that hits two touching balls sends both away symmetrically, without a gain of energy."""
     for angle in np.linspace(0, math.tau, 12, endpoint=False):
         c, s = math.cos(angle), math.sin(angle)
         world = World(gravity=(0, 0))
@@ -119,7 +122,9 @@ def test_a_break_is_symmetric_and_keeps_momentum(restitution):
 @needs_speed
 @pytest.mark.parametrize("settings", [{}, {"substeps": 4}], ids=["auto", "4"])
 def test_a_box_that_lands_on_two_that_rest_stays_level(settings):
-    """They press the floor, which hands nothing back: the box bounces as on the floor, up to what the contacts give."""
+    """A box that lands on two resting boxes stays level and bounces as on the floor, within the
+    softness of contacts.
+    """
     for restitution in (0.3, 0.5, 0.9):
         material = Material(restitution=restitution, friction=0.6)
         world = World(**settings)

@@ -1,4 +1,4 @@
-"""Snapshots, files and digests: the way on is the same to the bit; what is damaged is refused with its reason."""
+"""Snapshots, files and digests: a restored world continues to the bit, and damaged files are refused with a reason."""
 
 import copy
 import io
@@ -42,7 +42,7 @@ ALL = Effects(
 
 
 def busy(seed=0, broadphase=None):
-    """A world with everything in it, and its hero."""
+    """Return (world, character) with every kind of shape, body and effect."""
     rng = np.random.default_rng(seed)
     world = World(ALL, broadphase, drag=0.1, wind=(20, 0), seed=seed)
     world.add_body(TileGrid(np.ones((2, 20), bool), 16), position=(0, 160), kind="static")
@@ -120,7 +120,7 @@ def test_file_round_trip_into_a_world_built_anew(tmp_path):
 
 
 def _at(world, hero):
-    """The same character in another world."""
+    """Return the character in another world that corresponds to `hero`."""
     copy = object.__new__(type(hero))
     copy.world, copy.body = world, world.body(hero.body.id)
     return copy
@@ -187,7 +187,10 @@ def test_cut_and_flipped_files_are_refused_or_whole(tmp_path):
 
 @pytest.mark.parametrize("method", [1, 8, 12, 14, 93])
 def test_files_that_name_another_compression_are_refused_or_whole(tmp_path, method):
-    """Zip files name it in two bytes of each entry: what else decompresses them has errors of its own."""
+    """A snapshot file with a changed compression method is refused, or loads correctly.
+
+    Zip files name the method in two bytes of each entry, and other decompressors raise errors of their own.
+    """
     path = saved(tmp_path)
     content = path.read_bytes()
     for mark, at in ((b"PK\x03\x04", 8), (b"PK\x01\x02", 10)):
@@ -218,7 +221,7 @@ def test_a_plain_array_file_and_a_missing_one_are_refused(tmp_path):
 
 
 def rewritten(path, change):
-    """The file with its facts or arrays changed."""
+    """Rewrite a snapshot file after change(facts, arrays), and return its path."""
     with np.load(path) as stored:
         arrays = dict(stored)
     facts = json.loads(str(arrays.pop("facts")))
@@ -254,7 +257,7 @@ def test_a_file_with_a_wrong_part_is_refused_and_changes_nothing(tmp_path, name,
 
 
 def shuffled(rows):
-    """The same columns in another order, without room between them."""
+    """Return the same columns in another order, without padding."""
     names = rows.dtype.names[::-1]
     other = np.zeros(len(rows), [(name, rows.dtype[name]) for name in names])
     for name in names:
@@ -294,7 +297,7 @@ def test_snapshot_of_other_effects_is_refused():
 
 
 def test_a_copy_of_a_world_shares_the_values_and_goes_its_own_way():
-    """copy.deepcopy is a whole second world: equal steps give equal digests, and neither sees the other."""
+    """copy.deepcopy of a world gives an independent world with equal digests for equal steps."""
     mask, grid = PixelMask.from_array(np.ones((8, 8), bool)), TileGrid([[True] * 20], 16)
     world = World(Effects(response=True, gravity=True))
     world.add_body(grid, kind="static", position=(0, 100))
@@ -314,7 +317,7 @@ def test_a_copy_of_a_world_shares_the_values_and_goes_its_own_way():
 
 
 def test_neither_a_copy_nor_what_was_copied_disturbs_the_other():
-    """Stages keep rows from step to step: a copy that shared them wrote its contacts over those of the first."""
+    """Steps of a world and of its copy do not affect each other, although stages keep rows from step to step."""
     world = World()
     world.add_body(Polygon.box(400, 20), kind="static", position=(0, 100))
     for number in range(12):

@@ -1,4 +1,4 @@
-"""Runs that are put back to a snapshot at random steps go on as if they were not: digests and events of every step."""
+"""Runs that restore snapshots at random steps give the same digests and events in every step as uninterrupted runs."""
 
 import numpy as np
 import pytest
@@ -31,12 +31,12 @@ SHAPES = (
 
 
 def somewhere(rng):
-    """A point of the room [px]."""
+    """Return a random point of the room [px]."""
     return tuple(rng.uniform(-1.0, 1.0, 2) * ROOM)
 
 
 def add(world, rng):
-    """Add a body by chance: most are dynamic, some are sensors."""
+    """Add a random body; most are dynamic, some are sensors."""
     e, kind = world.effects, rng.choice(["dynamic", "dynamic", "dynamic", "kinematic", "static"]).item()
     world.add_body(
         SHAPES[rng.integers(len(SHAPES))],
@@ -50,7 +50,7 @@ def add(world, rng):
 
 
 def start(effects, solver, seed):
-    """A room with ground, a lift, sensors that stand, a hero where bodies are pushed, and some bodies."""
+    """Return a room with ground, a lift, static sensors and some bodies; with a character if the world has response."""
     world, rng = World(effects, solver=solver, seed=seed), np.random.default_rng(seed)
     if effects.drag:
         world.drag, world.wind = 0.2, (30.0, 0.0)
@@ -70,7 +70,7 @@ FIRST = 6  # ids below are the furniture
 
 
 def edit(world, seed, step):
-    """Change a world by hand, or leave it; the same for the same seed and step."""
+    """Edit a world at random, or leave it unchanged; the same seed and step give the same edit."""
     rng = np.random.default_rng((seed, step))
     walkers = world.characters.rows["body"].tolist()
     for identity in walkers:
@@ -116,8 +116,9 @@ def told(world):
 
 
 def run(effects, solver, seed, put_back=lambda world, moment: world):
-    """Return the reports of every step; put_back(world, moment) gives the world to continue with, moment: before or
-    after edits.
+    """Return the reports of every step of a run.
+
+    put_back(world, moment) returns the world with which to continue. moment: (step, "before edits" or "after edits").
     """
     world, found = start(effects, solver, seed), []
     for step in range(STEPS):
@@ -132,7 +133,7 @@ def run(effects, solver, seed, put_back=lambda world, moment: world):
 class Interruptions:
     """Interruptions of a run at random moments, each of which restores a world from its snapshot.
 
-    The snapshot is restored after steps that are undone, in a new world, or by way of a file.
+    The snapshot is restored after steps that are discarded, in a new world, or from a file.
     """
 
     def __init__(self, seed, folder=None):
@@ -182,7 +183,7 @@ def broken(world):
 
 
 def copied(world, path):
-    """Put the world back to its snapshot, by way of a file."""
+    """Save a snapshot of the world to a file and restore the world from it."""
     world.snapshot().save(path / "kept.npz")
     world.restore(Snapshot.load(path / "kept.npz"))
 
@@ -201,7 +202,10 @@ STARTS_OVER = {
 @pytest.mark.parametrize("sensor", [False, True])
 @pytest.mark.parametrize("name", STARTS_OVER)
 def test_a_pair_that_stands_goes_on_when_what_is_awake_is_looked_for_anew(name, sensor, after, tmp_path):
-    """It begins in the first step, in which both sides are new, and from then on neither is in a step."""
+    """A resting pair that overlaps a sensor persists when the set of awake bodies is rebuilt.
+
+    It begins in the first step, in which both bodies are new; later neither of them takes part in a step.
+    """
     world = World(RIGID)
     world.add_body(Polygon.box(40, 40), kind="static", sensor=sensor)
     world.add_body(Circle(10), position=(15.0, 0.0), kind="kinematic")

@@ -1,6 +1,4 @@
-"""A body that a solver makes faster than any limit is disabled and reported, before it is swept, reported or used
-again.
-"""
+"""A body that a solver makes faster than any limit is disabled and reported before anything reads its speed."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Islands without room: found wherever overlapped faces of bodies of infinite mass leave none."""
+"""Squeezed islands are detected wherever overlapping faces of bodies with infinite mass leave no room."""
 
 import math
 
@@ -15,8 +15,8 @@ EFFECTS = Effects.rigid_bodies()
 def is_squeezed(world, moving):
     """Return whether the disc is squeezed, by a test of all pairs of its contact normals.
 
-    It is squeezed by two normals that face each other at contacts deeper than the slop, or by a fast body opposite to
-    another contact.
+    It is squeezed by two opposite normals of contacts deeper than the slop, or by a fast body opposite another contact.
+    moving: ids of the moving walls.
     """
     rows, limits, disc = world.contact_rows, world.tolerances.limits, world.bodies["id"][-1]
     rows = rows[(rows["body_a"] == disc) | (rows["body_b"] == disc)]
@@ -37,7 +37,10 @@ def is_squeezed(world, moving):
 @pytest.mark.parametrize("order", [1, -1])
 @pytest.mark.parametrize("substeps", [4, "auto"])
 def test_faces_leave_room_or_not_as_all_their_pairs_say(degrees, share, speed, order, substeps):
-    """A disc lies in the faces of two walls by a share of its radius; the second may move."""
+    """A disc between two walls is reported as squeezed exactly if a test of all pairs of its contacts says so.
+
+    share: overlap with the walls as a share of its radius; the second wall may move.
+    """
     world, radius, moving = World(EFFECTS, substeps=substeps), 16.0, []
     for side in (-0.5, 0.5):
         turn = order * math.radians(degrees) * side

@@ -1,4 +1,6 @@
-"""A step that stands still after each stage: the same step, and what it shows on the way is what there is by then."""
+"""staged_step pauses after each stage of a step: the result equals a normal step, and each pause shows the state so
+far.
+"""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The stages of a step: each touches what it says and nothing else, and they stand in an order that makes sense."""
+"""The stages of a step read and write only the declared fields, and their order respects their dependencies."""
 
 import itertools
 from dataclasses import fields
@@ -28,7 +28,7 @@ SCALARS = {"effects", "tolerances", "gravity", "drag", "wind", "dt", "substeps"}
 
 
 def frozen(value, seen=()):
-    """Return a value for comparisons: the bytes of all arrays that can be reached from `value`, and its plain parts."""
+    """Return a comparable copy of a value: the bytes of all arrays reachable from it, and its plain parts."""
     if isinstance(value, ATOMS):
         return value
     if id(value) in seen:
@@ -48,7 +48,7 @@ def frozen(value, seen=()):
 
 
 def photographed(state) -> dict:
-    """Return {field, or table.column: its frozen value} of the whole state, except the workspace."""
+    """Return {field, or table.column: its comparable copy} of the whole state, except the workspace."""
     found = {}
     for name in STAGE_FIELDS:
         value = getattr(state, name)
@@ -67,7 +67,7 @@ def photographed(state) -> dict:
 
 
 class Guard:
-    """A state that refuses what a stage did not say it reads or writes."""
+    """A proxy of the state that raises an error if a stage reads or writes a field that it does not declare."""
 
     def __init__(self, state, stage):
         object.__setattr__(self, "_state", state)
@@ -100,7 +100,7 @@ def step_watched(world, dt=None):
 
 
 def busy(effects, solver=None, **arguments):
-    """A world with a bit of everything that its effects allow."""
+    """Return (world, ...) with every kind of body and shape that its effects allow."""
     world = World(effects, solver=solver, **arguments)
     e = effects
     moving = Material(friction=0.5, restitution=0.4, rolling_resistance=0.1, surface_speed=30.0)
@@ -247,7 +247,7 @@ PRODUCTS = ("changed_count", "impacts", "parked", "swept_sensors")  # made and u
 
 
 def mistakes(stages) -> list[str]:
-    """Return the errors in the order of some stages."""
+    """Return descriptions of the errors in the order of some stages."""
     names = [each.stage for each in stages]
     found = [f"{b} before {a}" for a, b in BEFORE if a in names and b in names and names.index(a) > names.index(b)]
     for product in PRODUCTS:
@@ -259,7 +259,7 @@ def mistakes(stages) -> list[str]:
 
 
 def declared():
-    """Every combination of effects that changes the plan, with every solver that it allows."""
+    """Yield every combination of effects that changes the plan, with every solver that it allows."""
     switches = ("response", "gravity", "stacking", "continuous", "sleeping", "sensors")
     for values in itertools.product((False, True), repeat=len(switches)):
         chosen = dict(zip(switches, values, strict=True))
@@ -292,7 +292,7 @@ def test_a_wrong_order_is_found():
 
 
 def test_no_world_hands_messages_between_stages():
-    """The new fields of a world after a step are those of `finish`; no other field is new or changed in kind."""
+    """After a step, a world has no new attributes and none that is a function: stages pass no messages through it."""
     world, _, _ = busy(Effects.rigid_bodies())
     before = set(vars(world))
     world.step()

@@ -1,4 +1,4 @@
-"""Surfaces that move bodies: kinematic platforms, conveyors, rolling resistance; and the events of such pairs."""
+"""Surfaces that move bodies: kinematic platforms, conveyors and rolling resistance, and the events of such pairs."""
 
 import math
 
@@ -31,7 +31,7 @@ def test_platform_carries_what_stands_on_it(solver, velocity):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_turning_platform_takes_its_load_round(solver):
-    """A slow wheel seen from above (no gravity would be needed): a disc in its middle turns with it."""
+    """A rotating kinematic disc drags a disc on top of it to the right if it turns clockwise on the screen."""
     world = metres(solver)
     world.add_body(
         Circle(2.0), position=(0, 2.0), kind="kinematic", angular_velocity=1.5, material=Material(friction=1.0)
@@ -105,7 +105,7 @@ def test_rolling_ball_goes_on_for_ever_and_stops_with_resistance(solver):
 
 
 def test_ball_with_resistance_holds_on_a_gentle_slope():
-    """It rolls where tan th > c, and holds where tan th < c."""
+    """A ball with rolling resistance c rolls on a slope with tan th > c, and stays where tan th < c."""
     moved = {}
     for angle in (0.02, 0.08):
         world = metres()
@@ -124,7 +124,7 @@ def test_ball_with_resistance_holds_on_a_gentle_slope():
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_every_begin_has_exactly_one_end_whatever_is_removed_or_changed(solver):
-    """Bodies that come, go, change shape, kind and filter among piles: begins and ends of live pairs always match."""
+    """Every begin event has exactly one end event while bodies are added, removed and changed in piles."""
     world = metres(solver, effects=pile_effects(sleeping=True, continuous=True, sensors=True, persist=True))
     floor(world)
     world.add_body(Polygon.box(3, 3), position=(0, -1.5), kind="static", sensor=True)
@@ -170,7 +170,7 @@ def test_every_begin_has_exactly_one_end_whatever_is_removed_or_changed(solver):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_hits_tell_the_speed_before_the_solver_and_the_impulse(solver):
-    """A box that lands flat: one hit of the speed of the fall, with the impulse that stopped it."""
+    """A box that lands flat causes one hit event with its falling speed and the impulse that stops it."""
     world = metres(solver)
     floor(world)
     box = world.add_body(Polygon.box(1, 1), position=(0, -3.0))

@@ -1,4 +1,6 @@
-"""set_target: a kinematic body arrives exactly at the end of the next step, carries its riders, and then rests."""
+"""set_target: a kinematic body reaches its target exactly at the end of the next step, carries
+its riders, then rests.
+"""
 
 import copy
 import math

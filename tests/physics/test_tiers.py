@@ -1,4 +1,4 @@
-"""Shapes of a mask in each tier, against its pixels as shapely figures."""
+"""The replacement shapes of a mask in each tier, compared with its pixels as shapely figures."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Tiles merge into runs: bodies that slide over them, or down along them, feel no seam (U10)."""
+"""Tiles are merged into runs, so bodies that slide along them feel no seam, horizontally or vertically (U10)."""
 
 import numpy as np
 import pytest
@@ -51,7 +51,10 @@ def test_a_floor_has_one_normal_and_one_depth(name, depth):
 @pytest.mark.parametrize("name", MOVERS)
 @pytest.mark.parametrize("depth", [-0.3, 0.0, 0.01, 1.0])
 def test_a_wall_has_one_normal_whatever_row_it_is_met_in(name, depth):
-    """The sides of the rows are not merged; their tops and bottoms inside the wall are never felt."""
+    """A wall of tiles has one normal in every row: row borders inside the wall have no effect.
+
+    The sides of rows are not merged.
+    """
     shape = MOVERS[name]
     for y in np.concatenate([np.linspace(60, 100, 161), [63.9999999, 64.0, 64.0000001]]):
         found = collide(WALL, (0, 0, 0), shape, (24 - depth + reach(shape, 0.0, 0), float(y), 0), 0.5)

@@ -1,4 +1,4 @@
-"""Time of impact: closed forms, rotating bodies against dense sampling, starts in contact."""
+"""Time of impact: closed forms, rotating bodies compared with dense sampling, and starts in contact."""
 
 import math
 
@@ -24,7 +24,7 @@ def missed(found):
 
 
 def test_two_discs_in_closed_form():
-    """To 1e-12; the swapped call gives the same with the opposite normal."""
+    """Two discs hit at the closed-form time to 1e-12; exchanged shapes give the opposite normal."""
     found = time_of_impact(Circle(0.3), (-3, 0.3, 0), (197, 0.3, 0), Circle(0.3), ORIGIN, ORIGIN)
     assert found.hit and found.fraction == pytest.approx(0.012401923788647, abs=1e-14)
     assert found.normal == pytest.approx((math.sqrt(0.75), -0.5)) and found.point == pytest.approx(
@@ -46,14 +46,14 @@ def test_disc_to_the_corner_of_a_box(angle):
 
 
 def test_box_and_segment():
-    """G20, by value and not by a tolerance of the slop."""
+    """A box that moves onto a segment hits it exactly at fraction 0.5, without a tolerance of the slop (G20)."""
     found = time_of_impact(BOX, ORIGIN, ORIGIN, Segment((0, -1), (0, 1)), (2, 0, 0), ORIGIN)
     assert found.fraction == pytest.approx(0.5, abs=1e-12) and found.normal == (1.0, 0.0) and found.point[0] == 1.0
 
 
 @pytest.mark.parametrize("swap", [False, True])
 def test_disc_at_a_segment_that_was_turned_by_rounding(swap):
-    """C17."""
+    """A disc hits a segment rotated by -pi/2, whose end points are rounded, at fraction 0.5 (C17)."""
     upright = (1, 0, -math.pi / 2)
     disc, wall = (Circle(0.5), ORIGIN, (1, 0, 0)), (Segment((-1, 0), (1, 0)), upright, upright)
     found = time_of_impact(*(wall + disc if swap else disc + wall))
@@ -63,7 +63,7 @@ def test_disc_at_a_segment_that_was_turned_by_rounding(swap):
 
 @pytest.mark.parametrize("half", [2e-4, 1e-5])
 def test_point_like_disc_past_a_short_edge(half):
-    """C2: a miss or a unit normal."""
+    """A tiny disc that passes a short edge misses it or hits it with a unit normal (C2)."""
     edge = Polygon.box(1.0, 2 * half)
     found = time_of_impact(Circle(1e-9), (0.506, 0.0035, 0), (0.496, -0.4965, 0), edge, ORIGIN, ORIGIN)
     assert not found.hit or math.hypot(*found.normal) == pytest.approx(1.0, abs=1e-12)
@@ -77,7 +77,9 @@ def test_point_like_disc_past_a_short_edge(half):
     "shapes", [(BOX, BOX), (Circle(1), Circle(1)), (BOX, Circle(1)), (Capsule((0, -1), (0, 1), 1), BOX)]
 )
 def test_touching_at_the_start_counts_when_it_approaches(shapes, move, hit, gap):
-    """C16: approaching 0; separating, sliding and resting look on."""
+    """Shapes that touch or overlap at the start hit at 0 if they approach, and miss if they separate, slide or rest
+    (C16).
+    """
     if move == (0, 5) and gap < 0.0 and shapes[1] == Circle(1) and shapes[0] == Circle(1):
         return  # overlapping discs that pass each other part at once
     found = time_of_impact(shapes[0], ORIGIN, (*move, 0), shapes[1], (2 + gap, 0, 0), (2 + gap, 0, 0))
@@ -93,7 +95,7 @@ def test_what_leaves_and_comes_back_by_turning_is_met_then():
 
 
 def test_grazing_tangent_and_a_hair_beside():
-    """C16: touching is meeting."""
+    """A grazing touch is a hit; shapes that pass 1e-9 apart miss (C16)."""
     assert time_of_impact(Circle(1), (-5, 2, 0), (5, 2, 0), Circle(1), ORIGIN, ORIGIN).fraction == pytest.approx(0.5)
     assert missed(time_of_impact(Circle(1), (-5, 2 + 1e-9, 0), (5, 2 + 1e-9, 0), Circle(1), ORIGIN, ORIGIN))
     assert missed(time_of_impact(BOX, (-5, 2 + 1e-9, 0), (5, 2 + 1e-9, 0), BOX, ORIGIN, ORIGIN))
@@ -111,7 +113,7 @@ def random_motion(rng):
 
 @pytest.mark.parametrize("seed", range(3))
 def test_turning_hulls_meet_where_dense_sampling_sees_it(seed):
-    """Never later than the first sample that overlaps, and at a separation of 0, however they turn."""
+    """Rotating hulls hit at separation 0, never later than the first overlapping sample of a dense sampling."""
     rng, room, hits = np.random.default_rng(seed), new_advance_workspace(), 0
     for _ in range(120 if JIT else 8):
         outlines = [
@@ -202,7 +204,7 @@ def test_tiles_have_no_seams_and_chains_no_back():
 
 
 def test_bounds_that_grow_as_they_turn():
-    """The AABB of a unit square at angle t reaches cos t + sin t."""
+    """A rotating Bounds hits when its AABB, which reaches cos t + sin t at angle t, touches a circle."""
     wanted = math.asin(1.2**2 - 1.0) / 2.0
     found = time_of_impact(Bounds(BOX), ORIGIN, (0, 0, math.pi / 4), Circle(0.2), (1.4, 0, 0), (1.4, 0, 0))
     assert found.fraction == pytest.approx(wanted / (math.pi / 4), abs=1e-8)
@@ -215,7 +217,10 @@ def sweep(sweep_inout):
 
 
 def swept(mover, motion, other, slack=0.16, motion_b=(0.0,) * 6):
-    """Return the result of the world's sweep of a mover (start and end pose in one) against another shape."""
+    """Return (fraction, normal x, normal y, work counters) of the world's sweep of a mover against another shape.
+
+    motion: start pose and end pose of the mover in one tuple; motion_b: those of the other shape.
+    """
     library, bodies, shapes, work = Library(), np.zeros(2, BODY), np.zeros(2, SHAPE), np.zeros(len(COUNTERS), np.int64)
     for row, shape in enumerate((mover, other)):
         s = shapes[row : row + 1]
@@ -251,7 +256,9 @@ FLOOR = Chain([(16.0 * k, 0.0) for k in range(41)])
 )
 @pytest.mark.parametrize("sunk", [-0.1, 0.0, 0.1])
 def test_what_slides_on_the_ground_is_not_held_by_it(mover, ground, sunk):
-    """G5, E4: no seam stops it, touching, sunk by less than the slop or a hair above."""
+    """A body that slides along ground in pieces is not stopped by a seam, touching or sunk by less than the slop (G5,
+    E4).
+    """
     for end in (90.0, 600.0):
         assert swept(mover, (20, -5 + sunk, 0, end, -5 + sunk, 0), ground)[0] > 1.0
         assert swept(mover, (20, -5 + sunk, 0, end, -5 + sunk + 0.05, 0), ground)[0] > 1.0
@@ -260,7 +267,9 @@ def test_what_slides_on_the_ground_is_not_held_by_it(mover, ground, sunk):
 @pytest.mark.parametrize("ground", [TILES, FLOOR], ids=["tiles", "chain"])
 @pytest.mark.parametrize("angle", [0.0, 1.0, 20.0])
 def test_what_rests_on_the_ground_does_not_go_through_it(ground, angle):
-    """E9: in contact at the start, then thrown into the ground at any slant: stopped, at the latest by its core."""
+    """A body in contact at the start that is thrown into the ground at any slant is stopped, at the latest by its core
+    (E9).
+    """
     box = Polygon.box(10, 10)
     for x in (20.0, 40.0, 90.0, 300.0):
         fraction, nx, ny, _ = swept(box, (20, -5, 0, x, 120, angle), ground)

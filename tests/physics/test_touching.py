@@ -1,4 +1,4 @@
-"""World.touching: the pairs that have begun to touch and have not ended, awake or asleep."""
+"""World.touching returns the pairs whose contact has begun and not ended, awake or asleep."""
 
 import numpy as np
 import pytest
@@ -43,7 +43,7 @@ def random_world(effects, seed):
 
 
 class Book:
-    """The pairs of shapes that have begun and not ended, by the events alone."""
+    """Pairs of shapes whose contact has begun and not ended, tracked by events only."""
 
     def __init__(self):
         self.open = {}
@@ -63,7 +63,7 @@ class Book:
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("effects", WORLDS)
 def test_what_has_begun_and_not_ended(effects, seed):
-    """In every step of a run with edits; with sleeping until most bodies sleep."""
+    """World.touching equals the pairs tracked by events in every step of an edited run, also when most bodies sleep."""
     world, rng = random_world(WORLDS[effects], seed)
     book, most, asleep = Book(), 0, 0
     for step in range(400 if effects == "sleeping" else 90):
@@ -97,7 +97,7 @@ def test_without_response_they_are_the_contacts(effects):
 
 
 def test_masks_touch_where_they_share_pixels():
-    """The squares of two masks that only meet share no area; a gap of the ring holds a ball apart."""
+    """Masks touch only if they share pixels: adjacent squares do not, and a ball in a ring's gap does not."""
     world = World(Effects.detection())
     square = PixelMask(np.ones((4, 4), bool), origin=(0, 0))
     for x in (0, 4, 7):

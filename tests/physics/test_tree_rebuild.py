@@ -1,4 +1,4 @@
-"""The two trees through bulk changes: everything moves, everything changes sides, most is removed and added again."""
+"""The two trees of DynamicTree after bulk changes: all bodies move or change trees, or most are replaced."""
 
 import math
 

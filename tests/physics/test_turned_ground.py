@@ -1,4 +1,6 @@
-"""A slope is level ground under a gravity that leans: friction has two components on one, and one on the other."""
+"""A slope equals level ground under tilted gravity, although the friction force has two
+components only on the slope.
+"""
 
 from math import cos, sin
 
@@ -11,7 +13,10 @@ STEPS = 40
 
 
 def slid(solver, shape, lean, turned):
-    """Return (distance along the ground [px], rotation [rad]) of a shape after STEPS steps."""
+    """Return (distance along the ground [px], rotation [rad]) of a shape after STEPS steps.
+
+    lean: slope angle [rad]. turned: True tilts the ground, False tilts gravity.
+    """
     gravity = (0.0, 320.0) if turned else (320.0 * sin(lean), 320.0 * cos(lean))
     world = World(EFFECTS, solver=solver, gravity=gravity, substeps=4)
     angle = lean if turned else 0.0

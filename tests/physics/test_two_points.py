@@ -1,4 +1,6 @@
-"""Two points of a manifold at once, against the four cases of the complementarity problem in exact arithmetic."""
+"""Block solver for two contact points, compared with the four cases of the complementarity
+problem in exact arithmetic.
+"""
 
 from fractions import Fraction
 
@@ -11,8 +13,8 @@ from physics.solver.lanes import block_factor, solve_two
 def exact(k_11, k_12, k_22, wanted_1, wanted_2, old_1, old_2):
     """Return all solutions (x_1, x_2) of the linear complementarity problem of two contact points, in exact arithmetic.
 
-    Each impulse is at least 0. A point with an impulse has its wanted change of speed; one without gets at least that
-    much.
+    Each impulse is at least 0. A point with a positive impulse has exactly its wanted change of speed; a point with
+    impulse 0 has at least that change.
     """
     k_11, k_12, k_22, wanted_1, wanted_2, old_1, old_2 = map(
         Fraction, (k_11, k_12, k_22, wanted_1, wanted_2, old_1, old_2)
@@ -39,7 +41,7 @@ def solved(k_11, k_12, k_22, wanted_1, wanted_2, old_1, old_2):
 
 @pytest.mark.parametrize("seed", range(4))
 def test_it_is_the_one_solution(seed):
-    """A box of any shape, loaded, hit or let go at both ends: impulses within rounding of the exact ones."""
+    """The impulses are within rounding of the only exact solution, for boxes loaded, hit or released at both ends."""
     rng = np.random.default_rng(seed)
     cases = set()
     for _ in range(500):
@@ -63,6 +65,9 @@ def test_points_that_are_one_share_what_one_would_take():
 
 
 def test_a_second_point_that_nothing_pushes_changes_nothing():
-    """Lanes hold such a manifold if it has one point."""
+    """A second point without effective mass stays at impulse 0 and does not change the first.
+
+    SIMD lanes represent a manifold of one point in this form.
+    """
     assert solve_two(0.7, 0.0, 0.0, 0.0, 0.0, 0.2, 0.0) == (pytest.approx(0.9), 0.0)
     assert solve_two(-0.7, 0.0, 0.0, 0.0, 0.0, 0.2, 0.0) == (0.0, 0.0)

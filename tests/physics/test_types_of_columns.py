@@ -1,4 +1,4 @@
-"""The static types of arrays and words agree with the tables, and physics needs no pygame."""
+"""The static types of arrays and keywords agree with the tables, and physics does not need pygame."""
 
 import subprocess
 import sys
@@ -26,7 +26,10 @@ ROWS = {
 
 @pytest.mark.parametrize("name", ROWS)
 def test_the_named_columns_are_those_of_the_table(name):
-    """A new column belongs into physics/tables/columns.py too, into the list of its type."""
+    """The column types in physics/tables/columns.py list exactly the columns of each table.
+
+    A new column must be added there, in the list of its type.
+    """
     dtype, kinds = ROWS[name], {"f": [], "i": [], "b": [], "U": []}
     for column in dtype.names:
         kinds[dtype[column].kind].append(column)
@@ -49,7 +52,7 @@ def test_the_arguments_of_add_bodies_are_those_of_add_body():
 
 
 def test_the_typed_rows_behave_as_arrays():
-    """No array has these types, but a subclass of a user may."""
+    """The typed row classes behave as arrays when a user views an array as one of them."""
     rows = np.zeros(3, EVENT).view(columns.Rows)
     rows["point_x"] = 2.0
     rows[1] = rows[0]

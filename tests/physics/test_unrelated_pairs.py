@@ -1,4 +1,4 @@
-"""The contacts of a deep mask do not depend on a pair of shapes far away, whatever its kinds are."""
+"""The contacts of a deeply overlapping mask do not depend on the kinds of a pair of shapes far away."""
 
 import numpy as np
 import pytest
@@ -11,14 +11,14 @@ CELLS = np.array([[1, 1, 0, 1, 1, 0, 1, 0, 1, 1], [1, 0, 1, 0, 0, 1, 0, 0, 1, 1]
 
 
 def ground(kind):
-    """Return the shape of the ground: cells with gaps, or a mask of such teeth."""
+    """Return the shape of the ground: tiles with gaps, or a mask of the same cells."""
     if kind == "tiles":
         return TileGrid(CELLS, 16)
     return PixelMask.from_array(np.repeat(np.repeat(CELLS, 16, axis=0), 16, axis=1), snap=False)
 
 
 def mover(kind):
-    """Return the shape that is pushed into the ground."""
+    """Return the shape of a kind that starts inside the ground."""
     if kind == "mask":
         return PixelMask.from_array(np.ones((60, 26), bool), snap=False)
     if kind == "ring":
@@ -29,7 +29,7 @@ def mover(kind):
 
 
 def path(ground_kind, mover_kind, phase, far, solver):
-    """Return the poses of a body that starts inside the ground, for 60 steps; far: name of the far pair's shapes."""
+    """Return the poses in 60 steps of a body that starts inside the ground. far: kind of the distant pair, or None."""
     world = World(solver=solver)
     world.add_body(ground(ground_kind), position=(-80, 88), kind="static")
     body = world.add_body(mover(mover_kind), position=(-47.0 + phase, 80.0), velocity=(0, 60), angle=0.07 * phase)

@@ -1,4 +1,4 @@
-"""Vec2: a plain pair with a vector's arithmetic, from either side; everything the API hands out as a point is one."""
+"""Vec2 is a tuple of two numbers with vector arithmetic on either side; every point that the API returns is one."""
 
 import copy
 import math

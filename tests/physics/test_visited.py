@@ -1,4 +1,4 @@
-"""debug.visited: as many boxes as the query counted, and among them those that hold what it found."""
+"""debug.visited returns as many boxes as the query counted, including those that contain its results."""
 
 import numpy as np
 import pytest
@@ -17,7 +17,10 @@ QUESTIONS = {
 
 
 def crowd(name, large=False):
-    """Two hundred discs, half of them moving, after a few steps; large: and one that covers them all."""
+    """Return a world of two hundred discs, half of them moving, after some steps.
+
+    large: True adds a disc that covers all others.
+    """
     rng = np.random.default_rng(4)
     world = World(Effects(), BROADPHASES[name]())
     world.add_bodies(Circle(5.0), rng.uniform(0.0, 400.0, (100, 2)), kind="static")

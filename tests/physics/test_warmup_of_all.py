@@ -1,4 +1,4 @@
-"""Every piece of the warm-up runs where nothing is compiled, and says how far it is."""
+"""Every part of the warm-up runs without a compiler and reports its progress."""
 
 import pytest
 

@@ -2,7 +2,7 @@
 
 A test of one row is
 
-assert judge(table()["crooked_20"], Played(partial(Hitbox, substeps=8))).met
+    assert judge(table()["crooked_20"], Played(partial(Hitbox, substeps=8))).met
 """
 
 import math
