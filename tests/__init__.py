@@ -1,1 +1,1 @@
-"""The tests. A package, so that tests/game never shadows game."""
+"""Tests of the project. They form a package, so that the module tests.game is not imported as game."""

@@ -1,7 +1,7 @@
-"""`python -m tests.advised [SCENE ...]`: ask for advice on every scene, twice each, and store it in docs/advice.json.
+"""`python -m tests.advised [SCENE ...]`: request advice on every scene twice and store it in docs/advice.json.
 
-Only advice that both runs give counts. tests/scenes/test_advised.py compares the scenes with it: each scene follows the
-advice, or gives the reason in `keeps`.
+Only advice given by both runs counts. tests/scenes/test_advised.py compares the scenes with it: each scene follows the
+advice or states a reason in its attribute `keeps`.
 """
 
 import json
@@ -23,12 +23,14 @@ ARGUMENTS = ("--error", f"{VISIBLE:g}", "--json")
 
 
 def frames_of(name: str) -> int:
-    """Return the number of frames of the bot's run in a scene."""
+    """Return the number of frames that the bot plays in a scene."""
     return FRAMES.get(name, DEFAULT_FRAMES)
 
 
 def ask(name: str) -> dict:
-    """Return the program's advice on a scene. Raises CalledProcessError if it cannot be measured."""
+    """Run `main.py --advise` on a scene and return its advice. Raises CalledProcessError if the scene cannot be
+    measured.
+    """
     command = [sys.executable, "main.py", "--advise", name, *ARGUMENTS, "--frames", str(frames_of(name))]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     if done.returncode not in (0, 1):  # 1: nothing is within the error
@@ -48,7 +50,7 @@ def agreed(runs: list[dict]) -> dict:
 
 
 def main(names: list[str]) -> None:
-    """Measure, and write after every scene, so that an interrupted run is not lost."""
+    """Measure the named scenes and write docs/advice.json after every scene, so that an interrupted run is not lost."""
     kept = json.loads(KEPT.read_text(encoding="utf-8")) if KEPT.exists() else {"scenes": {}}
     kept["command"] = f"python main.py --advise SCENE {' '.join(ARGUMENTS)} --frames FRAMES"
     kept["machine"] = machine()
@@ -64,7 +66,7 @@ def main(names: list[str]) -> None:
 
 
 def write(kept: dict) -> None:
-    """Write docs/advice.json, with one line for each scene, in the order of the menu."""
+    """Write docs/advice.json from `kept`, with one line for each scene, in the order of the menu."""
     rows = [f"  {json.dumps(name)}: {json.dumps(kept['scenes'][name])}" for name in SCENES if name in kept["scenes"]]
     head = "".join(f" {json.dumps(key)}: {json.dumps(kept[key])},\n" for key in ("command", "machine"))
     KEPT.write_text(f'{{\n{head} "scenes": {{\n' + ",\n".join(rows) + "\n }\n}\n", encoding="utf-8")

@@ -1,7 +1,7 @@
-"""Broad phases that ask the other three in every update and every query, and compare the results of all four.
+"""Broad phases that run the other three in every update and every query, and compare the results of all four.
 
-Strategies differ only in which pairs they test; a world depends on nothing else of them. Four equal lists in every step
-therefore give four equal digests: one run with these strategies replaces one run under each, and names the pair.
+A broad phase affects a world only through the pairs it finds. If all four find equal pairs in every step, all four give
+equal digests. One run with these broad phases therefore replaces four runs, and it names the wrong pair.
 """
 
 import numpy as np
@@ -13,14 +13,14 @@ NAMED = 5  # pairs or slots that a message names at most
 
 
 class StrategiesDisagree(AssertionError):
-    """A strategy found other pairs or boxes than the one whose results the world uses."""
+    """Error: a broad phase found other pairs or boxes than the one whose results the world uses."""
 
 
 class AsksAll:
-    """Compare the results of a strategy with those of the others on the same proxies. Mixed into the strategy."""
+    """Mixin for a broad phase that compares its results with those of the other three on the same proxies."""
 
     def fresh(self):
-        """Return a copy without state that asks the others too."""
+        """Return a copy without state that also compares itself with the others."""
         return asking_all(super().fresh())
 
     def update(self, arena):
@@ -31,7 +31,9 @@ class AsksAll:
             other.update(its)
 
     def query(self, arena):
-        """Return the query of this strategy; it raises StrategiesDisagree if another finds other pairs."""
+        """Return the query function of this broad phase; it raises StrategiesDisagree if
+        another one finds other pairs.
+        """
         ask = super().query(arena)
 
         def ask_all(pairs, work):
@@ -46,7 +48,10 @@ class AsksAll:
         return ask_all
 
     def query_box(self, proxies, box, slots, work):
-        """List the slots near a box. Raises StrategiesDisagree if another strategy lists others."""
+        """Write the slots near a box to `slots` and return their number.
+
+        Raises StrategiesDisagree if another broad phase finds other slots.
+        """
         count = super().query_box(proxies, box, slots, work)
         wanted = meeting(proxies, box, slots[:count])
         for other, _ in self.others:
@@ -56,7 +61,11 @@ class AsksAll:
         return count
 
     def compare(self, what, name, wanted, found, number):
-        """Raise StrategiesDisagree unless the strategy `name` found what is wanted; number: its count."""
+        """Raise StrategiesDisagree unless `found` equals `wanted`.
+
+        what: kind of result, for the message. name: broad phase that found `found`. number: how many results it
+        reported.
+        """
         if number == len(wanted) and np.array_equal(wanted, found):
             return
         more, less = (np.setdiff1d(*each)[:NAMED].tolist() for each in ((found, wanted), (wanted, found)))
@@ -68,9 +77,9 @@ class AsksAll:
 
 
 def meeting(proxies, box, slots):
-    """Return the sorted slots that every strategy must list: those that are up to date, and whose box meets `box`.
+    """Return the sorted slots that every broad phase must find: those up to date whose box overlaps `box`.
 
-    A strategy may list others besides (leaves of the tree are fat, cells are large); queries drop those.
+    A broad phase may find more, because leaves of the tree are enlarged and cells are large; queries drop these.
     """
     rows = proxies[slots]
     meets = (rows["lower_x"] <= box[2]) & (rows["upper_x"] >= box[0])
@@ -79,7 +88,7 @@ def meeting(proxies, box, slots):
 
 
 def keys_of(pairs):
-    """Return one number for each pair of slots, sorted; the order within a pair does not matter."""
+    """Return one integer for each pair of slots, sorted; the order of the slots in a pair does not matter."""
     ordered = np.sort(pairs.astype(np.int64), axis=1)
     return np.sort(ordered[:, 0] << 32 | ordered[:, 1])
 
@@ -89,7 +98,7 @@ globals().update({each.__name__: each for each in ASKING.values()})  # copies lo
 
 
 def asking_all(strategy):
-    """Return a strategy of the same kind and options, without state, that asks the others too."""
+    """Return a broad phase of the same kind and options, without state, that compares itself with the others."""
     made = strategy.fresh()
     if not isinstance(made, AsksAll):
         made.__class__ = ASKING[type(made)]
@@ -98,7 +107,7 @@ def asking_all(strategy):
 
 
 def scene_asking_all(scene_class):
-    """Return a subclass of a scene whose worlds ask all broad phases, whichever is chosen."""
+    """Return a subclass of a scene whose worlds compare all broad phases, whichever one is selected."""
 
     class Asking(scene_class):
         def add_world(self, *arguments, **settings):

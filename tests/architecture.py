@@ -1,4 +1,4 @@
-"""The tree and its imports, read from the source; `python -m tests.architecture` prints them."""
+"""Folders, modules and imports of the project, read from the source; `python -m tests.architecture` prints them."""
 
 import ast
 from collections import defaultdict
@@ -33,12 +33,12 @@ PHYSICS = (
 
 
 def sources(folder: str) -> list[Path]:
-    """Every Python file of a top folder, in order."""
+    """Return the paths of all Python files in a top folder, sorted."""
     return sorted((ROOT / folder).rglob("*.py"))
 
 
 def name_of(path: Path) -> str:
-    """The dotted name of a module: a package is named by its folder."""
+    """Return the dotted name of a module; an `__init__.py` gets the name of its package."""
     return ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
 
 
@@ -50,9 +50,9 @@ def is_module(name: str) -> bool:
 
 @cache
 def imports_of(path: Path) -> frozenset[str]:
-    """Full names of the modules that a file imports, wherever the statement stands.
+    """Return the full names of the modules that a file imports, at any depth of its code.
 
-    `from p import m` names p.m if that is a module, else p.
+    `from p import m` gives p.m if that is a module, otherwise p.
     """
     found = set()
     for node in ast.walk(ast.parse(path.read_text())):
@@ -103,13 +103,13 @@ def circles(edges: dict[str, set[str]]) -> list[list[str]]:
 
 
 def part_of(name: str) -> str:
-    """Return the part of the order of physics to which a module belongs; "root" for the other modules of its root."""
+    """Return the part of physics to which a module belongs: its subfolder or module in PHYSICS, or "root"."""
     parts = name.split(".")
     return parts[1] if len(parts) > 1 and parts[1] in PHYSICS else "root"
 
 
 def parts_graph() -> dict[str, set[str]]:
-    """Return {part of physics: the parts it imports}."""
+    """Return {part of physics: set of the parts that it imports}."""
     found = defaultdict(set)
     for name, others in graph("physics").items():
         found[part_of(name)] |= {part_of(each) for each in others} - {part_of(name)}
@@ -117,13 +117,13 @@ def parts_graph() -> dict[str, set[str]]:
 
 
 def folder_of(name: str) -> str:
-    """The folder that a module stands in: "physics/solver"."""
+    """Return the folder of a module, such as "physics/solver"."""
     path = ROOT.joinpath(*name.split("."))
     return str((path if path.is_dir() else path.parent).relative_to(ROOT))
 
 
 def report() -> str:
-    """Return the text of the tree: each folder with the folders that it imports, and the circles."""
+    """Return a report of the tree: each folder with the folders that it imports, then the import circles."""
     lines = []
     for top in TOPS:
         folders = defaultdict(lambda: [0, 0, set()])

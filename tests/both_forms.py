@@ -1,8 +1,8 @@
-"""Every call of a stage's kernel made twice: the plain twin on copies of its arguments, the compiled form on them.
+"""Runs every call of a stage's kernel in both forms: the compiled form, and the plain form on copies of the arguments.
 
-A player runs both forms, so both must return the same and leave the same bytes in every array. Equal means: the same
-bits, of numbers too; but any NaN equals any NaN, as a sign or payload of NaN depends on the order of operands, which
-the compiler is free to choose, and nothing in the physics reads it.
+A player runs both forms, so both must return the same values and write the same bytes. Floats are compared by their
+bits, except that any NaN equals any NaN. Sign and payload of a NaN depend on the order of operands, which the compiler
+chooses, and the physics does not read them.
 """
 
 import ctypes
@@ -21,11 +21,11 @@ from physics.solver.lanes import LANES, SIZE, Blocks
 
 
 class FormsDiffer(AssertionError):
-    """Error for two forms of a kernel that differ. Its text names the kernel and the difference."""
+    """Error: the two forms of a kernel differ. Its message names the kernel and the difference."""
 
 
 class Seen:
-    """Record of the comparisons: `calls` made, the names of the `kernels`, and `differences` as {text: count}."""
+    """Record of the comparisons: number of `calls`, names of the `kernels`, and `differences` as {text: count}."""
 
     def __init__(self):
         self.calls, self.kernels, self.differences = 0, set(), {}
@@ -36,9 +36,9 @@ class Seen:
 
 @contextmanager
 def compared(stop: bool = True) -> Iterator[Seen]:
-    """Compare the two forms of every stage's kernel that is called. Raises FormsDiffer at the end, naming all found.
+    """Compare the two forms of each stage's kernel that is called in the with block.
 
-    stop: raise at once, where a difference is found.
+    Raises FormsDiffer at the end with all differences; with stop=True at the first one.
     """
     seen = Seen()
 
@@ -78,7 +78,7 @@ def compared(stop: bool = True) -> Iterator[Seen]:
 
 
 class Copies:
-    """Copies of arrays that overlap as the arrays do: two views of one buffer are copied as two views of one buffer."""
+    """Copies of arrays that share memory as the originals do: two views of one buffer become two views of one copy."""
 
     def __init__(self):
         self.buffers = {}  # address of a buffer -> (the array that owns it, its copy)
@@ -86,7 +86,9 @@ class Copies:
         self.blocks = []  # (Blocks, copy)
 
     def of(self, value):
-        """A copy of an argument."""
+        """Return a copy of an argument; tuples are copied element by element, other values than arrays are returned as
+        they are.
+        """
         if isinstance(value, tuple):
             copies = [self.of(each) for each in value]
             made = type(value)(*copies) if hasattr(value, "_fields") else tuple(copies)
@@ -110,9 +112,9 @@ class Copies:
         return copy
 
     def take_over_empty_lanes(self):
-        """Copy the parts that only a compiled pass writes: lanes that hold no row, and data gathered within a pass.
+        """Copy the data that only a compiled pass writes: empty lanes, and data gathered within a pass.
 
-        They are then left out of the comparison.
+        This excludes them from the comparison.
         """
         for blocks, copy in self.blocks:
             copy.gathered[:] = blocks.gathered
@@ -122,13 +124,16 @@ class Copies:
 
 
 def _raised(error):
-    """Return the error that a plain twin raised, and its place."""
+    """Return a text with the error that the plain form raised, and where it was raised."""
     last = traceback.extract_tb(error.__traceback__)[-1]
     return f"raises {error!r} in {last.name} when plain: {last.line}"
 
 
 def _difference(plain, result, copies):
-    """Return the differences between the results and writes of both forms, "" if there are none."""
+    """Return a text with the differences of results and written arrays, "" if there are none.
+
+    plain, result: results of the plain and of the compiled form. copies: `Copies` of the arguments.
+    """
     if not same_value(plain, result):
         return f"returns {plain!r} when plain, {result!r} when compiled"
     if all(bytes(copy) == ctypes.string_at(owner.ctypes.data, owner.nbytes) for owner, copy in copies.buffers.values()):
@@ -143,21 +148,21 @@ def _difference(plain, result, copies):
 
 
 def columns(array, copy):
-    """Return (name, array, copy) of every column of a table, or of the array itself."""
+    """Return (name, array, copy) for every column of a table, or for the array itself if it has no columns."""
     if array.dtype.names:
         return [(name, array[name], copy[name]) for name in array.dtype.names]
     return [(f"an array of {array.dtype}", array, copy)]
 
 
 def same_elements(one, two):
-    """Return for each element whether both have the same bits, or are both NaN."""
+    """Return an array of bool: whether two elements have the same bits or are both NaN."""
     if one.dtype.kind != "f":
         return one == two
     return ((one == two) & (np.signbit(one) == np.signbit(two))) | (np.isnan(one) & np.isnan(two))
 
 
 def same_value(one, two):
-    """Return whether two results are the same: numbers by their bits, or both NaN; a bool is a whole number."""
+    """Return whether two results are equal: floats by their bits or both NaN. A bool counts as an integer."""
     if isinstance(one, tuple) and isinstance(two, tuple):
         return len(one) == len(two) and all(map(same_value, one, two))
     if isinstance(one, float) and isinstance(two, float):

@@ -1,6 +1,6 @@
-"""Every test runs without a display and without sound; several workers find their kernels compiled.
+"""Hooks for all tests: no display, no sound, and kernels that are compiled before the workers start.
 
-Which tests are slow stands in tests/slow_tests.txt and tests/slow_without_numba.txt: see tests/slow.py.
+The slow tests are listed in tests/slow_tests.txt and tests/slow_without_numba.txt: see tests/slow.py.
 """
 
 import importlib.util
@@ -39,13 +39,13 @@ def pytest_sessionstart(session):
 
 @pytest.fixture
 def nothing_is_measured(monkeypatch):
-    """Start no process that measures for scenes that are played: the test is about something else."""
+    """Prevent scenes that are played in tests from starting measuring processes."""
     monkeypatch.setattr("game.screens.parts.measuring.Measuring.beside", lambda *asked: None)
 
 
 @pytest.hookimpl(tryfirst=True)  # before -m chooses
 def pytest_collection_modifyitems(config, items):
-    """Mark the slow tests. Files with the slowest come first, so that no worker ends with one."""
+    """Mark the slow tests and sort the files with the slowest tests first, so that no worker ends with a slow one."""
     names, slowest = slow.slow_here(), {}
     measured = config.pluginmanager.hasplugin("tests.slow")
     config.stash[slow.COLLECTED] = [item.nodeid for item in items]

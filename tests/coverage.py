@@ -1,6 +1,6 @@
-"""The lines of physics/ that the tests run, kernels as Python. Each other line has a reason, or is reported as a hole.
+"""Lines of physics/ that the tests run, with kernels as Python. Every other line has a reason or is reported as a hole.
 
-In an environment without numba, where kernels are the Python that they are written in:
+In an environment without numba, where kernels run as plain Python:
 
     python -m slipcover --source physics --json --out A.json -m pytest -m "not nightly" tests/physics
     python -m tests.coverage A.json B.json        # B.json of other tests; writes docs/coverage.*
@@ -78,23 +78,23 @@ def merged(reports: list[dict]) -> dict[str, dict]:
 
 
 def kept() -> dict[str, dict]:
-    """Return the last measurement, in the form of `merged`."""
+    """Return the last stored measurement, in the form of `merged`."""
     return json.loads(KEPT.read_text(encoding="utf-8"))
 
 
 def why(path: str, text: str) -> str | None:
-    """Return the reason why no test runs a line; None without one."""
+    """Return the reason why no test runs a line of a file, or None if there is no reason."""
     return next((reason for where, what, reason in EXPLAINED if path.startswith(where) and re.search(what, text)), None)
 
 
 def share(files: dict[str, dict]) -> float:
-    """Percent of all lines that are run."""
+    """Return the percentage of all lines that the tests run."""
     lines = sum(file["lines"] for file in files.values())
     return 100.0 * (1.0 - sum(len(file["missing"]) for file in files.values()) / lines)
 
 
 def unexplained(files: dict[str, dict]) -> list[str]:
-    """Return path:number: text of the lines that no test runs and no reason covers."""
+    """Return "path:number: text" for each line that no test runs and that has no reason."""
     return [
         f"{path}:{number}: {text}"
         for path, file in files.items()
@@ -133,7 +133,10 @@ def _reasons(path, file):
 
 
 def main(arguments: list[str]) -> int:
-    """Merge reports into docs/coverage.json and the page; without any write the page anew. 1 where a line is a hole."""
+    """Merge SlipCover reports into docs/coverage.json and write the page; without arguments only write the page.
+
+    Returns 1 if a line is a hole or the share is too small, else 0.
+    """
     if arguments:
         files = merged([json.loads(Path(each).read_text(encoding="utf-8")) for each in arguments])
         KEPT.write_text(json.dumps(files, indent=0) + "\n", encoding="utf-8")

@@ -1,4 +1,6 @@
-"""Worlds of all kinds of shapes, and numbers that no body should have: where the forms of a kernel may differ."""
+"""Worlds with shapes of all kinds, and invalid numbers for bodies, with which the two forms of
+a kernel might differ.
+"""
 
 import math
 
@@ -72,12 +74,15 @@ STILL = (
 
 
 def air(effects):
-    """Return the arguments of a World for drag and wind, if these effects are declared."""
+    """Return the World arguments for drag and wind if these effects are declared, otherwise {}."""
     return {"drag": 0.1, "wind": (5.0, 0.0)} if effects.drag and effects.wind else {}
 
 
 def crowded(kind, strategy, solver=None, seed=0, walkers=True):
-    """A world with shapes of all kinds, most of which touch something; walkers: characters where bodies are pushed."""
+    """Return a world with shapes of all kinds, most of them in contact.
+
+    kind: key of KINDS. walkers: True adds characters if the world has response.
+    """
     effects, solvers = KINDS[kind]
     rng = np.random.default_rng(seed)
     world = World(effects, STRATEGIES[strategy](), solver or solvers[0], **air(effects))
@@ -103,7 +108,7 @@ def crowded(kind, strategy, solver=None, seed=0, walkers=True):
 
 
 def ask(world, x=0.0, y=20.0):
-    """Make each kind of query at a place."""
+    """Make each kind of query at a point."""
     world.ray_cast_all((x - 50.0, y), (100.0, 3.0))
     for shape in (Circle(4.0), Polygon.box(6.0, 6.0), MASKS[0], MASKS[1]):
         world.overlap(shape, (x, y, 0.3))

@@ -1,4 +1,4 @@
-"""Names as a user of the installed package writes them, `hitbox.physics`, and as a checkout has them, `physics`."""
+"""Module names of the installed package (`hitbox.physics`) and of a checkout (`physics`), and their conversion."""
 
 import importlib.util
 import re
@@ -10,7 +10,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 
 def layout_module() -> ModuleType:
-    """Return .ci/wheel/layout.py, which is in no package."""
+    """Return .ci/wheel/layout.py as a module; it belongs to no package."""
     if "layout" not in sys.modules:
         specification = importlib.util.spec_from_file_location("layout", ROOT / ".ci/wheel/layout.py")
         assert specification is not None and specification.loader is not None
@@ -20,12 +20,12 @@ def layout_module() -> ModuleType:
 
 
 def as_in_a_checkout(source: str) -> str:
-    """Return code that is written for an installed hitbox as it runs in a checkout."""
+    """Convert code that imports from the installed hitbox into code for a checkout."""
     return re.sub(r"\bhitbox\.(?=(?:assets|game|main|physics|scenes)\b)", "", source)
 
 
 def own_modules(folder):
-    """Write a user's project whose modules are named as the checkout's; each says so when it is imported."""
+    """Write a user's project whose modules have the names of the checkout's; each prints a line when imported."""
     for top in layout_module().TOPS:
         path = folder / (f"{top}.py" if top in ("physics", "main") else f"{top}/__init__.py")
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -1,6 +1,7 @@
-"""Which arguments a kernel writes: directly, through a row (`b = bodies[i]; b.vx = 0.0`), or by handing them on.
+"""Finds the arguments that a kernel writes: directly, through a row (`b = bodies[i]; b.vx = 0.0`), or by passing them
+on.
 
-Over the syntax tree and without regard to order: a name that once stood for a row of an argument always does.
+The analysis uses the syntax tree and ignores order: a name that is once bound to a row of an argument always counts.
 """
 
 import ast
@@ -10,10 +11,10 @@ PASS_ON = ("enumerate", "zip", "reversed")  # calls that give out rows of what t
 
 
 def undeclared_writes(source, parameters=None):
-    """Return [(line, kernel, argument)] of writes to arguments whose names do not say so (WRITTEN).
+    """Return [(line, kernel, argument)] of writes to arguments whose names do not end in WRITTEN.
 
-    source: Python text, every function of which counts as a kernel. parameters: {kernel name: its parameter names} of
-    kernels that may be called; an argument handed over as a parameter that is written is written too.
+    source: Python text in which every function counts as a kernel. parameters: {kernel name: its parameter names} of
+    kernels that may be called. An argument passed as a written parameter counts as written.
     """
     found = []
     for node in ast.walk(ast.parse(source)):
@@ -23,7 +24,10 @@ def undeclared_writes(source, parameters=None):
 
 
 def writes_of(function, parameters):
-    """Return [(line, argument)] of one function node, in the order of the lines."""
+    """Return [(line, argument)] of the writes in one function node, in the order of the lines.
+
+    parameters: {kernel name: its parameter names} of the kernels that it may call.
+    """
     rows = {each.arg: {each.arg} for each in (*function.args.posonlyargs, *function.args.args)}
     bindings = [binding for node in ast.walk(function) for binding in bound_by(node)]
     while True:  # until no name is known to stand for more
@@ -44,7 +48,7 @@ def writes_of(function, parameters):
 
 
 def bound_by(node):
-    """Yield (target, value) of each name that a statement or expression binds."""
+    """Yield (target, value) for each name that a statement or expression binds."""
     if isinstance(node, ast.Assign):
         yield from ((target, node.value) for target in node.targets)
     elif isinstance(node, (ast.AnnAssign, ast.NamedExpr)) and node.value is not None:
@@ -54,7 +58,7 @@ def bound_by(node):
 
 
 def bind(target, value, rows):
-    """Note what the names in a target stand for."""
+    """Add to `rows` the arguments to which the names in a target may refer. rows: {name: set of arguments}."""
     if isinstance(target, (ast.Tuple, ast.List)):
         alike = isinstance(value, (ast.Tuple, ast.List)) and len(value.elts) == len(target.elts)
         for number, each in enumerate(target.elts):
@@ -66,9 +70,9 @@ def bind(target, value, rows):
 
 
 def behind(node, rows):
-    """Return the arguments of which an expression may be a part.
+    """Return the set of arguments of which an expression may be a part.
 
-    The set is empty for an attribute whose name ends in WRITTEN, which declares the write.
+    It is empty for an attribute whose name ends in WRITTEN, which declares the write. rows: {name: set of arguments}.
     """
     if isinstance(node, ast.Name):
         return rows.get(node.id, set())
@@ -86,7 +90,7 @@ def behind(node, rows):
 
 
 def stores_of(node):
-    """The attributes and items that a statement writes, also those within a tuple."""
+    """Yield the nodes of attributes and items that a statement writes, also those within a tuple."""
     if isinstance(node, ast.Assign):
         targets = node.targets
     elif isinstance(node, (ast.AugAssign, ast.AnnAssign, ast.For)):

@@ -1,12 +1,12 @@
-"""Variants of one scene stepped side by side, their digests compared after every frame.
+"""Steps variants of one scene side by side and compares their digests after every frame.
 
-The variants are the scene twice, drawn, under each broad phase, with the broad phase switched, compiled and plain. None
-of these may change the result. If one does, the first frame that differs is reported, with the part of the scene. Every
-change is tested with one run that asks all broad phases in each step (tests/all_broadphases.py); the runs under each
-broad phase are nightly tests.
+The variants: the scene twice, drawn, under each broad phase, with the broad phase switched, compiled and plain. None of
+these may change the result. If one does, the first frame that differs is reported, with the part of the scene. Every
+change is tested with one run that compares all broad phases in each step (tests/all_broadphases.py). The runs under
+each broad phase are nightly tests.
 
-`python -m tests.lockstep NAME FRAMES` plays a scene by its bot and prints its digests, one a line. This is how a
-process without compiled kernels takes part, and how two versions of the sources are compared (with `diff`).
+`python -m tests.lockstep NAME FRAMES` plays a scene by its bot and prints its digests, one a line. It is used to run a
+process without compiled kernels, and to compare two versions of the sources (with `diff`).
 """
 
 import argparse
@@ -38,12 +38,14 @@ SWITCHES = {
 
 
 class Diverged(AssertionError):
-    """Two runs that should be the same are not; says which, from which frame on, and in what."""
+    """Error: two runs that should be equal differ; the message names the run, the first frame and the part."""
 
 
 def make_scene(name, few=False, seed=1, asks_all=False, **chosen):
-    """Return a scene of the game. few: with few bodies if it has such a slider; asks_all: worlds ask all broad
-    phases.
+    """Return a scene of the game.
+
+    few: True for few bodies, if the scene has a slider for them. asks_all: True for worlds that compare all broad
+    phases. chosen: further arguments of the scene.
     """
     scene_class = Registry(SCENES).scene_class(name)
     scene = (scene_asking_all(scene_class) if asks_all else scene_class)(seed, **chosen)
@@ -53,27 +55,27 @@ def make_scene(name, few=False, seed=1, asks_all=False, **chosen):
 
 
 class Run:
-    """A scene that is played by a source, its bot by default. step() returns the digest after the step."""
+    """A scene played by a source of input, by default its bot."""
 
     def __init__(self, label, scene, source=None, recorder=None, replay=None):
         self.label, self.scene = label, scene
         self.session = Session(scene, source or BotSource(), recorder, replay)
 
     def step(self):
-        """Make one step."""
+        """Make one step and return the digest."""
         self.session.step()
         return scene_digest(self.scene)
 
 
 class DrawnRun(Run):
-    """Run that is drawn with every overlay, every DRAWN_EVERY frames."""
+    """A run that is drawn with every overlay, every DRAWN_EVERY frames."""
 
     def __init__(self, label, scene, source=None, replay=None):
         super().__init__(label, scene, source, replay=replay)
         self.picture, self.overlays = Picture(), Overlays(layer_names())
 
     def step(self):
-        """Make one step, and draw after it."""
+        """Make one step, draw the scene every DRAWN_EVERY frames, and return the digest."""
         self.session.step()
         self.overlays.note(self.scene)
         if self.scene.frame % DRAWN_EVERY == 0:
@@ -82,20 +84,23 @@ class DrawnRun(Run):
 
 
 class Changing:
-    """Source of input, by default the scene's bot, with changes of settings {frame (from 0): ((name, value), ...)}."""
+    """Source of input that adds changes of settings to another source, by default the scene's bot.
+
+    changes: {frame (from 0): ((name, value), ...)}.
+    """
 
     def __init__(self, changes, source=None):
         self.changes, self.source = changes, source or BotSource()
 
     def next(self, scene):
-        """The input of the next step."""
+        """Return the input of the next step."""
         frame = self.source.next(scene)
         more = self.changes.get(scene.frame, ())
         return InputFrame(frame.actions, frame.pointer, frame.pointer_down, frame.wheel, (*frame.changes, *more))
 
 
 class PlainRun:
-    """Scenes with few bodies, one after another, in a process without compiled kernels. close() ends the process.
+    """Scenes with few bodies, played one after another in a process without compiled kernels. close() ends the process.
 
     The process runs ahead of the reader until the pipe is full.
     """
@@ -121,16 +126,16 @@ class PlainRun:
         return line.strip()
 
     def close(self):
-        """End the process, whether it is done or not."""
+        """Kill the process, whether it has finished or not."""
         self.process.kill()
         self.process.communicate()
 
 
 def ways_to_run(name, recorder=None, few=False, seed=1):
-    """Yield a run for each condition that must not change the result. The others are compared with the first run.
+    """Yield a run for each condition that must not change the result; the first is the reference for the others.
 
-    recorder(scene) makes the recorder of the first run. The run under the scene's own broad phase repeats the first
-    run.
+    recorder: function that makes the recorder of the first run from its scene, or None. The run under the scene's own
+    broad phase repeats the first run.
     """
     first = make_scene(name, few, seed)
     yield Run("the scene", first, recorder=recorder and recorder(first))
@@ -141,7 +146,7 @@ def ways_to_run(name, recorder=None, few=False, seed=1):
 
 
 def lockstep(runs, frames):
-    """Step all runs; raises Diverged at the first frame after which one differs from the first run."""
+    """Step all runs. Raises Diverged at the first frame after which a run differs from the first run."""
     first, *others = runs
     for frame in range(1, frames + 1):
         wanted = first.step()
@@ -155,12 +160,12 @@ def lockstep(runs, frames):
 
 
 def first_difference(one, other, frames):
-    """The first frame after which two runs differ, None if they are the same to the end."""
+    """Return the first frame after which two runs differ; None if they are equal in all frames."""
     return next((frame for frame in range(1, frames + 1) if one.step() != other.step()), None)
 
 
 def place_of(scene, other):
-    """Return the parts whose digests differ as text, such as " in world 0, the scene's state".
+    """Return a text with the parts whose digests differ, such as " in world 0, the scene's state".
 
     The text is "" if one of the scenes is None, because it runs in another process.
     """
@@ -178,12 +183,12 @@ def place_of(scene, other):
 
 
 def failures_of(run, frames):
-    """Return the goals that were due and are not met, and the failures of --strict, of a run in this process."""
+    """Return the failures of a run in this process: goals that are due but not met, and failures of --strict."""
     return judge(run.scene, frames, run.session.report.strict_failures())["failures"]
 
 
 def main():
-    """Print the digests of a scene, one a line."""
+    """Print the digests of scenes, one a line, as chosen on the command line."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("names", choices=SCENES, nargs="+", metavar="NAME")
     parser.add_argument("frames", type=int, metavar="FRAMES")

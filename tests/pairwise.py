@@ -1,7 +1,7 @@
-"""Pairwise covering arrays: few cases that hold every two values of different parameters together.
+"""Pairwise covering arrays: few cases that contain every combination of two values of different parameters.
 
-They meet each defect that depends on one or two parameters. Defects that depend on three need the product of all.
-Method: greedy, each case covers as many new pairs as it can (Cohen, Dalal, Fredman and Patton, The AETG System, IEEE
+They reveal each defect that depends on one or two parameters. Defects that depend on three need the full product.
+Method: greedy, each case covers as many new pairs as possible (Cohen, Dalal, Fredman and Patton, The AETG System, IEEE
 Transactions on Software Engineering 23, 1997). Ties go to the first value, so that the cases are always the same.
 """
 
@@ -9,7 +9,9 @@ from itertools import combinations, product
 
 
 def pairwise(*parameters):
-    """Return tuples with one value of each parameter, in the order of the product, that hold all pairs of values."""
+    """Return tuples with one value of each parameter that together contain all pairs of values, in the order of the
+    product.
+    """
     values = [tuple(each) for each in parameters]
     places = range(len(values))
     missing = {
@@ -34,7 +36,7 @@ def pairwise(*parameters):
 
 
 def the_others(*parameters):
-    """Return the cases of the product that `pairwise` leaves out, in the order of the product."""
+    """Return the cases of the full product that `pairwise` leaves out, in the order of the product."""
     taken = set(pairwise(*(range(len(each)) for each in parameters)))
     values = [tuple(each) for each in parameters]
     cases = product(*(range(len(each)) for each in values))

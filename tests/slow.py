@@ -1,17 +1,17 @@
-"""The slow tests: kept lists, the plugin that measures, and the command that writes the list anew.
+"""The slow tests: the stored lists, the plugin that measures, and the command that rewrites the list.
 
     python -m tests.slow --refresh                      # all tests but the nightly ones, in two processes
     python -m tests.slow --refresh tests/physics        # the tests of some files; the lines of others stay
     python -m tests.slow --more                         # only those that are not on the list yet
-    python -m pytest -p tests.slow --seconds=FILE       # any run; FILE holds the seconds of each test
+    python -m pytest -p tests.slow --seconds=FILE       # any run; FILE gets the seconds of each test
 
-A test is slow if it takes a quarter of a second of processor time, that of its child processes included; from 0.8
-seconds on it is nightly. The time that numba takes to compile or load kernels is left out: the first test that needs a
-kernel would pay for all. A fixture that several tests share counts for each of them. Other work on the machine
-lengthens processor time less than the clock's, by about a third where caches are shared.
+A test is slow if it takes a quarter of a second of processor time, including its child processes; from 0.8 seconds on
+it is nightly. The time in which numba compiles or loads kernels is left out, because the first test that needs a kernel
+would pay for all. A shared fixture counts for each test that uses it. Other load on the machine lengthens processor
+time less than clock time, by about a third where caches are shared.
 
-Without numba other tests are slow: they stand on a list of their own, which such an environment reads beside the first,
-and writes.
+Without numba other tests are slow. They are in a list of their own, which an environment without numba reads in
+addition to the first list, and writes.
 """
 
 import argparse
@@ -62,12 +62,12 @@ DAILY = (
 
 
 def own_list() -> Path:
-    """Return the list of an environment like this one."""
+    """Return the path of the list for an environment like this one, with or without numba."""
     return KEPT if find_spec("numba") else KEPT_WITHOUT_NUMBA
 
 
 def listed(path: Path = KEPT) -> dict[str, float]:
-    """Return {node id: seconds} of a kept list."""
+    """Return {node id: seconds} from a stored list."""
     lines = path.read_text(encoding="utf-8").splitlines()
     return {name: float(seconds) for seconds, name in (line.split(maxsplit=1) for line in lines)}
 
@@ -88,9 +88,9 @@ def write(path: Path, names: dict[str, float]) -> None:
 
 
 def refreshed(kept: dict[str, float], measured: dict[str, float], more: bool = False) -> dict[str, float]:
-    """Return the list after a run that measured some files: their lines are replaced, those of others stay.
+    """Return the list after a run that measured some files: their lines are replaced, those of other files stay.
 
-    more: True if the measured tests were not on the list; all lines of the list then stay.
+    more: True if the measured tests were not on the list; then all its lines stay.
     """
     files = set() if more else {name.split("::")[0] for name in measured}
     stays = {name: seconds for name, seconds in kept.items() if name.split("::")[0] not in files}
@@ -99,9 +99,10 @@ def refreshed(kept: dict[str, float], measured: dict[str, float], more: bool = F
 
 
 def stale(collected: list[str], names: dict[str, float], parts: set[str]) -> list[str]:
-    """Return the names that are no test: their file is gone, or was collected as a whole and does not hold them.
+    """Return the names on the list that are no test.
 
-    parts: files of which only some tests were asked for.
+    Their file is missing, or pytest collected the whole file without them. parts: files of which only some tests were
+    collected.
     """
     there = set(collected)
     whole = {name.split("::")[0] for name in collected} - parts
@@ -116,7 +117,7 @@ def stale(collected: list[str], names: dict[str, float], parts: set[str]) -> lis
 
 
 class Clock:
-    """Processor seconds of this process and of ended children, without those for compiling and loading kernels."""
+    """Processor seconds of this process and its ended children, without the compiling and loading of kernels."""
 
     def __init__(self) -> None:
         self.kernels, self.nesting = 0.0, 0
@@ -124,7 +125,7 @@ class Clock:
             self._watch_kernels()
 
     def __call__(self) -> float:
-        """Return the seconds until now; the system counts those of children in steps of 10 ms."""
+        """Return the seconds so far; the system counts the time of children in steps of 10 ms."""
         all_times = os.times()
         return time.process_time() - self.kernels + all_times.children_user + all_times.children_system
 
@@ -146,14 +147,14 @@ class Clock:
 
 
 def pytest_addoption(parser):
-    """Add --seconds."""
+    """Add the option --seconds FILE."""
     parser.addoption("--seconds", metavar="FILE", help="write the processor seconds of each test there")
 
 
 def pytest_configure(config):
-    """Measure in every process; collect in the one that all reports reach.
+    """Register the meter in every process, and the `Keeper` in the main process, which receives all reports.
 
-    While it is measured, what the list calls nightly is only slow, so that `-m "not nightly"` measures it anew.
+    In a measuring run, nightly tests of the list are marked slow only, so that `-m "not nightly"` measures them again.
     """
     config.pluginmanager.register(Meter(Clock()))
     path = config.getoption("--seconds")
@@ -162,7 +163,7 @@ def pytest_configure(config):
 
 
 class Meter:
-    """Record of the time of each test's phases, including shared fixtures, whichever test ran them."""
+    """Measures the time of each test's phases; a shared fixture counts for every test that uses it."""
 
     def __init__(self, clock):
         self.clock, self.shared = clock, {}  # {key of a fixture: seconds}
@@ -175,7 +176,7 @@ class Meter:
 
     @pytest.hookimpl(hookwrapper=True, tryfirst=True)
     def pytest_runtest_setup(self, item):
-        """Measure the fixtures, and add those that others have set up before."""
+        """Measure the setup of a test's own fixtures, and add the time of shared fixtures that earlier tests set up."""
         self.paid.clear()
         yield from self._phase(item)
         used = {key_of(each[-1]) for each in item._fixtureinfo.name2fixturedefs.values()}
@@ -184,7 +185,7 @@ class Meter:
 
     @pytest.hookimpl(hookwrapper=True)
     def pytest_fixture_setup(self, fixturedef):
-        """Note what a fixture of a module, a package or the run takes."""
+        """Store the setup time of a fixture with module, package or session scope."""
         started = self.clock()
         yield
         if fixturedef.scope not in ("function", "class"):
@@ -194,38 +195,38 @@ class Meter:
 
     @pytest.hookimpl(hookwrapper=True, tryfirst=True)
     def pytest_runtest_call(self, item):
-        """Measure the test."""
+        """Measure the call of the test."""
         yield from self._phase(item)
 
     @pytest.hookimpl(hookwrapper=True, tryfirst=True)
     def pytest_runtest_teardown(self, item):
-        """Measure how fixtures are finished."""
+        """Measure the teardown of the fixtures."""
         yield from self._phase(item)
 
 
 def key_of(fixturedef) -> tuple[str, str]:
-    """Return where a fixture is defined, and its name."""
+    """Return (where a fixture is defined, its name)."""
     return fixturedef.baseid, fixturedef.argname
 
 
 class Keeper:
-    """Write the seconds of all tests as JSON, by node id."""
+    """Writes the seconds of all tests as JSON, by node id."""
 
     def __init__(self, path):
         self.path, self.seconds = path, {}
 
     def pytest_runtest_logreport(self, report):
-        """Take the seconds from the last report of a test, which holds those of all phases."""
+        """Store the seconds of all phases, which a test's last report contains."""
         if report.when == "teardown":
             self.seconds[report.nodeid] = sum(value for name, value in report.user_properties if name == "seconds")
 
     def pytest_sessionfinish(self):
-        """Write the file."""
+        """Write the JSON file."""
         self.path.write_text(json.dumps(self.seconds, indent=0) + "\n", encoding="utf-8")
 
 
 def main(arguments: list[str]) -> int:
-    """Measure and write the list; without --refresh print its size."""
+    """Measure and rewrite the list with --refresh or --more; otherwise print its size. Returns the exit status."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--refresh", action="store_true", help="measure, and write the list anew")
     parser.add_argument("--more", action="store_true", help="measure those that are not listed, and add what is slow")

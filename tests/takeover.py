@@ -1,7 +1,7 @@
-"""A scene in which kernels start plain and compiled forms take over at random steps, against the same scene compiled.
+"""Compares a scene whose plain kernels are replaced by compiled forms at random steps with the same scene compiled.
 
-No process and no thread is started: the wanted forms are loaded, or compiled, between two steps drawn at random. Both
-runs share the kernels of the process, so the compiled scene is played first and its digests are kept.
+No process or thread is started: the wanted forms are loaded or compiled between two random steps. Both runs share the
+kernels of the process, so the compiled scene runs first and its digests are stored.
 """
 
 import random
@@ -17,7 +17,7 @@ SHARE_LEFT = 0.01  # of the kernels called in the first frame that still run pla
 
 @contextmanager
 def beginning_plain() -> Iterator[None]:
-    """Start every kernel as plain Python, without automatic take-overs, until the end of the block."""
+    """Start every kernel as plain Python without automatic replacement, until the end of the with block."""
     assert not tiers.background and not tiers.wanted and not tiers.arrived
     kept = {kernel: dict(kernel.forms) for kernel in registry}
     tiers.forget()
@@ -34,14 +34,16 @@ def beginning_plain() -> Iterator[None]:
 
 
 class TakeOvers:
-    """Delivery of compiled forms: before each frame, each wanted one arrives with the probability `chance`."""
+    """Replacement of plain kernels: before each frame, each wanted compiled form is delivered with the probability
+    `chance`.
+    """
 
     def __init__(self, seed: int, chance: float) -> None:
         self.random, self.chance = random.Random(seed), chance
         self.frames: dict[str, int] = {}  # kernel -> frame before which its compiled form took over
 
     def before(self, frame: int) -> None:
-        """Deliver some compiled forms, which the next World.step uses."""
+        """Deliver some of the wanted compiled forms; the next World.step uses them."""
         for kernel, keys in list(tiers.wanted):
             if self.random.random() < self.chance:
                 tiers.arrived.append((kernel, keys, compiling.load_or_compile(kernel, keys)))
@@ -49,16 +51,16 @@ class TakeOvers:
 
 
 def digests_of(run: Run, frames: int, before: Callable[[int], object] = lambda frame: None) -> Iterator[tuple]:
-    """Yield (digest, digests of the worlds) after every frame; before(frame) is called before each."""
+    """Yield (digest, list of the worlds' digests) after every frame; before(frame) is called before each frame."""
     for frame in range(1, frames + 1):
         before(frame)
         yield run.step(), [world.digest() for world in run.scene.worlds]
 
 
 def compare_take_overs(name: str, frames: int, seed: int = 1, make: Callable = make_scene) -> TakeOvers:
-    """Play a scene compiled, then with take-overs at random steps. Raises Diverged at the first frame that differs.
+    """Play a scene compiled, then with replacements at random steps. Raises Diverged at the first frame that differs.
 
-    Returns what took over when. make(name) makes the scene.
+    Returns the TakeOvers, whose `frames` say when each kernel was replaced. make(name) returns the scene.
     """
     wanted = list(digests_of(Run("compiled", make(name)), frames))
     overs = TakeOvers(seed, 1.0 - SHARE_LEFT ** (1.0 / frames))

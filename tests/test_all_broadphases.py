@@ -1,4 +1,4 @@
-"""A world that asks all broad phases goes on as without, and names a strategy that errs, with the pair."""
+"""A world that compares all broad phases steps as without, and names a wrong broad phase with the pair."""
 
 import copy
 
@@ -13,7 +13,7 @@ STRATEGIES = [*BROADPHASES]
 
 
 def crowd(strategy, seed=1, effects=None):
-    """Return a world that asks all, of discs and boxes that fly about in each other's way."""
+    """Return a world of flying discs and boxes that collide, whose broad phase compares itself with the others."""
     rng = np.random.default_rng(seed)
     world = World(effects or Effects(response=True, rotation=True), asking_all(BROADPHASES[strategy]()), gravity=(0, 0))
     for k in range(40):
@@ -23,12 +23,12 @@ def crowd(strategy, seed=1, effects=None):
 
 
 def miss(query):
-    """Leave the last pair out."""
+    """Return a query that omits the last pair."""
     return lambda pairs, work: max(0, query(pairs, work) - 1)
 
 
 def twice(query):
-    """Report the first pair in place of the last."""
+    """Return a query that reports the first pair twice, in place of the last."""
 
     def wrong(pairs, work):
         count = query(pairs, work)
@@ -40,7 +40,7 @@ def twice(query):
 
 
 def too_many(query):
-    """Report one pair more."""
+    """Return a query that reports one pair too many."""
 
     def wrong(pairs, work):
         count = query(pairs, work)
@@ -97,7 +97,9 @@ def test_a_strategy_that_misses_a_box_in_a_query_is_named(errs, used, monkeypatc
 
 @pytest.mark.parametrize("used", STRATEGIES)
 def test_a_world_and_its_copies_keep_asking(used, monkeypatch):
-    """Copied, restored, with other effects, and when the scene switches its broad phase."""
+    """A world still compares all broad phases after it is copied or restored, and when its effects or broad phase
+    change.
+    """
     world = crowd(used, effects=Effects.rigid_bodies())
     world.step()
     before = world.snapshot()

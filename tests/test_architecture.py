@@ -1,4 +1,4 @@
-"""Rules of the tree, checked from the source: imports, file sizes, forbidden constructs."""
+"""Rules of the source tree: imports, file sizes, forbidden constructs."""
 
 import ast
 import re
@@ -33,7 +33,7 @@ BANNED_NAMES = {"utils", "helpers", "manager", "common", "handler", "core", "bas
 
 
 def folder_in_game(name):
-    """The step of GAME that a module belongs to; None for game itself."""
+    """Return the part of GAME to which a module belongs; None for the module game itself."""
     parts = name.split(".")
     if len(parts) == 1:
         return None
@@ -69,7 +69,7 @@ def test_game_imports_what_stands_to_its_left():
 
 @pytest.mark.parametrize("top", TOPS)
 def test_no_circle(top):
-    """Nowhere, not within a folder, not by an import inside a function, not under TYPE_CHECKING."""
+    """No modules of a top folder import each other in a circle, even by imports in functions or under TYPE_CHECKING."""
     assert circles(graph(top)) == []
     for path in sources(top):
         assert "TYPE_CHECKING" not in path.read_text(), f"{path.relative_to(ROOT)} hides imports"
@@ -134,13 +134,16 @@ def test_only_the_command_line_prints():
 
 
 def names_in(node):
-    """The names of a type or of a tuple or union of types."""
+    """Return the names in a node that denotes a type, or a tuple or union of types."""
     return {each.id for each in ast.walk(node) if isinstance(each, ast.Name)}
 
 
 @pytest.mark.parametrize("top", ["physics", "game", "scenes"])
 def test_no_list_of_types_stands_in_for_what_a_shape_says(top):
-    """A new shape would be missing in it: a caller asks the shape, or SHAPES of physics/shapes/kinds.py."""
+    """No isinstance call lists several shape types, because a new shape would be missing.
+
+    Code uses methods of the shape, or SHAPES of physics/shapes/kinds.py.
+    """
     types = {each.__name__ for each in SHAPES}
     for path in sources(top):
         for node in ast.walk(ast.parse(path.read_text())):

@@ -1,4 +1,4 @@
-"""The scenes of `python -m tests.bench moving`: both engines get the same bodies, and every run reports its stages."""
+"""Scenes of `python -m tests.bench moving`: both engines get the same bodies, and every run reports its stages."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The record that the benchmarks keep: its form, its comparison, the command line around it. Nothing is timed here."""
+"""The stored record of the benchmarks: its form, its comparison and its command line. No timing is done here."""
 
 import json
 import platform
@@ -15,7 +15,7 @@ RATIOS = {"masks": {"hash / collidelistall": 0.0401234}, "solvers": {"soft_step 
 
 @pytest.fixture
 def reported(monkeypatch):
-    """Replace the benches by functions that return RATIOS at once and print a line."""
+    """Replace the benchmarks by functions that return RATIOS immediately and print a line."""
 
     def measured(names, quick):
         print("a table")

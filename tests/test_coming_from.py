@@ -1,4 +1,4 @@
-"""docs/coming_from.md: every fragment of code on the right runs, every count is that of its table, names occur once."""
+"""docs/coming_from.md: every code fragment for Hitbox runs, every count matches its table, and names occur once."""
 
 import ast
 import math
@@ -21,7 +21,7 @@ TODAY = ("yes", "partly", "no")
 
 
 def rows(heading):
-    """Return the cells of the rows of the first table below a heading, without its header."""
+    """Return the rows of the first table below a heading as lists of cells, without the table's header."""
     section = re.search(rf"^##+ {re.escape(heading)}\n(.*?)(?=^##|\Z)", TEXT, re.S | re.M)
     assert section, f"no heading {heading}"
     lines = [line for line in section.group(1).split("\n") if line.startswith("|")]
@@ -29,7 +29,7 @@ def rows(heading):
 
 
 def fragments():
-    """Return (line of the page, code) of each code span in the last column of the tables of names and habits."""
+    """Return (line of the page, code) of each code span in the last column of the tables about names and habits."""
     found = []
     for heading in ("What is different", "From pymunk", "From Box2D", "From pygame"):
         for row in rows(heading):
@@ -39,7 +39,7 @@ def fragments():
 
 
 def ready():
-    """Return the names of a prepared world, with those that the page adds."""
+    """Return the names of a prepared world, plus those that the page's first code block defines."""
     names = prepared()
     block = re.search(r"^```python\n(.*?)^```", TEXT, re.S | re.M)
     assert block
@@ -87,7 +87,7 @@ def test_what_is_looked_for_has_a_row(heading):
 
 
 def counts_in(pattern):
-    """Return the numbers of a sentence of the page."""
+    """Return the integers that the groups of a pattern match in the page."""
     match = re.search(pattern, TEXT)
     assert match, pattern
     return [int(each) for each in match.groups()]
@@ -104,7 +104,7 @@ def test_the_examples_of_pymunk_are_counted():
 
 
 def samples(cell):
-    """Return the names in a cell, without what is in brackets."""
+    """Return the comma-separated names in a table cell, without text in brackets."""
     return [each for each in re.sub(r" \([^)]*\)", "", cell).split(", ") if each]
 
 
@@ -122,7 +122,9 @@ def test_the_samples_of_box2d_are_counted():
 
 
 def test_statements_about_masks_boxes_and_copies_hold():
-    """A box smaller by half a pixel answers as Rect.colliderect; a World can be pickled; damping is drag."""
+    """Statements of the page hold: a box half a pixel smaller acts as Rect.colliderect, a World can be pickled, damping
+    is drag.
+    """
     for dx in range(-25, 26):
         rects = pygame.Rect(0, 0, 20, 20), pygame.Rect(dx, 7, 20, 20)
         box = Polygon.box(19.5, 19.5)

@@ -1,4 +1,4 @@
-"""The cookbook: every recipe runs and holds what it asserts, and the page shows exactly its code."""
+"""The cookbook: every recipe runs with its assertions, and docs/cookbook.md shows exactly its code."""
 
 import os
 import re
@@ -28,7 +28,7 @@ def test_a_recipe_runs_and_says_what_it_found(path, tmp_path):
 
 @pytest.mark.parametrize("path", [*RECIPES, ROOT / "docs/physics_alone.py"], ids=lambda path: path.stem)
 def test_a_recipe_is_written_for_the_installed_package(path):
-    """A recipe runs here as in a wheel: the build converts the one into the other."""
+    """A recipe imports from the installed package; converting it to a checkout and back gives the same source."""
     source = path.read_text()
     assert "from hitbox.physics import" in source
     assert layout_module().converted(as_in_a_checkout(source)) == (source, [])

@@ -1,4 +1,4 @@
-"""docs/coverage.md matches the measurement: enough lines are run by tests, and the others have a reason."""
+"""docs/coverage.md matches the stored measurement: enough lines are run by tests, and all others have a reason."""
 
 import copy
 

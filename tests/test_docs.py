@@ -1,4 +1,4 @@
-"""Promises of the documents: the example runs, its lines are in the text, the README's commands exist."""
+"""Statements of the documents: the example runs, its lines are in the text, and the commands of the README exist."""
 
 import ast
 import math
@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 
 def run(source, name):
-    """The names that a piece of code for an installed hitbox defines."""
+    """Run code written for an installed hitbox and return the names that it defines."""
     found = {"__name__": name}
     exec(compile(as_in_a_checkout(source), name, "exec"), found)
     return found
@@ -48,7 +48,10 @@ def test_the_lines_of_the_text_are_lines_of_the_example():
 
 
 def test_a_turned_sprite_collides_as_pygame_draws_it():
-    """The page: origin at the centre, the image as it was, the angle minus pygame's degrees."""
+    """A rotated mask collides as pygame draws the rotated sprite, as docs/physics_alone.md states.
+
+    Its origin is the centre, its image is unrotated, and its angle is minus pygame's degrees.
+    """
     assert "-math.radians(degrees)" in (ROOT / "docs/physics_alone.md").read_text()
     image = pygame.Surface((60, 40), pygame.SRCALPHA)
     pygame.draw.polygon(image, "white", [(0, 0), (59, 12), (10, 39)])
@@ -79,7 +82,7 @@ def test_each_command_of_the_readme_is_one_line(marker):
 
 
 def names_in(path):
-    """Return the names of all functions and classes of a file, methods as Class.method."""
+    """Return the names of all functions and classes in a file, methods as Class.method."""
     found = set()
     for node in ast.parse(path.read_text()).body:
         if isinstance(node, (ast.FunctionDef, ast.ClassDef)):

@@ -1,8 +1,7 @@
-"""docs/examples/: the scene, the shape, the joint and the overlay of CONTRIBUTING.md are whole in 40 lines each.
+"""docs/examples/: the scene, shape, joint and overlay of CONTRIBUTING.md are complete in 40 lines each.
 
-Each is put into its list by the one line that the page names, and then works as any other: the scene is played and
-judged, the shape does what an equal Polygon does, the joint what a Distance with limits does, the overlay draws and
-only reads.
+A test adds each to its list by the line that the page names, and then uses it as any other. The scene is played and
+judged, the shape acts as an equal Polygon, the joint as a Distance with limits, and the overlay draws and only reads.
 """
 
 import dataclasses
@@ -82,7 +81,7 @@ def test_an_example_is_a_scene_that_its_bot_wins(name, registry, capsys):
 
 
 def test_the_ball_is_judged(registry, monkeypatch, capsys):
-    """Its goal is not met by itself: a ball that the slider belies is told of."""
+    """The goal of the example scene fails if the ball's restitution is not that of its slider, and is met otherwise."""
     bounce = registry.scene_class("example/bounce")
     monkeypatch.setattr(bounce, "sliders", (Slider("restitution", 0.4, 0.9, 0.5, step=0.1),))
     scene = bounce(seed=1)
@@ -108,7 +107,7 @@ def test_it_draws_a_ball_where_it_is(registry):
 
 
 def test_contributing_shows_the_example_as_it_is():
-    """The page names the file, and its links lead somewhere."""
+    """CONTRIBUTING.md names each example file, and its links and commands exist."""
     text = (ROOT / "CONTRIBUTING.md").read_text()
     links = re.findall(r"\]\(([^)#:]+)\)", text)
     assert {f"docs/examples/{path.name}" for path in EXAMPLES.glob("*.py")} <= set(links)
@@ -185,14 +184,14 @@ OTHERS = {
 
 @pytest.fixture
 def diamond_class(monkeypatch):
-    """The class as its file has it, not yet in the list."""
+    """Return the class of the example shape, not yet added to the list of shapes."""
     monkeypatch.syspath_prepend(str(EXAMPLES))
     return import_module("diamond").Diamond
 
 
 @pytest.fixture
 def diamond(diamond_class):
-    """The class, with the one line in the list of shapes."""
+    """Yield the class of the example shape while it is in the list of shapes."""
     SHAPES.append(diamond_class)
     yield diamond_class
     SHAPES.remove(diamond_class)
@@ -200,13 +199,13 @@ def diamond(diamond_class):
 
 @pytest.fixture(params=SIZES, ids=str)
 def twins(diamond, request):
-    """(the shape, a Polygon of the same corners)."""
+    """Return (example shape, Polygon with the same corners)."""
     shape = diamond(*request.param)
     return shape, Polygon(shape.points, shape.radius)
 
 
 def beside(shape, pose, share=0.35):
-    """A pose near the edge of a shape at a pose, not on any of its axes of symmetry."""
+    """Return a pose that is offset from `pose` to near the edge of a shape, off its axes of symmetry."""
     left, top, right, bottom = shape.bounds
     return pose[0] + share * (right - left), pose[1] + 0.8 * share * (bottom - top), pose[2] + 0.3
 
@@ -289,7 +288,7 @@ def test_it_meets_what_an_equal_polygon_meets(twins, other, pose):
 
 
 def test_a_world_of_it_is_a_world_of_polygons(twins):
-    """To the bit: they have the same rows."""
+    """A world of example shapes equals a world of polygons to the bit, because they have the same rows."""
     digests, scale = [], max(twins[0].bounds)
     for shape in twins:
         world = World(pixels_per_meter=max(scale, 0.5), gravity=(0.0, 30.0 * scale))
@@ -380,7 +379,7 @@ def test_it_carves_and_stands_for_a_sprite(twins):
 
 
 def test_it_needs_no_kernel_of_its_own(diamond):
-    """The kernels that are warmed up for polygons are all that it calls."""
+    """The example shape calls only kernels that the warm-up compiles for polygons."""
     calls = []
     for shape in (Polygon(diamond(8.0, 6.0).points), diamond(8.0, 6.0)):
         with tiers.collecting(all_calls=True) as found:
@@ -398,7 +397,7 @@ def test_it_needs_no_kernel_of_its_own(diamond):
 
 
 def test_it_is_drawn_where_it_is(twins):
-    """By the overlay of outlines, as an equal Polygon; and in the style of the labs."""
+    """The example shape is drawn as an equal Polygon, by the overlay of outlines and in the style of the labs."""
     shape, twin = twins
     pictures = []
     for each in twins:
@@ -429,7 +428,7 @@ def test_it_is_drawn_where_it_is(twins):
 
 @pytest.fixture
 def speeds(monkeypatch):
-    """The layer's class, with the one line in the list of layers."""
+    """Yield the class of the example overlay while it is in the list of layers."""
     monkeypatch.syspath_prepend(str(EXAMPLES))
     layer = import_module("layer_speeds").Speeds
     LAYERS.append(layer)

@@ -1,7 +1,8 @@
-"""Every figure of speed, size or error in the documents is what a kept JSON holds, in these very words.
+"""Every figure of speed, size or error in the documents equals the value in a stored JSON file.
 
-Those of docs/accuracy.md, docs/stability.md and docs/coverage.md are held by the tests of what writes the pages. What
-is measured anew changes a sentence here, and the test tells which; a figure that no sentence here holds fails as well.
+The sentences with figures are generated here and must occur in the documents word for word. A figure in no such
+sentence fails too. The figures of docs/accuracy.md, docs/stability.md and docs/coverage.md are checked by the tests of
+the code that writes these pages.
 """
 
 import json
@@ -46,7 +47,7 @@ def kept(path):
 
 
 def ratios(bench, pattern):
-    """Return {groups of the match: value} of the ratios of a benchmark whose names match a pattern."""
+    """Return {groups of the match: ratio} of the ratios of a benchmark whose names match a pattern."""
     found = {}
     for name, value in kept("bench/0.1.0.json")["ratios"][bench].items():
         match = re.fullmatch(pattern, name)
@@ -61,7 +62,7 @@ def words(text):
 
 
 def sweeps_lead():
-    """Return a sentence: the next strategy's time over the sweep's if everything moves, over layouts and sizes."""
+    """Return a sentence: time of the next best broad phase over that of sweep and prune if all bodies move."""
     shipped = ratios("broadphase", r"(\d+) bodies (.*), all moving: (sweep|hash|tree) / brute")
     leads = {}
     for place in {(size, layout) for size, layout, _ in shipped}:
@@ -76,7 +77,7 @@ def sweeps_lead():
 
 
 def pyramids():
-    """Return a sentence: pyramids that are awake, by load and with four substeps, beside pymunk."""
+    """Return a sentence on the time of awake pyramids relative to pymunk, with substeps by load and with four."""
     default, four = (
         {int(boxes): value for (boxes,), value in ratios("solvers", rf"(\d+) boxes, soft_step {some} / pymunk").items()}
         for some in ("auto", "4")
@@ -89,7 +90,7 @@ def pyramids():
 
 
 def moving():
-    """Return a sentence: three moving scenes by load and with four substeps, beside pymunk."""
+    """Return a sentence on the time of three moving scenes relative to pymunk, with substeps by load and with four."""
     some = {
         name: [ratios("moving", rf"({name}.*), substeps {each} / pymunk").popitem()[1] for each in ("auto", "4")]
         for name in ("rain of 1,500", "pyramid", "tumbler")
@@ -103,7 +104,10 @@ def moving():
 
 
 def at_equal_overlap():
-    """Return a sentence: pyramids by the cheapest settings of both engines that overlap by at most 0.1 px."""
+    """Return a sentence on the time of pyramids relative to pymunk.
+
+    Each engine has its cheapest settings with an overlap of at most 0.1 px.
+    """
     rows, ratios = kept("accuracy.json")["rows"]["peers"], []
     for boxes in (55, 210, 1035):
         best = peers.cheapest(rows, f"pyramid of {boxes}", 0.1)
@@ -116,7 +120,7 @@ def at_equal_overlap():
 
 
 def best_program():
-    """Return a sentence: sprites moved by whole pixels, beside pygame's best program."""
+    """Return a sentence on the time of sprites moved by whole pixels, relative to the best pygame program."""
     found = ratios("masks", r"([0-9]+) sprites, (.*) / the best pygame program")
     recipe, move, step = (
         " and ".join(f"{found[count, name]:.2f}" for count in ("300", "2000"))
@@ -137,7 +141,7 @@ def crater():
 
 
 def sinks():
-    """Return sentences on the overlap of two piles, by load and with four substeps."""
+    """Return two sentences on the overlap of two piles, one with substeps by load and one with four substeps."""
     rows = kept("study.json")["rows"]
     heavy, column = (rows["ratio_1000_on_1"]["engines"]["auto"], rows["crooked_40"]["engines"]["hb4"])
     assert heavy["fell"] is None and column["stood"] == column["seeds"] > 1
@@ -196,7 +200,7 @@ def tasks():
 
 
 def of_this_version():
-    """The counts of the changelog."""
+    """Return the phrases with counts that the changelog must contain."""
     labs, joints = sum(name.startswith("lab/") for name in SCENES), (KEPT / "stability.md").read_text()
     return [
         f"{NUMBERS[labs].capitalize()} labs",

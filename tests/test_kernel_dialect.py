@@ -1,4 +1,4 @@
-"""The kernel dialect, over the syntax tree: what is written in it gives the same bits compiled and plain."""
+"""Rules of the kernel dialect, checked on the syntax tree: code that keeps them gives equal bits compiled and plain."""
 
 import ast
 from functools import cache
@@ -96,7 +96,7 @@ def test_no_objects_allocation_or_exceptions():
 
 
 def test_shifts_of_words_stay_in_bits():
-    """Words and their shift counts live in raster/bits.py; elsewhere shifts are of whole numbers below 2^63."""
+    """Only raster/bits.py shifts words or shifts by word counts; elsewhere shifts are of integers below 2^63."""
     for path, function in kernels():
         if path.name == "bits.py":
             continue
@@ -144,7 +144,7 @@ def names_in(node):
 
 
 def test_divisors_are_guarded():
-    """A divisor is a constant, above zero by validation, or compared with something in the same function."""
+    """Each divisor in a kernel is a constant, is validated to be above zero, or is compared in the same function."""
     for path, function in kernels():
         compared = set().union(*(names_in(node) for node in ast.walk(function) if isinstance(node, ast.Compare)), set())
         for node in ast.walk(function):
@@ -182,7 +182,10 @@ UNDECLARED = {}
 
 
 def test_only_named_arguments_are_written():
-    """Into tables, through their rows, by handing them on: the name must end in _out or _inout, or be a workspace."""
+    """A kernel writes only arguments whose names end in _out or _inout, and workspaces.
+
+    Writes into tables, through their rows and by passing arguments on are included.
+    """
     parameters = {function.name: [each.arg for each in function.args.args] for _, function in kernels()}
     found = {}
     for path, function in kernels():
@@ -236,7 +239,7 @@ def test_writes_are_seen_through_rows_tuples_loops_and_calls(body, written):
 
 
 def statement_lines(function):
-    """Return the lines of a kernel's body, one for each statement, however long its calls are."""
+    """Return the number of statement lines of a kernel, with each statement on one line except for blocks."""
     return sum(len(ast.unparse(node).splitlines()) for node in function.body[1:])
 
 

@@ -1,4 +1,4 @@
-"""Lockstep names what differs: the run, the first frame, and the part of the scene."""
+"""Lockstep reports which run differs, in which first frame, and in which part of the scene."""
 
 import re
 from contextlib import closing
@@ -12,7 +12,7 @@ from tests.lockstep import Changing, Diverged, DrawnRun, PlainRun, Run, failures
 
 
 class Pushed(Arena):
-    """Arena in which a disc gets another velocity in one frame."""
+    """Arena in which one disc gets another velocity in one frame."""
 
     def update(self, inputs):
         super().update(inputs)
@@ -28,7 +28,7 @@ class Counted(Arena):
 
 
 class Shaken(Arena):
-    """Arena whose drawing uses the random numbers of the game."""
+    """Arena whose drawing uses random numbers of the game."""
 
     def draw(self, canvas, alpha):
         super().draw(canvas, alpha)
@@ -86,7 +86,7 @@ def test_goals_that_were_due_and_caps_that_were_hit_are_failures():
 
 
 def test_a_replay_names_its_frame_too(tmp_path):
-    """The recording that the scenes' test replays is compared after every frame."""
+    """A replayed recording that differs names its first frame; recordings are compared after every frame."""
     from game.run.replay import Recorder, load_replay
     from game.run.session import Session
 

@@ -1,4 +1,4 @@
-"""docs/manual.md names every flag, every overlay and every setting of the program, and no other; README.md is short."""
+"""docs/manual.md names exactly the flags, overlays and settings of the program; README.md is short."""
 
 import re
 from pathlib import Path

@@ -1,8 +1,7 @@
-"""Contents of an installation: every kind of file that the game reads, one version, a licence; hooks run tools of the
-extras.
+"""Contents of an installation: every kind of file that the game reads, one version, a licence, and hooks for tools.
 
 The long tests build a wheel and a source distribution, install the wheel beside a user's own modules of the same names,
-and run it from inside that project: its results there must equal those of the checkout.
+and run it inside that project. Its results must equal those of the checkout.
 """
 
 import json
@@ -28,7 +27,7 @@ PACKAGES = ("assets", "game", "physics", "scenes")
 
 
 def files_of(package):
-    """Return the paths, relative to the package, of the files that belong into it."""
+    """Return the paths, relative to the package, of all files that belong to it."""
     return [
         path.relative_to(ROOT / package)
         for path in (ROOT / package).rglob("*")
@@ -38,7 +37,9 @@ def files_of(package):
 
 @pytest.mark.parametrize("package", PACKAGES)
 def test_every_file_is_installed(package):
-    """A kind of file that the package data do not name is missing from a wheel, and nothing else says so."""
+    """Every file of a package is covered by package-data in pyproject.toml; otherwise a wheel
+    would silently lack it.
+    """
     patterns = SETTINGS["tool"]["setuptools"]["package-data"].get(package, [])
     for path in files_of(package):
         if path.suffix == ".py":
@@ -100,7 +101,7 @@ PLAIN = {"NUMBA_DISABLE_JIT": "1"}  # the same bits as compiled, and nothing to 
 
 
 def call(*command, cwd, **environment):
-    """Run a program; returns its standard output. Fails with what it said."""
+    """Run a program and return its standard output. Fails with its error output if it fails."""
     environment = {**{k: v for k, v in os.environ.items() if k != "PYTHONPATH"}, **QUIET, **environment}
     done = subprocess.run(list(map(str, command)), cwd=cwd, env=environment, capture_output=True, text=True)
     assert done.returncode == 0, f"{command}: {done.stderr[-3000:]}"
@@ -108,7 +109,10 @@ def call(*command, cwd, **environment):
 
 
 def build(tools, source, folder, *hooks):
-    """Call hooks of the build's backend in a source tree; returns the paths of what they have made."""
+    """Call hooks of the build backend in a source tree; return the paths of the files that they build.
+
+    tools: folder with the build requirements.
+    """
     folder.mkdir()
     out = call(
         sys.executable, "-c", BUILD, folder, *hooks,
@@ -119,7 +123,7 @@ def build(tools, source, folder, *hooks):
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
-    """`wheel`, `sdist` and `again`, the wheel that is built from the sdist."""
+    """Return the built files: `wheel`, `sdist`, and `again`, a wheel built from the sdist."""
     folder = tmp_path_factory.mktemp("built")
     requires = SETTINGS["build-system"]["requires"]
     call(sys.executable, "-m", "pip", "install", "--quiet", "--target", folder / "tools", *requires, cwd=folder)
@@ -132,7 +136,10 @@ def made(tmp_path_factory):
 
 
 def environment_beside(folder):
-    """Make an environment with the packages of this one, except editable installations. Return its Python."""
+    """Make an environment with the packages of this one, except editable installations.
+
+    Returns (its Python, path of its command `hitbox`, its site-packages).
+    """
     call(sys.executable, "-m", "venv", "--without-pip", folder, cwd=folder.parent)
     bin_folder = folder / ("Scripts" if os.name == "nt" else "bin")
     python = bin_folder / Path(sys.executable).name
@@ -143,7 +150,9 @@ def environment_beside(folder):
 
 @pytest.fixture(scope="module")
 def user(made, tmp_path_factory):
-    """A user with the wheel installed, at work in a project whose modules have the names of the checkout's."""
+    """Return the environment of a user who has the wheel installed and a project with modules
+    named as the checkout's.
+    """
     folder = tmp_path_factory.mktemp("user")
     python, command, site = environment_beside(folder / "environment")
     pip = (sys.executable, "-m", "pip", "--python", python)
@@ -175,7 +184,10 @@ def test_the_wheel_takes_one_name(made, user):
 
 
 def test_the_same_wheel_is_built_of_the_sdist(made):
-    """RECORD holds the hash of every file. The source distribution is a whole checkout, tests and documents too."""
+    """A wheel built from the source distribution is the same: RECORD has the hash of every file.
+
+    The source distribution is a whole checkout, with tests and documents.
+    """
     records = []
     for path in (made.wheel, made.again):
         with zipfile.ZipFile(path) as archive:
@@ -283,7 +295,10 @@ def test_background_workers_work(user, tmp_path, code, wanted, environment):
 
 
 def test_an_editable_install_keeps_the_names_of_the_checkout(made, tmp_path):
-    """Of the source distribution, which is a checkout, so that nothing is written into this one."""
+    """An editable installation keeps the module names of the checkout.
+
+    It installs the unpacked source distribution, so that nothing is written into this checkout.
+    """
     python, command, _ = environment_beside(tmp_path / "environment")
     pip = (sys.executable, "-m", "pip", "--python", python)
     install = (*pip, "install", "--quiet", "--no-deps", "--no-index", "--no-build-isolation", "-e", made.source)

@@ -1,4 +1,4 @@
-"""A covering array holds every two values together, is not much longer than it must be, and is always the same."""
+"""A covering array contains every pair of values, is not much longer than necessary, and is reproducible."""
 
 from itertools import combinations, product
 

@@ -1,7 +1,7 @@
-"""docs/reference.md holds every public name: arguments, columns, effects, counters, errors, examples.
+"""docs/reference.md contains every public name: arguments, columns, effects, counters, errors, examples.
 
-The page is generated, and compared with what is generated now. Docstrings are compared with signatures, the comments of
-tables with their columns, and the errors that wrong arguments raise with the errors that a docstring names.
+The page is compared with newly generated text. Docstrings are compared with signatures, comments of tables with their
+columns, and the errors that wrong arguments raise with the errors that a docstring names.
 """
 
 import inspect
@@ -42,7 +42,7 @@ PLAIN_TYPES = {
 
 
 def where(item: Item) -> str:
-    """Return the file and line of an item, for messages."""
+    """Return the file, line and name of an item, for messages."""
     member = inspect.unwrap(getattr(item.member, "__func__", item.member))
     try:
         line = inspect.getsourcelines(member)[1]
@@ -266,14 +266,14 @@ STARTING = {"compile_in_background", "Background.stop", "Background.expect", "wa
 
 
 class Called(Exception):
-    """The call of an example that is looked for has been made."""
+    """Raised to stop an example when its call is reached."""
 
 
 IMPLEMENTED = {Shape: Circle, Strategy: SpatialHashGrid}  # an interface, and the class with which its examples call it
 
 
 def code_of(item: Item) -> Any:
-    """Return the code object that runs when a callable is called."""
+    """Return the code object that runs when a callable is called, or None."""
     member = item.member
     if item.owner in IMPLEMENTED:
         member = getattr(IMPLEMENTED[item.owner], item.name.rsplit(".", 1)[1])
@@ -283,7 +283,7 @@ def code_of(item: Item) -> Any:
 
 
 def arguments_of_call(item: Item) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Run the example of a callable up to its call. Return (its local names at the call, the names of the example)."""
+    """Run the example of a callable up to its call. Return (local names at the call, names of the example)."""
     wanted, found, names = code_of(item), {}, shown.prepared()
 
     def watch(frame, event, _):
@@ -302,7 +302,10 @@ def arguments_of_call(item: Item) -> tuple[dict[str, Any], dict[str, Any]]:
 
 
 def repeated(item: Item, found: dict[str, Any], changed: dict[str, Any]) -> BaseException | None:
-    """Repeat a call with changed arguments. Return the error that it raises, None without one."""
+    """Repeat a call with some arguments changed. Return the error that it raises, or None.
+
+    found: {name: value} of the original arguments. changed: {name: value} of the changed ones.
+    """
     positional, keyword = [], {}
     for name, each in item.parameters.items():
         plain = name.lstrip("*")
@@ -328,7 +331,7 @@ def repeated(item: Item, found: dict[str, Any], changed: dict[str, Any]) -> Base
 
 
 def is_named(error: BaseException, item: Item) -> bool:
-    """Return whether the docstring of an item, its class or physics.debug names the error, or says "not checked"."""
+    """Return whether the docstring of an item, its class or physics.debug names the error or says "not checked"."""
     texts = [item.documentation, inspect.getdoc(item.owner) if item.owner else ""]
     texts += [debug.__doc__] if item.name.startswith("debug.") else []
     if any("not checked" in (each or "") for each in texts):

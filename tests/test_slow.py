@@ -1,4 +1,4 @@
-"""The kept lists of slow tests: what enters and what leaves them, names of no test, and what the plugin measures."""
+"""The stored lists of slow tests: additions, removals, names that are no test, and the measurements of the plugin."""
 
 import json
 import subprocess
@@ -26,7 +26,7 @@ def test_a_list_is_in_order_and_holds_each_once(name):
 
 
 def test_every_name_on_the_list_is_a_test(pytestconfig):
-    """On the list of environments like this one: in others some tests have fewer cases."""
+    """Every name on the list for this environment is a test; elsewhere some tests have fewer cases."""
     parts = {argument.split("::")[0] for argument in pytestconfig.args if "::" in argument}
     wrong = stale(pytestconfig.stash[slow.COLLECTED], slow.listed(slow.own_list()), parts)
     assert not wrong, "python -m tests.slow --refresh writes the list anew"

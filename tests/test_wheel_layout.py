@@ -1,4 +1,6 @@
-"""Result of the build of a source: imports in hitbox, all else unchanged, and no name of the checkout left."""
+"""Conversion of a source for the wheel: imports are changed to hitbox, all else is unchanged,
+and no old name remains.
+"""
 
 import ast
 import json
@@ -142,7 +144,7 @@ def test_the_rules_are_the_same_for_every_package(top):
 
 
 def project(folder, files):
-    """A small checkout with these files besides what every one has."""
+    """Write a small checkout with these files {name: text} and the required ones, and return its folder."""
     given = {"main.py": "from game import VERSION\n", "game/__init__.py": 'VERSION = "1.2"\n'}
     given |= {f"{name}/__init__.py": "" for name in ("assets", "physics", "scenes")}
     for name, text in {**given, **files}.items():
@@ -188,7 +190,7 @@ def test_the_staged_project_has_one_package(tmp_path):
 
 
 def test_a_source_distribution_holds_what_is_kept():
-    """All that git has at the top level, and nothing else."""
+    """A source distribution contains exactly the entries that git has at the top level."""
     source = ast.parse((ROOT / ".ci/wheel/backend.py").read_text())
     values = {node.targets[0].id: node.value for node in source.body if isinstance(node, ast.Assign)}
     kept = ast.literal_eval(values["KEPT"])
@@ -207,7 +209,7 @@ def test_what_is_allowed_is_there_and_reported_in_a_checkout_only():
 
 
 def derived():
-    """Yield (place, name) of each string f"{__package__}.x:y" or f"{__name__}:y" in the sources."""
+    """Yield (position, name) of each string f"{__package__}.x:y" or f"{__name__}:y" in the sources."""
     for top in layout.PACKAGES:
         for path in sorted((ROOT / top).rglob("*.py")):
             if not re.search(r"f['\"]{__(?:package|name)__}", path.read_text(encoding="utf-8")):
@@ -233,7 +235,7 @@ def test_names_that_are_derived_lead_somewhere():
 
 @pytest.fixture(scope="module")
 def staged(tmp_path_factory):
-    """The project as a wheel has it, beside a user's own modules of the checkout's names."""
+    """Return a folder with the project as in a wheel, and a user's project with modules named as the checkout's."""
     folder = tmp_path_factory.mktemp("staged")
     layout.stage(ROOT, folder / "site")
     own_modules(folder / "project")
@@ -255,7 +257,7 @@ print(json.dumps([len(names), [each for each in sys.modules if each.split(".")[0
 
 
 def run(staged, *arguments, **environment):
-    """Run Python in the user's project with the staged package on its path; returns standard output."""
+    """Run Python in the user's project with the staged package on its path; return its standard output."""
     done = subprocess.run(
         [sys.executable, *arguments],
         cwd=staged / "project",
@@ -295,7 +297,10 @@ end_all([child])
 
 
 def test_a_child_does_not_pick_up_what_lies_in_the_current_folder(staged):
-    """The same work, done by the package, and asked of the user's modules, which would print and have OWN."""
+    """A child process imports modules of the package, not modules of the same names in the current folder.
+
+    The user's modules would print a line and have OWN.
+    """
     assert json.loads(run(staged, "-c", CHILD % "hitbox.physics:World.step.__name__.upper"))["rows"] == "STEP"
     for own in ("physics", "game"):
         found = json.loads(run(staged, "-c", CHILD % f"{own}:OWN.__class__"))
@@ -305,7 +310,10 @@ def test_a_child_does_not_pick_up_what_lies_in_the_current_folder(staged):
 @pytest.mark.parametrize("given", [None, "/a/b", f"/a{os.pathsep}/b"])
 @pytest.mark.parametrize("installed", [False, True])
 def test_the_path_of_a_child(monkeypatch, tmp_path, given, installed):
-    """The checkout first, then what the user names; site-packages is there by itself, after the standard library."""
+    """The search path of a child process has the checkout first, then the paths in the user's PYTHONPATH.
+
+    An installed package needs none, because site-packages follows the standard library by itself.
+    """
     monkeypatch.setattr(workers.site, "getsitepackages", lambda: [str(tmp_path)])
     monkeypatch.setattr(workers, "IMPORTED_FROM", tmp_path.resolve() if installed else ROOT)
     monkeypatch.delenv("PYTHONPATH", raising=False)

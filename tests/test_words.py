@@ -1,9 +1,7 @@
-"""Docstrings are plain technical English: they begin with a verb or a noun, and do not speak of things as persons.
+"""Rules for docstrings and comments: plain technical English that begins with a verb or a noun and personifies nothing.
 
-PLAIN lists the folders that hold to all rules. Comments are read from the tokens, so that a word in a string does not
-count.
-
-REPLACED lists identifiers that were replaced by the standard word, and the folders in which each must not come back.
+PLAIN lists the folders that follow all rules. Comments are read from the tokens, so words in strings do not count.
+REPLACED lists identifiers that were replaced by the standard word, with the folders in which each must not occur.
 """
 
 import ast
@@ -43,7 +41,7 @@ REPLACED = {
 
 
 def docstrings(source):
-    """Return (line, text) of every docstring of a module, its classes and functions."""
+    """Return (line, text) of every docstring in a source."""
     kinds = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
     found = []
     for node in ast.walk(ast.parse(source)):
@@ -53,13 +51,13 @@ def docstrings(source):
 
 
 def comments(source):
-    """Return (line, text) of every comment."""
+    """Return (line, text) of every comment in a source."""
     tokens = tokenize.generate_tokens(io.StringIO(source).readline)
     return [(token.start[0], token.string) for token in tokens if token.type == tokenize.COMMENT]
 
 
 def absent_pages(source):
-    """Return a line for every citation of a page that is not in the repository."""
+    """Return a message for every citation of a page that is not in the repository."""
     texts = docstrings(source) + comments(source)
     return [
         f"{line}: cites {page}, which is not in the repository" for line, text in texts for page in ABSENT.findall(text)
@@ -67,7 +65,7 @@ def absent_pages(source):
 
 
 def complaints(source):
-    """Return a line for every docstring and comment that breaks a rule."""
+    """Return a message for every docstring and comment that breaks a rule."""
     found = [
         f"{line}: begins with a noun that is none: {text[:60]}"
         for line, text in docstrings(source)
@@ -99,7 +97,7 @@ def test_what_breaks_a_rule_is_found(source, count):
 
 
 def identifiers(source):
-    """Return (line, name) of every identifier in a source. Words in strings and comments do not count."""
+    """Return (line, name) of every identifier in a source; words in strings and comments do not count."""
     found = []
     for node in ast.walk(ast.parse(source)):
         names = []
@@ -118,7 +116,7 @@ def identifiers(source):
 
 @cache
 def places_of_identifiers():
-    """Return {identifier: ["path:line"]} of all sources, the names of modules and folders included."""
+    """Return {identifier: ["path:line"]} of all sources, including the names of modules and folders."""
     places = {}
     for path in PATHS:
         where = path.relative_to(ROOT)
@@ -130,7 +128,9 @@ def places_of_identifiers():
 
 
 def returned(word, folders, places):
-    """Return the places in these folders where a replaced identifier occurs."""
+    """Return the positions in these folders where a replaced identifier occurs. places: result of
+    `places_of_identifiers`.
+    """
     return [each for each in places.get(word, []) if each.startswith(tuple(f"{folder}/" for folder in folders))]
 
 

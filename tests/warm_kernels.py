@@ -1,7 +1,7 @@
-"""`python -m tests.warm_kernels [PROCESSES]`: compile what the scenes need, so that tests find it on disk.
+"""`python -m tests.warm_kernels [PROCESSES]`: compile the kernels of all scenes, so that tests load them from disk.
 
-The workers of a test run would each compile most of the kernels, waiting for one another. With a warm cache this takes
-some seconds, all of which go into listing.
+Otherwise each worker of a test run would compile most of the kernels, waiting for the others. With a full cache the
+command takes some seconds, all for listing the kernels.
 """
 
 import importlib.util
@@ -9,7 +9,10 @@ import sys
 
 
 def warm_up(processes=None):
-    """Compile the kernels of every scene, under all broad phases, with all its solvers."""
+    """Compile the kernels of every scene with all broad phases and all its solvers; do nothing without numba.
+
+    processes: number of compiling processes, None for the default.
+    """
     if importlib.util.find_spec("numba") is None:
         return
     from game.registry import Registry
